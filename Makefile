@@ -1,0 +1,71 @@
+# `make` lists what there is. Set-up steps leave stamps in .venv, so that a second run starts at once.
+
+PYTHON ?= python3
+VENV := .venv
+PY := $(VENV)/bin/python
+PACKAGES := $(PY) scripts/packages.py
+PYTEST_ARGS ?=
+
+# Folders are listed with their files: a file that went away changes its folder.
+SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
+CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
+
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+.PHONY: help demo test dev lint format stubs bench docs wheel mutants clean
+
+help: ## list the targets
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+
+demo: $(VENV)/.installed ## set up, build, and render a scene with a mirror ball to out/
+	@$(PY) -m cubecam demo --out out
+
+test: $(VENV)/.installed $(VENV)/.deps-test ## set up, build, and run the whole test suite
+	@$(PY) -m pytest $(PYTEST_ARGS)
+
+dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
+	@if git rev-parse --git-dir >/dev/null 2>&1; then $(PY) -m pre_commit install; fi
+
+lint: $(VENV)/.installed $(VENV)/.deps-dev ## check formatting, types and stubs; change nothing
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy
+	$(VENV)/bin/clang-format --dry-run -Werror $(CXX_FILES)
+	$(PY) scripts/stubs.py --check
+
+format: $(VENV)/.deps-dev ## format Python and C++ in place
+	$(PY) -m ruff check --fix .
+	$(PY) -m ruff format .
+	$(VENV)/bin/clang-format -i $(CXX_FILES)
+
+stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi anew from the built module
+	$(PY) scripts/stubs.py
+
+bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL and py360convert, print ratios
+	@$(PY) -m benchmarks
+
+docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
+	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam
+
+wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
+	@$(PY) scripts/wheel.py
+
+mutants: $(VENV)/.installed $(VENV)/.deps-test ## break the sources one place at a time: the tests must fail each time
+	@$(PY) tests/mutation.py
+
+clean: ## remove everything that make made
+	rm -rf .venv build dist out docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks tests/failures
+	find cpp python scripts tests benchmarks -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
+
+$(VENV)/.deps: pyproject.toml scripts/system.py scripts/packages.py
+	@$(PYTHON) scripts/system.py $(VENV)
+	@$(PACKAGES) build run
+	@touch $@
+
+$(VENV)/.deps-%: $(VENV)/.deps
+	@$(PACKAGES) $*
+	@touch $@
+
+$(VENV)/.installed: $(VENV)/.deps $(SOURCES)
+	@$(PACKAGES) --package
+	@touch $@

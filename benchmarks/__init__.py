@@ -1,0 +1,1 @@
+"""The same work in cubecam and in its peers: `python -m benchmarks`."""

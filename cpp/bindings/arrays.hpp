@@ -1,0 +1,132 @@
+/// What every binding does with numpy: check, convert, hand out.
+///
+/// Shapes are written as in the documentation: "(V, 3)", "(6, N, N, C)", "(..., 3)". A number is a
+/// length; a letter any length of at least 0, the same wherever the letter stands; "..." at the
+/// front any number of axes. Messages quote them: "positions: expected shape (V, 3), got (3, 7)".
+///
+/// Real numbers of any width (integers too) are converted, lists and tuples as well. bool, complex,
+/// object, str and dates raise TypeError; wrong shapes and values raise ValueError.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "cubecam/scene/pixels.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+namespace cubecam {
+
+namespace py = pybind11;
+
+enum class Values {
+    finite,   ///< NaN and inf raise ValueError naming the first bad index
+    not_nan,  ///< inf is kept: what HDR pixels may hold
+    any,
+};
+
+template <typename T>
+using ContiguousArray = py::array_t<T, py::array::c_style>;
+
+/// "(3, 7)".
+std::string shape_text(const py::array& array);
+
+/// Raises ValueError unless the array's shape matches the pattern.
+void check_shape(const py::array& array, const char* name, std::string_view shape);
+
+/// A C-contiguous array of the asked type: the caller's own memory where it is one already, so copy
+/// (to_vector) whatever must not change under you once the GIL is released.
+/// Finite numbers too large for float32 are refused as not finite.
+ContiguousArray<float> float_array(py::handle value, const char* name, std::string_view shape,
+                                   Values values = Values::finite);
+ContiguousArray<double> double_array(py::handle value, const char* name, std::string_view shape,
+                                     Values values = Values::finite);
+
+/// Integers from 0 to 2^32 - 1; floats raise TypeError, numbers outside, or not below `limit`, IndexError.
+ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
+                                           std::string_view shape,
+                                           std::uint64_t limit = std::uint64_t{1} << 32);
+
+/// Pixels, C-contiguous, as uint8, float16 or float32 (float64 becomes float32). Other integers are
+/// refused, since only uint8 has a scale (value/255). NaN is refused; +inf and -inf are kept: HDR
+/// photographs hold them where half floats overflowed.
+class PixelArray {
+public:
+    PixelArray(py::array array, DType dtype)
+        : array_(std::move(array)), dtype_(dtype),
+          data_(static_cast<const std::byte*>(array_.data())),
+          bytes_(static_cast<std::size_t>(array_.nbytes())) {}
+
+    const py::array& array() const { return array_; }
+    py::ssize_t shape(py::ssize_t axis) const { return array_.shape(axis); }
+
+    // Without the GIL too, which py::array's own data() wants.
+    DType dtype() const { return dtype_; }
+    const std::byte* data() const { return data_; }
+    std::size_t bytes() const { return bytes_; }
+
+private:
+    py::array array_;
+    DType dtype_;
+    const std::byte* data_;
+    std::size_t bytes_;
+};
+
+/// The last axis of the pattern is the channels': 1, 3 or 4.
+PixelArray pixel_array(py::handle value, const char* name, std::string_view shape,
+                       Values values = Values::not_nan);
+
+/// Raises ValueError naming the first NaN. Threaded: large pictures pass through here.
+void check_not_nan(const PixelArray& pixels, const char* name);
+
+template <typename T>
+std::vector<T> to_vector(const ContiguousArray<T>& array) {
+    return std::vector<T>(array.data(), array.data() + array.size());
+}
+
+/// Three or four finite numbers, a (4, 4) matrix in reading order; from lists, tuples or arrays.
+glm::dvec3 to_vec3(py::handle value, const char* name);
+glm::dvec4 to_vec4(py::handle value, const char* name);
+glm::dmat4 to_mat4(py::handle value, const char* name);
+/// Three or four numbers; the fourth is 1 where it is not given.
+glm::dvec4 to_color(py::handle value, const char* name);
+
+/// A read-only view of memory that `owner` keeps alive as long as the array, or a slice of it, lives.
+py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const void* data,
+                        std::shared_ptr<const void> owner);
+/// The numpy type of pixels.
+py::dtype numpy_dtype(DType dtype);
+
+template <typename T, typename Allocator>
+py::array readonly_view(std::shared_ptr<const std::vector<T, Allocator>> values,
+                        std::vector<py::ssize_t> shape) {
+    const void* data = values->data();
+    return readonly_view(py::dtype::of<T>(), std::move(shape), data, std::move(values));
+}
+
+/// A writable array that takes over a vector's memory, without a copy.
+template <typename T, typename Allocator>
+py::array owned_array(std::vector<T, Allocator> values, std::vector<py::ssize_t> shape) {
+    auto* kept = new std::vector<T, Allocator>(std::move(values));
+    py::capsule owner(kept, [](void* at) { delete static_cast<std::vector<T, Allocator>*>(at); });
+    return py::array(py::dtype::of<T>(), std::move(shape), kept->data(), owner);
+}
+/// The same for raw pixels of a dtype.
+py::array owned_pixels(PixelBuffer pixels, DType dtype, std::vector<py::ssize_t> shape);
+
+/// Copies, read-only, so that `node.position[1] = 3` raises instead of doing nothing.
+py::array readonly_array(const glm::dvec3& value);
+py::array readonly_array(const glm::dvec4& value);
+py::array readonly_array(const glm::dmat4& value);
+
+}  // namespace cubecam

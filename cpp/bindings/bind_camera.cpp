@@ -1,0 +1,270 @@
+// cubecam.Camera and the cameras below it.
+#include "objects.hpp"
+#include "vectors.hpp"
+
+#include "cubecam/scene/camera.hpp"
+
+#include <optional>
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+namespace cubecam::bindings {
+
+namespace {
+
+constexpr const char* camera_doc = R"doc(A camera given by its matrices.
+
+Matrices act on column vectors and are written in reading order, so that ``view @ point`` works.
+World and camera are right-handed, +Y up, the camera looking along -Z; clip space is OpenGL's, from
+-1 to 1 in x, y and z.
+
+Parameters
+----------
+view : array_like (4, 4)
+    World to camera; last row (0, 0, 0, 1).
+projection : array_like (4, 4)
+    Camera to clip space, for the shape of picture that is asked for.
+
+Raises
+------
+ValueError
+    For a matrix that is singular or not finite, or another shape.
+
+Examples
+--------
+>>> import numpy as np
+>>> import cubecam as cc
+>>> lens = cc.PerspectiveCamera(fov=90).projection(aspect=2)
+>>> camera = cc.Camera(view=np.eye(4), projection=lens)
+>>> camera.projection()[0, 0]
+0.5
+)doc";
+
+constexpr const char* perspective_doc = R"doc(A camera with a vanishing point.
+
+Parameters
+----------
+fov : float
+    Vertical field of view in degrees, above 0 and below 180.
+position : array_like (3,)
+    World space.
+target : array_like (3,), optional
+    A point it looks at. None: straight ahead along -Z, wherever it stands.
+up : array_like (3,)
+    What is up in the picture; not along the line of sight.
+near, far : float
+    Depths in world units between which things are seen: 0 < near < far.
+
+Raises
+------
+ValueError
+    For a target that is the position, an up along the line of sight, near >= far, or a number out
+    of its range or not finite.
+
+Notes
+-----
+The matrices are those of gluLookAt and gluPerspective.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> camera = cc.PerspectiveCamera(fov=70, position=(0, 1, 5), target=(0, 0, 0))
+>>> camera.position = (0, 1, 8)
+>>> camera.target.tolist()
+[0.0, 0.0, 0.0]
+)doc";
+
+constexpr const char* orthographic_doc = R"doc(A camera of parallel rays.
+
+The incident direction of mirrors and highlights is the view direction; `distance` counts from the
+near plane.
+
+Parameters
+----------
+height : float
+    World units from the bottom to the top of the picture, above 0.
+position : array_like (3,)
+    World space.
+target : array_like (3,), optional
+    A point it looks at. None: straight ahead along -Z, wherever it stands.
+up : array_like (3,)
+    What is up in the picture; not along the line of sight.
+near, far : float
+    Depths in world units between which things are seen: near < far.
+
+Raises
+------
+ValueError
+    For a target that is the position, an up along the line of sight, near >= far, or a number out
+    of its range or not finite.
+
+Notes
+-----
+The matrices are those of gluLookAt and glOrtho.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.OrthographicCamera(height=4).projection(aspect=2)[:2, :2].tolist()
+[[0.25, 0.0], [0.0, 0.5]]
+)doc";
+
+constexpr const char* projection_doc = R"doc(Camera to clip space.
+
+Parameters
+----------
+aspect : float
+    Width of the picture divided by its height. A camera given by its matrices ignores it.
+
+Returns
+-------
+ndarray (4, 4) float64
+    Read-only.
+
+Raises
+------
+ValueError
+    For an aspect that is not above 0.
+)doc";
+
+Placement placement(const ArrayLike& position, const OrNone<ArrayLike>& target,
+                    const ArrayLike& up) {
+    Placement made;
+    made.position = to_point(position, "position");
+    if (!target.is_none()) made.target = to_point(target, "target");
+    made.up = to_point(up, "up");
+    return made;
+}
+
+template <class Lens>
+void number(Class<CameraOf<Lens>, Camera>& made, const char* name, double Lens::* field,
+            const char* doc) {
+    made.def_property(
+        name, [field](const CameraOf<Lens>& self) { return self.placed().lens.*field; },
+        [field](CameraOf<Lens>& self, double value) {
+            self.edit_placed([&](Placed<Lens>& placed) { placed.lens.*field = value; });
+        },
+        doc);
+}
+
+template <class Lens>
+void point(Class<CameraOf<Lens>, Camera>& made, const char* name, glm::dvec3 Placement::* field,
+           const char* doc) {
+    made.def_property(
+        name,
+        [field](const CameraOf<Lens>& self) { return point_array(self.placed().placement.*field); },
+        [field, name](CameraOf<Lens>& self, const ArrayLike& value) {
+            const glm::dvec3 given = to_point(value, name);
+            self.edit_placed([&](Placed<Lens>& placed) { placed.placement.*field = given; });
+        },
+        doc);
+}
+
+/// All that cameras with a place share; `opening` is the lens's first parameter.
+template <class Lens>
+void bind_placed(py::module_& module, const char* class_name, const char* class_doc,
+                 const char* opening, double Lens::* field, const char* opening_doc) {
+    using C = CameraOf<Lens>;
+    auto made = declare<C, Camera>(module, class_name, class_doc);
+    made.def(py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
+                         const ArrayLike& up, double near, double far) {
+                 return std::make_shared<C>(Lens{size, near, far}, placement(position, target, up));
+             }),
+             py::arg(opening) = Lens{}.*field, py::arg("position") = py::make_tuple(0, 0, 0),
+             py::arg("target") = py::none(), py::arg("up") = py::make_tuple(0, 1, 0),
+             py::arg("near") = Lens{}.near, py::arg("far") = Lens{}.far);
+    number<Lens>(made, opening, field, opening_doc);
+    number<Lens>(made, "near", &Lens::near, "float: nothing nearer is seen; world units.");
+    number<Lens>(made, "far", &Lens::far, "float: nothing farther is seen; world units.");
+    point<Lens>(made, "position", &Placement::position,
+                "ndarray (3,) float64: world space, read-only. Setting it leaves the target.");
+    point<Lens>(made, "up", &Placement::up,
+                "ndarray (3,) float64: what is up in the picture, read-only.");
+    made.def_property(
+        "target",
+        [](const C& self) -> OrNone<py::array_t<double>> {
+            const auto target = self.placed().placement.target;
+            return target ? py::object(point_array(*target)) : py::none();
+        },
+        [](C& self, const OrNone<ArrayLike>& value) {
+            std::optional<glm::dvec3> target;
+            if (!value.is_none()) target = to_point(value, "target");
+            self.edit_placed([&](Placed<Lens>& placed) { placed.placement.target = target; });
+        },
+        "ndarray (3,) float64 or None: a point it looks at, read-only; None is along -Z.");
+    made.def_property_readonly(
+        "view", [](const C& self) { return matrix_array(self.matrices(1.0).view); },
+        "ndarray (4, 4) float64: world to camera, read-only.");
+    made.def("__repr__", [class_name, opening, field](const C& self) {
+        const Placed<Lens> placed = self.placed();
+        const Placement& p = placed.placement;
+        return std::string(class_name) + "(" + opening + "=" + describe(placed.lens.*field) +
+               ", position=" + tuple_text(p.position) +
+               ", target=" + (p.target ? tuple_text(*p.target) : "None") + ")";
+    });
+    made.def("__reduce__", [opening](const py::object& self) {
+        return reduced(self, py::make_tuple(self.attr(opening), self.attr("position"),
+                                            self.attr("target"), self.attr("up"),
+                                            self.attr("near"), self.attr("far")));
+    });
+}
+
+/// Camera.__init__ called on an object of a class below it makes pybind11 (3.1) end the process.
+void guard_init(Class<Camera>& camera) {
+    const py::object init = camera.attr("__init__");
+    const auto doc = init.attr("__doc__").cast<std::string>();
+    py::options options;
+    options.disable_function_signatures();
+    const auto guarded = [init](const py::object& self, const py::args& args,
+                                const py::kwargs& kwargs) {
+        if (py::isinstance<PerspectiveCamera>(self) || py::isinstance<OrthographicCamera>(self)) {
+            throw py::type_error("Camera.__init__: expected a Camera of matrices, got " +
+                                 type_name(self));
+        }
+        init(self, *args, **kwargs);
+    };
+    camera.attr("__init__") =
+        py::cpp_function(guarded, py::name("_guarded_init"), py::is_method(camera), doc.c_str());
+}
+
+}  // namespace
+
+}  // namespace cubecam::bindings
+
+void bind_camera(pybind11::module_& module) {
+    using namespace cubecam;
+    using namespace cubecam::bindings;
+    namespace py = pybind11;
+
+    auto camera = declare<Camera>(module, "Camera", camera_doc);
+    camera
+        .def(py::init([](const ArrayLike& view, const ArrayLike& projection) {
+                 return std::make_shared<Camera>(
+                     Matrices{to_mat4(view, "view"), to_mat4(projection, "projection")});
+             }),
+             py::arg("view"), py::arg("projection"))
+        .def_property(
+            "view", [](const Camera& self) { return matrix_array(self.matrices(1.0).view); },
+            [](Camera& self, const ArrayLike& value) {
+                const glm::dmat4 view = to_mat4(value, "view");
+                self.edit([&](CameraValue& next) { std::get<Matrices>(next).view = view; });
+            },
+            "ndarray (4, 4) float64: world to camera, read-only.")
+        .def(
+            "projection",
+            [](const Camera& self, double aspect) {
+                return matrix_array(self.matrices(aspect).projection);
+            },
+            py::arg("aspect") = 1.0, projection_doc)
+        .def("__repr__", [](const Camera&) { return "Camera(view, projection)"; })
+        .def("__reduce__", [](const py::object& self) {
+            return reduced(self, py::make_tuple(self.attr("view"), self.attr("projection")()));
+        });
+    guard_init(camera);
+    bind_placed<PerspectiveLens>(module, "PerspectiveCamera", perspective_doc, "fov",
+                                 &PerspectiveLens::fov, "float: vertical, in degrees.");
+    bind_placed<OrthographicLens>(
+        module, "OrthographicCamera", orthographic_doc, "height", &OrthographicLens::height,
+        "float: world units from the bottom to the top of the picture.");
+}

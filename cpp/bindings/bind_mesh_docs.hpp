@@ -1,0 +1,265 @@
+/// Docstrings of cubecam.Mesh.
+#pragma once
+
+namespace cubecam::bindings {
+
+inline constexpr const char* mesh_doc = R"doc(Indexed triangles. A mesh never changes, so that scenes and renderers share it.
+
+Parameters
+----------
+positions : array_like (V, 3)
+    Object-space positions, finite; kept as float32.
+indices : array_like (F, 3) of int
+    The three corners of each triangle, counter-clockwise seen from outside, from 0 to V - 1.
+normals : array_like (V, 3), optional
+    Outward normals of any length. Those of length 0 become smooth ones. None: all are computed
+    smooth, as the sum of the triangles' normals weighted by the angle at the vertex (G. Thuermer
+    and C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
+uvs : array_like (V, 2), optional
+    Texture coordinates; (0, 0) is a picture's bottom-left corner, (1, 1) its top-right one.
+colors : array_like (V, 3) or (V, 4), optional
+    Linear RGB or RGBA, not negative, alpha from 0 to 1; uint8 stands for value/255. Shown by
+    materials with ``vertex_colors=True``.
+
+Raises
+------
+TypeError
+    For arrays of bool, complex, object or str, and for indices that are not integers.
+ValueError
+    For other shapes, unequal lengths, NaN or infinity, or no triangle.
+IndexError
+    For an index outside 0 to V - 1.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> mesh = cc.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+>>> mesh.normals[0].tolist()
+[0.0, 0.0, 1.0]
+>>> mesh.bounds.tolist()
+[[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
+>>> cc.Mesh.box(2)
+Mesh(24 vertices, 12 triangles)
+)doc";
+
+inline constexpr const char* plane_doc = R"doc(A rectangle in the XZ plane, centred, normal +Y.
+
+Seen from +Y with -Z up, a picture on it is upright. Its back is culled unless the material is
+double-sided.
+
+Parameters
+----------
+width, depth : float
+    Extents along X and Z, above 0.
+
+Returns
+-------
+Mesh
+    4 vertices, 2 triangles.
+
+Raises
+------
+ValueError
+    For an extent that is not above 0.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.plane(10, 4).bounds.tolist()
+[[-5.0, 0.0, -2.0], [5.0, 0.0, 2.0]]
+)doc";
+
+inline constexpr const char* box_doc = R"doc(A centred box with flat faces, each with uv from 0 to 1.
+
+Pictures are upright seen from outside: +Y up on the sides, -Z on top (as on `plane`), +Z below.
+
+Parameters
+----------
+size : float or array_like (3,)
+    Extents along X, Y and Z, above 0; one number for all three.
+
+Returns
+-------
+Mesh
+    24 vertices, 12 triangles.
+
+Raises
+------
+ValueError
+    For an extent that is not above 0.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.box((1, 2, 3)).bounds[1].tolist()
+[0.5, 1.0, 1.5]
+)doc";
+
+inline constexpr const char* sphere_doc = R"doc(A centred sphere of rings and segments, as on a globe.
+
+u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
+picture on it reads unmirrored from outside, its centre at +Z and its seam at -Z.
+
+Parameters
+----------
+radius : float
+    Above 0.
+segments : int
+    Round the Y axis, at least 3.
+rings : int
+    From pole to pole, at least 2.
+
+Returns
+-------
+Mesh
+    2 * segments * (rings - 1) triangles.
+
+Raises
+------
+ValueError
+    For a radius that is not above 0, too few segments or rings, or more than 16,777,216 vertices.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.sphere(0.5)
+Mesh(2145 vertices, 3968 triangles)
+)doc";
+
+inline constexpr const char* icosphere_doc = R"doc(A centred sphere of triangles of nearly equal size: a subdivided icosahedron.
+
+Texture coordinates are those of `sphere`.
+
+Parameters
+----------
+radius : float
+    Above 0.
+subdivisions : int
+    From 0 to 9; each splits every triangle into four.
+
+Returns
+-------
+Mesh
+    20 * 4**subdivisions triangles.
+
+Raises
+------
+ValueError
+    For a radius that is not above 0 or another number of subdivisions.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> len(cc.Mesh.icosphere(1, subdivisions=3).indices)
+1280
+)doc";
+
+inline constexpr const char* cylinder_doc = R"doc(A centred, closed cylinder round the Y axis.
+
+On its side u runs round as on `sphere` and v upwards; each cap shows the disc of a picture.
+
+Parameters
+----------
+radius, height : float
+    Above 0.
+segments : int
+    Round the axis, at least 3.
+
+Returns
+-------
+Mesh
+    4 * segments triangles.
+
+Raises
+------
+ValueError
+    For a length that is not above 0, or too few or too many segments.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.cylinder(1, 4).bounds[1].tolist()
+[1.0, 2.0, 1.0]
+)doc";
+
+inline constexpr const char* cone_doc = R"doc(A centred, closed cone round the Y axis: base at -height/2, apex at +height/2.
+
+Parameters
+----------
+radius, height : float
+    Of the base, and from the base to the apex; above 0.
+segments : int
+    Round the axis, at least 3.
+
+Returns
+-------
+Mesh
+    2 * segments triangles.
+
+Raises
+------
+ValueError
+    For a length that is not above 0, or too few or too many segments.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> len(cc.Mesh.cone(segments=16).indices)
+32
+)doc";
+
+inline constexpr const char* torus_doc = R"doc(A centred torus round the Y axis.
+
+Parameters
+----------
+radius : float
+    From the axis to the centre of the tube.
+tube : float
+    Radius of the tube: above 0, below `radius`.
+segments : int
+    Round the axis, at least 3.
+sides : int
+    Round the tube, at least 3.
+
+Returns
+-------
+Mesh
+    2 * segments * sides triangles.
+
+Raises
+------
+ValueError
+    For such lengths or numbers, or more than 16,777,216 vertices.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.torus(1, .25).bounds[1].tolist()
+[1.25, 0.25, 1.25]
+)doc";
+
+inline constexpr const char* resized_doc = R"doc(The same mesh, centred at the origin and scaled evenly.
+
+Parameters
+----------
+size : float
+    The largest extent that the result has, in world units.
+
+Returns
+-------
+Mesh
+    A new mesh; normals, uvs and colours are the same.
+
+Raises
+------
+ValueError
+    For a size that is not above 0, or a mesh whose vertices are all at one point.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.box((1, 2, 4)).resized(1).bounds[1].tolist()
+[0.125, 0.25, 0.5]
+)doc";
+
+}  // namespace cubecam::bindings

@@ -1,0 +1,236 @@
+// cubecam.Node and cubecam.axis_angle
+#include "node_state.hpp"
+
+#include "cubecam/math/transform.hpp"
+#include "cubecam/scene/node.hpp"
+#include "cubecam/scene/scene.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace cubecam::bindings {
+
+namespace {
+
+constexpr const char* node_doc = R"doc(A thing in a scene: a mesh with a material somewhere, or a group.
+
+Made by `Scene.add`. Attributes may be set at any time; the next picture shows it. Arrays that they
+give are read-only: set the whole, ``node.position = (1, 2, 3)``.
+
+A node pickles together with its scene, so that ``pickle.dumps((scene, ball))`` keeps ball inside
+scene; one that was removed pickles by itself, with the nodes above it.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> arm = scene.add(position=(0, 1, 0), rotation=cc.axis_angle((0, 0, 1), 90))
+>>> hand = scene.add(cc.Mesh.box(.1), position=(2, 0, 0), parent=arm)
+>>> hand.world_matrix[:3, 3].round(12).tolist()
+[0.0, 3.0, 0.0]
+)doc";
+
+constexpr const char* axis_angle_doc = R"doc(The quaternion of a turn round an axis.
+
+Parameters
+----------
+axis : array_like (3,)
+    Of any length but 0. Seen with the axis pointing at the viewer, the turn is counter-clockwise.
+degrees : float
+    The angle.
+
+Returns
+-------
+ndarray (4,) float64
+    (w, x, y, z), unit length: cos(degrees / 2), then sin(degrees / 2) times the axis.
+
+Raises
+------
+ValueError
+    For an axis of no length, or numbers that are not finite.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.axis_angle((0, 2, 0), 180).round(12).tolist()
+[0.0, 0.0, 1.0, 0.0]
+)doc";
+
+py::array_t<double> axis_angle(const ArrayLike& axis, double degrees) {
+    const glm::dvec3 direction = to_point(axis, "axis");
+    const double length = glm::length(direction);
+    expect(length > 0.0 && std::isfinite(length), "an axis of some length", describe(direction));
+    expect_finite(degrees, "angle in degrees");
+    // The half angle within a quarter turn, so that sums of turns stay exact.
+    const double half = 0.5 * radians(std::remainder(degrees, 720.0));
+    const glm::dvec3 v = direction / length * std::sin(half);
+    py::array_t<double> result(4);
+    double* to = result.mutable_data();
+    to[0] = std::cos(half);
+    for (int i = 0; i < 3; ++i) to[i + 1] = v[i];
+    return result;
+}
+
+/// Position alone, which every matrix has.
+void set_position(Placing& placing, const glm::dvec3& position) {
+    if (auto* matrix = std::get_if<glm::dmat4>(&placing)) {
+        (*matrix)[3] = glm::dvec4(position, 1.0);
+    } else {
+        std::get<Transform>(placing).position = position;
+    }
+}
+
+glm::dvec3 position_of(const Placing& placing) {
+    const auto* matrix = std::get_if<glm::dmat4>(&placing);
+    return matrix ? glm::dvec3((*matrix)[3]) : std::get<Transform>(placing).position;
+}
+
+void bind_placing(Class<Node>& node) {
+    node.def_property(
+        "position", [](const Node& self) { return point_array(position_of(self.value().placing)); },
+        [](Node& self, const ArrayLike& value) {
+            const glm::dvec3 position = to_point(value, "position");
+            self.edit([&](NodeValue& next) { set_position(next.placing, position); });
+        },
+        "ndarray (3,) float64: relative to the parent, read-only.");
+    node.def_property(
+        "rotation",
+        [](const Node& self) {
+            return quaternion_array(transform_of(self.value().placing).rotation);
+        },
+        [](Node& self, const ArrayLike& value) {
+            const glm::dquat rotation = to_rotation(value, "rotation");
+            self.edit([&](NodeValue& next) {
+                Transform transform = transform_of(next.placing);
+                transform.rotation = rotation;
+                next.placing = transform;
+            });
+        },
+        "ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.");
+    node.def_property(
+        "scale",
+        [](const Node& self) { return point_array(transform_of(self.value().placing).scale); },
+        [](Node& self, const OneOf<py::float_, ArrayLike>& value) {
+            const glm::dvec3 scale = to_scale(value, "scale");
+            self.edit([&](NodeValue& next) {
+                Transform transform = transform_of(next.placing);
+                transform.scale = scale;
+                next.placing = transform;
+            });
+        },
+        "ndarray (3,) float64: along the node's own axes, read-only; one number sets all three.");
+    node.def_property(
+        "matrix", [](const Node& self) { return matrix_array(matrix_of(self.value().placing)); },
+        [](Node& self, const ArrayLike& value) {
+            const glm::dmat4 matrix = to_mat4(value, "matrix");
+            self.edit([&](NodeValue& next) { next.placing = matrix; });
+        },
+        "ndarray (4, 4) float64: node to parent, read-only. Setting it replaces position, rotation"
+        " and scale; it must not be singular, and its last row is (0, 0, 0, 1).");
+    node.def_property_readonly(
+        "world_matrix", [](const Node& self) { return matrix_array(self.world_matrix()); },
+        "ndarray (4, 4) float64: node to world, read-only.");
+}
+
+void bind_contents(Class<Node>& node) {
+    node.def_property_readonly("id", &Node::id,
+                               "int: from 1 in order of add, never used again in the scene; 0 is"
+                               " the background in id pictures.");
+    node.def_property(
+        "name", [](const Node& self) { return self.value().name; },
+        [](Node& self, const std::string& value) {
+            self.edit([&](NodeValue& next) { next.name = value; });
+        },
+        "str: for people; need not be unique.");
+    node.def_property(
+        "mesh",
+        [](const Node& self) { return std::const_pointer_cast<Mesh>(self.value().mesh); },
+        [](Node& self, const OrNone<Mesh>& value) {
+            const auto mesh = to_mesh(value);
+            self.edit([&](NodeValue& next) { next.mesh = mesh; });
+        },
+        "Mesh or None: what is drawn; None is a group.");
+    node.def_property(
+        "material", [](const Node& self) { return self.value().material; },
+        [](Node& self, const OrNone<Material>& value) {
+            const auto material = to_material(value);
+            self.edit([&](NodeValue& next) { next.material = material; });
+        },
+        "Material or None: None, with a mesh, becomes a new PhongMaterial.");
+    node.def_property(
+        "environment",
+        [](const Node& self) -> CubeLike { return from_cube_source(self.value().environment); },
+        [](Node& self, const CubeLike& value) {
+            const CubeSource environment = to_cube_source(value, "environment");
+            self.edit([&](NodeValue& next) { next.environment = environment; });
+        },
+        "CubeMap, Probe or None: what mirrors and glass show; None is the scene's.");
+    node.def_property(
+        "visible", [](const Node& self) { return self.value().visible; },
+        [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.visible = value; }); },
+        "bool: False is drawn nowhere, nor is anything below it.");
+    node.def_property(
+        "in_probes", [](const Node& self) { return self.value().in_probes; },
+        [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.in_probes = value; }); },
+        "bool: False is absent from captures and probes, as is all below it; still drawn in"
+        " frames, and still showing probes.");
+}
+
+}  // namespace
+
+}  // namespace cubecam::bindings
+
+void bind_node(pybind11::module_& module) {
+    using namespace cubecam;
+    using namespace cubecam::bindings;
+    namespace py = pybind11;
+
+    module.def("axis_angle", &axis_angle, py::arg("axis"), py::arg("degrees"), axis_angle_doc)
+        .attr("axis_angle")
+        .attr("__module__") = "cubecam";
+
+    auto node = declared<Node>();
+    node.attr("__doc__") = node_doc;
+    bind_contents(node);
+    bind_placing(node);
+    node.def_property(
+        "parent", &Node::parent,
+        [](Node& self, const OrNone<Node>& value) {
+            self.set_parent(to_shared_or_none<Node>(value, "parent", "a Node or None"));
+        },
+        "Node or None: what it moves with. Setting it keeps the node's own position, rotation and"
+        " scale; a cycle raises ValueError.");
+    node.def_property_readonly(
+        "children",
+        [](const Node& self) -> py::typing::Tuple<Node, py::ellipsis> {
+            return py::tuple(py::cast(self.children()));
+        },
+        "tuple of Node: in order of id.");
+    node.def("__repr__", [](const Node& self) {
+        const NodeValue value = self.value();
+        const glm::dvec3 position = position_of(value.placing);
+        return "Node(id=" + std::to_string(self.id()) +
+               (value.name.empty() ? std::string()
+                                   : ", name=" + py::repr(py::str(value.name)).cast<std::string>()) +
+               (value.mesh ? "" : ", group") + ", position=" + tuple_text(position) + ")";
+    });
+
+    // A node of a scene is that scene's node of its id: so a pickle is no deeper for many nodes that
+    // lead to each other by their probes. One in no scene takes those above it along.
+    node.def("__reduce__", [](const std::shared_ptr<Node>& self) -> py::tuple {
+        const py::object call = py::module_::import("operator").attr("methodcaller");
+        if (const auto scene = self->scene()) {
+            return py::make_tuple(call("_restore", self->id()), py::make_tuple(scene));
+        }
+        return py::make_tuple(call("_loose", self->id()), py::make_tuple(py::type::of<Scene>()),
+                              py::make_tuple(state_of_node(self->value()), self->parent()));
+    });
+    def_setstate(node, [](Node& self, const py::tuple& state) {
+        const NodeValue value = node_from_state(state[0]);
+        self.edit([&](NodeValue& next) { next = value; });
+        if (!state[1].is_none()) self.set_parent(state[1].cast<std::shared_ptr<Node>>());
+    });
+}

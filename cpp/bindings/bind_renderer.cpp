@@ -1,0 +1,369 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "cubecam/error.hpp"
+#include "cubecam/render/renderer.hpp"
+#include "frame.hpp"
+#include "objects.hpp"
+
+namespace cubecam {
+namespace {
+
+std::string text_of(py::handle value) { return py::repr(value).cast<std::string>(); }
+
+/// A whole number of Python or numpy, bool left out.
+int to_int(py::handle value, const char* name) {
+    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
+        throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
+    }
+    const long long number = PyNumber_AsSsize_t(value.ptr(), nullptr);
+    if (number < -2147483647LL || number > 2147483647LL) {
+        throw std::invalid_argument(std::string(name) + ": expected an int of 32 bits, got " + text_of(value));
+    }
+    return static_cast<int>(number);
+}
+
+std::pair<int, int> to_size(py::handle value) {
+    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) || py::len(value) != 2) {
+        throw TypeError("size: expected (width, height) in pixels, got " + text_of(value));
+    }
+    const auto pair = py::reinterpret_borrow<py::sequence>(value);
+    return {to_int(py::object(pair[0]), "width"), to_int(py::object(pair[1]), "height")};
+}
+
+Outputs to_outputs(py::handle value) {
+    if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
+    std::vector<std::string> names;
+    for (const py::handle name : py::iter(value)) {
+        if (!py::isinstance<py::str>(name)) throw TypeError("outputs: expected names, got " + text_of(name));
+        names.push_back(name.cast<std::string>());
+    }
+    return parse_outputs(names);
+}
+
+std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
+    std::vector<std::int32_t> ids;
+    if (py::isinstance<Node>(exclude)) throw TypeError("exclude: expected a sequence of nodes, got one node");
+    std::optional<std::vector<std::shared_ptr<Node>>> nodes;
+    for (const py::handle item : py::iter(exclude)) {
+        if (!py::isinstance<Node>(item)) throw TypeError("exclude: expected nodes, got " + text_of(item));
+        const auto node = item.cast<std::shared_ptr<Node>>();
+        if (!nodes) nodes = scene.nodes();
+        if (std::find(nodes->begin(), nodes->end(), node) == nodes->end()) {
+            throw std::invalid_argument("exclude: expected nodes of this scene, got " + text_of(item));
+        }
+        ids.push_back(node->id());
+    }
+    return ids;
+}
+
+gl::DeviceChoice to_device(py::handle device) {
+    if (device.is_none()) return std::string("auto");
+    if (py::isinstance<py::str>(device)) return device.cast<std::string>();
+    return to_int(device, "device");
+}
+
+std::shared_ptr<Renderer> make_renderer(py::handle device, std::optional<bool> layered, std::int64_t cache_bytes,
+                                        bool debug) {
+    if (cache_bytes < 0) {
+        throw std::invalid_argument("cache_bytes: expected 0 or more, got " + std::to_string(cache_bytes));
+    }
+    RendererOptions options{to_device(device), layered, static_cast<std::size_t>(cache_bytes), debug};
+    const py::gil_scoped_release release;
+    return std::make_shared<Renderer>(std::move(options));
+}
+
+PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py::handle size, py::handle outputs,
+               const std::string& format, py::handle samples, const std::optional<std::string>& tonemap,
+               const std::optional<std::string>& encode) {
+    FrameOptions options;
+    std::tie(options.width, options.height) = to_size(size);
+    options.outputs = to_outputs(outputs);
+    options.format = parse_format(format);
+    options.samples = to_int(samples, "samples");
+    if (tonemap) options.tonemap = parse_tonemap(*tonemap);
+    if (encode) options.encode = parse_encode(*encode);
+    const CameraValue seen = camera.value();
+    Frame frame;
+    const SceneSnapshot snapshot = scene.snapshot();
+    {
+        const py::gil_scoped_release release;
+        frame = renderer.render(snapshot, seen, options);
+    }
+    return PyFrame(std::move(frame));
+}
+
+std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::handle position, py::handle size,
+                                 double near, double far, py::handle exclude, py::handle outputs,
+                                 const std::string& format, py::handle samples, py::handle eye) {
+    CaptureOptions options;
+    options.position = to_vec3(position, "position");
+    options.size = to_int(size, "size");
+    options.near = near;
+    options.far = far;
+    options.exclude = to_ids(scene, exclude);
+    options.outputs = to_outputs(outputs);
+    options.format = parse_format(format);
+    options.samples = to_int(samples, "samples");
+    if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
+    const SceneSnapshot snapshot = scene.snapshot();
+    const py::gil_scoped_release release;
+    return renderer.capture(snapshot, options);
+}
+
+void update(Renderer& renderer, const Scene& scene, py::handle probes) {
+    std::vector<std::shared_ptr<Probe>> wanted;
+    if (py::isinstance<Probe>(probes)) {
+        wanted.push_back(probes.cast<std::shared_ptr<Probe>>());
+    } else if (!probes.is_none()) {
+        for (const py::handle probe : py::iter(probes)) {
+            if (!py::isinstance<Probe>(probe)) throw TypeError("probes: expected probes, got " + text_of(probe));
+            wanted.push_back(probe.cast<std::shared_ptr<Probe>>());
+        }
+        if (wanted.empty()) return;
+    }
+    const SceneSnapshot snapshot = scene.snapshot();
+    const py::gil_scoped_release release;
+    renderer.update(snapshot, wanted);
+}
+
+void bind_stats(py::module_& m) {
+    bindings::declare<Stats>(m, "Stats", "What a renderer's last call drew, skipped and took.")
+        .def_readonly("views_drawn", &Stats::views_drawn,
+                      "int: pictures drawn: frames, faces of captures, faces of probes.")
+        .def_readonly("views_skipped", &Stats::views_skipped, "int: pictures that were still true and not drawn again.")
+        .def_readonly("draw_calls", &Stats::draw_calls, "int")
+        .def_readonly("triangles", &Stats::triangles, "int: sent to the GPU, each view counted.")
+        .def_readonly("probes_updated", &Stats::probes_updated, "int: probes of which at least one face was drawn.")
+        .def_readonly("milliseconds", &Stats::milliseconds, "float: the whole call, reading back included.")
+        .def("__repr__", [](const Stats& s) {
+            return "<cubecam.Stats views_drawn=" + std::to_string(s.views_drawn) + " views_skipped=" +
+                   std::to_string(s.views_skipped) + " draw_calls=" + std::to_string(s.draw_calls) + " triangles=" +
+                   std::to_string(s.triangles) + " probes_updated=" + std::to_string(s.probes_updated) +
+                   " milliseconds=" + std::to_string(s.milliseconds) + ">";
+        });
+}
+
+void bind_info(py::module_& m) {
+    bindings::declare<gl::Limits>(m, "Limits", "What the driver allows at most.")
+        .def_readonly("max_texture_size", &gl::Limits::max_texture_size, "int: pixels along a side of a frame.")
+        .def_readonly("max_cube_map_texture_size", &gl::Limits::max_cube_map_texture_size,
+                      "int: pixels along an edge of a face.")
+        .def_readonly("max_array_texture_layers", &gl::Limits::max_array_texture_layers, "int")
+        .def_readonly("max_samples", &gl::Limits::max_samples, "int: of multisampling.")
+        .def_readonly("max_color_attachments", &gl::Limits::max_color_attachments, "int");
+
+    bindings::declare<RendererInfo>(m, "RendererInfo", "What a renderer runs on.")
+        .def_readonly("vendor", &RendererInfo::vendor, "str: GL_VENDOR.")
+        .def_readonly("renderer", &RendererInfo::renderer, "str: GL_RENDERER.")
+        .def_readonly("version", &RendererInfo::version, "str: GL_VERSION.")
+        .def_readonly("glsl_version", &RendererInfo::glsl_version, "str: GL_SHADING_LANGUAGE_VERSION.")
+        .def_readonly("egl_version", &RendererInfo::egl_version, "str: EGL_VERSION.")
+        .def_readonly("platform", &RendererInfo::platform, "str: \"device\", \"surfaceless\" or \"default\".")
+        .def_readonly("device", &RendererInfo::device, "Device: the one that was chosen.")
+        .def_readonly("limits", &RendererInfo::limits, "Limits")
+        .def_readonly("software", &RendererInfo::software, "bool: whether the CPU draws.")
+        .def_readonly("layered", &RendererInfo::layered, "bool: whether one draw call serves all faces of a cube.")
+        .def("__repr__", [](const RendererInfo& i) {
+            return "<cubecam.RendererInfo " + i.renderer + ", OpenGL " + i.version + ", " + i.platform +
+                   (i.software ? ", software>" : ">");
+        });
+}
+
+}  // namespace
+
+}  // namespace cubecam
+
+void bind_renderer(pybind11::module_& m) {
+    using namespace cubecam;
+    bind_stats(m);
+    bind_info(m);
+    bind_frame(m);
+
+    auto renderer = bindings::declare<Renderer>(m, "Renderer", R"(Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
+
+A renderer owns an OpenGL 4.5 context on EGL: a GPU if there is one, else Mesa's software rasteriser. Any thread may
+use it; calls on one renderer follow each other, several renderers work in parallel. Use it in a ``with`` block, or
+call :meth:`close`.
+
+Parameters
+----------
+device : str, int or None
+    "auto" (the environment variable CUBECAM_DEVICE if set, else a GPU, else software), "gpu", "software", an index
+    into :func:`devices`, part of a device's name, or a UUID. None means "auto".
+layered : bool or None
+    Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
+    the same bytes on llvmpipe.
+cache_bytes : int
+    GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. Default
+    256 MiB.
+debug : bool
+    Ask for a debug context, whose errors tell more.
+
+Raises
+------
+ContextError
+    No context can be had. The message tells each device that was tried, why it failed, and what to install.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene(background=(0.1, 0.2, 0.3))
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.BasicMaterial(color=(1, 1, 0)))
+>>> camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 3), target=(0, 0, 0))
+>>> with cc.Renderer() as renderer:
+...     frame = renderer.render(scene, camera, size=(64, 48), outputs=("distance",))
+...     cube = renderer.capture(scene, position=(0, 0, 2), size=32)
+>>> frame.color.shape, round(float(frame.distance.min()), 1)
+((48, 64, 4), 2.5)
+>>> cube.faces.shape
+(6, 32, 32, 4)
+)");
+    renderer
+        .def(py::init(&make_renderer), py::arg("device") = "auto", py::arg("layered") = py::none(),
+             py::arg("cache_bytes") = std::int64_t{256} << 20, py::arg("debug") = false)
+        .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"),
+             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
+             py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
+             R"(Draw a picture, with every probe its mirrors need brought up to date first.
+
+A picture that would come out as the last one of this size and format did is not drawn again.
+
+Parameters
+----------
+scene : Scene
+camera : Camera
+size : (int, int)
+    (width, height), pixels.
+outputs : sequence of str
+    Besides colour: any of "distance", "z", "normal", "position", "id".
+format : str
+    "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16) or "rgba32f" (float32).
+samples : int
+    Multisampling of colour: 1 for none, at most ``info.limits.max_samples``. The outputs are those of samples=1.
+tonemap : str or None
+    "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024),
+    after resolving. None: values stay as they are.
+encode : str or None
+    "srgb" (IEC 61966-2-1) or None: linear.
+
+Returns
+-------
+Frame
+    Arrays of shape (height, width, ...), row 0 on top.
+
+Raises
+------
+ValueError
+    For an unknown name, a size or sample count beyond the driver's limits, or an impossible camera.
+ContextError
+    After :meth:`close`, or in a forked process.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> with cc.Renderer() as renderer:
+...     frame = renderer.render(cc.Scene(background=(2, 0, 0)), cc.PerspectiveCamera(), size=(1, 1), format="rgba16f")
+>>> frame.color.tolist()
+[[[2.0, 0.0, 0.0, 1.0]]]
+)")
+        .def("capture", &capture, py::arg("scene"), py::arg("position") = py::make_tuple(0.0, 0.0, 0.0),
+             py::arg("size") = 256, py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
+             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f", py::arg("samples") = 1,
+             py::arg("eye") = py::none(),
+             R"(Draw what surrounds a point into a cubemap.
+
+Parameters
+----------
+scene : Scene
+position : array_like (3,)
+    World position. The six views look along the world's axes, 90 degrees each.
+size : int
+    Pixels along an edge of a face.
+near, far : float
+    Clip distances along each face's axis, world units, 0 < near < far.
+exclude : sequence of Node
+    Left out, with all below them.
+outputs : sequence of str
+    Besides ``faces``: any of "distance", "z", "normal", "position", "id".
+format : str
+    "rgba32f" (float32), "rgba16f" (float16) or "rgba8" (uint8, clamped).
+samples : int
+    Multisampling of colour, see :meth:`render`.
+eye : array_like (3,) or None
+    From where highlights and mirrors are seen; None: from ``position``.
+
+Returns
+-------
+CubeMap
+    ``faces`` (6, size, size, 4) in the order +X -X +Y -Y +Z -Z, laid out as OpenGL does (section 8.13 of the 4.6
+    specification): ``texture(cube, world_direction)`` needs no flip.
+
+Raises
+------
+ValueError, TypeError, ContextError
+    As :meth:`render`; also for nodes of another scene.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> floor = scene.add(cc.Mesh.plane(10, 10), cc.BasicMaterial(color=(1, 0, 0)), position=(0, -1, 0))
+>>> with cc.Renderer() as renderer:
+...     cube = renderer.capture(scene, size=16, outputs=("distance", "id"))
+>>> cube.sample((0, -1, 0)).tolist(), int(cube.id[3, 8, 8])
+([1.0, 0.0, 0.0, 1.0], 1)
+)")
+        .def("update", &update, py::arg("scene"), py::arg("probes") = py::none(),
+             R"(Draw probes now, whatever their ``update`` says.
+
+Parameters
+----------
+scene : Scene
+probes : Probe, sequence of Probe, or None
+    None: all that visible nodes of the scene use.
+
+Raises
+------
+ValueError
+    For a probe that no visible node uses.
+)")
+        .def(
+            "cubemap",
+            [](Renderer& self, const std::shared_ptr<Probe>& probe) {
+                const py::gil_scoped_release release;
+                return self.cubemap(probe);
+            },
+            py::arg("probe"),
+            R"(What a probe holds now, in the probe's format.
+
+Raises
+------
+ValueError
+    If this renderer has not drawn it yet.
+)")
+        .def("close", &Renderer::close, py::call_guard<py::gil_scoped_release>(),
+             "Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.")
+        .def_property_readonly("closed", &Renderer::closed, "bool")
+        .def_property_readonly("info", &Renderer::info, py::return_value_policy::copy,
+                               "RendererInfo: what was chosen; it stays after close().")
+        .def_property_readonly("stats", &Renderer::stats, "Stats: of the last call.")
+        .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
+        .def("__exit__",
+             [](Renderer& self, const py::args&) {
+                 const py::gil_scoped_release release;
+                 self.close();
+             })
+        .def("__repr__", [](const Renderer& self) {
+            return "<cubecam.Renderer on " + self.info().renderer + (self.closed() ? ", closed>" : ">");
+        });
+}

@@ -1,0 +1,185 @@
+// cubecam.Scene
+#include "bind_scene_docs.hpp"
+#include "node_state.hpp"
+
+#include "cubecam/scene/scene.hpp"
+
+#include <string>
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+namespace cubecam::bindings {
+
+namespace {
+
+using BackgroundLike = OneOf<ArrayLike, CubeMap, py::none>;
+
+std::shared_ptr<CubeMap> to_environment(py::handle value) {
+    return to_shared_or_none<CubeMap>(value, "environment",
+                                      "a CubeMap (see cubecam.load_environment) or None");
+}
+
+Background to_background(py::handle value) {
+    if (value.is_none()) return {};
+    if (py::isinstance<CubeMap>(value)) return py::cast<std::shared_ptr<CubeMap>>(value);
+    if (py::isinstance<py::str>(value) || !py::isinstance<py::sequence>(value)) {
+        refuse(value, "background", "3 or 4 numbers, a CubeMap or None");
+    }
+    return to_rgba(value, "background");
+}
+
+py::object from_background(const Background& background) {
+    if (const auto* color = std::get_if<glm::vec4>(&background)) return color_array(*color);
+    if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background)) {
+        return py::cast(*cube);
+    }
+    return py::none();
+}
+
+std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
+                               const OrNone<Material>& material, const OrNone<ArrayLike>& position,
+                               const OrNone<ArrayLike>& rotation,
+                               const OneOf<py::float_, ArrayLike, py::none>& scale,
+                               const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
+                               const CubeLike& environment, bool visible, bool in_probes,
+                               std::string name) {
+    NodeValue value{{},
+                    to_mesh(mesh),
+                    to_material(material),
+                    to_cube_source(environment, "environment"),
+                    visible,
+                    in_probes,
+                    std::move(name)};
+    value.placing = to_placing(position, rotation, scale, matrix);
+    return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
+}
+
+void remove_thing(Scene& scene, const OneOf<Node, Light>& thing) {
+    if (py::isinstance<Light>(thing)) {
+        scene.remove(py::cast<std::shared_ptr<Light>>(thing));
+    } else {
+        scene.remove(to_shared<Node>(thing, "node", "a Node or a Light"));
+    }
+}
+
+bool contains_thing(const Scene& scene, py::handle thing) {
+    if (py::isinstance<Node>(thing)) return scene.contains(thing.cast<const Node&>());
+    return py::isinstance<Light>(thing) && scene.contains(thing.cast<const Light&>());
+}
+
+py::dict scene_state(const Scene& scene) {
+    py::list nodes;
+    for (const auto& node : scene.nodes()) {
+        const auto parent = node->parent();
+        nodes.append(py::make_tuple(node->id(), parent ? parent->id() : 0,
+                                    state_of_node(node->value())));
+    }
+    py::dict state;
+    state["environment"] = scene.environment();
+    state["background"] = from_background(scene.background());
+    state["lights"] = py::list(py::cast(scene.lights()));
+    state["nodes"] = nodes;
+    state["next_id"] = scene.next_id();
+    return state;
+}
+
+/// The nodes may be there already, bare, as other objects in the pickle led to them.
+void set_scene_state(Scene& scene, const py::dict& state) {
+    scene.set_environment(to_environment(state["environment"]));
+    scene.set_background(to_background(state["background"]));
+    for (const py::handle light : state["lights"]) {
+        scene.add(to_shared<Light>(light, "lights", "Lights"));
+    }
+    for (const py::handle item : state["nodes"]) {
+        const auto record = py::reinterpret_borrow<py::tuple>(item);
+        const NodeValue value = node_from_state(record[2]);
+        scene.restore(record[0].cast<std::int32_t>())->edit([&](NodeValue& next) { next = value; });
+    }
+    for (const py::handle item : state["nodes"]) {
+        const auto record = py::reinterpret_borrow<py::tuple>(item);
+        const auto parent = record[1].cast<std::int32_t>();
+        if (parent == 0) continue;
+        scene.restore(record[0].cast<std::int32_t>())->set_parent(scene.restore(parent));
+    }
+    scene.skip_ids(state["next_id"].cast<std::int32_t>());
+}
+
+void bind_pickling(Class<Scene>& scene) {
+    scene.def("__reduce__", [](const py::object& self) {
+        return reduced(self, py::tuple(), scene_state(self.cast<const Scene&>()));
+    });
+    def_setstate(scene, &set_scene_state);
+    scene.def("_restore", &Scene::restore, py::arg("id"), "For unpickling: the node of an id.");
+    scene.def_static(
+        "_loose", [](std::int32_t id) { return std::make_shared<Node>(id, NodeValue()); },
+        py::arg("id"), "For unpickling: an empty node that is in no scene.");
+}
+
+}  // namespace
+
+}  // namespace cubecam::bindings
+
+void bind_scene(pybind11::module_& module) {
+    using namespace cubecam;
+    using namespace cubecam::bindings;
+    namespace py = pybind11;
+
+    static_cast<void>(module);
+    auto scene = declared<Scene>();
+    scene.attr("__doc__") = scene_doc;
+    scene.def(py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background) {
+                  return std::make_shared<Scene>(to_environment(environment),
+                                                 to_background(background));
+              }),
+              py::arg("environment") = py::none(), py::arg("background") = py::none());
+    scene.def_property(
+        "environment", &Scene::environment,
+        [](Scene& self, const OrNone<CubeMap>& value) {
+            self.set_environment(to_environment(value));
+        },
+        "CubeMap or None: what mirrors and glass show that have no environment of their own.");
+    scene.def_property(
+        "background",
+        [](const Scene& self) -> BackgroundLike { return from_background(self.background()); },
+        [](Scene& self, const BackgroundLike& value) { self.set_background(to_background(value)); },
+        "ndarray (4,) float32, CubeMap or None: what is seen where nothing is. None: the"
+        " environment if there is one, else transparent black.");
+
+    scene.def(
+        "add",
+        [](Scene& self, const std::shared_ptr<Light>& light) {
+            self.add(light);
+            return light;
+        },
+        py::arg("light"), add_light_doc);
+    scene.def("add", &add_node, py::arg("mesh") = py::none(), py::arg("material") = py::none(),
+              py::kw_only(), py::arg("position") = py::none(), py::arg("rotation") = py::none(),
+              py::arg("scale") = py::none(), py::arg("matrix") = py::none(),
+              py::arg("parent") = py::none(), py::arg("environment") = py::none(),
+              py::arg("visible") = true, py::arg("in_probes") = true, py::arg("name") = "",
+              add_node_doc);
+    scene.def("remove", &remove_thing, py::arg("thing"), remove_doc);
+    scene.def("clear", &Scene::clear, "Take all nodes and lights out.");
+    scene.def_property_readonly(
+        "nodes",
+        [](const Scene& self) -> py::typing::Tuple<Node, py::ellipsis> {
+            return py::tuple(py::cast(self.nodes()));
+        },
+        "tuple of Node: all of them, in order of id.");
+    scene.def_property_readonly(
+        "lights",
+        [](const Scene& self) -> py::typing::Tuple<Light, py::ellipsis> {
+            return py::tuple(py::cast(self.lights()));
+        },
+        "tuple of Light: in order of add.");
+    scene.def("__contains__", &contains_thing, py::arg("thing"),
+              "Whether a node or a light is in the scene.");
+    scene.def("__repr__", [](const Scene& self) {
+        const std::size_t nodes = self.nodes().size();
+        const std::size_t lights = self.lights().size();
+        return "Scene(" + std::to_string(nodes) + (nodes == 1 ? " node, " : " nodes, ") +
+               std::to_string(lights) + (lights == 1 ? " light)" : " lights)");
+    });
+    bind_pickling(scene);
+}

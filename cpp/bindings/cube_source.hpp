@@ -1,0 +1,27 @@
+/// What a surface looks up, from Python and back: a CubeMap, a Probe or None.
+#pragma once
+
+#include "objects.hpp"
+
+#include "cubecam/scene/cubemap.hpp"
+#include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/probe.hpp"
+
+namespace cubecam::bindings {
+
+using CubeLike = OneOf<CubeMap, Probe, py::none>;
+
+inline CubeSource to_cube_source(py::handle value, const char* name) {
+    if (value.is_none()) return {};
+    if (py::isinstance<Probe>(value)) return py::cast<std::shared_ptr<Probe>>(value);
+    return to_shared<CubeMap>(value, name,
+                              "a CubeMap (see cubecam.load_environment), a Probe or None");
+}
+
+inline py::object from_cube_source(const CubeSource& source) {
+    if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source)) return py::cast(*cube);
+    if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source)) return py::cast(*probe);
+    return py::none();
+}
+
+}  // namespace cubecam::bindings

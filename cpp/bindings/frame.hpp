@@ -1,0 +1,23 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include "cubecam/render/frame.hpp"
+
+namespace cubecam {
+
+namespace py = pybind11;
+
+/// A Frame whose pictures are numpy arrays that took over its memory; None where there is none.
+struct PyFrame {
+    PyFrame() = default;
+    explicit PyFrame(Frame frame);
+
+    int width = 0;
+    int height = 0;
+    py::object color, distance, z, normal, position, id;
+};
+
+void bind_frame(py::module_& m);
+
+}  // namespace cubecam

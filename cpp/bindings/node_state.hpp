@@ -1,0 +1,66 @@
+/// Nodes, from Python's arguments and to pickles and back.
+#pragma once
+
+#include "cube_source.hpp"
+#include "objects.hpp"
+#include "vectors.hpp"
+
+#include "cubecam/scene/node.hpp"
+
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <pybind11/pybind11.h>
+
+namespace cubecam::bindings {
+
+inline std::shared_ptr<const Mesh> to_mesh(py::handle value) {
+    return to_shared_or_none<Mesh>(value, "mesh",
+                                   "a Mesh (see cubecam.load_mesh), a Light or None");
+}
+
+inline std::shared_ptr<Material> to_material(py::handle value) {
+    return to_shared_or_none<Material>(value, "material", "a Material or None");
+}
+
+/// What scene.add and unpickling give: a matrix, or any of the parts.
+inline Placing to_placing(py::handle position, py::handle rotation, py::handle scale,
+                          py::handle matrix) {
+    if (!matrix.is_none()) {
+        if (!position.is_none() || !rotation.is_none() || !scale.is_none()) {
+            throw py::value_error(
+                "matrix: expected either a matrix or position, rotation and scale, got both");
+        }
+        return to_mat4(matrix, "matrix");
+    }
+    Transform transform;
+    if (!position.is_none()) transform.position = to_point(position, "position");
+    if (!rotation.is_none()) transform.rotation = to_rotation(rotation, "rotation");
+    if (!scale.is_none()) transform.scale = to_scale(scale, "scale");
+    return transform;
+}
+
+/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name)
+inline py::tuple state_of_node(const NodeValue& value) {
+    const auto* parts = std::get_if<Transform>(&value.placing);
+    return py::make_tuple(
+        std::const_pointer_cast<Mesh>(value.mesh), value.material,
+        parts ? py::object(point_array(parts->position)) : py::none(),
+        parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
+        parts ? py::object(point_array(parts->scale)) : py::none(),
+        parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
+        from_cube_source(value.environment), value.visible, value.in_probes, value.name);
+}
+
+inline NodeValue node_from_state(const py::tuple& state) {
+    return {to_placing(state[2], state[3], state[4], state[5]),
+            to_mesh(state[0]),
+            to_material(state[1]),
+            to_cube_source(state[6], "environment"),
+            state[7].cast<bool>(),
+            state[8].cast<bool>(),
+            state[9].cast<std::string>()};
+}
+
+}  // namespace cubecam::bindings

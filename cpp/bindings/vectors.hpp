@@ -1,0 +1,96 @@
+/// Numbers, vectors, colours and rotations, from Python and back.
+#pragma once
+
+#include "arrays.hpp"
+#include "objects.hpp"
+
+#include "cubecam/scene/describe.hpp"
+
+#include <charconv>
+#include <string>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+namespace cubecam::bindings {
+
+/// Three finite numbers. Tuples and lists of plain numbers, which most calls give, go without numpy.
+inline glm::dvec3 to_point(py::handle value, const char* name) {
+    const bool tuple = PyTuple_CheckExact(value.ptr()) != 0;
+    if (tuple ? PyTuple_GET_SIZE(value.ptr()) == 3
+              : PyList_CheckExact(value.ptr()) && PyList_GET_SIZE(value.ptr()) == 3) {
+        glm::dvec3 point;
+        bool plain = true;
+        for (int i = 0; i < 3 && plain; ++i) {
+            PyObject* item =
+                tuple ? PyTuple_GET_ITEM(value.ptr(), i) : PyList_GET_ITEM(value.ptr(), i);
+            plain = PyFloat_CheckExact(item) || PyLong_CheckExact(item);
+            if (plain) point[i] = PyFloat_AsDouble(item);
+        }
+        if (PyErr_Occurred()) {
+            PyErr_Clear();
+        } else if (plain && std::isfinite(point.x + point.y + point.z)) {
+            return point;
+        }
+    }
+    return to_vec3(value, name);  // which says what is wrong, if anything is
+}
+
+/// One number for all three, or three.
+inline glm::dvec3 to_scale(py::handle value, const char* name) {
+    if (py::module_::import("numpy").attr("ndim")(value).cast<int>() > 0) {
+        return to_point(value, name);
+    }
+    return glm::dvec3(*double_array(value, name, "()").data());
+}
+
+/// (w, x, y, z), of any length but 0.
+inline glm::dquat to_rotation(py::handle value, const char* name) {
+    const glm::dvec4 v = to_vec4(value, name);
+    return {v.x, v.y, v.z, v.w};
+}
+
+/// 3 or 4 numbers, linear; the fourth, alpha, is 1 where it is not given.
+inline glm::vec4 to_rgba(py::handle value, const char* name) {
+    return glm::vec4(to_color(value, name));
+}
+
+inline glm::vec3 to_rgb(py::handle value, const char* name) {
+    return glm::vec3(to_point(value, name));
+}
+
+/// A parameter that is kept in float32, as the decimal number that was typed: 0.2, not 0.200000003.
+inline double shortest(float value) {
+    const std::string text = describe(value);
+    double number = static_cast<double>(value);
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+}
+
+inline py::array_t<double> quaternion_array(const glm::dquat& q) {
+    return readonly_array(glm::dvec4(q.w, q.x, q.y, q.z));
+}
+
+/// Colours come back as the float32 they are kept in, read-only.
+template <class Color>
+py::array_t<float> color_array(const Color& color) {
+    py::array_t<float> array(py::ssize_t{Color::length()});
+    for (int i = 0; i < Color::length(); ++i) array.mutable_data()[i] = color[i];
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+inline py::array_t<double> point_array(const glm::dvec3& value) { return readonly_array(value); }
+inline py::array_t<double> matrix_array(const glm::dmat4& value) { return readonly_array(value); }
+
+/// "(3, 4.5, 0)", for __repr__.
+template <class Vector>
+std::string tuple_text(const Vector& value) {
+    std::string text = "(";
+    for (int i = 0; i < Vector::length(); ++i) text += (i ? ", " : "") + describe(value[i]);
+    return text + ")";
+}
+
+}  // namespace cubecam::bindings

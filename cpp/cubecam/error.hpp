@@ -1,0 +1,61 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+/// What the library throws.
+///
+/// Three kinds of failure are told apart, so that a caller (and Python above it) can tell whose
+/// they are:
+///  - the caller's mistakes: `std::invalid_argument` (Python's ValueError), `std::out_of_range`
+///    (IndexError), `cubecam::TypeError` (TypeError); the text says "expected ..., got ...";
+///  - the environment's failures: `Error` and what is below it;
+///  - everything else is a defect of this library.
+/// Nothing here ever prints, exits or aborts.
+namespace cubecam {
+
+/// Base of every failure that is not the caller's own mistake.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// No OpenGL context can be had, or the one there was can no longer be used.
+class ContextError : public Error {
+public:
+    using Error::Error;
+};
+
+/// A shader did not compile or link. `what()` holds the log, with file names instead of the
+/// driver's string numbers, and the numbered source lines round each error.
+class ShaderError : public Error {
+public:
+    explicit ShaderError(const std::string& text, std::string log = {})
+        : Error(text), log_(std::move(log)) {}
+
+    /// The driver's own log, unchanged.
+    const std::string& log() const noexcept { return log_; }
+
+private:
+    std::string log_;
+};
+
+/// OpenGL reported an error; `code()` is the first one, such as GL_OUT_OF_MEMORY.
+class GlError : public Error {
+public:
+    explicit GlError(const std::string& text, unsigned code = 0) : Error(text), code_(code) {}
+
+    unsigned code() const noexcept { return code_; }
+
+private:
+    unsigned code_;
+};
+
+/// A value of the wrong kind, Python's TypeError.
+class TypeError : public std::logic_error {
+public:
+    using std::logic_error::logic_error;
+};
+
+}  // namespace cubecam

@@ -1,0 +1,123 @@
+#include "cubecam/gl/context.hpp"
+
+#include "cubecam/error.hpp"
+#include "cubecam/gl/context_impl.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+namespace cubecam::gl {
+
+namespace {
+
+std::string candidate_in_words(const Candidate& candidate) {
+    if (candidate.platform != egl::Platform::device)
+        return std::string(candidate.info.platform) + " platform";
+    const std::string kind = candidate.info.software ? "software" : "GPU";
+    return "device " + std::to_string(candidate.info.index) + " (" +
+           (candidate.info.name.empty() ? kind : candidate.info.name) + ")";
+}
+
+[[noreturn]] void throw_attempts(const CandidateList& list) {
+    std::string text = "no OpenGL 4.5 context for " + list.asked + ":";
+    for (std::size_t i = 0; i < list.attempts.size(); ++i) {
+        text += "\n  " + std::to_string(i + 1) + ". " + list.attempts[i];
+    }
+    if (list.kind != DeviceKind::gpu) text += "\n" + egl::software_hint();
+    throw ContextError(text + "\n" + egl::gpu_hint());
+}
+
+std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
+    // A GPU's driver may quietly render on the CPU: that is kept in hand while a GPU may still
+    // follow.
+    std::unique_ptr<Context::Impl> second_best;
+    for (const Candidate& candidate : list.candidates) {
+        // Nothing that follows is better than a software device in hand.
+        if (second_best != nullptr && candidate.info.software) break;
+        try {
+            std::unique_ptr<Context::Impl> impl = start_context(candidate, debug);
+            const bool by_kind = list.kind != DeviceKind::any;
+            if (by_kind && impl->software != (list.kind == DeviceKind::software)) {
+                list.attempts.push_back(candidate_in_words(candidate) + ": started, but renders " +
+                                        (impl->software ? "in software: " : "on a GPU: ") +
+                                        impl->renderer);
+                continue;
+            }
+            const bool disguised = impl->software && !candidate.info.software &&
+                                   candidate.platform == egl::Platform::device;
+            if (!by_kind && disguised) {
+                if (second_best == nullptr) second_best = std::move(impl);
+                continue;
+            }
+            if (second_best != nullptr && impl->software) break;
+            return impl;
+        } catch (const ContextError& error) {
+            list.attempts.push_back(candidate_in_words(candidate) + ": " + error.what());
+        }
+    }
+    if (second_best == nullptr) throw_attempts(list);
+    return second_best;
+}
+
+}  // namespace
+
+Context::Context(const ContextOptions& options) {
+    egl::library();  // first, so that a missing library or a forked child is told plainly
+    impl_ = start_first(list_candidates(options.device), options.debug);
+}
+
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+const GladGLContext& Context::gl() const noexcept { return impl_->gl; }
+const std::string& Context::vendor() const noexcept { return impl_->vendor; }
+const std::string& Context::renderer() const noexcept { return impl_->renderer; }
+const std::string& Context::version() const noexcept { return impl_->version; }
+const std::string& Context::glsl_version() const noexcept { return impl_->glsl_version; }
+const std::string& Context::egl_version() const noexcept { return impl_->egl_version; }
+const std::string& Context::platform() const noexcept { return impl_->device.platform; }
+bool Context::software() const noexcept { return impl_->software; }
+bool Context::debug() const noexcept { return impl_->debug; }
+const DeviceInfo& Context::device() const noexcept { return impl_->device; }
+const Limits& Context::limits() const noexcept { return impl_->limits; }
+const std::vector<std::string>& Context::extensions() const noexcept { return impl_->extensions; }
+
+bool Context::has_extension(std::string_view name) const noexcept {
+    return std::binary_search(impl_->extensions.begin(), impl_->extensions.end(), name);
+}
+
+std::vector<std::string> Context::take_debug_messages() {
+    const std::lock_guard lock(impl_->messages_mutex);
+    return std::exchange(impl_->messages, {});
+}
+
+void Context::abandon() noexcept {
+    impl_->raw.abandon();
+    GladGLContext& gl = impl_->gl;
+    const auto no_delete_many = +[](GLsizei, const GLuint*) {};
+    const auto no_delete = +[](GLuint) {};
+    gl.DeleteTextures = no_delete_many;
+    gl.DeleteBuffers = no_delete_many;
+    gl.DeleteFramebuffers = no_delete_many;
+    gl.DeleteVertexArrays = no_delete_many;
+    gl.DeleteSamplers = no_delete_many;
+    gl.DeleteQueries = no_delete_many;
+    gl.DeleteShader = no_delete;
+    gl.DeleteProgram = no_delete;
+}
+
+CurrentScope::CurrentScope(const Context& context) {
+    static_assert(sizeof(egl::Current) <= sizeof(saved_) &&
+                  alignof(egl::Current) <= alignof(void*));
+    egl::refuse_forked_child();
+    if (context.impl_ == nullptr || context.impl_->raw.abandoned()) {
+        throw ContextError("this context was given up and can no longer be made current");
+    }
+    new (saved_) egl::Current(context.impl_->raw);
+}
+
+CurrentScope::~CurrentScope() { std::launder(reinterpret_cast<egl::Current*>(saved_))->~Current(); }
+
+}  // namespace cubecam::gl

@@ -1,0 +1,125 @@
+#pragma once
+
+#include "cubecam/gl/devices.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+struct GladGLContext;  // <glad/gl.h>, only needed by those who call GL
+
+namespace cubecam::gl {
+
+/// Which device a context is made on:
+///  - "auto": the environment variable CUBECAM_DEVICE if it is set, else GPU devices, then the
+///  software
+///    device, then the surfaceless platform, then the default display;
+///  - "gpu", "software": the same, of that kind only;
+///  - an index into list_devices(), a UUID, or a part of a name in any letter case. A string of
+///  digits
+///    is an index when there is such a device.
+using DeviceChoice = std::variant<std::string, int>;
+
+struct ContextOptions {
+    DeviceChoice device = std::string("auto");
+    bool debug =
+        false;  ///< collect the driver's messages (GL_KHR_debug), see take_debug_messages()
+};
+
+/// What the context's driver allows, queried once.
+struct Limits {
+    int max_texture_size = 0;
+    int max_3d_texture_size = 0;
+    int max_cube_map_texture_size = 0;
+    int max_array_texture_layers = 0;
+    int max_renderbuffer_size = 0;
+    int max_framebuffer_width = 0;
+    int max_framebuffer_height = 0;
+    int max_framebuffer_layers = 0;
+    int max_viewport_width = 0;
+    int max_viewport_height = 0;
+    int max_samples = 0;  ///< the least of GL_MAX_SAMPLES and GL_MAX_{COLOR,DEPTH}_TEXTURE_SAMPLES
+    int max_integer_samples = 0;
+    int max_color_attachments = 0;
+    int max_draw_buffers = 0;
+    int max_texture_units = 0;          ///< combined
+    int max_vertex_storage_blocks = 0;  ///< storage buffers the vertex stage can read
+    int max_fragment_storage_blocks = 0;
+    std::int64_t max_storage_block_size = 0;  ///< bytes
+    int storage_buffer_offset_alignment = 0;  ///< bytes
+    int max_uniform_block_size = 0;           ///< bytes
+    int uniform_buffer_offset_alignment = 0;  ///< bytes
+    double max_anisotropy = 1.0;
+};
+
+/// An OpenGL 4.5 core context without a window, current on no thread between CurrentScopes.
+///
+/// Any thread may use it, one at a time: whoever owns it holds a mutex. Contexts are independent of
+/// each other (nothing is shared), and several may be used in parallel.
+class Context {
+public:
+    /// Throws ContextError that tells every attempt, why it failed, and what to install;
+    /// std::invalid_argument for an empty device string.
+    explicit Context(const ContextOptions& options = {});
+    Context(Context&&) noexcept;
+    Context& operator=(Context&&) noexcept;
+    ~Context();
+
+    /// The table of GL functions, at one address for the life of the context (moves included).
+    /// To be called only inside a CurrentScope.
+    const GladGLContext& gl() const noexcept;
+
+    const std::string& vendor() const noexcept;        ///< GL_VENDOR
+    const std::string& renderer() const noexcept;      ///< GL_RENDERER
+    const std::string& version() const noexcept;       ///< GL_VERSION
+    const std::string& glsl_version() const noexcept;  ///< GL_SHADING_LANGUAGE_VERSION
+    const std::string& egl_version() const noexcept;   ///< EGL_VERSION of the display
+    const std::string& platform() const noexcept;      ///< "device", "surfaceless" or "default"
+    bool software() const noexcept;
+    bool debug() const noexcept;
+    const DeviceInfo& device() const noexcept;
+    const Limits& limits() const noexcept;
+
+    /// Whether the driver offers a GL extension, by its full name ("GL_ARB_...").
+    bool has_extension(std::string_view name) const noexcept;
+    const std::vector<std::string>& extensions() const noexcept;  ///< sorted
+
+    /// What the driver said since the last call (debug contexts only), one line each.
+    std::vector<std::string> take_debug_messages();
+
+    /// From now on destroying objects of this context, and the context, touches neither GL nor EGL.
+    /// For an owner that cannot make the context current any more. What they held is lost.
+    void abandon() noexcept;
+
+    struct Impl;
+
+private:
+    friend class CurrentScope;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Makes a context current on this thread, and at its end puts back whatever was current before
+/// (context, surfaces, display and client API, another library's included), also when an exception
+/// passes. Scopes nest.
+class CurrentScope {
+public:
+    /// Throws ContextError, and then leaves the thread as it was.
+    explicit CurrentScope(const Context& context);
+    ~CurrentScope();
+
+    CurrentScope(const CurrentScope&) = delete;
+    CurrentScope& operator=(const CurrentScope&) = delete;
+
+private:
+    // Inline storage for the saved EGL state: a scope is entered once per call of the renderer,
+    // and EGL's types stay out of this header.
+    alignas(void*) unsigned char saved_[6 * sizeof(void*)];
+};
+
+/// True in a process forked after EGL was opened: nothing there may touch EGL or GL.
+bool in_forked_child() noexcept;
+
+}  // namespace cubecam::gl

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cubecam/gl/context.hpp"
+#include "cubecam/gl/device_choice.hpp"
+
+#include <glad/gl.h>
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+/// What a Context holds. Private to gl/.
+namespace cubecam::gl {
+
+struct Context::Impl {
+    Impl(egl::RawContext made, DeviceInfo info, const egl::OpenDisplay& display, bool with_debug);
+
+    void query_strings();
+    void query_limits();
+    void start_debug_output();
+
+    egl::RawContext raw;
+    GladGLContext gl{};
+    DeviceInfo device;
+    Limits limits;
+    std::string vendor;
+    std::string renderer;
+    std::string version;
+    std::string glsl_version;
+    std::string egl_version;
+    std::vector<std::string> extensions;
+    bool software = false;
+    bool debug = false;
+    std::mutex messages_mutex;
+    std::vector<std::string> messages;
+};
+
+/// One attempt. Throws ContextError whose text is the failed step.
+std::unique_ptr<Context::Impl> start_context(const Candidate& candidate, bool debug);
+
+}  // namespace cubecam::gl

@@ -1,0 +1,200 @@
+#include "cubecam/gl/egl_display.hpp"
+
+#include "cubecam/error.hpp"
+#include "cubecam/gl/context.hpp"
+
+#include <array>
+#include <mutex>
+#include <utility>
+
+namespace cubecam::gl::egl {
+
+namespace {
+
+std::mutex display_mutex;
+
+[[noreturn]] void throw_egl(const Table& egl, const char* call, std::string_view note = {}) {
+    throw ContextError(std::string(call) + ": " + error_name(egl.get_error()) + std::string(note));
+}
+
+Config choose_config(const Table& egl, Display display) {
+    const std::array attributes{
+        surface_type, pbuffer_bit, renderable_type, opengl_bit, red_size, 8, green_size, 8,
+        blue_size,    8,           alpha_size,      8,          none};
+    Config config = nullptr;
+    Int count = 0;
+    if (!egl.choose_config(display, attributes.data(), &config, 1, &count))
+        throw_egl(egl, "eglChooseConfig");
+    if (count < 1) throw ContextError("eglChooseConfig: no RGBA8 pbuffer configuration for OpenGL");
+    return config;
+}
+
+Display get_display(const Table& egl, Platform platform, Device device) {
+    const char* client = egl.query_string(nullptr, extensions);
+    const auto need = [&](const char* extension) {
+        if (egl.get_platform_display == nullptr || !has_name(client, extension)) {
+            throw ContextError(std::string("EGL lacks ") + extension);
+        }
+    };
+    Display display = nullptr;
+    switch (platform) {
+        case Platform::device:
+            need("EGL_EXT_platform_device");
+            display = egl.get_platform_display(platform_device, device, nullptr);
+            break;
+        case Platform::surfaceless:
+            need("EGL_MESA_platform_surfaceless");
+            display = egl.get_platform_display(platform_surfaceless, nullptr, nullptr);
+            break;
+        case Platform::fallback: display = egl.get_display(nullptr); break;
+    }
+    if (display == nullptr) {
+        throw_egl(egl,
+                  platform == Platform::fallback ? "eglGetDisplay" : "eglGetPlatformDisplayEXT");
+    }
+    return display;
+}
+
+}  // namespace
+
+const char* platform_name(Platform platform) noexcept {
+    switch (platform) {
+        case Platform::device: return "device";
+        case Platform::surfaceless: return "surfaceless";
+        case Platform::fallback: break;
+    }
+    return "default";
+}
+
+std::vector<Device> query_devices(std::string* problem) {
+    const Table& egl = library();
+    const auto fail = [&](std::string text) {
+        if (problem != nullptr) *problem = std::move(text);
+        return std::vector<Device>{};
+    };
+    if (egl.query_devices == nullptr || egl.query_device_string == nullptr) {
+        return fail("EGL lacks EGL_EXT_device_enumeration");
+    }
+    Int count = 0;
+    if (!egl.query_devices(0, nullptr, &count))
+        return fail("eglQueryDevicesEXT: " + error_name(egl.get_error()));
+    std::vector<Device> devices(static_cast<std::size_t>(count));
+    if (!devices.empty() && !egl.query_devices(count, devices.data(), &count)) {
+        return fail("eglQueryDevicesEXT: " + error_name(egl.get_error()));
+    }
+    devices.resize(static_cast<std::size_t>(count));
+    if (devices.empty()) return fail("eglQueryDevicesEXT: no devices");
+    return devices;
+}
+
+OpenDisplay open_display(Platform platform, Device device) {
+    const Table& egl = library();
+    OpenDisplay open;
+    const std::lock_guard lock(display_mutex);
+    open.display = get_display(egl, platform, device);
+    Int major = 0;
+    Int minor = 0;
+    // Repeated for each context: it does nothing on a display that is initialised, and brings back
+    // one that another library has terminated.
+    if (!egl.initialize(open.display, &major, &minor)) throw_egl(egl, "eglInitialize");
+
+    const char* version_text = egl.query_string(open.display, version);
+    open.version = version_text != nullptr ? version_text
+                                           : std::to_string(major) + "." + std::to_string(minor);
+    const char* list = egl.query_string(open.display, extensions);
+    open.surfaceless = has_name(list, "EGL_KHR_surfaceless_context");
+    const bool configless = has_name(list, "EGL_KHR_no_config_context") ||
+                            has_name(list, "EGL_MESA_configless_context");
+    if (!configless || !open.surfaceless) open.config = choose_config(egl, open.display);
+    return open;
+}
+
+RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool debug)
+    : display_(display.display) {
+    const Table& egl = library();
+    // The bound API is the thread's, and another library may count on its own.
+    const Enum api = egl.query_api();
+    if (!egl.bind_api(opengl_api))
+        throw_egl(egl, "eglBindAPI(EGL_OPENGL_API)", " (EGL without desktop OpenGL)");
+
+    const std::array attributes{context_major_version,
+                                major,
+                                context_minor_version,
+                                minor,
+                                context_opengl_profile_mask,
+                                context_opengl_core_profile_bit,
+                                debug ? context_flags : none,
+                                context_opengl_debug_bit,
+                                none};
+    context_ = egl.create_context(display_, display.config, nullptr, attributes.data());
+    const Int context_error = context_ != nullptr ? success : egl.get_error();
+    Int surface_error = success;
+    if (context_ != nullptr && !display.surfaceless) {
+        const std::array size{width, 1, height, 1, none};
+        surface_ = egl.create_pbuffer_surface(display_, display.config, size.data());
+        if (surface_ == nullptr) surface_error = egl.get_error();
+    }
+    if (api != static_cast<Enum>(none)) egl.bind_api(api);
+
+    if (context_ == nullptr) {
+        throw ContextError("eglCreateContext(OpenGL " + std::to_string(major) + "." +
+                           std::to_string(minor) + " core): " + error_name(context_error));
+    }
+    if (surface_error != success) {
+        egl.destroy_context(display_, context_);
+        throw ContextError("eglCreatePbufferSurface: " + error_name(surface_error));
+    }
+}
+
+RawContext::RawContext(RawContext&& other) noexcept
+    : display_(other.display_), context_(std::exchange(other.context_, nullptr)),
+      surface_(std::exchange(other.surface_, nullptr)), abandoned_(other.abandoned_) {}
+
+RawContext::~RawContext() {
+    if (context_ == nullptr || abandoned_ || in_forked_child()) return;
+    const Table& egl = library();  // open since this context was made: cannot throw
+    if (surface_ != nullptr) egl.destroy_surface(display_, surface_);
+    egl.destroy_context(display_, context_);
+}
+
+Current::Current(const RawContext& context) : ours_(context.display()) {
+    const Table& egl = library();
+    // In this order: what is current is asked for under the API that the thread had bound.
+    api_ = egl.query_api();
+    display_ = egl.get_current_display();
+    context_ = egl.get_current_context();
+    draw_ = egl.get_current_surface(draw);
+    read_ = egl.get_current_surface(read);
+    egl.bind_api(opengl_api);
+    if (egl.make_current(ours_, context.surface(), context.surface(), context.context())) return;
+
+    const Int error = egl.get_error();
+    restore();
+    std::string text = "eglMakeCurrent: " + error_name(error);
+    if (error == bad_access) {
+        text += ": the context is current on another thread, or another window system's OpenGL "
+                "context (GLX) is current on "
+                "this one";
+    } else if (error == not_initialized || error == bad_display) {
+        text +=
+            ": another library in this process has terminated the EGL display; make a new renderer";
+    } else if (error == context_lost) {
+        text += ": the GPU was reset; make a new renderer";
+    }
+    throw ContextError(text);
+}
+
+Current::~Current() {
+    if (!in_forked_child()) restore();
+}
+
+void Current::restore() const noexcept {
+    const Table& egl = library();  // open since the constructor, which is the only way here
+    if (context_ == nullptr || !egl.make_current(display_, draw_, read_, context_)) {
+        // Nothing was current, or it was destroyed meanwhile: ours must not stay in its place.
+        egl.make_current(ours_, nullptr, nullptr, nullptr);
+    }
+    if (api_ != static_cast<Enum>(none)) egl.bind_api(api_);
+}
+
+}  // namespace cubecam::gl::egl

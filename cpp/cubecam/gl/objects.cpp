@@ -1,0 +1,181 @@
+#include "cubecam/gl/objects.hpp"
+
+#include "cubecam/error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+
+namespace cubecam::gl {
+
+namespace {
+
+// A lost context may report its error for ever.
+constexpr int most_errors = 16;
+
+constexpr std::array error_names{"GL_INVALID_ENUM",
+                                 "GL_INVALID_VALUE",
+                                 "GL_INVALID_OPERATION",
+                                 "GL_STACK_OVERFLOW",
+                                 "GL_STACK_UNDERFLOW",
+                                 "GL_OUT_OF_MEMORY",
+                                 "GL_INVALID_FRAMEBUFFER_OPERATION",
+                                 "GL_CONTEXT_LOST"};
+
+std::string hexadecimal(GLenum value) {
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "0x%04X", value);
+    return text.data();
+}
+
+const char* framebuffer_status_name(GLenum status) {
+    switch (status) {
+        case GL_FRAMEBUFFER_UNDEFINED: return "GL_FRAMEBUFFER_UNDEFINED";
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT: return "GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+            return "GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT";
+        case GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER: return "GL_FRAMEBUFFER_INCOMPLETE_DRAW_BUFFER";
+        case GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER: return "GL_FRAMEBUFFER_INCOMPLETE_READ_BUFFER";
+        case GL_FRAMEBUFFER_UNSUPPORTED: return "GL_FRAMEBUFFER_UNSUPPORTED";
+        case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE: return "GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE";
+        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+            return "GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS";
+        default: return "framebuffer status";
+    }
+}
+
+int levels_or_all(int levels, int width, int height) {
+    return levels > 0 ? levels : mip_levels(width, height);
+}
+
+}  // namespace
+
+std::string gl_error_name(GLenum error) {
+    const GLenum place = error - GL_INVALID_ENUM;
+    return std::string(place < error_names.size() ? error_names[place] : "GL error") + " (" +
+           hexadecimal(error) + ")";
+}
+
+void check_gl(const GladGLContext& gl, std::string_view what) {
+    GLenum error = gl.GetError();
+    if (error == GL_NO_ERROR) return;
+
+    const GLenum first = error;
+    bool out_of_memory = false;
+    std::string names;
+    for (int i = 0; i < most_errors && error != GL_NO_ERROR; ++i) {
+        if (!names.empty()) names += ", ";
+        names += gl_error_name(error);
+        out_of_memory = out_of_memory || error == GL_OUT_OF_MEMORY;
+        // Lost: every further call gives the same.
+        error = error == GL_CONTEXT_LOST ? GLenum{GL_NO_ERROR} : gl.GetError();
+    }
+    std::string text = std::string(what) + ": " + names;
+    if (out_of_memory)
+        text += ": no memory left for this; ask for smaller sizes, fewer samples or fewer outputs";
+    throw GlError(text, first);
+}
+
+int mip_levels(int width, int height) {
+    return std::bit_width(static_cast<unsigned>(std::max({width, height, 1})));
+}
+
+Texture create_texture(const GladGLContext& gl, GLenum target) {
+    GLuint id = 0;
+    gl.CreateTextures(target, 1, &id);
+    return Texture(gl, id);
+}
+
+Texture create_texture_2d(const GladGLContext& gl, GLenum format, int width, int height,
+                          int levels) {
+    Texture texture = create_texture(gl, GL_TEXTURE_2D);
+    gl.TextureStorage2D(texture.id(), levels_or_all(levels, width, height), format, width, height);
+    check_gl(gl, "a texture of " + std::to_string(width) + "x" + std::to_string(height));
+    return texture;
+}
+
+Texture create_texture_2d_array(const GladGLContext& gl, GLenum format, int width, int height,
+                                int layers, int levels) {
+    Texture texture = create_texture(gl, GL_TEXTURE_2D_ARRAY);
+    gl.TextureStorage3D(texture.id(), levels_or_all(levels, width, height), format, width, height,
+                        layers);
+    check_gl(gl, "a texture of " + std::to_string(width) + "x" + std::to_string(height) + " with " +
+                     std::to_string(layers) + " layers");
+    return texture;
+}
+
+Texture create_texture_cube(const GladGLContext& gl, GLenum format, int size, int levels) {
+    Texture texture = create_texture(gl, GL_TEXTURE_CUBE_MAP);
+    gl.TextureStorage2D(texture.id(), levels_or_all(levels, size, size), format, size, size);
+    check_gl(gl, "a cube map of size " + std::to_string(size));
+    return texture;
+}
+
+Texture create_texture_2d_multisample_array(const GladGLContext& gl, GLenum format, int samples,
+                                            int width, int height, int layers) {
+    Texture texture = create_texture(gl, GL_TEXTURE_2D_MULTISAMPLE_ARRAY);
+    gl.TextureStorage3DMultisample(texture.id(), samples, format, width, height, layers, GL_TRUE);
+    check_gl(gl, "a texture of " + std::to_string(width) + "x" + std::to_string(height) + " with " +
+                     std::to_string(layers) + " layers and " + std::to_string(samples) +
+                     " samples");
+    return texture;
+}
+
+Buffer create_buffer(const GladGLContext& gl, std::size_t bytes, const void* data,
+                     GLbitfield flags) {
+    GLuint id = 0;
+    gl.CreateBuffers(1, &id);
+    Buffer buffer(gl, id);
+    const bool empty = bytes == 0;
+    gl.NamedBufferStorage(id, static_cast<GLsizeiptr>(empty ? 1 : bytes), empty ? nullptr : data,
+                          flags);
+    check_gl(gl, "a buffer of " + std::to_string(bytes) + " bytes");
+    return buffer;
+}
+
+Framebuffer create_framebuffer(const GladGLContext& gl) {
+    GLuint id = 0;
+    gl.CreateFramebuffers(1, &id);
+    return Framebuffer(gl, id);
+}
+
+VertexArray create_vertex_array(const GladGLContext& gl) {
+    GLuint id = 0;
+    gl.CreateVertexArrays(1, &id);
+    return VertexArray(gl, id);
+}
+
+Query create_query(const GladGLContext& gl, GLenum target) {
+    GLuint id = 0;
+    gl.CreateQueries(target, 1, &id);
+    return Query(gl, id);
+}
+
+Sampler create_sampler(const GladGLContext& gl, GLenum min_filter, GLenum mag_filter, GLenum wrap) {
+    GLuint id = 0;
+    gl.CreateSamplers(1, &id);
+    Sampler sampler(gl, id);
+    gl.SamplerParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(min_filter));
+    gl.SamplerParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(mag_filter));
+    for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
+        gl.SamplerParameteri(id, direction, static_cast<GLint>(wrap));
+    }
+    return sampler;
+}
+
+void check_framebuffer(const GladGLContext& gl, const Framebuffer& framebuffer,
+                       std::string_view what) {
+    const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    check_gl(gl, what);
+    throw GlError(std::string(what) + ": " + framebuffer_status_name(status) + " (" +
+                      hexadecimal(status) + ")",
+                  status);
+}
+
+void set_label(const GladGLContext& gl, GLenum kind, GLuint id, std::string_view label) {
+    gl.ObjectLabel(kind, id, static_cast<GLsizei>(label.size()), label.data());
+}
+
+}  // namespace cubecam::gl

@@ -1,0 +1,93 @@
+#pragma once
+
+#include "cubecam/gl/embedded.hpp"
+#include "cubecam/gl/handle.hpp"
+
+#include <glm/fwd.hpp>
+
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace cubecam::gl {
+
+/// What is put ahead of each stage, after `#version 450 core`.
+struct ShaderOptions {
+    std::vector<std::string> extensions;  ///< `#extension <name> : require`
+    std::vector<std::pair<std::string, std::string>>
+        defines;  ///< `#define <name> <value>`, in this order
+};
+
+/// A stage's source with its includes resolved, and where each of its lines comes from. The lines
+/// are numbered through, without `#line`: Mesa forgets the string number of an expression (it says
+/// 0), so that errors in an included file would name the wrong one.
+struct ExpandedShader {
+    /// In place of a file's number: one of the lines put ahead.
+    static constexpr std::size_t ahead = static_cast<std::size_t>(-1);
+
+    struct Line {
+        std::size_t file;    ///< its place in `files`, or `ahead`
+        std::size_t number;  ///< from 1
+    };
+
+    std::string text;
+    std::vector<ShaderSource> files;
+    std::vector<Line> lines;
+};
+
+/// Resolves `#include "x.glsl"` (each file once a stage, names as in `sources`) and puts the
+/// options ahead. A `#version` line in a file is refused: the version is said in one place, here.
+/// Throws ShaderError for a missing file, naming the file and line that asked for it.
+ExpandedShader expand_shader(std::string_view name, const ShaderOptions& options,
+                             std::span<const ShaderSource> sources);
+
+/// The driver's log with file names for string numbers, and the numbered source lines round each
+/// error.
+std::string explain_shader_log(std::string_view log, const ExpandedShader& shader);
+
+/// A linked program. Uniforms are set without binding it (glProgramUniform*).
+class Program {
+public:
+    Program() noexcept = default;
+
+    /// Compiles and links the named files; the ending tells the stage: .vert .tesc .tese .geom
+    /// .frag .comp. Throws ShaderError with the log and source lines.
+    Program(const GladGLContext& gl, std::initializer_list<std::string_view> files,
+            const ShaderOptions& options = {},
+            std::span<const ShaderSource> sources = embedded_shaders());
+    Program(const GladGLContext& gl, std::span<const std::string_view> files,
+            const ShaderOptions& options = {},
+            std::span<const ShaderSource> sources = embedded_shaders());
+
+    GLuint id() const noexcept { return handle_.id(); }
+    explicit operator bool() const noexcept { return bool(handle_); }
+    void use() const { handle_.gl().UseProgram(id()); }
+    void abandon() noexcept { handle_.abandon(); }
+
+    /// The location of a uniform, looked up once; -1 when there is none or nothing uses it.
+    GLint location(std::string_view name) const;
+
+    /// Setting a uniform that the program does not use does nothing: variants compiled with other
+    /// defines keep the same caller.
+    void set(std::string_view name, int value) const;
+    void set(std::string_view name, unsigned value) const;
+    void set(std::string_view name, float value) const;
+    void set(std::string_view name, const glm::vec2& value) const;
+    void set(std::string_view name, const glm::vec3& value) const;
+    void set(std::string_view name, const glm::vec4& value) const;
+    void set(std::string_view name, const glm::ivec2& value) const;
+    void set(std::string_view name, const glm::mat3& value) const;
+    void set(std::string_view name, const glm::mat4& value) const;
+
+private:
+    ProgramHandle handle_;
+    mutable std::map<std::string, GLint, std::less<>> locations_;
+};
+
+}  // namespace cubecam::gl

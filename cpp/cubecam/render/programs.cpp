@@ -1,0 +1,68 @@
+#include "cubecam/render/programs.hpp"
+
+#include <array>
+#include <string>
+#include <variant>
+
+#include "cubecam/scene/material.hpp"
+
+namespace cubecam {
+namespace {
+
+/// In the order of MaterialParameters.
+constexpr std::array<const char*, std::variant_size_v<MaterialParameters>> material_defines = {
+    "MATERIAL_BASIC", "MATERIAL_PHONG", "MATERIAL_MIRROR", "MATERIAL_GLASS"};
+
+}  // namespace
+
+gl::ShaderOptions Programs::layer_options() const {
+    gl::ShaderOptions options;
+    if (layered_) {
+        options.extensions.emplace_back("GL_ARB_shader_viewport_layer_array");
+        options.defines.emplace_back("LAYERED", "1");
+    }
+    return options;
+}
+
+const gl::Program& Programs::surface(const SurfaceVariant& variant) {
+    const auto found = surfaces_.find(variant);
+    if (found != surfaces_.end()) return found->second;
+
+    gl::ShaderOptions options = layer_options();
+    const auto define = [&options](bool wanted, const char* name) {
+        if (wanted) options.defines.emplace_back(name, "1");
+    };
+    define(true, material_defines[variant.material]);
+    define(variant.map, "HAS_MAP");
+    define(variant.vertex_colors, "HAS_VERTEX_COLORS");
+    define(variant.cube, "HAS_CUBE");
+    define(variant.double_sided, "DOUBLE_SIDED");
+    define(variant.fresnel, "FRESNEL");
+    define(variant.outputs, "OUTPUTS");
+    define(variant.decay, "LIGHT_DECAY");
+    if (variant.lights >= 0) options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
+    return surfaces_.emplace(variant, gl::Program(*gl_, {"surface.vert", "surface.frag"}, options)).first->second;
+}
+
+const gl::Program& Programs::skybox() {
+    if (!skybox_) skybox_ = gl::Program(*gl_, {"skybox.vert", "skybox.frag"}, layer_options());
+    return skybox_;
+}
+
+const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
+    const auto found = grades_.find({tonemap, encode});
+    if (found != grades_.end()) return found->second;
+
+    gl::ShaderOptions options;
+    switch (tonemap) {
+        case Tonemap::none: break;
+        case Tonemap::reinhard: options.defines.emplace_back("TONEMAP_REINHARD", "1"); break;
+        case Tonemap::aces: options.defines.emplace_back("TONEMAP_ACES", "1"); break;
+        case Tonemap::neutral: options.defines.emplace_back("TONEMAP_NEUTRAL", "1"); break;
+    }
+    if (encode == Encode::srgb) options.defines.emplace_back("ENCODE_SRGB", "1");
+    return grades_.emplace(std::pair{tonemap, encode}, gl::Program(*gl_, {"grade.vert", "grade.frag"}, options))
+        .first->second;
+}
+
+}  // namespace cubecam

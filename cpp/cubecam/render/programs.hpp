@@ -1,0 +1,49 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <map>
+
+#include "cubecam/gl/program.hpp"
+#include "cubecam/render/options.hpp"
+
+namespace cubecam {
+
+/// Lights beyond this many are refused: they lie in a uniform block of guaranteed size.
+inline constexpr std::size_t max_lights = 256;
+
+/// Which variant of surface.vert/.frag a draw call needs.
+struct SurfaceVariant {
+    std::size_t material = 0;  ///< index into MaterialParameters
+    bool map = false;
+    bool vertex_colors = false;
+    bool cube = false;  ///< a basic material that shows a cubemap
+    bool double_sided = false;
+    bool fresnel = false;
+    bool outputs = false;
+    int lights = 0;  ///< unrolled so many times; -1: a loop
+    bool decay = false;
+
+    auto operator<=>(const SurfaceVariant&) const = default;
+};
+
+/// Compiled programs, made when first needed.
+class Programs {
+public:
+    Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {}
+
+    const gl::Program& surface(const SurfaceVariant& variant);
+    const gl::Program& skybox();
+    const gl::Program& grade(Tonemap tonemap, Encode encode);
+
+private:
+    gl::ShaderOptions layer_options() const;
+
+    const GladGLContext* gl_;
+    bool layered_;
+    std::map<SurfaceVariant, gl::Program> surfaces_;
+    std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
+    gl::Program skybox_;
+};
+
+}  // namespace cubecam

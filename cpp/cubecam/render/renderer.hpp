@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "cubecam/gl/context.hpp"
+#include "cubecam/render/frame.hpp"
+#include "cubecam/render/options.hpp"
+#include "cubecam/scene/camera.hpp"
+#include "cubecam/scene/cubemap.hpp"
+#include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/scene.hpp"
+
+namespace cubecam {
+
+/// What a renderer runs on.
+struct RendererInfo {
+    std::string vendor;        ///< GL_VENDOR
+    std::string renderer;      ///< GL_RENDERER
+    std::string version;       ///< GL_VERSION
+    std::string glsl_version;  ///< GL_SHADING_LANGUAGE_VERSION
+    std::string egl_version;
+    std::string platform;  ///< "device", "surfaceless" or "default"
+    gl::DeviceInfo device;
+    gl::Limits limits;
+    bool software = false;
+    bool layered = false;  ///< all views of a mesh in one draw call
+};
+
+/// Draws scenes, into frames, captures and probes. It owns an OpenGL context and everything on the GPU.
+///
+/// Any thread may call it; calls on one renderer follow each other, several renderers work in parallel. Between calls
+/// its context is current nowhere. After close(), and in a process forked after EGL was opened, every call throws
+/// ContextError.
+class Renderer {
+public:
+    /// @throws ContextError with every attempt, if no OpenGL 4.5 context can be had.
+    explicit Renderer(RendererOptions options = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    Frame render(const SceneSnapshot& scene, const CameraValue& camera, const FrameOptions& options);
+    Frame render(const Scene& scene, const Camera& camera, const FrameOptions& options) {
+        return render(scene.snapshot(), camera.value(), options);
+    }
+
+    std::shared_ptr<CubeMap> capture(const SceneSnapshot& scene, const CaptureOptions& options);
+    std::shared_ptr<CubeMap> capture(const Scene& scene, const CaptureOptions& options) {
+        return capture(scene.snapshot(), options);
+    }
+
+    /// Draws probes now, whatever their policy says: those given, or all that the scene's visible nodes use.
+    /// @throws std::invalid_argument for a probe that no visible node of the scene uses.
+    void update(const SceneSnapshot& scene, const std::vector<std::shared_ptr<Probe>>& probes);
+
+    /// What a probe holds now. @throws std::invalid_argument if it was not drawn yet.
+    std::shared_ptr<CubeMap> cubemap(const std::shared_ptr<Probe>& probe);
+
+    Stats stats() const;
+    const RendererInfo& info() const { return info_; }
+
+    /// Frees everything on the GPU; further calls throw. Closing twice is no mistake.
+    void close() noexcept;
+    bool closed() const;
+
+private:
+    struct Gpu;  // what lives as long as the context
+
+    template <class Work>
+    auto run(Work&& work);
+
+    RendererInfo info_;
+    mutable std::mutex mutex_;
+    std::unique_ptr<Gpu> gpu_;
+    Stats stats_;
+};
+
+}  // namespace cubecam

@@ -1,0 +1,363 @@
+#include "cubecam/render/surface_pass.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "cubecam/render/draw_block.hpp"
+#include "cubecam/render/instance.hpp"
+
+namespace cubecam {
+namespace {
+
+constexpr GLuint draw_binding = 0;
+constexpr GLuint lights_binding = 1;
+constexpr GLuint map_unit = 0;
+constexpr GLuint cube_unit = 1;
+constexpr std::size_t unrolled_lights = 8;
+constexpr std::size_t many_triangles = 10'000;
+
+/// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is lost.
+glm::dmat4 reverse_depth(glm::dmat4 view_projection) {
+    for (int column = 0; column < 4; ++column) {
+        glm::dvec4& c = view_projection[column];
+        c.z = 0.5 * (c.w - c.z);
+    }
+    return view_projection;
+}
+
+/// Whether a view shows the world mirrored: GL's own projections have a negative determinant.
+bool mirrored(const View& view) { return glm::determinant(view.view_projection) > 0.0; }
+
+Instance make_instance(const View& view, const glm::dmat4& matrix, std::size_t layer) {
+    Instance instance;
+    instance.matrix = glm::mat4(matrix);
+    instance.eye = view.parallel ? glm::vec4(view.forward, 1.0F) : glm::vec4(view.eye, 0.0F);
+    instance.position = glm::vec4(view.position, view.near);
+    instance.forward = glm::vec4(view.forward, static_cast<float>(layer));
+    return instance;
+}
+
+struct LightBlock {
+    glm::vec4 position;
+    glm::vec4 color;
+};
+
+struct LightsBlock {
+    glm::vec4 ambient{1.0F};
+    glm::ivec4 counts{0};
+    LightBlock lights[max_lights];
+};
+
+}  // namespace
+
+SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering)
+    : context_(&context),
+      gl_(&context.gl()),
+      cache_(&cache),
+      programs_(context.gl(), layering != Layering::never),
+      layering_(layering),
+      black_(gl::create_texture_cube(*gl_, GL_RGBA8, 1)) {
+    const std::uint8_t black[6 * 4] = {};
+    gl_->TextureSubImage3D(black_.id(), 0, 0, 0, 0, 1, 1, 6, GL_RGBA, GL_UNSIGNED_BYTE, black);
+    gl_->TextureParameteri(black_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+
+    gl_->Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    gl_->Disable(GL_DITHER);
+    gl_->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+void SurfacePass::upload_lights(std::span<const LightValue> lights) {
+    LightsBlock block;
+    light_count_ = 0;
+    light_decay_ = false;
+    for (const LightValue& light : lights) {
+        const glm::vec3 color = light.color * light.intensity;
+        if (std::holds_alternative<AmbientParameters>(light.parameters)) {
+            block.ambient += glm::vec4(color, 0.0F);
+            continue;
+        }
+        if (light_count_ == max_lights) {
+            throw std::invalid_argument("lights: expected at most " + std::to_string(max_lights) +
+                                        " point and directional lights");
+        }
+        LightBlock& to = block.lights[light_count_++];
+        if (const auto* point = std::get_if<PointParameters>(&light.parameters)) {
+            to.position = glm::vec4(point->position, 1.0F);
+            to.color = glm::vec4(color, point->decay);
+            light_decay_ = light_decay_ || point->decay != 0.0;
+        } else {
+            to.position = glm::vec4(-std::get<DirectionalParameters>(light.parameters).direction, 0.0F);
+            to.color = glm::vec4(color, 0.0F);
+        }
+    }
+    block.counts.x = static_cast<int>(light_count_);
+    lights_ = gl::create_buffer(*gl_, sizeof(block), &block);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, lights_binding, lights_.id());
+}
+
+SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
+    Prepared prepared;
+    for (std::size_t v = 0; v < input.wanted.size(); ++v) {
+        if (input.wanted[v]) prepared.wanted.push_back(v);
+    }
+
+    std::vector<Instance> matrices;
+    matrices.reserve(input.views.size());
+    for (std::size_t v = 0; v < input.views.size(); ++v) {
+        matrices.push_back(make_instance(input.views[v], reverse_depth(input.views[v].view_projection), v));
+    }
+
+    const auto alignment = static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment);
+    const std::size_t stride = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
+    std::vector<Instance> instances;
+    std::vector<std::byte> blocks;
+    const auto add = [&](const std::vector<PlannedNode>& from, std::vector<Item>& to) {
+        for (const PlannedNode& planned : from) {
+            const NodeSnapshot& node = input.scene.nodes[planned.node];
+            Item item{&node, nullptr, {}, static_cast<GLuint>(instances.size()),
+                      static_cast<GLintptr>(blocks.size()), 0};
+            for (const std::size_t v : planned.views) {
+                if (!input.wanted[v]) continue;
+                item.views.push_back(v);
+                instances.push_back(matrices[v]);
+            }
+            if (item.views.empty()) continue;
+            item.mesh = &cache_->mesh(node.mesh);
+            item.cube = input.cube_of(planned.node);
+            const DrawBlock block = make_draw_block(node);
+            blocks.resize(blocks.size() + stride);
+            std::memcpy(blocks.data() + item.block, &block, sizeof(block));
+            to.push_back(std::move(item));
+        }
+    };
+    add(input.plan.opaque, prepared.opaque);
+    add(input.plan.translucent, prepared.translucent);
+
+    prepared.first_skybox = static_cast<GLuint>(instances.size());
+    if (std::holds_alternative<GLuint>(input.background)) {
+        for (const std::size_t v : prepared.wanted) {
+            instances.push_back(make_instance(input.views[v], input.views[v].far_to_world, v));
+        }
+    }
+    // New buffers instead of rewriting the old: the GPU may still read those.
+    instances_ = gl::create_buffer(*gl_, instances.size() * sizeof(Instance), instances.data());
+    blocks_ = gl::create_buffer(*gl_, blocks.size(), blocks.data());
+    return prepared;
+}
+
+void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
+    const Prepared prepared = prepare(input);
+    if (prepared.wanted.empty()) return;
+    upload_lights(input.scene.lights);
+    gl_->Viewport(0, 0, target.description().width, target.description().height);
+    const bool outputs = target.description().outputs.any();
+    draw_layers(input, prepared, target, target.color_pass(), true, outputs && !target.multisampled(), stats);
+    if (outputs && target.multisampled()) {
+        draw_layers(input, prepared, target, target.output_pass(), false, true, stats);
+    }
+    gl::check_gl(*gl_, "drawing a scene");
+}
+
+void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, Target& target, Layers& layers,
+                              bool color, bool outputs, Stats& stats) {
+    if (use_layers(input, prepared)) {
+        if (prepared.wanted.size() == input.views.size()) {
+            clear(input, target, layers, std::nullopt, color, outputs);
+        } else {
+            for (const std::size_t v : prepared.wanted) clear(input, target, layers, v, color, outputs);
+        }
+        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
+        draw_all(input, prepared, std::nullopt, color, outputs, stats);
+        return;
+    }
+    for (const std::size_t v : prepared.wanted) {
+        clear(input, target, layers, v, color, outputs);
+        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.one(static_cast<int>(v)));
+        draw_all(input, prepared, v, color, outputs, stats);
+    }
+}
+
+bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared) const {
+    if (layering_ == Layering::never) return false;
+    // One winding serves all layers of a call, so views of both kinds are drawn one by one.
+    const bool one_winding = std::all_of(prepared.wanted.begin(), prepared.wanted.end(), [&](std::size_t v) {
+        return mirrored(input.views[v]) == mirrored(input.views[prepared.wanted.front()]);
+    });
+    if (!one_winding || layering_ == Layering::always) return one_winding;
+    if (!context_->software()) return true;
+    // llvmpipe sets all layers' triangles up before it fills the first pixel, on one thread. Layer by layer, it fills
+    // one while it sets the next up: from some ten thousand triangles on that wins (docs/adr/0002).
+    std::size_t triangles = 0;
+    for (const Item& item : prepared.opaque) {
+        triangles += static_cast<std::size_t>(item.mesh->index_count / 3) * item.views.size();
+    }
+    return triangles < many_triangles;
+}
+
+void SurfacePass::clear(const PassInput& input, Target& target, Layers& layers, std::optional<std::size_t> view,
+                        bool color, bool outputs) {
+    const TargetDescription& description = target.description();
+    // Faces: glClearTexSubImage takes a sixth of the time on llvmpipe. Samples and single frames: glClear is as good.
+    const bool by_texture = description.cube && !(color && target.multisampled());
+    const GLuint framebuffer = by_texture ? 0 : view ? layers.one(static_cast<int>(*view)) : layers.all();
+    const auto first = static_cast<GLint>(view.value_or(0));
+    const GLsizei count = view ? 1 : description.layers();
+    const auto clear_texture = [&](const gl::Texture& texture, GLenum format, GLenum type, const void* value) {
+        gl_->ClearTexSubImage(texture.id(), 0, 0, 0, first, description.width, description.height, count, format, type,
+                              value);
+    };
+    const auto put = [&](Slot slot, glm::vec4 value) {
+        if (by_texture) {
+            clear_texture(slot == Slot::color ? target.color() : target.output(slot), GL_RGBA, GL_FLOAT, &value.x);
+        } else {
+            gl_->ClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(slot), &value.x);
+        }
+    };
+
+    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl_->DepthMask(GL_TRUE);
+    if (color) {
+        const auto* plain = std::get_if<glm::vec4>(&input.background);
+        put(Slot::color, plain != nullptr ? *plain : glm::vec4(0.0F));
+    }
+    if (outputs) {
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+        const Outputs& wanted = description.outputs;
+        if (wanted.distance) put(Slot::distance, glm::vec4(infinity));
+        if (wanted.z) put(Slot::z, glm::vec4(infinity));
+        if (wanted.normal) put(Slot::normal, glm::vec4(0.0F));
+        if (wanted.position) put(Slot::position, glm::vec4(nan));
+        const GLint none[4] = {0, 0, 0, 0};
+        if (wanted.id && by_texture) {
+            clear_texture(target.output(Slot::id), GL_RED_INTEGER, GL_INT, none);
+        } else if (wanted.id) {
+            gl_->ClearNamedFramebufferiv(framebuffer, GL_COLOR, static_cast<GLint>(Slot::id), none);
+        }
+    }
+    const float far = 0.0F;
+    if (by_texture) {
+        clear_texture(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far);
+    } else {
+        gl_->ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
+    }
+}
+
+void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared, std::optional<std::size_t> view,
+                           bool color, bool outputs, Stats& stats) {
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_GREATER);
+    gl_->DepthMask(GL_TRUE);
+    gl_->Disable(GL_BLEND);
+    const bool mirror = mirrored(input.views[view.value_or(prepared.wanted.front())]);
+    draw_items(prepared.opaque, view, mirror, outputs, stats);
+    if (!color) return;  // neither the background nor anything translucent writes the outputs
+
+    for (int slot = 1; slot < slot_count; ++slot) {
+        gl_->ColorMaski(static_cast<GLuint>(slot), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    }
+    gl_->DepthMask(GL_FALSE);
+    if (const auto* cube = std::get_if<GLuint>(&input.background)) {
+        const auto& wanted = prepared.wanted;
+        const auto place = view ? std::lower_bound(wanted.begin(), wanted.end(), *view) - wanted.begin() : 0;
+        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(place), view ? 1 : wanted.size(), stats);
+    }
+    gl_->Enablei(GL_BLEND, 0);
+    draw_items(prepared.translucent, view, mirror, false, stats);
+    gl_->Disablei(GL_BLEND, 0);
+    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) const {
+    const MaterialValue& material = node.material.value;
+    SurfaceVariant variant;
+    variant.material = material.parameters.index();
+    variant.double_sided = material.surface.double_sided;
+    variant.outputs = outputs;
+    const auto textures = [&](const auto& parameters) {
+        variant.map = parameters.map != nullptr && node.mesh->uvs() != nullptr;
+        variant.vertex_colors = parameters.vertex_colors && node.mesh->colors() != nullptr;
+    };
+    if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
+        textures(*basic);
+        variant.cube = basic->cubemap.index() != 0;
+    } else if (const auto* phong = std::get_if<PhongParameters>(&material.parameters)) {
+        textures(*phong);
+        variant.lights = light_count_ <= unrolled_lights ? static_cast<int>(light_count_) : -1;
+        variant.decay = light_decay_;
+    } else if (const auto* mirror = std::get_if<MirrorParameters>(&material.parameters)) {
+        variant.fresnel = mirror->fresnel.has_value();
+    } else {
+        variant.fresnel = std::get<GlassParameters>(material.parameters).fresnel;
+    }
+    return variant;
+}
+
+void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror, bool outputs,
+                             Stats& stats) {
+    const gl::Program* bound = nullptr;
+    for (const Item& item : items) {
+        GLuint first = item.first_instance;
+        auto count = static_cast<GLsizei>(item.views.size());
+        if (view) {
+            const auto place = std::lower_bound(item.views.begin(), item.views.end(), *view);
+            if (place == item.views.end() || *place != *view) continue;
+            first += static_cast<GLuint>(place - item.views.begin());
+            count = 1;
+        }
+        const MaterialValue& material = item.node->material.value;
+        const SurfaceVariant variant = variant_of(*item.node, outputs);
+        const gl::Program& program = programs_.surface(variant);
+        if (bound != &program) program.use();
+        bound = &program;
+
+        if (material.surface.double_sided) {
+            gl_->Disable(GL_CULL_FACE);
+        } else {
+            gl_->Enable(GL_CULL_FACE);
+        }
+        // A node's matrix of negative determinant turns the winding, a mirrored view turns it again.
+        const bool turned = (glm::determinant(glm::dmat3(item.node->world)) < 0.0) != mirror;
+        gl_->FrontFace(turned ? GL_CW : GL_CCW);
+
+        gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block, sizeof(DrawBlock));
+        if (variant.map) {
+            const auto map = std::visit(
+                [](const auto& p) -> std::shared_ptr<const Image> {
+                    if constexpr (requires { p.map; }) return p.map;
+                    return nullptr;
+                },
+                material.parameters);
+            gl_->BindTextureUnit(map_unit, cache_->image(map).texture.id());
+        }
+        gl_->BindTextureUnit(cube_unit, item.cube != 0 ? item.cube : black_.id());
+
+        gl_->VertexArrayVertexBuffer(item.mesh->array.id(), vertex_buffer::views, instances_.id(), 0,
+                                     sizeof(Instance));
+        gl_->BindVertexArray(item.mesh->array.id());
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, item.mesh->index_count, GL_UNSIGNED_INT, nullptr, count,
+                                               first);
+        ++stats.draw_calls;
+        stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
+    }
+}
+
+void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats) {
+    const GLuint array = cache_->views_only().id();
+    gl_->DepthFunc(GL_GEQUAL);  // the quad lies on the far plane, where the buffer was cleared to
+    gl_->Disable(GL_CULL_FACE);
+    programs_.skybox().use();
+    gl_->BindTextureUnit(cube_unit, cube);
+    gl_->VertexArrayVertexBuffer(array, vertex_buffer::views, instances_.id(), 0, sizeof(Instance));
+    gl_->BindVertexArray(array);
+    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count), first_instance);
+    gl_->DepthFunc(GL_GREATER);
+    ++stats.draw_calls;
+    stats.triangles += static_cast<std::int64_t>(2 * count);
+}
+
+}  // namespace cubecam

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "cubecam/gl/context.hpp"
+#include "cubecam/render/draw_plan.hpp"
+#include "cubecam/render/gpu_cache.hpp"
+#include "cubecam/render/options.hpp"
+#include "cubecam/render/programs.hpp"
+#include "cubecam/render/target.hpp"
+#include "cubecam/render/view.hpp"
+#include "cubecam/scene/snapshot.hpp"
+
+namespace cubecam {
+
+/// What is behind everything: a colour, or a cube texture drawn as skybox.
+using BackgroundSource = std::variant<glm::vec4, GLuint>;
+
+/// One set of pictures to draw.
+struct PassInput {
+    const SceneSnapshot& scene;
+    std::span<const View> views;  ///< view i goes to layer i
+    const DrawPlan& plan;
+    std::vector<bool> wanted;  ///< which views; the layers of the others stay as they are
+    BackgroundSource background;
+    std::function<GLuint(std::size_t node)> cube_of;  ///< the cube texture a node looks up; 0: none
+};
+
+/// Whether all views of a mesh go into one draw call.
+enum class Layering { never, where_faster, always };
+
+/// The one path that draws a scene, into one view or many: opaque nodes near to far, the background, translucent
+/// nodes far to near. A mesh is drawn once for all the views that see it; without layered rendering, once for each.
+class SurfacePass {
+public:
+    SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering);
+
+    void draw(const PassInput& input, Target& target, Stats& stats);
+
+    /// A cube of one black texel, what is reflected where there is no environment.
+    GLuint black_cube() const { return black_.id(); }
+
+    Programs& programs() { return programs_; }
+
+private:
+    /// A planned node with its records: `first` is its first view's, `blocks` its uniform block's offset.
+    struct Item {
+        const NodeSnapshot* node;
+        const GpuMesh* mesh;
+        std::vector<std::size_t> views;
+        GLuint first_instance;
+        GLintptr block;
+        GLuint cube;
+    };
+
+    struct Prepared {
+        std::vector<Item> opaque;
+        std::vector<Item> translucent;
+        GLuint first_skybox = 0;  ///< instance of the skybox in the first wanted view
+        std::vector<std::size_t> wanted;
+    };
+
+    Prepared prepare(const PassInput& input);
+    void draw_layers(const PassInput& input, const Prepared& prepared, Target& target, Layers& layers, bool color,
+                     bool outputs, Stats& stats);
+    /// Draws everything into the bound framebuffer, for all wanted views or only for `view`.
+    void draw_all(const PassInput& input, const Prepared& prepared, std::optional<std::size_t> view, bool color,
+                  bool outputs, Stats& stats);
+    void draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror, bool outputs,
+                    Stats& stats);
+    void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
+    /// Clears all layers, or one view's.
+    void clear(const PassInput& input, Target& target, Layers& layers, std::optional<std::size_t> view, bool color,
+               bool outputs);
+    bool use_layers(const PassInput& input, const Prepared& prepared) const;
+    SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
+    void upload_lights(std::span<const LightValue> lights);
+
+    const gl::Context* context_;
+    const GladGLContext* gl_;
+    GpuCache* cache_;
+    Programs programs_;
+    Layering layering_;
+    gl::Texture black_;
+    gl::Buffer instances_, blocks_, lights_;
+    std::size_t light_count_ = 0;
+    bool light_decay_ = false;
+};
+
+}  // namespace cubecam

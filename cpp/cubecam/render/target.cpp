@@ -1,0 +1,161 @@
+#include "cubecam/render/target.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace cubecam {
+namespace {
+
+constexpr GLenum depth_format = GL_DEPTH_COMPONENT32F;  // reversed depth wants a float's precision near 0
+
+struct OutputFormat {
+    Slot slot;
+    bool Outputs::* wanted;
+    GLenum format;
+    std::size_t bytes;
+};
+
+// Normal and position take four channels: GL need not render to three.
+constexpr OutputFormat output_formats[] = {
+    {Slot::distance, &Outputs::distance, GL_R32F, 4}, {Slot::z, &Outputs::z, GL_R32F, 4},
+    {Slot::normal, &Outputs::normal, GL_RGBA32F, 16}, {Slot::position, &Outputs::position, GL_RGBA32F, 16},
+    {Slot::id, &Outputs::id, GL_R32I, 4},
+};
+
+GLenum attachment(Slot slot) { return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot); }
+
+void check_limits(const gl::Context& context, const TargetDescription& d) {
+    const gl::Limits& limits = context.limits();
+    const int largest = d.cube ? std::min(limits.max_cube_map_texture_size, limits.max_framebuffer_width)
+                               : std::min(limits.max_texture_size, limits.max_framebuffer_width);
+    const char* limit = d.cube ? "GL_MAX_CUBE_MAP_TEXTURE_SIZE" : "GL_MAX_TEXTURE_SIZE";
+    if (d.width < 1 || d.height < 1 || d.width > largest || d.height > largest) {
+        const std::string got =
+            d.cube ? std::to_string(d.width) : std::to_string(d.width) + " x " + std::to_string(d.height);
+        throw std::invalid_argument("size: expected 1 to " + std::to_string(largest) + " pixels (" + limit + " of " +
+                                    context.renderer() + "), got " + got);
+    }
+    if (d.samples < 1 || d.samples > limits.max_samples) {
+        throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
+                                    " (GL_MAX_SAMPLES of " + context.renderer() + "), got " +
+                                    std::to_string(d.samples));
+    }
+}
+
+}  // namespace
+
+GLenum gl_format(Format format) {
+    switch (format) {
+        case Format::rgba8: return GL_RGBA8;
+        case Format::rgba16f: return GL_RGBA16F;
+        case Format::rgba32f: return GL_RGBA32F;
+    }
+    return GL_RGBA32F;
+}
+
+std::size_t TargetDescription::bytes() const {
+    const std::size_t color = 4 * dtype_size(dtype_of(graded ? Format::rgba32f : format));
+    std::size_t texel = color + 4;
+    if (samples > 1) texel += static_cast<std::size_t>(samples) * (color + 4);
+    if (graded) texel += 4 * dtype_size(dtype_of(format));
+    if (mipmaps) texel += color / 3;
+    for (const OutputFormat& output : output_formats) {
+        if (outputs.*output.wanted) texel += output.bytes;
+    }
+    return texel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+           static_cast<std::size_t>(layers());
+}
+
+Layers::Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers)
+    : gl_(&gl), attachments_(std::move(attachments)), one_(static_cast<std::size_t>(layers)) {}
+
+gl::Framebuffer Layers::make(std::optional<int> layer) const {
+    gl::Framebuffer framebuffer = gl::create_framebuffer(*gl_);
+    GLenum draw_buffers[slot_count];
+    std::fill(std::begin(draw_buffers), std::end(draw_buffers), GLenum{GL_NONE});
+    for (const Attachment& a : attachments_) {
+        if (layer) {
+            gl_->NamedFramebufferTextureLayer(framebuffer.id(), a.point, a.texture, a.level, *layer);
+        } else {
+            gl_->NamedFramebufferTexture(framebuffer.id(), a.point, a.texture, a.level);
+        }
+        if (a.point != GL_DEPTH_ATTACHMENT) draw_buffers[a.point - GL_COLOR_ATTACHMENT0] = a.point;
+    }
+    gl_->NamedFramebufferDrawBuffers(framebuffer.id(), slot_count, draw_buffers);
+    const auto first = std::find_if(std::begin(draw_buffers), std::end(draw_buffers),
+                                    [](GLenum buffer) { return buffer != GL_NONE; });
+    gl_->NamedFramebufferReadBuffer(framebuffer.id(), first == std::end(draw_buffers) ? GLenum{GL_NONE} : *first);
+    gl::check_framebuffer(*gl_, framebuffer, "making a render target");
+    return framebuffer;
+}
+
+GLuint Layers::all() {
+    if (!all_) all_ = make(std::nullopt);
+    return all_.id();
+}
+
+GLuint Layers::one(int layer) {
+    gl::Framebuffer& framebuffer = one_[static_cast<std::size_t>(layer)];
+    if (!framebuffer) framebuffer = make(layer);
+    return framebuffer.id();
+}
+
+Target::Target(const gl::Context& context, const TargetDescription& description)
+    : gl_(&context.gl()), description_(description) {
+    check_limits(context, description);
+    keys.resize(static_cast<std::size_t>(description.layers()));
+
+    const GLenum color_format = gl_format(description.graded ? Format::rgba32f : description.format);
+    const int levels = description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
+    color_ = make_texture(context, color_format, levels);
+    depth_ = make_texture(context, depth_format, 1);
+    if (description.cube) {  // a probe is looked up as any other cubemap
+        gl_->TextureParameteri(color_.id(), GL_TEXTURE_MIN_FILTER,
+                               description.mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+        gl_->TextureParameteri(color_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    }
+
+    std::vector<Layers::Attachment> color_pass{{attachment(Slot::color), color_.id()}};
+    std::vector<Layers::Attachment> output_pass{{GL_DEPTH_ATTACHMENT, depth_.id()}};
+    for (const OutputFormat& output : output_formats) {
+        if (!(description.outputs.*output.wanted)) continue;
+        gl::Texture& texture = outputs_[static_cast<std::size_t>(output.slot)];
+        texture = make_texture(context, output.format, 1);
+        output_pass.push_back({attachment(output.slot), texture.id()});
+    }
+    if (multisampled()) {
+        sample_color_ = gl::create_texture_2d_multisample_array(*gl_, color_format, description.samples,
+                                                                description.width, description.height,
+                                                                description.layers());
+        sample_depth_ = gl::create_texture_2d_multisample_array(*gl_, depth_format, description.samples,
+                                                                description.width, description.height,
+                                                                description.layers());
+        resolved_.emplace(*gl_, color_pass, description.layers());
+        color_pass = {{attachment(Slot::color), sample_color_.id()}, {GL_DEPTH_ATTACHMENT, sample_depth_.id()}};
+        if (description.outputs.any()) output_pass_.emplace(*gl_, output_pass, description.layers());
+    } else {
+        color_pass.insert(color_pass.end(), output_pass.begin(), output_pass.end());
+    }
+    color_pass_.emplace(*gl_, color_pass, description.layers());
+    if (description.graded) {
+        graded_ = make_texture(context, gl_format(description.format), 1);
+        graded_pass_.emplace(*gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), graded_.id()}},
+                             description.layers());
+    }
+    gl::check_gl(*gl_, "making a render target");
+}
+
+gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
+    // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2).
+    if (description_.cube) return gl::create_texture_cube(context.gl(), format, description_.width, levels);
+    return gl::create_texture_2d_array(context.gl(), format, description_.width, description_.height, 1, levels);
+}
+
+void Target::resolve(int layer) {
+    gl_->BlitNamedFramebuffer(color_pass_->one(layer), resolved_->one(layer), 0, 0, description_.width,
+                              description_.height, 0, 0, description_.width, description_.height, GL_COLOR_BUFFER_BIT,
+                              GL_NEAREST);
+}
+
+}  // namespace cubecam

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "cubecam/gl/context.hpp"
+#include "cubecam/gl/objects.hpp"
+#include "cubecam/render/key.hpp"
+#include "cubecam/render/options.hpp"
+
+namespace cubecam {
+
+/// Where a fragment shader's outputs go: attachment and draw-buffer numbers, `layout(location =)` in surface.frag.
+enum class Slot : int { color = 0, distance = 1, z = 2, normal = 3, position = 4, id = 5 };
+inline constexpr int slot_count = 6;
+
+/// Two targets of one description can stand for each other.
+struct TargetDescription {
+    bool cube = false;  ///< six square layers that a shader can look up; else one layer
+    int width = 0;
+    int height = 0;
+    Format format = Format::rgba8;
+    Outputs outputs;
+    int samples = 1;
+    bool mipmaps = false;
+    bool graded = false;  ///< colour is drawn in float, then tone-mapped and encoded into `format`
+
+    int layers() const { return cube ? 6 : 1; }
+    /// GPU memory it takes, padding and driver overhead left out.
+    std::size_t bytes() const;
+    auto operator<=>(const TargetDescription&) const = default;
+};
+
+/// Framebuffers over the same textures: all layers at once, and each layer alone.
+class Layers {
+public:
+    struct Attachment {
+        GLenum point;
+        GLuint texture;
+        GLint level = 0;
+    };
+
+    Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers);
+
+    GLuint all();             ///< for layered drawing and whole clears
+    GLuint one(int layer);
+
+private:
+    gl::Framebuffer make(std::optional<int> layer) const;
+
+    const GladGLContext* gl_;
+    std::vector<Attachment> attachments_;
+    gl::Framebuffer all_;
+    std::vector<gl::Framebuffer> one_;
+};
+
+/// Textures that pictures are drawn into, and for each layer the key of the picture it holds.
+///
+/// With one sample a single pass writes colour and outputs. With more, colour is drawn multisampled and resolved,
+/// and the outputs are drawn in a pass of their own without multisampling: an average of ids would mean nothing.
+class Target {
+public:
+    /// @throws std::invalid_argument beyond the driver's limits, naming the limit; GlError when memory is short.
+    Target(const gl::Context& context, const TargetDescription& description);
+
+    const TargetDescription& description() const { return description_; }
+    bool multisampled() const { return description_.samples > 1; }
+
+    /// Colour as materials write it, resolved.
+    const gl::Texture& color() const { return color_; }
+    const gl::Texture& depth() const { return depth_; }
+    const gl::Texture& output(Slot slot) const { return outputs_[static_cast<std::size_t>(slot)]; }
+
+    /// What the colour pass draws into: outputs are attached as well unless the target is multisampled.
+    Layers& color_pass() { return *color_pass_; }
+    /// Outputs alone; only for a multisampled target that has some.
+    Layers& output_pass() { return *output_pass_; }
+    Layers& resolved() { return *resolved_; }
+    Layers& graded_pass() { return *graded_pass_; }
+
+    /// Averages the samples of one layer into color().
+    void resolve(int layer);
+
+    /// The key of what each layer holds; nothing: not to be trusted.
+    std::vector<std::optional<Key>> keys;
+
+private:
+    gl::Texture make_texture(const gl::Context& context, GLenum format, int levels) const;
+
+    const GladGLContext* gl_;
+    TargetDescription description_;
+    gl::Texture color_, depth_, graded_, sample_color_, sample_depth_;
+    gl::Texture outputs_[slot_count];
+    std::optional<Layers> color_pass_, output_pass_, resolved_, graded_pass_;
+};
+
+GLenum gl_format(Format format);
+
+}  // namespace cubecam

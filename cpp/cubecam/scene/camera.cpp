@@ -1,0 +1,106 @@
+#include "cubecam/scene/camera.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "cubecam/math/transform.hpp"
+#include "cubecam/scene/describe.hpp"
+
+namespace cubecam {
+
+namespace {
+
+glm::dvec3 forward_of(const Placement& placement) {
+    return placement.target ? *placement.target - placement.position : glm::dvec3(0.0, 0.0, -1.0);
+}
+
+void check_placement(const Placement& placement) {
+    expect_finite(placement.position, "position");
+    expect_finite(placement.up, "up");
+    if (placement.target) expect_finite(*placement.target, "target");
+    const glm::dvec3 forward = forward_of(placement);
+    const double distance = glm::length(forward);
+    // Beside a position so far out, a target so close is lost to rounding.
+    const double scale = std::max(1.0, glm::length(placement.position));
+    if (!(distance > 1e-12 * scale)) {
+        expect(false, "a target away from the position", "both at " + describe(placement.position));
+    }
+    const double up = glm::length(placement.up);
+    expect(up > 0.0, "an up vector of some length", describe(placement.up));
+    if (!(glm::length(glm::cross(forward / distance, placement.up / up)) > 1e-9)) {
+        expect(false, "an up vector that is not along the line of sight",
+               "up " + describe(placement.up) + ", line of sight " + describe(forward));
+    }
+}
+
+void check_range(double near, double far) {
+    expect_finite(near, "near");
+    expect_finite(far, "far");
+    if (!(near < far)) {
+        expect(false, "near < far", "near " + describe(near) + ", far " + describe(far));
+    }
+}
+
+void check_lens(const PerspectiveLens& lens) {
+    if (!(lens.fov > 0.0 && lens.fov < 180.0)) {
+        expect(false, "fov above 0 and below 180 degrees", describe(lens.fov));
+    }
+    expect_positive(lens.near, "near");
+    check_range(lens.near, lens.far);
+}
+
+void check_lens(const OrthographicLens& lens) {
+    expect_positive(lens.height, "height");
+    check_range(lens.near, lens.far);
+}
+
+template <class Lens>
+void check_value(const Placed<Lens>& placed) {
+    check_placement(placed.placement);
+    check_lens(placed.lens);
+}
+
+void check_value(const Matrices& given) {
+    expect(is_finite(given.view), "a view matrix of finite numbers", "NaN or infinity");
+    expect(is_finite(given.projection), "a projection matrix of finite numbers",
+           "NaN or infinity");
+    const glm::dmat4& view = given.view;
+    const glm::dvec4 last_row(view[0][3], view[1][3], view[2][3], view[3][3]);
+    expect(last_row == glm::dvec4(0.0, 0.0, 0.0, 1.0),
+           "a view matrix with (0, 0, 0, 1) as its last row", describe(glm::vec4(last_row)));
+    expect(!is_singular(glm::dmat3(view)), "a view matrix that can be inverted",
+           "a singular one");
+    expect(!is_singular(given.projection), "a projection matrix that can be inverted",
+           "a singular one");
+}
+
+glm::dmat4 projection_of(const PerspectiveLens& lens, double aspect) {
+    return perspective(lens.fov, aspect, lens.near, lens.far);
+}
+
+glm::dmat4 projection_of(const OrthographicLens& lens, double aspect) {
+    return orthographic(lens.height, aspect, lens.near, lens.far);
+}
+
+Matrices matrices_of(const Matrices& given, double) { return given; }
+
+template <class Lens>
+Matrices matrices_of(const Placed<Lens>& placed, double aspect) {
+    const Placement& p = placed.placement;
+    return {look_along(p.position, forward_of(p), p.up), projection_of(placed.lens, aspect)};
+}
+
+}  // namespace
+
+void check(const CameraValue& value) {
+    std::visit([](const auto& kind) { check_value(kind); }, value);
+}
+
+Matrices matrices(const CameraValue& value, double aspect) {
+    expect_positive(aspect, "aspect");
+    return std::visit([aspect](const auto& kind) { return matrices_of(kind, aspect); }, value);
+}
+
+Camera::Camera(CameraValue value) : value_((cubecam::check(value), std::move(value))) {}
+
+}  // namespace cubecam

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include <glm/glm.hpp>
+
+#include "cubecam/scene/versioned.hpp"
+
+namespace cubecam {
+
+/// Where a camera stands, what it looks at and which way is up.
+struct Placement {
+    glm::dvec3 position{0.0, 0.0, 0.0};
+    std::optional<glm::dvec3> target;  ///< none: straight ahead along -Z, wherever it stands
+    glm::dvec3 up{0.0, 1.0, 0.0};
+
+    bool operator==(const Placement&) const = default;
+};
+
+struct PerspectiveLens {
+    double fov = 60.0;  ///< vertical, degrees
+    double near = 0.1;
+    double far = 1000.0;
+
+    bool operator==(const PerspectiveLens&) const = default;
+};
+
+struct OrthographicLens {
+    double height = 2.0;  ///< world units from the bottom to the top of the picture
+    double near = 0.1;
+    double far = 1000.0;
+
+    bool operator==(const OrthographicLens&) const = default;
+};
+
+/// View and projection as the user computed them; the picture's shape does not change them.
+struct Matrices {
+    glm::dmat4 view{1.0};
+    glm::dmat4 projection{1.0};
+
+    bool operator==(const Matrices&) const = default;
+};
+
+template <class Lens>
+struct Placed {
+    Placement placement;
+    Lens lens;
+
+    bool operator==(const Placed&) const = default;
+};
+
+using CameraValue = std::variant<Matrices, Placed<PerspectiveLens>, Placed<OrthographicLens>>;
+
+/// Throws std::invalid_argument: singular or not finite matrices, a target that is the position, up
+/// along the view, fov outside (0, 180), near >= far, near <= 0 for a perspective.
+void check(const CameraValue& value);
+
+/// The matrices for a picture of `aspect` = width / height. GL's clip space: -1..1 in x, y and z.
+Matrices matrices(const CameraValue& value, double aspect);
+
+class Camera {
+public:
+    explicit Camera(CameraValue value);
+    explicit Camera(Matrices given) : Camera(CameraValue(given)) {}
+    virtual ~Camera() = default;
+    Camera(const Camera&) = delete;
+    Camera& operator=(const Camera&) = delete;
+
+    CameraValue value() const { return value_.value(); }
+    Matrices matrices(double aspect) const { return cubecam::matrices(value(), aspect); }
+
+    template <class Change>
+    void edit(Change&& change) {
+        value_.edit([&](CameraValue& value) {
+            change(value);
+            check(value);
+        });
+    }
+
+private:
+    Versioned<CameraValue> value_;
+};
+
+template <class Lens>
+class CameraOf : public Camera {
+public:
+    explicit CameraOf(Lens lens = {}, Placement placement = {})
+        : Camera(CameraValue(Placed<Lens>{placement, lens})) {}
+
+    Placed<Lens> placed() const { return std::get<Placed<Lens>>(value()); }
+
+    template <class Change>
+    void edit_placed(Change&& change) {
+        edit([&](CameraValue& value) { change(std::get<Placed<Lens>>(value)); });
+    }
+};
+
+using PerspectiveCamera = CameraOf<PerspectiveLens>;
+using OrthographicCamera = CameraOf<OrthographicLens>;
+
+}  // namespace cubecam

@@ -1,0 +1,300 @@
+#include "cubecam/math/fast_atan.hpp"
+#include "cubecam/math/parallel.hpp"
+#include "cubecam/scene/cubemap_resample.hpp"
+#include "cubecam/scene/resample_tile.hpp"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+namespace cubecam {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int tile_size = 64;
+
+/// A panorama of floats, its columns a ring, its rows going on over the poles.
+template <int Channels>
+struct EquirectTexels {
+    const float* pixels;
+    int width;
+    int height;
+    Center center;
+    int period;     ///< columns in a full turn: a border-sampled picture has its first one twice
+    double offset;  ///< column and row of an edge of the picture: -1/2, with borders 0
+    double rows;    ///< in half a turn
+
+    double column_of(double longitude) const {
+        return period * (0.5 + longitude / (2 * pi)) + offset;
+    }
+    double row_of(double latitude) const { return rows * (0.5 - latitude / pi) + offset; }
+
+    int wrap(int column) const {
+        if (column >= 0 && column < period) return column;  // mostly; a division takes longer
+        const int rest = column % period;
+        return rest < 0 ? rest + period : rest;
+    }
+
+    /// Beyond a pole the rows come back on the far side, half a turn away.
+    const float* row_texels(int& row, int& column) const {
+        const int last = height - 1;
+        const int mirror = offset < 0 ? 1 : 0;  // centres: row -1 is row 0 there; borders: row 1
+        if (row < 0 || row > last) {
+            row = row < 0 ? -mirror - row : 2 * last + mirror - row;
+            row = std::clamp(row, 0, last);
+            column += period / 2;
+        }
+        return pixels + static_cast<std::size_t>(row) * static_cast<std::size_t>(width) * Channels;
+    }
+
+    void read(int row, int begin, int end, Lane<Channels>* to) const {
+        int column = begin;
+        const float* line = row_texels(row, column);
+        for (int left = end - begin; left > 0;) {
+            const int start = wrap(column);
+            const int run = std::min(left, period - start);
+            const float* from = line + static_cast<std::ptrdiff_t>(start) * Channels;
+            for (int i = 0; i < run; ++i, from += Channels) *to++ = load_texel<Channels>(from);
+            column += run;
+            left -= run;
+        }
+    }
+
+    /// The average over a box of rows and columns, none wider than `reach`.
+    template <Reach reach>
+    Lane<Channels> box(const BoxTap& down, const BoxTap& across) const {
+        const int start = wrap(across.first);
+        const bool plain = down.first >= 0 && down.end() <= height && start + across.inner + 1 < period;
+        if (!plain) return box_round(down, across);
+        const auto stride = static_cast<std::ptrdiff_t>(width) * Channels;
+        const float* corner = pixels + down.first * stride + start * Channels;
+        return apply_tap<reach>(down, [&](int i) {
+            const float* from = corner + i * stride;
+            return apply_tap<reach>(across,
+                                    [from](int j) { return load_texel<Channels>(from + j * Channels); });
+        });
+    }
+
+    /// The same over the seam and the poles.
+    Lane<Channels> box_round(const BoxTap& down, const BoxTap& across) const {
+        return apply_tap<Reach::far>(down, [&](int i) {
+            int row = down.first + i;
+            int column = across.first;
+            const float* line = row_texels(row, column);
+            return apply_tap<Reach::far>(across, [&](int j) {
+                return load_texel<Channels>(line + static_cast<std::ptrdiff_t>(wrap(column + j)) *
+                                                       Channels);
+            });
+        });
+    }
+};
+
+template <int Channels>
+class EquirectToCube {
+public:
+    EquirectToCube(const EquirectTexels<Channels>& source, int size, float* to)
+        : source_(source), size_(size), texel_(2.0 / size), to_(to) {
+        const glm::dvec3 forward = center_forward<double>(source.center);
+        center_azimuth_ = std::atan2(forward.x, forward.z);
+    }
+
+    void run() const {
+        // Tiles of one quarter of a face, and with each tile its mirror images, which share its angles.
+        const int half = (size_ + 1) / 2;
+        const int across = (half + tile_size - 1) / tile_size;
+        const int down = (size_ + tile_size - 1) / tile_size;
+        const int side_tiles = across * down;
+        const int tiles = side_tiles + across * across;
+        parallel_for(0, static_cast<std::size_t>(tiles), 1, [&](std::size_t begin, std::size_t end) {
+            for (int tile = static_cast<int>(begin); tile < static_cast<int>(end); ++tile) {
+                if (tile < side_tiles) {
+                    sides(tile / across * tile_size, tile % across * tile_size, half);
+                } else {
+                    const int pole = tile - side_tiles;
+                    poles(pole / across * tile_size, pole % across * tile_size, half);
+                }
+            }
+        });
+    }
+
+private:
+    /// Of a texel's centre: -1 to 1 across the face.
+    double coordinate(int index) const { return (index + 0.5) * texel_ - 1; }
+
+    float* target(Face face, int row, int column) const {
+        const auto n = static_cast<std::size_t>(size_);
+        return to_ + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
+                      static_cast<std::size_t>(column)) *
+                         Channels;
+    }
+
+    /// Counted from the picture's centre to the right: against the azimuth, which turns from +Z to +X.
+    double longitude(double azimuth) const {
+        return center_azimuth_ - azimuth;
+    }
+
+    /// A tile of the left half of each side face, and its mirror image. With a the horizontal and y the
+    /// vertical coordinate on the face: longitude = +-atan(a), latitude = atan(y cos(longitude)).
+    void sides(int row_begin, int column_begin, int half) const {
+        const int rows = std::min(tile_size, size_ - row_begin);
+        const int columns = std::min(tile_size, half - column_begin);
+        TapList down;
+        down.resize(static_cast<std::size_t>(rows * columns));
+        for (int j = 0; j < columns; ++j) {
+            const double a = coordinate(column_begin + j);
+            const double secant = std::sqrt(1 + a * a);
+            for (int i = 0; i < rows; ++i) {
+                const double t = coordinate(row_begin + i) / secant;  // downwards
+                const double square = 1 + t * t;
+                down.set(static_cast<std::size_t>(i * columns + j),
+                         source_.row_of(-fast_atan(t, std::sqrt(square))),
+                         BoxWidth(texel_ / (secant * square) * source_.rows / pi));
+            }
+        }
+        FilteredRows<Channels> filtered;
+        TapList across;
+        for (const Face face : {Face::pos_x, Face::neg_x, Face::pos_z, Face::neg_z}) {
+            const glm::dvec3 major = face_axes(face).major;
+            const glm::dvec3 s_axis = face_axes(face).s_axis;
+            const double middle = longitude(std::atan2(major.x, major.z));
+            const double sense = glm::dot(s_axis, glm::cross(major, glm::dvec3(0, 1, 0)));
+            for (const bool mirrored : {false, true}) {
+                across.resize(static_cast<std::size_t>(columns));
+                for (int j = 0; j < columns; ++j) {
+                    const double a = coordinate(column_begin + j);
+                    const double turn = std::atan(a) * (mirrored ? -sense : sense);
+                    across.set(static_cast<std::size_t>(j), source_.column_of(middle + turn),
+                               BoxWidth(texel_ / (1 + a * a) * source_.period / (2 * pi)));
+                }
+                filtered.filter(down.range, across,
+                                [&](int row, int begin, int end, Lane<Channels>* to) {
+                                    source_.read(row, begin, end, to);
+                                });
+                with_reach(reach_of(down.widest), [&](auto reach) {
+                    std::size_t tap = 0;
+                    for (int i = 0; i < rows; ++i) {
+                        float* to = target(face, row_begin + i,
+                                           mirrored ? size_ - 1 - column_begin : column_begin);
+                        for (int j = 0; j < columns; ++j, ++tap) {
+                            store_texel<Channels>(
+                                filtered.template at<reach()>(down[tap], static_cast<std::size_t>(j)),
+                                to);
+                            to += mirrored ? -Channels : Channels;
+                        }
+                    }
+                });
+            }
+        }
+    }
+
+    /// A tile of one quarter of +Y, and its mirror images on +Y and -Y. The box is laid along rows and
+    /// columns of the panorama: as high as the texel is along the meridian, as wide as across it.
+    void poles(int row_begin, int column_begin, int half) const {
+        for (int row = row_begin; row < std::min(row_begin + tile_size, half); ++row) {
+            for (int column = column_begin; column < std::min(column_begin + tile_size, half);
+                 ++column) {
+                const double s = -coordinate(column);  // >= 0
+                const double t = -coordinate(row);
+                const double square = s * s + t * t;
+                const double radius = std::sqrt(square);
+                const BoxWidth high(texel_ / (1 + square) * source_.rows / pi);
+                const double turns = std::min(texel_ / (2 * pi * radius), 1.0);
+                const BoxWidth wide(turns * source_.period);
+                const double from_pole = fast_atan(radius, std::sqrt(1 + square));
+                const BoxTap north = box_tap(source_.row_of(pi / 2 - from_pole), high);
+                const BoxTap south = box_tap(source_.row_of(from_pole - pi / 2), high);
+                const double ratio = std::min(s, t) / std::max(std::max(s, t), 1e-300);
+                const double small_angle = fast_atan(ratio, std::sqrt(1 + ratio * ratio));
+                const double angle = s < t ? small_angle : pi / 2 - small_angle;
+                with_reach(reach_of(std::max(high.texels, wide.texels)), [&](auto reach) {
+                    // On +Y, x grows with the column and z with the row; on -Y rows are turned over.
+                    for (const bool positive_x : {false, true}) {
+                        for (const bool positive_z : {false, true}) {
+                            const double azimuth = positive_z ? angle : pi - angle;
+                            const BoxTap across = box_tap(
+                                source_.column_of(longitude(positive_x ? azimuth : -azimuth)), wide);
+                            const int at_column = positive_x ? size_ - 1 - column : column;
+                            const int at_row = positive_z ? size_ - 1 - row : row;
+                            store_texel<Channels>(source_.template box<reach()>(north, across),
+                                                  target(Face::pos_y, at_row, at_column));
+                            store_texel<Channels>(
+                                source_.template box<reach()>(south, across),
+                                target(Face::neg_y, size_ - 1 - at_row, at_column));
+                        }
+                    }
+                });
+            }
+        }
+    }
+
+    EquirectTexels<Channels> source_;
+    int size_;
+    double texel_;  ///< its width on a face that reaches from -1 to 1
+    double center_azimuth_;
+    float* to_;
+};
+
+void check_equirect(const EquirectPixels& from, int size) {
+    const bool borders = from.sampling == Sampling::borders;
+    const bool good = borders ? from.width >= 2 && from.height >= 2
+                              : from.height >= 1 && from.width == 2 * from.height;
+    if (!good) {
+        throw std::invalid_argument(
+            std::string("equirect: expected a picture ") +
+            (borders ? "of at least 2 x 2" : "twice as wide as high") + ", got width " +
+            std::to_string(from.width) + " and height " + std::to_string(from.height));
+    }
+    if (size < 1) {
+        throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
+    }
+}
+
+}  // namespace
+
+const float* as_floats(DType dtype, const std::byte* pixels, std::size_t count,
+                       Buffer<float>& kept) {
+    if (dtype == DType::float32) return reinterpret_cast<const float*>(pixels);
+    kept.resize(count);
+    parallel_for(0, count, std::size_t{1} << 18, [&](std::size_t begin, std::size_t end) {
+        pixels_to_floats(dtype, pixels + begin * dtype_size(dtype), end - begin, kept.data() + begin);
+    });
+    return kept.data();
+}
+
+PixelBuffer equirect_to_cube(const EquirectPixels& from, int size) {
+    check_equirect(from, size);
+    const bool borders = from.sampling == Sampling::borders;
+    const auto n = static_cast<std::size_t>(size);
+    const auto channels = static_cast<std::size_t>(from.channels);
+    PixelBuffer result;
+    with_channels(from.channels, [&](auto constant) {
+        constexpr int count = decltype(constant)::value;
+        Buffer<float> kept;
+        const float* pixels = as_floats(from.dtype, from.pixels,
+                                        static_cast<std::size_t>(from.width) *
+                                            static_cast<std::size_t>(from.height) * channels,
+                                        kept);
+        const EquirectTexels<count> source = {pixels,
+                                              from.width,
+                                              from.height,
+                                              from.center,
+                                              borders ? from.width - 1 : from.width,
+                                              borders ? 0.0 : -0.5,
+                                              borders ? from.height - 1.0 : from.height};
+        result.resize(face_count * n * n * channels * sizeof(float));
+        EquirectToCube<count>(source, size, reinterpret_cast<float*>(result.data())).run();
+    });
+    return result;
+}
+
+int default_face_size(int equirect_width) {
+    const double least = std::max(1.0, std::ceil(equirect_width / pi));
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(least)));
+}
+
+}  // namespace cubecam

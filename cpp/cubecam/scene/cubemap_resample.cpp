@@ -1,0 +1,286 @@
+#include "cubecam/scene/cubemap_resample.hpp"
+
+#include "cubecam/math/parallel.hpp"
+#include "cubecam/scene/resample_tile.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+namespace cubecam {
+
+namespace {
+
+/// One destination column of a panorama, as its side face sees it.
+struct PanoramaColumn {
+    Face face;
+    double across;  ///< horizontal coordinate on the face, -1 to 1 from left to right as seen in GL's picture
+    double secant;  ///< of the longitude within the face
+    double cosine;  ///< its inverse
+    double x;       ///< the horizontal unit direction
+    double z;
+};
+
+template <int Channels>
+class CubeToEquirect {
+public:
+    CubeToEquirect(const CubeTexels<float, Channels>& cube, int width, Center center,
+                   Sampling sampling, float* to)
+        : cube_(cube), width_(width), height_(width / 2), to_(to) {
+        const bool borders = sampling == Sampling::borders;
+        const double pi = std::numbers::pi;
+        const double offset = borders ? 0.0 : 0.5;
+        lon_step_ = 2 * pi / (borders ? width_ - 1 : width_);
+        lat_step_ = pi / (borders ? std::max(height_ - 1, 1) : height_);
+        const glm::dvec3 forward = center_forward<double>(center);
+        const glm::dvec3 right = center_right<double>(center);
+        for (int column = 0; column < width_; ++column) {
+            const double longitude = (column + offset) * lon_step_ - pi;
+            const glm::dvec3 d = std::sin(longitude) * right + std::cos(longitude) * forward;
+            columns_.push_back(make_column(d));
+        }
+        for (int row = 0; row < height_; ++row) {
+            latitudes_.push_back(pi / 2 - (row + offset) * lat_step_);
+        }
+    }
+
+    void run() const {
+        constexpr int tile = 64;
+        std::vector<std::pair<int, int>> spans;  // of columns that look at one side face
+        for (int begin = 0; begin < width_;) {
+            int end = begin + 1;
+            while (end < std::min(width_, begin + tile) && column(end).face == column(begin).face) {
+                ++end;
+            }
+            spans.emplace_back(begin, end);
+            begin = end;
+        }
+        const std::size_t bands = static_cast<std::size_t>((height_ + tile - 1) / tile);
+        parallel_for(0, bands * spans.size(), 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const int row = static_cast<int>(i / spans.size()) * tile;
+                const auto [first, last] = spans[i % spans.size()];
+                fill_tile(row, std::min(row + tile, height_), first, last);
+            }
+        });
+    }
+
+private:
+    /// The `first` of a tap whose texel is on +Y or -Y.
+    static constexpr std::int32_t over_the_edge = std::numeric_limits<std::int32_t>::min();
+
+    const PanoramaColumn& column(int index) const { return columns_[static_cast<std::size_t>(index)]; }
+    double latitude(int row) const { return latitudes_[static_cast<std::size_t>(row)]; }
+
+    static PanoramaColumn make_column(const glm::dvec3& d) {
+        const bool on_x = std::abs(d.x) >= std::abs(d.z);
+        const Face face = on_x ? (d.x > 0 ? Face::pos_x : Face::neg_x)
+                               : (d.z > 0 ? Face::pos_z : Face::neg_z);
+        const double secant = 1 / (on_x ? std::abs(d.x) : std::abs(d.z));
+        const glm::dvec3 s_axis = face_axes(face).s_axis;
+        return {face, glm::dot(s_axis, d) * secant, secant, 1 / secant, d.x, d.z};
+    }
+
+    float* target(int row, int at_column) const {
+        return to_ + (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(at_column)) *
+                         Channels;
+    }
+
+    /// A coordinate of -1 to 1 on a face, in texels with centres at whole numbers.
+    double texel_of(double coordinate) const { return ((coordinate + 1) * cube_.size - 1) / 2; }
+
+    /// Side faces meet a vertical line at t = tan(latitude) / cos(longitude), for which s is constant:
+    /// rows first, columns then. What looks over a side's edge is on +Y or -Y.
+    void fill_tile(int row_begin, int row_end, int begin, int end) const {
+        const double half_size = cube_.size / 2.0;
+        const auto columns = static_cast<std::size_t>(end - begin);
+        const Face face = column(begin).face;
+        TapList down;
+        TapList across;
+        down.resize(static_cast<std::size_t>(row_end - row_begin) * columns);
+        across.resize(columns);
+        for (std::size_t j = 0; j < columns; ++j) {
+            const PanoramaColumn& c = column(begin + static_cast<int>(j));
+            across.set(j, texel_of(c.across), BoxWidth(c.secant * c.secant * lon_step_ * half_size));
+        }
+        std::size_t index = 0;
+        for (int row = row_begin; row < row_end; ++row) {
+            const double tangent = std::tan(latitude(row));
+            const double step = (1 + tangent * tangent) * lat_step_ * half_size;
+            const double inverse = 1 / step;
+            for (int j = begin; j < end; ++j, ++index) {
+                const PanoramaColumn& c = column(j);
+                const double height = tangent * c.secant;
+                if (std::abs(height) > 1) {
+                    down.taps[index].first = over_the_edge;
+                } else {
+                    down.set(index, texel_of(-height), BoxWidth(step * c.secant, inverse * c.cosine));
+                }
+            }
+        }
+        FilteredRows<Channels> filtered;
+        filtered.filter(down.range, across, [&](int row, int from, int to, Lane<Channels>* line) {
+            read_face_row(cube_, face, row, from, to, line);
+        });
+        with_reach(reach_of(down.widest), [&](auto reach) {
+            for (int row = row_begin; row < row_end; ++row) {
+                const BoxTap* taps = &down[static_cast<std::size_t>(row - row_begin) * columns];
+                float* to = target(row, begin);
+                bool poles = false;
+                for (std::size_t j = 0; j < columns; ++j, to += Channels) {
+                    if (taps[j].first == over_the_edge) {
+                        poles = true;
+                    } else {
+                        store_texel<Channels>(filtered.template at<reach()>(taps[j], j), to);
+                    }
+                }
+                if (poles) fill_pole_row(row, begin, taps, columns);
+            }
+        });
+    }
+
+    /// The texels of a row that are on +Y or -Y. There the destination's texels are turned against the
+    /// face's, so they are sampled instead: as often each way as they are texels long.
+    void fill_pole_row(int row, int begin, const BoxTap* taps, std::size_t columns) const {
+        const double pi = std::numbers::pi;
+        const bool up = latitude(row) > 0;
+        const float y = up ? 1.0f : -1.0f;
+        const double from_pole = pi / 2 - std::abs(latitude(row));
+        const double radius = std::tan(from_pole);
+        const double half_size = cube_.size / 2.0;
+        const int along = samples_for((1 + radius * radius) * lat_step_ * half_size);
+        const int around = samples_for(radius * lon_step_ * half_size);
+        std::vector<glm::dvec3> samples;  // radius, and cosine and sine of the turn round the pole
+        for (int i = 0; i < along; ++i) {
+            const double r = std::tan(from_pole + ((i + 0.5) / along - 0.5) * lat_step_);
+            for (int j = 0; j < around; ++j) {
+                const double turn = ((j + 0.5) / around - 0.5) * lon_step_;
+                samples.emplace_back(r, std::cos(turn), std::sin(turn));
+            }
+        }
+        const float weight = 1.0f / static_cast<float>(samples.size());
+        for (std::size_t j = 0; j < columns; ++j) {
+            if (taps[j].first != over_the_edge) continue;
+            const PanoramaColumn& c = column(begin + static_cast<int>(j));
+            const auto sample = [&](const glm::dvec3& at) {
+                const auto x = static_cast<float>(at.x * (c.x * at.y - c.z * at.z));
+                const auto z = static_cast<float>(at.x * (c.z * at.y + c.x * at.z));
+                if (std::abs(x) > 1 || std::abs(z) > 1) {
+                    const FaceUv<float> uv = direction_to_face_uv(glm::vec3(x, y, z));
+                    return cube_.bilinear(uv.face, uv.s, uv.t);
+                }
+                return cube_.bilinear(up ? Face::pos_y : Face::neg_y, (x + 1) / 2, (y * z + 1) / 2);
+            };
+            const Lane<Channels> first = sample(samples[0]);
+            Lane<Channels> sum{};
+            for (std::size_t i = 1; i < samples.size(); ++i) sum += sample(samples[i]) - first;
+            store_texel<Channels>(first + sum * weight, target(row, begin + static_cast<int>(j)));
+        }
+    }
+
+    static int samples_for(double texels) {
+        return std::max(1, static_cast<int>(std::ceil(texels - 1e-6)));
+    }
+
+    CubeTexels<float, Channels> cube_;
+    int width_;
+    int height_;
+    double lon_step_;
+    double lat_step_;
+    std::vector<PanoramaColumn> columns_;
+    std::vector<double> latitudes_;
+    float* to_;
+};
+
+/// The taps of one axis from faces of n texels to texels begin..end of faces of `size`.
+TapList face_taps(int n, Sampling from, int size, Sampling to, int begin, int end) {
+    const double reach = from == Sampling::borders ? n - 1.0 : n;  // texels from edge to edge
+    const double offset = from == Sampling::borders ? 0.0 : -0.5;
+    const double steps = to == Sampling::borders ? size - 1.0 : size;
+    const double start = to == Sampling::borders ? 0.0 : 0.5;
+    TapList taps;
+    taps.resize(static_cast<std::size_t>(end - begin));
+    for (int i = begin; i < end; ++i) {
+        taps.set(static_cast<std::size_t>(i - begin), (i + start) / steps * reach + offset,
+                 BoxWidth(reach / steps));
+    }
+    return taps;
+}
+
+void check_face_size(int size, Sampling sampling) {
+    const int least = sampling == Sampling::borders ? 2 : 1;
+    if (size < least) {
+        throw std::invalid_argument("size: expected at least " + std::to_string(least) + ", got " +
+                                    std::to_string(size));
+    }
+}
+
+}  // namespace
+
+Buffer<float> cube_to_equirect(const CubeMapData& cube, int width, Center center,
+                               Sampling sampling) {
+    if (width < 2 || width % 2 != 0) {
+        throw std::invalid_argument("width: expected an even number of at least 2, got " +
+                                    std::to_string(width));
+    }
+    Buffer<float> result;
+    with_channels(cube.channels, [&](auto constant) {
+        constexpr int channels = decltype(constant)::value;
+        Buffer<float> kept;
+        const float* faces = as_floats(cube.dtype, cube.pixels->data(),
+                                       cube.pixels->size() / dtype_size(cube.dtype), kept);
+        result.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) * channels);
+        CubeToEquirect<channels>({faces, cube.size}, width, center, sampling, result.data()).run();
+    });
+    return result;
+}
+
+PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to) {
+    check_face_size(cube.size, from);
+    check_face_size(size, to);
+    if (from == Sampling::borders && to == Sampling::borders) {
+        throw std::invalid_argument("sampling: expected centers on one side at least");
+    }
+    PixelBuffer result;
+    with_channels(cube.channels, [&](auto constant) {
+        constexpr int channels = decltype(constant)::value;
+        Buffer<float> kept;
+        const CubeTexels<float, channels> texels = {
+            as_floats(cube.dtype, cube.pixels->data(),
+                      cube.pixels->size() / dtype_size(cube.dtype), kept),
+            cube.size};
+        const TapList across = face_taps(cube.size, from, size, to, 0, size);
+        const auto n = static_cast<std::size_t>(size);
+        result.resize(face_count * n * n * channels * sizeof(float));
+        auto* const floats = reinterpret_cast<float*>(result.data());
+
+        constexpr int band = 32;  // rows of a face at a time
+        const int bands = (size + band - 1) / band;
+        parallel_for(0, static_cast<std::size_t>(face_count * bands), 1, [&](std::size_t begin, std::size_t end) {
+            FilteredRows<channels> filtered;
+            for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
+                const Face face = static_cast<Face>(i / bands);
+                const int first = i % bands * band;
+                const TapList down =
+                    face_taps(cube.size, from, size, to, first, std::min(first + band, size));
+                filtered.filter(down.range, across, [&](int row, int at, int until, Lane<channels>* line) {
+                    read_face_row(texels, face, row, at, until, line);
+                });
+                float* target = floats + (face_index(face) * n + static_cast<std::size_t>(first)) * n * channels;
+                for (const BoxTap& tap : down.taps) {
+                    for (std::size_t column = 0; column < n; ++column, target += channels) {
+                        store_texel<channels>(filtered.template at<Reach::far>(tap, column), target);
+                    }
+                }
+            }
+        });
+    });
+    return result;
+}
+
+}  // namespace cubecam

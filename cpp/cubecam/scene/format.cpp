@@ -1,0 +1,32 @@
+#include "cubecam/scene/format.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace cubecam {
+
+namespace {
+
+constexpr std::array<std::pair<Format, std::string_view>, 3> format_names = {{
+    {Format::rgba8, "rgba8"},
+    {Format::rgba16f, "rgba16f"},
+    {Format::rgba32f, "rgba32f"},
+}};
+
+}  // namespace
+
+Format parse_format(std::string_view name) {
+    for (const auto& [format, known] : format_names) {
+        if (name == known) return format;
+    }
+    throw std::invalid_argument("expected format 'rgba8', 'rgba16f' or 'rgba32f', got '" +
+                                std::string(name) + "'");
+}
+
+std::string_view to_string(Format format) {
+    return format_names[static_cast<std::size_t>(format)].second;
+}
+
+}  // namespace cubecam

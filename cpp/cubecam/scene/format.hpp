@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "cubecam/scene/pixels.hpp"
+
+namespace cubecam {
+
+/// Colour format of a frame, a capture or a probe: four channels of 8-bit unorm, half or float.
+enum class Format : std::uint8_t { rgba8, rgba16f, rgba32f };
+
+/// @throws std::invalid_argument for any other name.
+Format parse_format(std::string_view name);
+std::string_view to_string(Format format);
+
+/// The type of one channel in the array that a picture of this format is read into.
+constexpr DType dtype_of(Format format) {
+    switch (format) {
+        case Format::rgba8: return DType::uint8;
+        case Format::rgba16f: return DType::float16;
+        case Format::rgba32f: return DType::float32;
+    }
+    return DType::float32;
+}
+
+}  // namespace cubecam

@@ -1,0 +1,45 @@
+#include "cubecam/scene/light.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "cubecam/scene/describe.hpp"
+
+namespace cubecam {
+
+namespace {
+
+void check_parameters(PointParameters& p) {
+    expect_finite(p.position, "position");
+    expect_not_negative(p.decay, "decay");
+}
+
+void check_parameters(DirectionalParameters& p) {
+    expect_finite(p.direction, "direction");
+    const double length = glm::length(p.direction);
+    expect(length > 0.0, "a direction of some length", describe(p.direction));
+    // What is unit length already stays as it is to the last bit: setting the colour of a light
+    // must not turn it.
+    if (std::abs(length - 1.0) > 1e-14) p.direction /= length;
+}
+
+void check_parameters(AmbientParameters&) {}
+
+LightValue checked(LightValue value) {
+    check(value);
+    return value;
+}
+
+}  // namespace
+
+void check(LightValue& value) {
+    const glm::vec3& color = value.color;
+    expect(color.r >= 0.0F && color.g >= 0.0F && color.b >= 0.0F && fits_float(glm::dvec3(color)),
+           "color finite and not negative", describe(glm::dvec3(color)));
+    expect_not_negative(value.intensity, "intensity");
+    std::visit([](auto& parameters) { check_parameters(parameters); }, value.parameters);
+}
+
+Light::Light(LightValue value) : value_(checked(std::move(value))) {}
+
+}  // namespace cubecam

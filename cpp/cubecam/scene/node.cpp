@@ -1,0 +1,236 @@
+#include "cubecam/scene/node.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "cubecam/math/transform.hpp"
+#include "cubecam/scene/describe.hpp"
+
+namespace cubecam {
+
+namespace {
+
+void check_transform(Transform& transform) {
+    expect_finite(transform.position, "position");
+    expect_finite(transform.scale, "scale");
+    const glm::dvec3& scale = transform.scale;
+    expect(scale.x != 0.0 && scale.y != 0.0 && scale.z != 0.0,
+           "a scale without 0, which would make the matrix singular", describe(scale));
+
+    glm::dquat& q = transform.rotation;
+    const double length = std::sqrt(glm::dot(q, q));
+    if (!(length > 0.0 && std::isfinite(length))) {
+        expect(false, "a rotation (w, x, y, z) of 4 finite numbers, not all 0",
+               "(" + describe(q.w) + ", " + describe(q.x) + ", " + describe(q.y) + ", " +
+                   describe(q.z) + ")");
+    }
+    // What is unit length already stays as it is to the last bit: naming a node must not turn it.
+    if (std::abs(length - 1.0) > 1e-14) q /= length;
+}
+
+void check_matrix(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) expect_finite(matrix[column][row], "matrix");
+    }
+    const glm::dvec4 last(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    expect(last == glm::dvec4(0.0, 0.0, 0.0, 1.0), "a matrix with (0, 0, 0, 1) as its last row",
+           describe(glm::vec4(last)));
+    expect(!is_singular(glm::dmat3(matrix)), "a matrix that can be inverted", "a singular one");
+}
+
+}  // namespace
+
+void check(Placing& placing) {
+    if (auto* transform = std::get_if<Transform>(&placing)) {
+        check_transform(*transform);
+    } else {
+        check_matrix(std::get<glm::dmat4>(placing));
+    }
+}
+
+glm::dmat4 matrix_of(const Placing& placing) {
+    if (const auto* given = std::get_if<glm::dmat4>(&placing)) return *given;
+    const auto& transform = std::get<Transform>(placing);
+    const glm::dmat3 rotation = glm::mat3_cast(transform.rotation);
+    glm::dmat4 matrix(1.0);
+    for (int i = 0; i < 3; ++i) matrix[i] = glm::dvec4(rotation[i] * transform.scale[i], 0.0);
+    matrix[3] = glm::dvec4(transform.position, 1.0);
+    return matrix;
+}
+
+Transform transform_of(const Placing& placing) {
+    if (const auto* transform = std::get_if<Transform>(&placing)) return *transform;
+    const auto& matrix = std::get<glm::dmat4>(placing);
+    glm::dmat3 axes(matrix);
+    glm::dvec3 scale;
+    for (int i = 0; i < 3; ++i) {
+        scale[i] = glm::length(axes[i]);
+        axes[i] /= scale[i];
+    }
+    // Loose enough for matrices that were float32 once.
+    const double shear = std::max({std::abs(glm::dot(axes[0], axes[1])),
+                                   std::abs(glm::dot(axes[1], axes[2])),
+                                   std::abs(glm::dot(axes[2], axes[0]))});
+    expect(shear < 1e-5, "a matrix without shear, for its rotation and scale",
+           "axes that are not at right angles; use the matrix itself");
+    if (glm::determinant(axes) < 0.0) {
+        scale.x = -scale.x;
+        axes[0] = -axes[0];
+    }
+    return {glm::dvec3(matrix[3]), glm::normalize(glm::quat_cast(axes)), scale};
+}
+
+Node::Node(std::int32_t id, NodeValue value)
+    : id_(id), value_(std::move(value)), graph_(std::make_shared<NodeGraph>(false)) {
+    check(value_.placing);
+    complete(value_);
+}
+
+Node::~Node() {
+    // A chain of parents that hold each other alive would unwind on the stack, one frame for each:
+    // enough of them overflow it. So the first destructor takes the whole chain apart in a loop.
+    static thread_local std::vector<std::shared_ptr<Node>>* pending = nullptr;
+    if (!parent_) return;
+    if (pending) {
+        pending->push_back(std::move(parent_));
+        return;
+    }
+    std::vector<std::shared_ptr<Node>> chain;
+    pending = &chain;
+    chain.push_back(std::move(parent_));
+    while (!chain.empty()) {
+        const std::shared_ptr<Node> last = std::move(chain.back());
+        chain.pop_back();
+    }
+    pending = nullptr;
+}
+
+void Node::complete(NodeValue& value) {
+    if (value.mesh && !value.material) value.material = std::make_shared<PhongMaterial>();
+}
+
+std::shared_ptr<NodeGraph> Node::graph() const {
+    const std::lock_guard guard(graph_guard_);
+    return graph_;
+}
+
+void Node::set_graph(std::shared_ptr<NodeGraph> graph) {
+    const std::lock_guard guard(graph_guard_);
+    graph_.swap(graph);
+}
+
+Node::Lock Node::lock() const {
+    while (true) {
+        Lock locked{graph(), {}};
+        locked.lock = std::unique_lock(locked.graph->mutex);
+        if (locked.graph == graph()) return locked;
+    }
+}
+
+NodeValue Node::value() const {
+    const Lock lock = this->lock();
+    return value_;
+}
+
+std::shared_ptr<Node> Node::parent() const {
+    const Lock lock = this->lock();
+    return parent_;
+}
+
+std::vector<std::shared_ptr<Node>> Node::children() const {
+    std::vector<std::shared_ptr<Node>> alive;
+    {
+        const Lock lock = this->lock();
+        for (const auto& child : children_) {
+            if (auto node = child.lock()) alive.push_back(std::move(node));
+        }
+    }
+    std::sort(alive.begin(), alive.end(),
+              [](const auto& a, const auto& b) { return a->id() < b->id(); });
+    return alive;
+}
+
+glm::dmat4 Node::world_matrix() const {
+    const Lock lock = this->lock();
+    return locked_world_matrix();
+}
+
+glm::dmat4 Node::locked_world_matrix() const {
+    std::vector<const Node*> chain;
+    for (const Node* node = this; node; node = node->parent_.get()) chain.push_back(node);
+    // From the root down, as the snapshot does: the same bits.
+    glm::dmat4 world = matrix_of(chain.back()->value_.placing);
+    for (auto node = chain.rbegin() + 1; node != chain.rend(); ++node) {
+        world = world * matrix_of((*node)->value_.placing);
+    }
+    return world;
+}
+
+std::shared_ptr<Scene> Node::scene() const {
+    const Lock lock = this->lock();
+    return lock.graph->scene.lock();
+}
+
+void Node::attach(const std::shared_ptr<Node>& parent) {
+    std::erase_if(parent->children_, [](const auto& child) { return child.expired(); });
+    parent->children_.push_back(weak_from_this());
+    parent_ = parent;
+}
+
+void Node::detach() {
+    if (!parent_) return;
+    std::erase_if(parent_->children_, [this](const auto& child) {
+        const auto node = child.lock();
+        return !node || node.get() == this;
+    });
+    parent_.reset();
+}
+
+std::vector<std::shared_ptr<Node>> Node::subtree() {
+    std::vector<std::shared_ptr<Node>> all{shared_from_this()};
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (const auto& child : all[i]->children_) {
+            if (auto node = child.lock()) all.push_back(std::move(node));
+        }
+    }
+    return all;
+}
+
+void Node::set_parent(const std::shared_ptr<Node>& parent) {
+    std::shared_ptr<Node> old;  // let go of after the locks
+    while (true) {
+        const auto mine = graph();
+        const auto theirs = parent ? parent->graph() : mine;
+        std::unique_lock first(mine->mutex, std::defer_lock);
+        std::unique_lock second(theirs->mutex, std::defer_lock);
+        if (mine == theirs) {
+            first.lock();
+        } else {
+            std::lock(first, second);
+        }
+        if (mine != graph() || (parent && theirs != parent->graph())) continue;
+
+        if (mine != theirs && (mine->of_scene || theirs->of_scene)) {
+            throw std::invalid_argument("expected a parent in the same scene, got node " +
+                                        std::to_string(parent->id_) + " of another or of none");
+        }
+        for (const Node* above = parent.get(); above; above = above->parent_.get()) {
+            if (above != this) continue;
+            throw std::invalid_argument(
+                "expected a parent that is not below the node itself, got node " +
+                std::to_string(parent->id_) + " for node " + std::to_string(id_) + ": a cycle");
+        }
+        old = parent_;
+        detach();
+        if (parent) attach(parent);
+        if (mine != theirs) {
+            for (const auto& node : subtree()) node->set_graph(theirs);
+        }
+        return;
+    }
+}
+
+}  // namespace cubecam

@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/material.hpp"
+#include "cubecam/scene/mesh.hpp"
+
+namespace cubecam {
+
+class Scene;
+
+/// Scale, then rotation, then translation.
+struct Transform {
+    glm::dvec3 position{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z; unit length
+    glm::dvec3 scale{1.0};
+
+    bool operator==(const Transform&) const = default;
+};
+
+/// Parts, or a matrix given whole.
+using Placing = std::variant<Transform, glm::dmat4>;
+
+/// Everything a node is but its place in the tree.
+struct NodeValue {
+    Placing placing;
+    std::shared_ptr<const Mesh> mesh;    ///< null: a group
+    std::shared_ptr<Material> material;  ///< set wherever there is a mesh
+    CubeSource environment;              ///< none: the scene's
+    bool visible = true;
+    bool in_probes = true;
+    std::string name;
+};
+
+/// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the rotation.
+void check(Placing& placing);
+
+glm::dmat4 matrix_of(const Placing& placing);
+
+/// Position, rotation and scale: those given, or those of the matrix.
+/// @throws std::invalid_argument where the matrix has a shear, which they cannot say.
+Transform transform_of(const Placing& placing);
+
+/// What the nodes of one tree of trees share: those of one scene, or those that are in none together.
+/// The mutex makes a snapshot one moment; being in a scene is sharing the scene's graph.
+struct NodeGraph {
+    explicit NodeGraph(bool belongs_to_scene) : of_scene(belongs_to_scene) {}
+
+    std::mutex mutex;
+    const bool of_scene;
+    std::weak_ptr<Scene> scene;  ///< null for a Scene that no shared_ptr owns
+};
+
+/// A thing in a scene: a mesh with a material somewhere, or a group that carries others.
+///
+/// Made by Scene::add. Every member function may be called from any thread.
+class Node : public std::enable_shared_from_this<Node> {
+public:
+    /// A node in no scene.
+    Node(std::int32_t id, NodeValue value);
+    ~Node();
+    Node(const Node&) = delete;
+    Node& operator=(const Node&) = delete;
+
+    /// From 1 in order of Scene::add; never used again in that scene.
+    std::int32_t id() const { return id_; }
+
+    NodeValue value() const;
+    std::shared_ptr<Node> parent() const;
+    std::vector<std::shared_ptr<Node>> children() const;  ///< in order of id
+    glm::dmat4 world_matrix() const;
+    std::shared_ptr<Scene> scene() const;  ///< null: in none
+
+    /// `change` gets a NodeValue, which is checked afterwards. The old value stays if anything throws.
+    template <class Change>
+    void edit(Change&& change) {
+        NodeValue old;  // what it lets go of is destroyed after the lock
+        const Lock lock = this->lock();
+        NodeValue next = value_;
+        std::forward<Change>(change)(next);
+        check(next.placing);
+        complete(next);
+        old = std::exchange(value_, std::move(next));
+    }
+
+    /// Null: no parent. Nodes that are in no scene come together, children and all.
+    /// @throws std::invalid_argument if that would make a cycle or join a scene with anything else.
+    void set_parent(const std::shared_ptr<Node>& parent);
+
+private:
+    friend class Scene;
+    friend class SnapshotBuilder;
+
+    struct Lock {
+        std::shared_ptr<NodeGraph> graph;
+        std::unique_lock<std::mutex> lock;
+    };
+
+    /// Gives a mesh without a material the default one.
+    static void complete(NodeValue& value);
+
+    std::shared_ptr<NodeGraph> graph() const;
+    Lock lock() const;
+
+    // These are called with the graph locked.
+    void set_graph(std::shared_ptr<NodeGraph> graph);
+    void attach(const std::shared_ptr<Node>& parent);
+    void detach();
+    glm::dmat4 locked_world_matrix() const;
+    /// This node and all below it.
+    std::vector<std::shared_ptr<Node>> subtree();
+
+    const std::int32_t id_;
+    NodeValue value_;
+    std::shared_ptr<Node> parent_;
+    std::vector<std::weak_ptr<Node>> children_;
+
+    mutable std::mutex graph_guard_;     ///< for the pointer alone, held for no longer than a copy
+    std::shared_ptr<NodeGraph> graph_;  ///< changed only with both the old and the new one locked
+};
+
+}  // namespace cubecam

@@ -1,0 +1,46 @@
+#include "cubecam/scene/probe.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "cubecam/scene/describe.hpp"
+#include "cubecam/scene/revision.hpp"
+
+namespace cubecam {
+
+namespace {
+
+bool same_node(const std::weak_ptr<Node>& a, const std::weak_ptr<Node>& b) {
+    return !a.owner_before(b) && !b.owner_before(a);
+}
+
+}  // namespace
+
+bool ProbeValue::operator==(const ProbeValue& other) const {
+    return position == other.position && same_node(parent, other.parent) && size == other.size &&
+           near == other.near && far == other.far && format == other.format &&
+           mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
+           every == other.every && faces_per_frame == other.faces_per_frame &&
+           std::equal(exclude.begin(), exclude.end(), other.exclude.begin(), other.exclude.end(),
+                      same_node);
+}
+
+void check(const ProbeValue& value) {
+    expect_finite(value.position, "position");
+    expect(value.size >= 1, "size of at least 1", std::to_string(value.size));
+    expect_positive(value.near, "near");
+    expect_positive(value.far, "far");
+    if (!(value.near < value.far)) {
+        expect(false, "near < far", "near " + describe(value.near) + ", far " + describe(value.far));
+    }
+    expect(value.samples >= 1, "samples of at least 1", std::to_string(value.samples));
+    expect(value.every >= 1, "update every 1 or more frames", std::to_string(value.every));
+    expect(value.faces_per_frame >= 1 && value.faces_per_frame <= 6,
+           "faces_per_frame from 1 to 6", std::to_string(value.faces_per_frame));
+}
+
+Probe::Probe(ProbeValue value)
+    : identity_(next_revision()), value_((cubecam::check(value), std::move(value))) {}
+
+}  // namespace cubecam

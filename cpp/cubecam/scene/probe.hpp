@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "cubecam/scene/format.hpp"
+#include "cubecam/scene/versioned.hpp"
+
+namespace cubecam {
+
+class Node;
+
+/// When a probe draws itself again.
+enum class ProbeUpdate : std::uint8_t {
+    on_change,       ///< whenever a face would come out different: always true
+    once,            ///< the first time it is needed
+    manual,          ///< only by Renderer::update
+    every_n_frames,  ///< on every n-th call that needs it
+};
+
+struct ProbeValue {
+    glm::dvec3 position{0.0};  ///< world; relative to the parent if there is one
+    std::weak_ptr<Node> parent;
+    int size = 256;
+    double near = 0.05;
+    double far = 1000.0;
+    Format format = Format::rgba16f;
+    bool mipmaps = false;
+    int samples = 1;
+    ProbeUpdate update = ProbeUpdate::on_change;
+    int every = 1;             ///< n of every_n_frames
+    int faces_per_frame = 6;   ///< at most so many faces are drawn in one call
+    std::vector<std::weak_ptr<Node>> exclude;
+
+    bool operator==(const ProbeValue& other) const;
+};
+
+/// Throws std::invalid_argument: size < 1, near <= 0, near >= far, samples < 1, n < 1, faces outside 1..6.
+void check(const ProbeValue& value);
+
+/// A cubemap that keeps itself true to the scene. It is only a description: each renderer holds contents of its own.
+///
+/// The nodes that use a probe are left out of it. Attached to a node, it follows that node's position;
+/// its axes stay the world's.
+class Probe {
+public:
+    using State = Versioned<ProbeValue>::State;
+
+    explicit Probe(ProbeValue value);
+    Probe(const Probe&) = delete;
+    Probe& operator=(const Probe&) = delete;
+
+    State state() const { return value_.state(); }
+    ProbeValue value() const { return value_.value(); }
+    /// Tells this probe from every other one that ever was in this process.
+    std::uint64_t identity() const { return identity_; }
+
+    template <class Change>
+    void edit(Change&& change) {
+        value_.edit([&](ProbeValue& value) {
+            change(value);
+            check(value);
+        });
+    }
+
+private:
+    std::uint64_t identity_;
+    Versioned<ProbeValue> value_;
+};
+
+}  // namespace cubecam

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "cubecam/scene/light.hpp"
+#include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/node.hpp"
+#include "cubecam/scene/snapshot.hpp"
+
+namespace cubecam {
+
+/// Nothing (the environment if there is one, else transparent black), a linear RGBA colour, or a skybox.
+using Background = std::variant<std::monostate, glm::vec4, std::shared_ptr<CubeMap>>;
+
+/// Nodes, lights, and what surrounds them. Plain data: it knows nothing of who draws it.
+///
+/// Every member function may be called from any thread.
+class Scene : public std::enable_shared_from_this<Scene> {
+public:
+    explicit Scene(std::shared_ptr<CubeMap> environment = nullptr, Background background = {});
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    std::shared_ptr<CubeMap> environment() const;
+    void set_environment(std::shared_ptr<CubeMap> environment);
+    Background background() const;
+    /// @throws std::invalid_argument for a colour that is not finite, negative, or of an alpha beyond 0..1.
+    void set_background(Background background);
+
+    /// @throws std::invalid_argument for a singular transform or a parent of another scene.
+    std::shared_ptr<Node> add(NodeValue value, const std::shared_ptr<Node>& parent = nullptr);
+    /// The same light may be in several scenes, and only once in each.
+    void add(std::shared_ptr<Light> light);
+
+    /// Takes a node and all below it out; they keep their values and their places among themselves.
+    /// @throws std::invalid_argument if it is not here.
+    void remove(const std::shared_ptr<Node>& node);
+    void remove(const std::shared_ptr<Light>& light);
+    /// Removes all nodes and lights.
+    void clear();
+
+    bool contains(const Node& node) const;
+    bool contains(const Light& light) const;
+    std::vector<std::shared_ptr<Node>> nodes() const;  ///< in order of add, which is that of id
+    std::vector<std::shared_ptr<Light>> lights() const;
+
+    /// The id that the next node will get.
+    std::int32_t next_id() const;
+    /// For unpickling. Ids below `next` are not given out any more.
+    void skip_ids(std::int32_t next);
+    /// For unpickling: the node of this id, made as an empty group if there is none.
+    std::shared_ptr<Node> restore(std::int32_t id);
+
+    /// Everything a picture depends on, as it is now.
+    SceneSnapshot snapshot() const;
+
+private:
+    std::shared_ptr<Node> insert(std::vector<std::shared_ptr<Node>>::iterator at, std::int32_t id,
+                                 NodeValue value);
+
+    const std::shared_ptr<NodeGraph> graph_;
+    std::shared_ptr<CubeMap> environment_;
+    Background background_;
+    std::vector<std::shared_ptr<Node>> nodes_;
+    std::vector<std::shared_ptr<Light>> lights_;
+    std::int32_t next_id_ = 1;
+};
+
+}  // namespace cubecam

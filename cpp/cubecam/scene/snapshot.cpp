@@ -1,0 +1,212 @@
+#include "cubecam/scene/snapshot.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <mutex>
+#include <unordered_map>
+#include <utility>
+
+#include "cubecam/scene/scene.hpp"
+
+namespace cubecam {
+
+namespace {
+
+/// The box round a transformed box: |M| * half extents round M * centre
+/// (J. Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems, 1990).
+Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
+    const glm::dvec3 centre(m * glm::dvec4(bounds.centre(), 1.0));
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    const glm::dvec3 reach = glm::abs(glm::dvec3(m[0])) * half.x +
+                             glm::abs(glm::dvec3(m[1])) * half.y +
+                             glm::abs(glm::dvec3(m[2])) * half.z;
+    return {centre - reach, centre + reach};
+}
+
+/// Whether anything about a surface lets through what is behind it.
+bool shows_through(const MaterialValue& material, const Mesh& mesh) {
+    if (translucent(material)) return true;
+    const auto by_vertices_or_map = [&](const auto& parameters) {
+        return (parameters.vertex_colors && mesh.translucent_colors()) ||
+               (parameters.map && parameters.map->translucent());
+    };
+    if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
+        return by_vertices_or_map(*basic);
+    }
+    if (const auto* phong = std::get_if<PhongParameters>(&material.parameters)) {
+        return by_vertices_or_map(*phong);
+    }
+    return false;
+}
+
+}  // namespace
+
+/// Reads the nodes of one scene, whose graph is locked meanwhile.
+class SnapshotBuilder {
+public:
+    SnapshotBuilder(const std::vector<std::shared_ptr<Node>>& nodes, const NodeGraph* graph,
+                    SceneSnapshot& to)
+        : nodes_(nodes), graph_(graph), to_(to), places_(nodes.size()) {}
+
+    void build() {
+        to_.nodes.reserve(nodes_.size());
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            const Place& place = resolve(i);
+            if (place.visible && nodes_[i]->value_.mesh) add(*nodes_[i], place);
+        }
+        for (std::size_t i = 0; i < to_.probes.size(); ++i) place_probe(i);
+    }
+
+    /// Probes whose parents are not in this scene, so that their own graphs must be locked.
+    using Elsewhere = std::vector<std::pair<std::size_t, std::shared_ptr<Node>>>;
+    Elsewhere take_elsewhere() { return std::move(elsewhere_); }
+
+    FrozenCube freeze(const std::shared_ptr<CubeMap>& cube) {
+        auto& data = cubes_[cube.get()];
+        if (!data) data = cube->data();
+        return {cube, data};
+    }
+
+private:
+    struct Place {
+        glm::dmat4 world;
+        bool visible;
+        bool in_probes;
+        bool known = false;
+    };
+
+    /// Nodes are sorted by id, and mostly none is missing.
+    std::size_t index_of(const Node& node) const {
+        const auto guess = static_cast<std::size_t>(node.id() - nodes_.front()->id());
+        if (guess < nodes_.size() && nodes_[guess].get() == &node) return guess;
+        const auto at = std::lower_bound(
+            nodes_.begin(), nodes_.end(), node.id(),
+            [](const auto& other, std::int32_t id) { return other->id() < id; });
+        return static_cast<std::size_t>(at - nodes_.begin());
+    }
+
+    /// Without recursion: a chain of parents may be longer than the stack is deep.
+    const Place& resolve(std::size_t index) {
+        std::size_t at = index;
+        while (!places_[at].known) {
+            waiting_.push_back(at);
+            const Node* parent = nodes_[at]->parent_.get();
+            if (!parent) break;
+            at = index_of(*parent);
+        }
+        while (!waiting_.empty()) {
+            const std::size_t next = waiting_.back();
+            waiting_.pop_back();
+            const Node& node = *nodes_[next];
+            const NodeValue& value = node.value_;
+            Place place{matrix_of(value.placing), value.visible, value.in_probes, true};
+            if (node.parent_) {
+                const Place& above = places_[index_of(*node.parent_)];
+                place.world = above.world * place.world;
+                place.visible = place.visible && above.visible;
+                place.in_probes = place.in_probes && above.in_probes;
+            }
+            places_[next] = place;
+        }
+        return places_[index];
+    }
+
+    void add(const Node& node, const Place& place) {
+        const NodeValue& value = node.value_;
+        const Material::State& material = state_of(*value.material);
+        const auto* basic = std::get_if<BasicParameters>(&material.value.parameters);
+        NodeSnapshot snapshot{
+            node.id(),
+            place.world,
+            transformed(value.mesh->bounds(), place.world),
+            value.mesh,
+            material,
+            freeze(value.environment),
+            basic ? freeze(basic->cubemap) : FrozenSource(),
+            place.in_probes,
+            shows_through(material.value, *value.mesh),
+            {},
+        };
+        for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
+            snapshot.ancestors.push_back(above->id());
+        }
+        to_.nodes.push_back(std::move(snapshot));
+    }
+
+    /// Read once, so that all nodes of a material see it as it was at one moment.
+    const Material::State& state_of(const Material& material) {
+        const auto found = materials_.find(&material);
+        if (found != materials_.end()) return found->second;
+        return materials_.emplace(&material, material.state()).first->second;
+    }
+
+    FrozenSource freeze(const CubeSource& source) {
+        if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source); cube && *cube) {
+            return freeze(*cube);
+        }
+        if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source); probe && *probe) {
+            const auto [found, added] = probes_.try_emplace(probe->get(), to_.probes.size());
+            if (added) to_.probes.push_back({*probe, (*probe)->value(), {}, {}});
+            return found->second;
+        }
+        return {};
+    }
+
+    /// A probe goes where its parent goes, and does not turn or grow with it.
+    void place_probe(std::size_t index) {
+        ProbeSnapshot& probe = to_.probes[index];
+        probe.position = probe.value.position;
+        if (auto parent = probe.value.parent.lock(); parent && is_here(*parent)) {
+            probe.position += glm::dvec3(resolve(index_of(*parent)).world[3]);
+        } else if (parent) {
+            elsewhere_.emplace_back(index, std::move(parent));
+        }
+        for (const auto& excluded : probe.value.exclude) {
+            if (const auto node = excluded.lock(); node && is_here(*node)) {
+                probe.excluded.push_back(node->id());
+            }
+        }
+    }
+
+    bool is_here(const Node& node) const { return node.graph().get() == graph_; }
+
+    const std::vector<std::shared_ptr<Node>>& nodes_;
+    const NodeGraph* graph_;
+    SceneSnapshot& to_;
+    std::vector<Place> places_;
+    std::vector<std::size_t> waiting_;
+    std::unordered_map<const Material*, Material::State> materials_;
+    std::unordered_map<const CubeMap*, std::shared_ptr<const CubeMapData>> cubes_;
+    std::unordered_map<const Probe*, std::size_t> probes_;
+    Elsewhere elsewhere_;
+};
+
+SceneSnapshot Scene::snapshot() const {
+    SceneSnapshot snapshot;
+    SnapshotBuilder::Elsewhere elsewhere;
+    {
+        const std::lock_guard lock(graph_->mutex);
+        SnapshotBuilder builder(nodes_, graph_.get(), snapshot);
+        if (environment_) snapshot.environment = builder.freeze(environment_);
+        if (const auto* color = std::get_if<glm::vec4>(&background_)) {
+            snapshot.background = *color;
+        } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background_)) {
+            snapshot.background = builder.freeze(*cube);
+        } else if (environment_) {
+            snapshot.background = builder.freeze(environment_);
+        } else {
+            snapshot.background = glm::vec4(0.0F);
+        }
+        builder.build();
+        elsewhere = builder.take_elsewhere();
+        snapshot.lights.reserve(lights_.size());
+        for (const auto& light : lights_) snapshot.lights.push_back(light->value());
+    }
+    // Unlocked: two scenes whose probes follow each other's nodes would wait for each other.
+    for (const auto& [index, parent] : elsewhere) {
+        snapshot.probes[index].position += glm::dvec3(parent->world_matrix()[3]);
+    }
+    return snapshot;
+}
+
+}  // namespace cubecam

@@ -1,0 +1,99 @@
+"""Headless cubemap renderer: a scene to a cubemap in a numpy array, and mirrors that show it.
+
+>>> import cubecam as cc
+>>> scene = cc.Scene(environment=cc.load_environment(cc.sample_data("studio.exr"), size=64))
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+>>> with cc.Renderer() as renderer:
+...     cube = renderer.capture(scene, position=(0, 0, 0), size=64, exclude=[ball])
+>>> cube.faces.shape
+(6, 64, 64, 4)
+
+Conventions (axes, faces, rows, colour, depth) are in docs/conventions.md. Importing opens no context and loads no
+library for files; both happen when they are first used.
+"""
+
+from __future__ import annotations
+
+from . import _attach
+from ._core import (
+    AmbientLight,
+    BasicMaterial,
+    Camera,
+    ContextError,
+    CubeMap,
+    Device,
+    DirectionalLight,
+    Error,
+    Face,
+    FileError,
+    Frame,
+    GlassMaterial,
+    GlError,
+    Image,
+    ImageError,
+    Light,
+    Material,
+    Mesh,
+    MeshError,
+    MirrorMaterial,
+    Node,
+    OrthographicCamera,
+    PerspectiveCamera,
+    PhongMaterial,
+    PointLight,
+    Probe,
+    Renderer,
+    Scene,
+    ShaderError,
+    __version__,
+    axis_angle,
+    devices,
+)
+from .cubemaps import load_cubemap, load_environment
+from .data import sample_data
+from .images import load_image, save_animation, save_image
+from .meshes import load_mesh
+
+__all__ = [
+    "AmbientLight",
+    "BasicMaterial",
+    "Camera",
+    "ContextError",
+    "CubeMap",
+    "Device",
+    "DirectionalLight",
+    "Error",
+    "Face",
+    "FileError",
+    "Frame",
+    "GlError",
+    "GlassMaterial",
+    "Image",
+    "ImageError",
+    "Light",
+    "Material",
+    "Mesh",
+    "MeshError",
+    "MirrorMaterial",
+    "Node",
+    "OrthographicCamera",
+    "PerspectiveCamera",
+    "PhongMaterial",
+    "PointLight",
+    "Probe",
+    "Renderer",
+    "Scene",
+    "ShaderError",
+    "__version__",
+    "axis_angle",
+    "devices",
+    "load_cubemap",
+    "load_environment",
+    "load_image",
+    "load_mesh",
+    "sample_data",
+    "save_animation",
+    "save_image",
+]
+
+_attach.attach()

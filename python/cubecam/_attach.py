@@ -1,0 +1,48 @@
+"""Gives the core's classes the methods that are better written in Python.
+
+The one place where this is done; there are no subclasses, so what the core returns has the methods too. Work and
+imports happen in the call: attaching costs nothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ._core import CubeMap, Frame, Image
+from ._cubemap_save import save_cubemap
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+def _cube_repr_png(self: CubeMap) -> bytes:
+    """Give the picture that Jupyter shows: a cross seen from within, tone-mapped if the numbers are floats."""
+    from .pictures import cube_png
+
+    return cube_png(self)
+
+
+def _frame_repr_png(self: Frame) -> bytes:
+    """Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats."""
+    from .pictures import frame_png
+
+    return frame_png(self)
+
+
+def _image_repr_png(self: Image) -> bytes:
+    """Give the picture that Jupyter shows."""
+    from .pictures import image_png
+
+    return image_png(self)
+
+
+def _attach(target: type, name: str, method: Callable[..., Any]) -> None:
+    setattr(target, name, method)
+
+
+def attach() -> None:
+    """Attach every method; called once, by `cubecam/__init__.py`."""
+    _attach(CubeMap, "save", save_cubemap)
+    _attach(CubeMap, "_repr_png_", _cube_repr_png)
+    _attach(Frame, "_repr_png_", _frame_repr_png)
+    _attach(Image, "_repr_png_", _image_repr_png)

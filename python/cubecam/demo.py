@@ -1,0 +1,252 @@
+"""The demo: bunny and teapot circle a mirror ball in a photographed square; every kind of picture of it.
+
+`build_scene` is the scene of the README, used by the command line, the notebook and the tests alike.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ._core import (
+    CubeMap,
+    Mesh,
+    MirrorMaterial,
+    Node,
+    PerspectiveCamera,
+    PhongMaterial,
+    PointLight,
+    Probe,
+    Renderer,
+    Scene,
+    axis_angle,
+)
+from ._files import PathLike, as_path
+from .cubemaps import load_environment
+from .data import sample_data
+from .images import save_animation, save_image
+from .meshes import load_mesh
+from .pictures import cube_picture, for_screen
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+    from rich.console import Console
+    from rich.progress import Progress, TaskID
+
+__all__ = ["DemoScene", "Step", "build_scene", "run"]
+
+_START = 320.0  # degrees: where the bunny stands in still pictures
+_ORBIT = 2.0  # world units from the ball's centre to the actors
+
+
+@dataclass
+class DemoScene:
+    """The scene with the objects that a program moves or looks at."""
+
+    scene: Scene
+    camera: PerspectiveCamera
+    ball: Node
+    bunny: Node
+    teapot: Node
+
+    def turn(self, angle: float) -> None:
+        """Place bunny and teapot on opposite sides of their circle round the ball, facing along it.
+
+        Parameters
+        ----------
+        angle : float, degrees
+            Of the bunny, counter-clockwise seen from above; 0 is +X, 90 is -Z (away from the camera).
+        """
+        for node, own in ((self.bunny, angle), (self.teapot, angle + 180)):
+            radians = math.radians(own)
+            node.position = (_ORBIT * math.cos(radians), -0.1, -_ORBIT * math.sin(radians))
+            node.rotation = axis_angle((0, 1, 0), own)
+
+
+def build_scene(environment: CubeMap | None = None, probe_size: int = 256) -> DemoScene:
+    """Build the scene: a ground, a bunny, a teapot, and a mirror ball that follows both.
+
+    Parameters
+    ----------
+    environment : CubeMap, optional
+        What surrounds it; the packaged photograph of a city square by default.
+    probe_size : int
+        Texels along a face of the cubemap that the ball shows.
+
+    Returns
+    -------
+    DemoScene
+
+    Examples
+    --------
+    >>> from cubecam.demo import build_scene
+    >>> demo = build_scene(probe_size=64)
+    >>> demo.turn(90)
+    >>> [round(float(x), 3) + 0 for x in demo.bunny.position]
+    [0.0, -0.1, -2.0]
+    """
+    if environment is None:
+        environment = load_environment(sample_data("city.exr"))
+    scene = Scene(environment=environment)
+    scene.add(PointLight(position=(3, 4, 3)))
+    scene.add(Mesh.plane(10, 10), PhongMaterial(color=(0.4, 0.4, 1)), position=(0, -2, 0))
+    bunny = scene.add(
+        load_mesh(sample_data("bunny.obj"), size=1), PhongMaterial(color=(1, 0.4, 0.4))
+    )
+    teapot = scene.add(
+        load_mesh(sample_data("teapot.obj"), size=1.2), PhongMaterial(color=(0.4, 1, 0.4))
+    )
+    gold = MirrorMaterial(color=(0.95, 0.85, 0.4), env_weight=0.78, color_weight=0.3)
+    ball = scene.add(Mesh.sphere(0.5), gold)
+    ball.environment = Probe(position=(0, 0, 0), size=probe_size)
+    camera = PerspectiveCamera(fov=50, position=(0, 1, 5), target=(0, -0.1, 0))
+    demo = DemoScene(scene, camera, ball, bunny, teapot)
+    demo.turn(_START)
+    return demo
+
+
+@dataclass(frozen=True)
+class Step:
+    """One thing the demo did: what, the file it wrote (None: none), how long it took in seconds."""
+
+    name: str
+    path: Path | None
+    seconds: float
+
+
+def run(
+    out: PathLike = "out",
+    frames: int = 36,
+    size: int = 512,
+    device: str | int | None = None,
+    console: Console | None = None,
+) -> list[Step]:
+    """Render the demo and write its pictures, with a progress bar.
+
+    Parameters
+    ----------
+    out : path
+        The folder to write to; made if it is missing.
+    frames : int
+        Pictures of the animation, one turn in all.
+    size : int
+        Width and height of the frame in pixels. The animation has half of it, the cubemap's faces too.
+    device : str or int, optional
+        As for `Renderer`.
+    console : rich.console.Console, optional
+        Where to report; standard output by default.
+
+    Returns
+    -------
+    list of Step
+        In the order they were done.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    for name, number in (("frames", frames), ("size", size)):
+        if number < 1:
+            raise ValueError(f"{name}: expected at least 1, got {number}")
+    console = console or Console()
+    folder = as_path(out)
+    folder.mkdir(parents=True, exist_ok=True)
+    columns = (
+        TextColumn("{task.description:<26}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+    )
+    with Progress(*columns, console=console) as progress:
+        task = progress.add_task("starting", total=_STEPS + frames)
+        steps = _Steps(folder, progress, task)
+        drawn_by = _draw(steps, frames, size, device)
+        progress.update(task, description="done")
+    _report(console, steps.done, drawn_by)
+    return steps.done
+
+
+_STEPS = 8  # besides the frames of the animation
+
+
+class _Steps:
+    """Names each step on the progress bar and times it."""
+
+    def __init__(self, folder: Path, progress: Progress, task: TaskID) -> None:
+        self.folder, self.done = folder, list[Step]()
+        self._progress, self._task = progress, task
+
+    def advance(self) -> None:
+        self._progress.advance(self._task)
+
+    @contextmanager
+    def step(self, name: str, file: str = "") -> Iterator[Path]:
+        self._progress.update(self._task, description=name)
+        start = time.perf_counter()
+        path = self.folder / file
+        yield path
+        self.done.append(Step(name, path if file else None, time.perf_counter() - start))
+
+
+def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> str:
+    """Do all of it; gives the name of the device."""
+    half = max(1, size // 2)
+    with steps.step("photograph and meshes"):
+        demo = build_scene(probe_size=half)
+        steps.advance()
+    with steps.step("context"):
+        renderer = Renderer(device=device)
+        steps.advance()
+    with renderer:
+        with steps.step("frame", "frame.png") as path:
+            save_image(path, _frame(renderer, demo, size))
+            steps.advance()
+        with steps.step("capture of six faces"):
+            cube = renderer.capture(demo.scene, position=(0, 0, 0), size=half, exclude=[demo.ball])
+            steps.advance()
+        with steps.step("cross, as captured", "cross.exr") as path:
+            cube.save(path, layout="cross", convention="inside")
+            steps.advance()
+        with steps.step("cross, for the screen", "cross.png") as path:
+            save_image(path, cube_picture(cube))
+            steps.advance()
+        with steps.step("panorama, as captured", "panorama.exr") as path:
+            panorama = cube.to_equirect(width=4 * half)
+            save_image(path, panorama)
+            steps.advance()
+        with steps.step("panorama, for the screen", "panorama.png") as path:
+            save_image(path, for_screen(panorama))
+            steps.advance()
+        with steps.step("animation", "turn.png") as path:
+            pictures = []
+            for index in range(frames):
+                demo.turn(_START + 360 * index / frames)
+                pictures.append(_frame(renderer, demo, half))
+                steps.advance()
+            save_animation(path, pictures, fps=12)
+        return f"{renderer.info.renderer}, OpenGL {renderer.info.version}"
+
+
+def _frame(renderer: Renderer, demo: DemoScene, size: int) -> Any:
+    """Render the camera's view, ready for the screen."""
+    frame = renderer.render(
+        demo.scene, demo.camera, size=(size, size), samples=4, tonemap="neutral", encode="srgb"
+    )
+    return frame.color
+
+
+def _report(console: Console, steps: list[Step], drawn_by: str) -> None:
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False)
+    table.add_column("step")
+    table.add_column("file")
+    table.add_column("seconds", justify="right")
+    for step in steps:
+        table.add_row(step.name, str(step.path or ""), f"{step.seconds:.2f}")
+    console.print(table)
+    console.print(f"drawn by {drawn_by}", highlight=False)

@@ -1,0 +1,90 @@
+"""Build a wheel into dist/ and check it as its user would meet it.
+
+The extension may link the C and C++ run times and nothing else: libGL, libEGL and libX11 are opened
+at run time, so that the wheel installs on a machine without them. Then the wheel goes into an empty
+environment and renders the demo.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+DIST = ROOT / "dist"
+LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
+EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md")
+
+
+def run(*command: str | Path) -> None:
+    print(
+        "$", *(Path(part).name if isinstance(part, Path) else part for part in command), flush=True
+    )
+    subprocess.run([str(part) for part in command], cwd=ROOT, check=True)
+
+
+def build() -> Path:
+    before = set(DIST.glob("*.whl"))
+    for old in before:
+        old.unlink()
+    run(
+        sys.executable, "-m", "pip", "wheel", "--quiet", "--no-build-isolation", "--no-deps",
+        "--config-settings=build-dir=build/{wheel_tag}", "--wheel-dir=dist", ".",
+    )  # fmt: skip
+    (wheel,) = DIST.glob("*.whl")
+    return wheel
+
+
+def needed_libraries(library: Path) -> list[str]:
+    shown = subprocess.run(
+        ["readelf", "--dynamic", "--wide", str(library)],
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+    ).stdout
+    return re.findall(r"\(NEEDED\).*\[(.+)\]", shown)
+
+
+def check_contents(wheel: Path, folder: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        names = archive.namelist()
+        missing = [name for name in EXPECTED if name not in names]
+        if missing:
+            raise SystemExit(f"{wheel.name}: expected {', '.join(missing)} in it, got none")
+        extensions = [name for name in names if name.endswith(".so")]
+        if len(extensions) != 1:
+            raise SystemExit(f"{wheel.name}: expected one extension module, got {extensions}")
+        needed = needed_libraries(Path(archive.extract(extensions[0], folder)))
+    print(f"{extensions[0]} links {', '.join(needed)}")
+    foreign = [name for name in needed if not LINKED.fullmatch(name)]
+    if foreign:
+        raise SystemExit(f"expected only C and C++ run times, got {', '.join(foreign)}")
+
+
+def try_it(wheel: Path, folder: Path) -> None:
+    run(sys.executable, "-m", "venv", folder / "venv")
+    python = folder / "venv" / "bin" / "python"
+    run(python, "-m", "pip", "install", "--quiet", wheel)
+    # Away from the checkout, so that only what the wheel holds can be used.
+    os.chdir(folder)
+    subprocess.run([str(python), "-m", "cubecam", "demo", "--out", str(folder / "out")], check=True)
+
+
+def main() -> int:
+    wheel = build()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        check_contents(wheel, folder)
+        run(sys.executable, "-m", "auditwheel", "show", wheel)
+        try_it(wheel, folder)
+    print(f"{wheel.relative_to(ROOT)}: {wheel.stat().st_size / 1e6:.1f} MB, checked")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

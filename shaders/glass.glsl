@@ -1,0 +1,23 @@
+#ifdef MATERIAL_GLASS
+// u_parameters: eta = n_outside / n_inside. Without FRESNEL the refraction alone, but where there is none.
+// Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
+vec3 shade(Surface surface) {
+    float eta = u_parameters.x;
+    vec3 reflected = reflect(surface.incident, surface.normal);
+    vec3 refracted = refract(surface.incident, surface.normal, eta);
+    bool total = dot(refracted, refracted) == 0.0;
+
+    float f = 0.0;
+#ifdef FRESNEL
+    float cos_i = clamp(-dot(surface.incident, surface.normal), 0.0, 1.0);
+    float cos_t = sqrt(max(1.0 - eta * eta * (1.0 - cos_i * cos_i), 0.0));
+    float r_s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    float r_p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    f = 0.5 * (r_s * r_s + r_p * r_p);
+#endif
+    f = total ? 1.0 : f;
+
+    // Both lookups for every fragment: a mipmapped one takes its level from the neighbours'.
+    return f * environment(reflected) + (1.0 - f) * u_tint.rgb * environment(total ? reflected : refracted);
+}
+#endif

@@ -1,0 +1,43 @@
+// Tone mapping and transfer function, over a finished frame in linear float. Alpha passes through.
+layout(binding = 0) uniform sampler2DArray u_frame;
+layout(location = 0) out vec4 o_color;
+
+#if defined(TONEMAP_REINHARD)
+// E. Reinhard et al., "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002, equation 3, per channel.
+vec3 tonemap(vec3 c) { return c / (1.0 + c); }
+#elif defined(TONEMAP_ACES)
+// K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit of the reference curve.
+vec3 tonemap(vec3 c) { return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0); }
+#elif defined(TONEMAP_NEUTRAL)
+// Khronos PBR Neutral Tone Mapper, specification of 2024.
+vec3 tonemap(vec3 c) {
+    const float start = 0.8 - 0.04;
+    const float desaturation = 0.15;
+    float x = min(c.r, min(c.g, c.b));
+    c -= x < 0.08 ? x - 6.25 * x * x : 0.04;
+    float peak = max(c.r, max(c.g, c.b));
+    if (peak < start) return c;
+    float d = 1.0 - start;
+    float new_peak = 1.0 - d * d / (peak + d - start);
+    c *= new_peak / peak;
+    float g = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
+    return mix(c, vec3(new_peak), g);
+}
+#else
+vec3 tonemap(vec3 c) { return c; }
+#endif
+
+// IEC 61966-2-1.
+vec3 encode_srgb(vec3 c) {
+    return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
+}
+
+void main() {
+    vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, 0), 0);
+    // A lamp may be infinite; its square must not be.
+    color.rgb = tonemap(clamp(color.rgb, 0.0, 1e18));
+#ifdef ENCODE_SRGB
+    color.rgb = encode_srgb(color.rgb);
+#endif
+    o_color = color;
+}

@@ -1,0 +1,1 @@
+"""The test suite: numpy only -> C++ against numpy -> GPU against numpy -> small reference images."""

@@ -1,0 +1,106 @@
+"""Fixtures: a session's renderer, a fresh one, the two drawing paths, fixed random numbers."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import settings
+
+# The same examples on every run: a failure seen once is seen again.
+settings.register_profile("cubecam", derandomize=True, deadline=None, database=None)
+settings.load_profile("cubecam")
+
+DEVICE = os.environ.get("CUBECAM_TEST_DEVICE", "software")
+
+
+def pytest_addoption(parser):
+    parser.addoption(
+        "--regenerate-references",
+        action="store_true",
+        help="write tests/images/*.png from what is drawn now, and fail so that they are looked at",
+    )
+
+
+def pytest_report_header(config):
+    try:
+        import cubecam
+    except ImportError as error:
+        return f"cubecam: not importable ({error})"
+    lines = [
+        f"cubecam {cubecam.__version__} at {Path(cubecam.__file__).parent}, numpy {np.__version__}"
+    ]
+    try:
+        with cubecam.Renderer(device=DEVICE) as renderer:
+            info = renderer.info
+            lines.append(
+                f"device: {info.renderer} ({info.vendor}), GL {info.version}, layered {info.layered}"
+            )
+            software = info.software
+    except cubecam.ContextError as error:
+        lines.append(f"device: none: {error}")
+        software = False
+    if os.environ.get("CUBECAM_EXPECT_SOFTWARE") == "1" and not (
+        software and "llvmpipe" in lines[-1]
+    ):
+        raise pytest.UsageError(f"CUBECAM_EXPECT_SOFTWARE=1 but {lines[-1]}")
+    return lines
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(20240229)
+
+
+@pytest.fixture(scope="session")
+def shared_renderers():
+    """One renderer per path for the whole session, made when first needed."""
+    import cubecam
+
+    made = {}
+
+    def get(layered):
+        if layered not in made:
+            made[layered] = cubecam.Renderer(device=DEVICE, layered=layered, debug=True)
+        return made[layered]
+
+    yield get
+    for renderer in made.values():
+        renderer.close()
+
+
+@pytest.fixture
+def renderer(shared_renderers):
+    """The session's renderer on the path the device offers."""
+    return shared_renderers(None)
+
+
+@pytest.fixture(params=[None, False], ids=["layered", "one_pass"])
+def any_path(request, shared_renderers):
+    """The session's renderers of both paths, one after the other."""
+    return shared_renderers(request.param)
+
+
+@pytest.fixture
+def fresh_renderer():
+    """A renderer of its own: no cache, no contents."""
+    import cubecam
+
+    with cubecam.Renderer(device=DEVICE) as made:
+        yield made
+
+
+@pytest.fixture
+def new_renderer():
+    """Makes renderers with options; closes them all at the end."""
+    import cubecam
+
+    made = []
+
+    def make(**options):
+        made.append(cubecam.Renderer(**{"device": DEVICE, **options}))
+        return made[-1]
+
+    yield make
+    for renderer in made:
+        renderer.close()

@@ -1,0 +1,1 @@
+"""Tests that draw: what the renderer hands out against the numpy oracle."""

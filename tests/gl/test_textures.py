@@ -1,0 +1,123 @@
+"""2D images on surfaces, wrapping, mip levels, and colours of vertices."""
+
+import numpy as np
+import pytest
+
+import cubecam as cc
+from tests.compare import assert_close
+from tests.gl.world import World, inner, perspective
+from tests.reference.raycast import Triangles
+from tests.reference.sampling import sample_image
+
+PICTURE = np.random.default_rng(8).integers(0, 256, (6, 9, 3), dtype=np.uint8)
+
+
+def quad(uvs=None, colors=None):
+    positions = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
+    return cc.Mesh(positions, [[0, 1, 2], [0, 2, 3]], uvs=uvs, colors=colors)
+
+
+CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+
+
+def seen(renderer, mesh, material, view=None, **place):
+    world = World()
+    shape = Triangles(
+        0, positions=mesh.positions, indices=mesh.indices, uvs=mesh.uvs, colors=mesh.colors
+    )
+    world.add(mesh, shape, material=material, **place)
+    view = view or perspective((0.3, -0.2, 2.2), (0, 0, 0), size=(40, 40))
+    frame = renderer.render(world.scene, view.camera, view.size, format="rgba32f")
+    hits = view.hits(world.shapes)
+    mask = inner(hits) & hits.hit
+    assert mask.sum() > 200
+    return frame.color[mask], hits, mask
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.float16, np.float32])
+@pytest.mark.parametrize("channels", [1, 3, 4])
+def test_uv_0_0_is_the_bottom_left(renderer, dtype, channels):
+    picture = np.random.default_rng(9).integers(0, 256, (6, 9, channels), dtype=np.uint8)
+    if channels == 4:
+        picture[..., 3] = 255
+    picture = picture if dtype == np.uint8 else (picture / 255).astype(dtype)
+    got, hits, mask = seen(renderer, quad(CORNERS), cc.BasicMaterial(map=picture))
+    want = sample_image(picture, hits.uv[mask])
+    want = np.repeat(want, 3, axis=-1) if channels == 1 else want[..., :3]
+    assert_close(got[..., :3], want, "mirror")
+
+
+@pytest.mark.parametrize("wrap", ["repeat", "clamp"])
+def test_wrapping(renderer, wrap):
+    mesh = quad(CORNERS * 3 - 1.2)
+    got, hits, mask = seen(renderer, mesh, cc.BasicMaterial(map=cc.Image(PICTURE, wrap=wrap)))
+    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask], wrap), "mirror")
+
+
+def test_colour_times_map(renderer):
+    got, hits, mask = seen(
+        renderer, quad(CORNERS), cc.BasicMaterial(color=(0.5, 2, 0.25), map=PICTURE)
+    )
+    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask]) * [0.5, 2, 0.25], "mirror")
+
+
+def test_perspective_correct(renderer):
+    """A square seen at a slant: uvs go by the surface, not by the screen."""
+    view = perspective((0.2, 0.1, 2.2), (0, 0, 0), size=(48, 48))
+    got, hits, mask = seen(
+        renderer, quad(CORNERS), cc.BasicMaterial(map=PICTURE), view, axis=(1, 1, 0), degrees=55
+    )
+    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask]), "mirror")
+
+
+@pytest.mark.parametrize("width", [3, 4])
+def test_vertex_colors(renderer, width):
+    colors = np.ones((4, 4))
+    colors[:, :3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 0]]
+    mesh = quad(colors=colors[:, :width])
+    got, hits, mask = seen(renderer, mesh, cc.BasicMaterial(vertex_colors=True, color=(1, 0.5, 1)))
+    assert_close(got[..., :3], hits.color[mask][:, :3] * [1, 0.5, 1], "shaded")
+
+
+def test_vertex_colors_are_off_by_default(renderer):
+    got, *_ = seen(renderer, quad(colors=np.zeros((4, 3))), cc.BasicMaterial())
+    assert (got == 1).all()
+
+
+def test_a_map_without_uvs_is_refused_or_one_texel(renderer):
+    """Either is clear; a crash or garbage is not."""
+    scene = cc.Scene()
+    try:
+        scene.add(quad(), cc.BasicMaterial(map=PICTURE))
+        color = renderer.capture(scene, position=(0, 0, 1), size=8, format="rgba32f").faces
+    except ValueError as error:
+        assert "uv" in str(error)  # noqa: PT017
+    else:
+        assert len(np.unique(color[color[..., 3] == 1], axis=0)) <= 2
+
+
+def test_mipmaps_average_far_away(renderer):
+    picture = np.random.default_rng(10).integers(0, 2, (128, 128, 3)).astype(np.float32)
+    spread = {}
+    for mipmaps in (False, True):
+        scene = cc.Scene()
+        scene.add(quad(CORNERS), cc.BasicMaterial(map=cc.Image(picture, mipmaps=mipmaps)))
+        camera = cc.OrthographicCamera(height=2, position=(0, 0, 2), target=(0, 0, 0))
+        spread[mipmaps] = (
+            renderer.render(scene, camera, (8, 8), format="rgba32f").color[..., :3].std()
+        )
+    assert spread[True] < 0.1 < 0.25 < spread[False]
+
+
+def test_maps_are_linear_numbers(renderer):
+    """No hidden sRGB decoding: 128 is 128/255."""
+    got, *_ = seen(renderer, quad(CORNERS), cc.BasicMaterial(map=np.full((2, 2, 3), 128, np.uint8)))
+    np.testing.assert_allclose(got[..., :3], 128 / 255, atol=1e-6)
+
+
+def test_a_huge_picture_is_refused_with_the_limit(renderer):
+    limit = renderer.info.limits.max_texture_size
+    scene = cc.Scene()
+    scene.add(quad(CORNERS), cc.BasicMaterial(map=np.zeros((1, limit + 1, 1), np.uint8)))
+    with pytest.raises(ValueError, match=str(limit)):
+        renderer.capture(scene, position=(0, 0, 1), size=4)

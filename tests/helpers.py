@@ -1,0 +1,43 @@
+"""Small things that many tests share."""
+
+import copy
+import os
+import pickle
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+from tests.reference.cube_faces import CONVENTIONS, FACE_IDS, LAYOUTS
+
+faces = pytest.mark.parametrize("face", range(6), ids=FACE_IDS)
+conventions = pytest.mark.parametrize("convention", CONVENTIONS)
+layouts = pytest.mark.parametrize("layout", LAYOUTS)
+dtypes = pytest.mark.parametrize("dtype", ["uint8", "float16", "float32"])
+channel_counts = pytest.mark.parametrize("channels", [1, 3, 4])
+#: The two ways to a twin: through bytes and by deepcopy.
+twins = pytest.mark.parametrize(
+    "twin", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"]
+)
+
+
+def run_python(code, timeout=120, check=True, **environment):
+    """Run a script in an interpreter of its own; gives the finished process with text output."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", textwrap.dedent(code)],
+        env={**os.environ, **{key: str(value) for key, value in environment.items()}},
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        check=False,
+    )
+    if check and done.returncode != 0:
+        raise AssertionError(f"exit status {done.returncode}\n{done.stdout}\n{done.stderr}")
+    return done
+
+
+def same_content(a, b):
+    """Whether two cubemaps hold the same faces, bit for bit."""
+    return a.dtype == b.dtype and np.array_equal(a.faces, b.faces)

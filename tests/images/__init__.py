@@ -1,0 +1,1 @@
+"""Small reference pictures, compared on llvmpipe only."""

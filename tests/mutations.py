@@ -1,0 +1,288 @@
+"""What tests/mutation.py breaks: one sign, swap or forgotten step at a time, and which tests must notice."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """`old` stands exactly once in `file`."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    tests: tuple
+
+
+CONVENTIONS = ("tests/unit/test_cubemap_conventions.py",)
+SAMPLE = ("tests/unit/test_cubemap_sample.py",)
+EQUIRECT = ("tests/unit/test_cubemap_equirect.py",)
+ORIENTATION = ("tests/gl/test_orientation.py",)
+CAPTURE = ("tests/gl/test_capture.py",)
+FRAMES = ("tests/gl/test_frames.py",)
+LOOKUPS = ("tests/gl/test_lookups.py",)
+PHONG = ("tests/gl/test_phong.py",)
+SKYBOX = ("tests/gl/test_skybox.py",)
+ALPHA = ("tests/gl/test_alpha.py",)
+SIDES = ("tests/gl/test_sides.py",)
+STATS = ("tests/gl/test_stats.py",)
+PROBES = ("tests/gl/test_probes.py",)
+FORMATS = ("tests/gl/test_formats.py",)
+INCREMENTAL = ("tests/gl/test_incremental.py",)
+
+CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
+CALL = "cpp/cubecam/render/call.cpp"
+SURFACE = "cpp/cubecam/render/surface_pass.cpp"
+
+MUTATIONS = [
+    # The convention, in its one place and in those that derive from it.
+    Mutation(
+        "face axes: +Y turned",
+        CUBE_FACE,
+        "{{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}",
+        "{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}}",
+        CAPTURE,
+    ),
+    Mutation(
+        "face axes: +-Z swapped",
+        CUBE_FACE,
+        "{{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},\n    {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},",
+        "{{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},\n    {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},",
+        ORIENTATION,
+    ),
+    Mutation(
+        "lookup: s of -Z not mirrored",
+        CUBE_FACE,
+        "sc = direction.z >= 0 ? direction.x : -direction.x;",
+        "sc = direction.x;",
+        SAMPLE,
+    ),
+    Mutation(
+        "edge: neighbour walked backwards",
+        "cpp/cubecam/math/cube_edges.hpp",
+        "const int moving = edge.reversed ? size - 1 - along : along;",
+        "const int moving = along;",
+        SAMPLE,
+    ),
+    Mutation(
+        "corner: average of four",
+        "cpp/cubecam/scene/cube_texels.hpp",
+        "3.0f;",
+        "4.0f;",
+        SAMPLE,
+    ),
+    Mutation(
+        "convention: inside flips +-Y left-right",
+        "cpp/cubecam/scene/cubemap_layout.cpp",
+        "return {face, !vertical, vertical};",
+        "return {face, true, false};",
+        CONVENTIONS,
+    ),
+    Mutation(
+        "convention: three does not swap",
+        "cpp/cubecam/scene/cubemap_layout.cpp",
+        "{face == Face::pos_x   ? Face::neg_x\n                : face == Face::neg_x ? Face::pos_x",
+        "{face == Face::pos_x   ? Face::pos_x\n                : face == Face::neg_x ? Face::neg_x",
+        CONVENTIONS,
+    ),
+    Mutation(
+        "layout: last face of the vertical cross not turned",
+        "cpp/cubecam/scene/cubemap_layout.cpp",
+        "Cell{back, 1, 3, true}",
+        "Cell{back, 1, 3, false}",
+        CONVENTIONS,
+    ),
+    Mutation(
+        "equirect: mirrored",
+        "cpp/cubecam/math/equirect.hpp",
+        "return {-forward.z, 0, forward.x};",
+        "return {forward.z, 0, -forward.x};",
+        EQUIRECT,
+    ),
+    # The renderer.
+    Mutation(
+        "skybox: mirrored",
+        "shaders/skybox.frag",
+        "environment(normalize(direction))",
+        "environment(normalize(direction * vec3(-1.0, 1.0, 1.0)))",
+        ORIENTATION,
+    ),
+    Mutation(
+        "skybox: moves with the camera",
+        "cpp/cubecam/render/view.cpp",
+        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
+        "turned[3] *= 1.0;",
+        SKYBOX,
+    ),
+    Mutation(
+        "mirror: the normal's sign",
+        "shaders/mirror.glsl",
+        "vec3 reflected = reflect(surface.incident, surface.normal);",
+        "vec3 reflected = surface.incident - 2.0 * surface.normal;",
+        LOOKUPS,
+    ),
+    Mutation(
+        "mirror: looks along the incident direction",
+        "shaders/surface.frag",
+        "normalize(v_position - v_eye.xyz)",
+        "normalize(v_eye.xyz - v_position)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "glass: eta upside down",
+        "shaders/glass.glsl",
+        "float eta = u_parameters.x;",
+        "float eta = 1.0 / u_parameters.x;",
+        LOOKUPS,
+    ),
+    Mutation(
+        "glass: parallel and perpendicular confused",
+        "shaders/glass.glsl",
+        "f = 0.5 * (r_s * r_s + r_p * r_p);",
+        "f = r_s * r_s;",
+        LOOKUPS,
+    ),
+    Mutation(
+        "phong: highlight on the dark side",
+        "shaders/phong.glsl",
+        "if (n_dot_l > 0.0) {",
+        "if (true) {",
+        PHONG,
+    ),
+    Mutation(
+        "phong: ambient for each light",
+        "shaders/phong.glsl",
+        "vec3 answer = u_parameters.y * n_dot_l * surface.color.rgb",
+        "vec3 answer = (u_parameters.x + u_parameters.y * n_dot_l) * surface.color.rgb",
+        PHONG,
+    ),
+    Mutation(
+        "normals by the model matrix",
+        "shaders/surface.vert",
+        "v_normal = mat3(u_normal_matrix) * a_normal;",
+        "v_normal = mat3(u_model) * a_normal;",
+        CAPTURE + LOOKUPS,
+    ),
+    Mutation(
+        "distance is z",
+        "shaders/surface.frag",
+        "o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;",
+        "o_distance = z;",
+        CAPTURE,
+    ),
+    Mutation(
+        "frames upside down",
+        "cpp/cubecam/render/flip.hpp",
+        "to + (rows - 1 - row) * row_bytes",
+        "to + row * row_bytes",
+        FRAMES,
+    ),
+    Mutation(
+        "culling of mirrored nodes",
+        SURFACE,
+        "(glm::determinant(glm::dmat3(item.node->world)) < 0.0) != mirror",
+        "mirror",
+        SIDES,
+    ),
+    Mutation(
+        "blending: alpha like colour",
+        SURFACE,
+        "GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA",
+        "GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA",
+        ALPHA,
+    ),
+    Mutation(
+        "translucent: near to far",
+        "cpp/cubecam/render/draw_plan.cpp",
+        "return a.distance > b.distance;",
+        "return a.distance < b.distance;",
+        ALPHA,
+    ),
+    Mutation(
+        "seams: not seamless",
+        SURFACE,
+        "gl_->Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);",
+        "gl_->Disable(GL_TEXTURE_CUBE_MAP_SEAMLESS);",
+        LOOKUPS,
+    ),
+    Mutation(
+        "culling: too eager",
+        "cpp/cubecam/math/frustum.hpp",
+        "return corners == 8;",
+        "return corners >= 6;",
+        STATS + CAPTURE,
+    ),
+    # What a picture depends on.
+    Mutation("key: lights forgotten", CALL, "add_light(common, light);", "(void)light;", STATS),
+    Mutation(
+        "key: the node's matrix forgotten",
+        CALL,
+        "key.add(node.world);",
+        "",
+        STATS,
+    ),
+    Mutation(
+        "key: the eye forgotten",
+        CALL,
+        "keys[v].add(view.eye);",
+        "",
+        STATS,
+    ),
+    Mutation(
+        "key: what a mirror shows forgotten",
+        CALL,
+        "key.add(lookups[planned.node].revision);",
+        "",
+        PROBES,
+    ),
+    Mutation(
+        "probe: sees its own user",
+        CALL,
+        "return node.in_probes && !uses(node, index) &&",
+        "return node.in_probes &&",
+        PROBES,
+    ),
+    Mutation(
+        "probe: a cycle shows old contents",
+        CALL,
+        "const bool back = in_probe && work_[*probe] && work_[*probe]->due && order->is_edge_back(*in_probe, *probe);",
+        "const bool back = false; (void)in_probe; (void)order;",
+        PROBES + INCREMENTAL,
+    ),
+    # Python.
+    Mutation(
+        "png: colour multiplied by alpha",
+        "python/cubecam/_oiio.py",
+        'config.attribute("oiio:UnassociatedAlpha", 1)',
+        'config.attribute("oiio:UnassociatedAlpha", 0)',
+        ("tests/unit/test_images.py",),
+    ),
+    Mutation(
+        "srgb: wrong power",
+        "python/cubecam/_pixels.py",
+        "** np.float32(2.4)",
+        "** np.float32(2.2)",
+        ("tests/unit/test_images.py",),
+    ),
+    Mutation(
+        "six files in another order",
+        "python/cubecam/_cubemap_names.py",
+        '("px", "nx", "py", "ny", "pz", "nz"),',
+        '("nx", "px", "py", "ny", "pz", "nz"),',
+        ("tests/unit/test_cli.py", "tests/unit/test_cubemap_files.py"),
+    ),
+    Mutation(
+        "openexr cube copied, not resampled",
+        "python/cubecam/_cubemap_save.py",
+        'picture = source.to_layout("openexr", "inside")',
+        'picture = source.to_layout("column", "inside")',
+        ("tests/unit/test_cubemap_files.py",),
+    ),
+    Mutation(
+        "mesh not centred",
+        "python/cubecam/meshes.py",
+        "positions = (positions - (low + high) / 2) * (size / extent)",
+        "positions = positions * (size / extent)",
+        ("tests/unit/test_meshes.py",),
+    ),
+]

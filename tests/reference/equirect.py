@@ -1,0 +1,73 @@
+"""Equirectangular pictures: unmirrored, row 0 = +Y, the centre column named.
+
+Looking along the centre with +Y up, the picture's right is the world's right: right = centre x up.
+"""
+
+import numpy as np
+
+from .cube_faces import texel_directions
+from .sampling import sample_faces, to_float
+
+UP = np.array([0.0, 1.0, 0.0])
+CENTERS = {
+    "-z": np.array([0.0, 0.0, -1.0]),
+    "+z": np.array([0.0, 0.0, 1.0]),
+    "+x": np.array([1.0, 0.0, 0.0]),
+    "-x": np.array([-1.0, 0.0, 0.0]),
+}
+
+
+def direction_to_equirect_uv(directions, center="-z"):
+    """(u, v) in 0..1, u to the right and v downwards."""
+    d = np.asarray(directions, float)
+    d = d / np.linalg.norm(d, axis=-1, keepdims=True)
+    forward = CENTERS[center]
+    right = np.cross(forward, UP)
+    u = np.arctan2(d @ right, d @ forward) / (2 * np.pi) + 0.5
+    v = np.arccos(np.clip(d[..., 1], -1, 1)) / np.pi
+    return u, v
+
+
+def equirect_uv_to_direction(u, v, center="-z"):
+    """The unit direction of (u, v)."""
+    longitude = (np.asarray(u, float)[..., None] - 0.5) * 2 * np.pi
+    polar = np.asarray(v, float)[..., None] * np.pi
+    forward = CENTERS[center]
+    right = np.cross(forward, UP)
+    level = np.cos(longitude) * forward + np.sin(longitude) * right
+    return np.sin(polar) * level + np.cos(polar) * UP
+
+
+def pixel_directions(width, height, center="-z"):
+    """(height, width, 3) unit directions of the pixel centres."""
+    v, u = np.meshgrid(
+        (np.arange(height) + 0.5) / height, (np.arange(width) + 0.5) / width, indexing="ij"
+    )
+    return equirect_uv_to_direction(u, v, center)
+
+
+def sample_equirect(image, directions, center="-z"):
+    """Bilinear lookup, round the back in u, held at the first and last row in v."""
+    image = to_float(image)
+    height, width = image.shape[:2]
+    u, v = direction_to_equirect_uv(directions, center)
+    x, y = u * width - 0.5, v * height - 0.5
+    column, row = np.floor(x).astype(int), np.floor(y).astype(int)
+    fx, fy = (x - column)[..., None], (y - row)[..., None]
+
+    def texel(r, c):
+        return image[np.clip(r, 0, height - 1), c % width]
+
+    top = texel(row, column) * (1 - fx) + texel(row, column + 1) * fx
+    bottom = texel(row + 1, column) * (1 - fx) + texel(row + 1, column + 1) * fx
+    return top * (1 - fy) + bottom * fy
+
+
+def equirect_to_faces(image, size, center="-z"):
+    """One lookup per texel: right only where a face texel is no larger than a pixel of the picture."""
+    return sample_equirect(image, texel_directions(size), center)
+
+
+def faces_to_equirect(faces, width, center="-z"):
+    """One lookup per pixel: right only where a pixel is no larger than a texel of the faces."""
+    return sample_faces(faces, pixel_directions(width, width // 2, center))

@@ -1,0 +1,103 @@
+"""Seamless lookups in a cube (GL 4.6 section 8.14, ARB_seamless_cube_map).
+
+A bilinear footprint that leaves its face takes the edge texels of the neighbour; where three faces meet the
+missing fourth texel is the average of the other three.
+"""
+
+import numpy as np
+
+from .cube_faces import direction_to_face_uv, face_uv_to_direction
+
+
+def to_float(faces):
+    """Texels as the numbers a shader sees: uint8 as value / 255."""
+    faces = np.asarray(faces)
+    return faces / 255.0 if faces.dtype == np.uint8 else faces.astype(float)
+
+
+def pad_faces(faces):
+    """(6, N, N, C) with one more texel on each side, taken from the neighbours."""
+    faces = to_float(faces)
+    n = faces.shape[1]
+    padded = np.zeros((6, n + 2, n + 2, faces.shape[3]))
+    padded[:, 1:-1, 1:-1] = faces
+    along = (np.arange(n) + 0.5) / n
+    outside = (
+        1e-3 / n
+    )  # just over the edge: far enough to leave the face, too near to leave the row
+    for face in range(6):
+        padded[face, 1:-1, 0] = _nearest(faces, face, -outside, along)
+        padded[face, 1:-1, -1] = _nearest(faces, face, 1 + outside, along)
+        padded[face, 0, 1:-1] = _nearest(faces, face, along, -outside)
+        padded[face, -1, 1:-1] = _nearest(faces, face, along, 1 + outside)
+        for row, inner_row in ((0, 1), (-1, -2)):
+            for column, inner_column in ((0, 1), (-1, -2)):
+                three = (
+                    padded[face, inner_row, inner_column]
+                    + padded[face, row, inner_column]
+                    + padded[face, inner_row, column]
+                )
+                padded[face, row, column] = three / 3
+    return padded
+
+
+def _nearest(faces, face, s, t):
+    s, t = np.broadcast_arrays(s, t)
+    other, s, t = direction_to_face_uv(face_uv_to_direction(face, s, t))
+    n = faces.shape[1]
+    row = np.clip(np.floor(t * n).astype(int), 0, n - 1)
+    column = np.clip(np.floor(s * n).astype(int), 0, n - 1)
+    return faces[other, row, column]
+
+
+def sample_faces(faces, directions):
+    """Seamless bilinear lookup at level 0: (..., 3) -> (..., C)."""
+    padded = pad_faces(faces)
+    n = padded.shape[1] - 2
+    face, s, t = direction_to_face_uv(directions)
+    x, y = s * n + 0.5, t * n + 0.5  # in the padded picture texel 0 is the neighbour's
+    column = np.clip(np.floor(x).astype(int), 0, n)
+    row = np.clip(np.floor(y).astype(int), 0, n)
+    fx, fy = (x - column)[..., None], (y - row)[..., None]
+    top = padded[face, row, column] * (1 - fx) + padded[face, row, column + 1] * fx
+    bottom = padded[face, row + 1, column] * (1 - fx) + padded[face, row + 1, column + 1] * fx
+    return top * (1 - fy) + bottom * fy
+
+
+def mip_levels(faces):
+    """Level 0 and the 2 x 2 box averages below it; for sizes that are powers of two."""
+    levels = [to_float(faces)]
+    while levels[-1].shape[1] > 1:
+        f = levels[-1]
+        levels.append((f[:, ::2, ::2] + f[:, 1::2, ::2] + f[:, ::2, 1::2] + f[:, 1::2, 1::2]) / 4)
+    return levels
+
+
+def sample_trilinear(faces, directions, lod):
+    """Linear between the two levels next to lod, each looked up seamlessly."""
+    levels = mip_levels(faces)
+    lod = float(np.clip(lod, 0, len(levels) - 1))
+    lower = int(np.floor(lod))
+    upper = min(lower + 1, len(levels) - 1)
+    a = sample_faces(levels[lower], directions)
+    b = sample_faces(levels[upper], directions)
+    return a + (b - a) * (lod - lower)
+
+
+def sample_image(image, uv, wrap="repeat"):
+    """Bilinear lookup in a (H, W, C) picture whose row 0 is on top; uv (0, 0) is its bottom-left corner."""
+    image = to_float(image)
+    height, width = image.shape[:2]
+    x = np.asarray(uv)[..., 0] * width - 0.5
+    y = (1 - np.asarray(uv)[..., 1]) * height - 0.5
+    column, row = np.floor(x).astype(int), np.floor(y).astype(int)
+    fx, fy = (x - column)[..., None], (y - row)[..., None]
+
+    def texel(r, c):
+        if wrap == "repeat":
+            return image[r % height, c % width]
+        return image[np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)]
+
+    top = texel(row, column) * (1 - fx) + texel(row, column + 1) * fx
+    bottom = texel(row + 1, column) * (1 - fx) + texel(row + 1, column + 1) * fx
+    return top * (1 - fy) + bottom * fy

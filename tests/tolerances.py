@@ -1,0 +1,68 @@
+"""Every tolerance of the suite in one table, each with its reason; everything else is compared exactly.
+
+A value passes when |got - expected| <= absolute + relative * |expected|, and the mean of the differences of all
+compared values stays below `mean`. Silhouettes are masked, never given a wider tolerance.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    absolute: float
+    reason: str
+    relative: float = 0.0
+    mean: float = float("inf")
+
+
+TOLERANCES = {
+    "exact": Tolerance(0.0, "copies, permutations and repeated draws change no bit"),
+    "float32_maths": Tolerance(
+        2e-6, "a handful of float32 operations on numbers of the size of 1", relative=2e-6
+    ),
+    "lookup": Tolerance(
+        1e-5,
+        "float32 bilinear weights: s * N of a 64-texel face keeps 17 bits below the point",
+        relative=1e-5,
+    ),
+    "resample": Tolerance(
+        1e-4,
+        "float32 trigonometry puts a sample up to 1e-6 of a turn off, on noise of slope 1 a texel",
+        mean=1e-5,
+    ),
+    "unorm8": Tolerance(0.51 / 255, "one rounding to 8 bits, and the float32 before it"),
+    "unorm8_counts": Tolerance(
+        1.0, "one count of 255: the value may lie on a rounding boundary", mean=0.05
+    ),
+    "half": Tolerance(
+        1e-6, "float16 keeps 11 bits and may be rounded to zero: at most one unit", relative=2**-10
+    ),
+    "shaded": Tolerance(
+        3e-4,
+        "varyings of 32 bits interpolated over a pixel grid snapped to 1/256: positions are off by up to 1/512 pixel",
+        relative=1e-4,
+        mean=5e-5,
+    ),
+    "phong": Tolerance(
+        1.5e-3,
+        "the specular power of 10 multiplies the error of N and of the position, exp2/log2 of llvmpipe add 1e-4",
+        mean=2e-4,
+    ),
+    "distance": Tolerance(1e-4, "from interpolated float32 world positions", relative=1e-4),
+    "position": Tolerance(
+        2e-4, "float32 interpolation with 1/256 sub-pixel vertices", relative=1e-4
+    ),
+    "normal": Tolerance(5e-4, "interpolated and normalised float32 normals on snapped vertices"),
+    "mirror": Tolerance(
+        4e-3,
+        "a lookup in a smooth cube: the error of N, doubled by the reflection, times the cube's slope",
+        relative=2e-3,
+        mean=4e-4,
+    ),
+    "blend": Tolerance(2e-5, "three blends in float32", relative=2e-5),
+    "tone": Tolerance(2e-4, "llvmpipe's exp2 and log2 are good to some 1e-5", mean=5e-5),
+    "edge": Tolerance(
+        0.06, "slope of the scene over one texel: two texel centres lie apart across an edge"
+    ),
+    "reference_image": Tolerance(1.0, "one count: Mesa versions round differently", mean=0.02),
+}

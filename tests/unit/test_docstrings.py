@@ -1,0 +1,74 @@
+"""Every public object is documented, and the examples in docstrings run and give what they say."""
+
+import doctest
+import importlib
+import inspect
+import pkgutil
+
+import numpy as np
+import pytest
+
+import cubecam as cc
+
+
+def modules():
+    names = ["cubecam"] + [
+        f"cubecam.{m.name}" for m in pkgutil.iter_modules(cc.__path__) if m.name != "__main__"
+    ]
+    return [importlib.import_module(name) for name in names]
+
+
+def documented():
+    """(name, object) of modules, public classes and functions, and their public members."""
+    found = {}
+    for module in modules():
+        found[module.__name__] = module
+        for name, thing in vars(module).items():
+            ours = str(getattr(thing, "__module__", "")).startswith("cubecam")
+            if name.startswith("_") or not ours or not (inspect.isclass(thing) or callable(thing)):
+                continue
+            found.setdefault(f"cubecam.{name}", thing)
+            if inspect.isclass(thing):
+                for member, value in vars(thing).items():
+                    if not member.startswith("_"):
+                        found.setdefault(f"cubecam.{name}.{member}", value)
+    return found
+
+
+def text_of(thing):
+    return inspect.getdoc(getattr(thing, "__func__", thing)) or ""
+
+
+EXAMPLES = {name: thing for name, thing in documented().items() if ">>>" in text_of(thing)}
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_examples(name, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    text = text_of(EXAMPLES[name])
+    scope = {"cc": cc, "cubecam": cc, "np": np}
+    test = doctest.DocTestParser().get_doctest(text, scope, name, name, 0)
+    report = []
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
+    runner.run(test, out=report.append)
+    assert runner.summarize(verbose=False).failed == 0, "".join(report)
+
+
+def test_there_are_examples():
+    assert len(EXAMPLES) >= 10
+
+
+@pytest.mark.parametrize("name", sorted(cc.__all__))
+def test_public_objects_are_documented(name):
+    thing = getattr(cc, name)
+    if not (inspect.isclass(thing) or callable(thing)):
+        return
+    text = text_of(thing)
+    assert len(text) > 15, f"cubecam.{name} has no docstring"
+    if inspect.isclass(thing) and not issubclass(thing, Exception):
+        bare = [
+            member
+            for member, value in vars(thing).items()
+            if not member.startswith("_") and callable(value) and len(text_of(value)) < 10
+        ]
+        assert not bare, f"methods of cubecam.{name} without a docstring: {bare}"

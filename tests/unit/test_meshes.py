@@ -1,0 +1,254 @@
+"""Primitives are closed, face outward, carry uvs; smooth normals; files."""
+
+import numpy as np
+import pytest
+
+import cubecam as cc
+from tests.compare import assert_close
+from tests.helpers import twins
+
+CLOSED = {
+    "box": (lambda: cc.Mesh.box((1, 2, 3)), 6.0),
+    "cube": (lambda: cc.Mesh.box(2), 8.0),
+    "sphere": (lambda: cc.Mesh.sphere(0.5), np.pi / 6),
+    "icosphere": (lambda: cc.Mesh.icosphere(0.5), np.pi / 6),
+    "cylinder": (lambda: cc.Mesh.cylinder(0.5, 2), np.pi / 2),
+    "cone": (lambda: cc.Mesh.cone(0.5, 3), np.pi / 4),
+    "torus": (lambda: cc.Mesh.torus(1, 0.25), 2 * np.pi**2 / 16),
+}
+closed = pytest.mark.parametrize(("make", "volume"), CLOSED.values(), ids=CLOSED)
+every = pytest.mark.parametrize(
+    "make",
+    [make for make, _ in CLOSED.values()] + [lambda: cc.Mesh.plane(2, 3)],
+    ids=[*CLOSED, "plane"],
+)
+
+
+def corners(mesh):
+    return mesh.positions.astype(float)[mesh.indices]
+
+
+def face_normals(mesh):
+    c = corners(mesh)
+    return np.cross(c[:, 1] - c[:, 0], c[:, 2] - c[:, 0])
+
+
+@closed
+def test_every_edge_has_two_triangles_that_pass_it_in_opposite_directions(make, volume):
+    mesh = make()
+    _, welded = np.unique(np.round(mesh.positions, 5) + 0.0, axis=0, return_inverse=True)
+    triangles = welded.reshape(-1)[mesh.indices]
+    triangles = triangles[
+        (triangles != np.roll(triangles, 1, axis=1)).all(1)
+    ]  # poles may hold slivers
+    edges = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    forward = {tuple(edge) for edge in edges.tolist()}
+    assert len(forward) == len(edges)
+    assert forward == {(b, a) for a, b in forward}
+
+
+@closed
+def test_volume_is_positive_and_right(make, volume):
+    c = corners(make())
+    got = np.einsum("ij,ij->i", c[:, 0], np.cross(c[:, 1], c[:, 2])).sum() / 6
+    assert got == pytest.approx(volume, rel=0.02)
+
+
+@every
+def test_normals_are_unit_and_on_the_side_of_the_winding(make):
+    mesh = make()
+    np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=-1), 1, atol=1e-5)
+    flat = face_normals(mesh)
+    real = np.linalg.norm(flat, axis=-1) > 1e-9
+    assert real.sum() >= 2
+    assert (np.einsum("ij,ikj->ik", flat[real], mesh.normals[mesh.indices][real]) > 0).all()
+
+
+@every
+def test_uvs_lie_in_the_unit_square_and_fill_it(make):
+    uvs = make().uvs
+    assert uvs is not None
+    assert uvs.min() >= -1e-6
+    assert uvs.max() <= 1 + 1e-6
+    assert np.ptp(uvs, axis=0).min() > 0.9
+
+
+@every
+def test_bounds_are_centred(make):
+    positions = make().positions
+    np.testing.assert_allclose(positions.min(0) + positions.max(0), 0, atol=2e-2)
+
+
+def test_sizes():
+    np.testing.assert_allclose(np.ptp(cc.Mesh.box((1, 2, 3)).positions, axis=0), [1, 2, 3])
+    np.testing.assert_allclose(np.ptp(cc.Mesh.box(2).positions, axis=0), 2)
+    np.testing.assert_allclose(np.ptp(cc.Mesh.plane(2, 3).positions, axis=0), [2, 0, 3])
+    for mesh in (cc.Mesh.sphere(0.7), cc.Mesh.icosphere(0.7)):
+        np.testing.assert_allclose(np.linalg.norm(mesh.positions, axis=-1), 0.7, atol=1e-6)
+        np.testing.assert_allclose(mesh.normals, mesh.positions / 0.7, atol=1e-5)
+    cylinder = cc.Mesh.cylinder(0.5, 4).positions
+    assert np.ptp(cylinder[:, 1]) == pytest.approx(4)
+    np.testing.assert_allclose(np.hypot(cylinder[:, 0], cylinder[:, 2]).max(), 0.5, atol=1e-6)
+    tube = cc.Mesh.torus(2, 0.5).positions
+    ring = np.hypot(tube[:, 0], tube[:, 2]) - 2
+    np.testing.assert_allclose(np.hypot(ring, tube[:, 1]), 0.5, atol=1e-5)
+
+
+def test_cone_points_up():
+    positions = cc.Mesh.cone(0.5, 3).positions
+    assert np.abs(positions[positions[:, 1] > 1.49][:, [0, 2]]).max() < 1e-5
+
+
+def test_plane_faces_up_with_uv_0_0_where_a_picture_reads_upright():
+    mesh = cc.Mesh.plane(2, 4)
+    np.testing.assert_array_equal(mesh.normals, np.broadcast_to([0, 1, 0], mesh.normals.shape))
+    origin = mesh.positions[np.abs(mesh.uvs).sum(-1).argmin()]
+    np.testing.assert_allclose(origin, [-1, 0, 2])
+
+
+def angle_weighted(positions, triangles):
+    """Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998."""
+    total = np.zeros_like(positions)
+    for triangle in triangles:
+        p = positions[triangle]
+        normal = np.cross(p[1] - p[0], p[2] - p[0])
+        normal = normal / np.linalg.norm(normal)
+        for k in range(3):
+            a, b = p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]
+            angle = np.arccos(np.clip(a @ b / np.linalg.norm(a) / np.linalg.norm(b), -1, 1))
+            total[triangle[k]] += angle * normal
+    return total / np.linalg.norm(total, axis=-1, keepdims=True)
+
+
+def test_missing_normals_are_smooth(rng):
+    positions = rng.normal(size=(40, 3))
+    triangles = np.stack([rng.permutation(40)[:3] for _ in range(80)])
+    used = np.unique(triangles)
+    got = cc.Mesh(positions, triangles).normals
+    assert_close(got[used], angle_weighted(positions, triangles)[used], "normal")
+
+
+def test_smooth_normals_of_a_cube_do_not_depend_on_its_diagonals():
+    corner = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    box = cc.Mesh.box(2)
+    welded = [int(np.abs(corner - p).sum(-1).argmin()) for p in box.positions]
+    mesh = cc.Mesh(corner, np.array(welded)[box.indices])
+    np.testing.assert_allclose(mesh.normals, corner / np.sqrt(3), atol=1e-6)
+
+
+def test_given_normals_are_kept(rng):
+    normals = np.eye(3, dtype=np.float32)
+    mesh = cc.Mesh(rng.normal(size=(3, 3)), [[0, 1, 2]], normals=normals)
+    np.testing.assert_allclose(mesh.normals, normals)
+
+
+def test_degenerate_triangles_do_no_harm():
+    mesh = cc.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], [[0, 1, 2], [0, 0, 1], [3, 3, 3]])
+    assert np.isfinite(mesh.normals).all()
+    np.testing.assert_allclose(mesh.normals[:3], [[0, 0, 1]] * 3)
+
+
+def test_optional_arrays_are_none_unless_given():
+    mesh = cc.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    assert mesh.uvs is None
+    assert mesh.colors is None
+
+
+def test_arrays_are_read_only():
+    mesh = cc.Mesh.box(1)
+    for array in (mesh.positions, mesh.indices, mesh.normals, mesh.uvs):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 0
+
+
+@twins
+def test_twins(twin):
+    mesh = cc.Mesh(
+        [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], uvs=np.eye(3)[:, :2], colors=np.eye(3)
+    )
+    other = twin(mesh)
+    for name in ("positions", "indices", "normals", "uvs", "colors"):
+        np.testing.assert_array_equal(getattr(other, name), getattr(mesh, name))
+
+
+@pytest.mark.parametrize(
+    ("make", "text"),
+    [
+        (lambda: cc.Mesh.sphere(0), "radius"),
+        (lambda: cc.Mesh.sphere(-1), "radius"),
+        (lambda: cc.Mesh.sphere(np.nan), "radius"),
+        (lambda: cc.Mesh.sphere(1, segments=2), "segments"),
+        (lambda: cc.Mesh.box((1, 0, 1)), "size"),
+        (lambda: cc.Mesh.box(-1), "size"),
+        (lambda: cc.Mesh.plane(np.inf, 1), "width"),
+        (lambda: cc.Mesh.torus(1, 0), "tube"),
+        (lambda: cc.Mesh.icosphere(1, subdivisions=-1), "subdivisions"),
+        (lambda: cc.Mesh.icosphere(1, subdivisions=30), "subdivisions"),
+    ],
+)
+def test_bad_sizes_are_refused(make, text):
+    with pytest.raises(ValueError, match=text):
+        make()
+
+
+@pytest.mark.parametrize(
+    ("name", "vertices", "triangles"), [("bunny", 1839, 3674), ("teapot", 792, 992)]
+)
+def test_sample_meshes(name, vertices, triangles):
+    mesh = cc.load_mesh(cc.sample_data(f"{name}.obj"))
+    assert len(mesh.indices) == triangles
+    assert len(mesh.positions) <= vertices
+    assert np.ptp(mesh.positions, axis=0).max() > 5
+
+
+@pytest.mark.parametrize("size", [1, 2.5])
+def test_size_centres_and_scales(size):
+    positions = cc.load_mesh(cc.sample_data("bunny.obj"), size=size).positions
+    low, high = positions.min(0), positions.max(0)
+    np.testing.assert_allclose(low + high, 0, atol=1e-5)
+    assert (high - low).max() == pytest.approx(size, rel=1e-5)
+
+
+@pytest.mark.parametrize("size", [0, -1, np.nan, np.inf])
+def test_bad_load_sizes_are_refused(size):
+    with pytest.raises(ValueError, match="size"):
+        cc.load_mesh(cc.sample_data("bunny.obj"), size=size)
+
+
+@pytest.mark.parametrize("ending", ["obj", "ply", "stl", "glb"])
+def test_formats(ending, tmp_path):
+    import trimesh
+
+    box = trimesh.creation.box((1, 2, 3))
+    path = tmp_path / f"a.{ending}"
+    box.export(path)
+    mesh = cc.load_mesh(path)
+    assert len(mesh.indices) == 12
+    np.testing.assert_allclose(np.ptp(mesh.positions, axis=0), [1, 2, 3], rtol=1e-5)
+    c = corners(mesh)
+    assert np.einsum("ij,ij->i", c[:, 0], np.cross(c[:, 1], c[:, 2])).sum() / 6 == pytest.approx(6)
+
+
+def test_glb_places_its_nodes(tmp_path):
+    import trimesh
+
+    scene = trimesh.Scene()
+    scene.add_geometry(
+        trimesh.creation.box((1, 1, 1)),
+        transform=trimesh.transformations.translation_matrix((4, 0, 0)),
+    )
+    scene.add_geometry(trimesh.creation.box((1, 1, 1)))
+    scene.export(tmp_path / "a.glb")
+    positions = cc.load_mesh(tmp_path / "a.glb").positions
+    np.testing.assert_allclose([positions.min(0)[0], positions.max(0)[0]], [-0.5, 4.5])
+
+
+def test_a_mesh_without_triangles_is_a_mesh_error(tmp_path):
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\n")
+    with pytest.raises(cc.MeshError, match=r"a\.obj"):
+        cc.load_mesh(tmp_path / "a.obj")
+
+
+def test_unknown_sample_data_names_what_there_is():
+    with pytest.raises(ValueError, match=r"bunny\.obj"):
+        cc.sample_data("dragon.obj")

@@ -1,0 +1,18 @@
+"""python/cubecam/_core.pyi is what the generator makes of the built module."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_stubs_are_current():
+    done = subprocess.run(
+        [sys.executable, "scripts/stubs.py", "--check"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
