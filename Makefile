@@ -5,6 +5,7 @@ VENV := .venv
 PY := $(VENV)/bin/python
 PACKAGES := $(PY) scripts/packages.py
 PYTEST_ARGS ?=
+BENCH_ARGS ?=
 
 # Folders are listed with their files: a file that went away changes its folder.
 SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
@@ -42,7 +43,7 @@ stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi an
 	$(PY) scripts/stubs.py
 
 bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL and py360convert, print ratios
-	@$(PY) -m benchmarks
+	@$(PY) -m benchmarks $(BENCH_ARGS)
 
 docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
 	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam

@@ -2,46 +2,118 @@
 
 from __future__ import annotations
 
+import ast
 import difflib
+import enum
+import inspect
+import io
 import subprocess
 import sys
 import tempfile
+import tokenize
+import types
+import typing
 from pathlib import Path
+
+import pybind11_stubgen
+
+import cubecam
+from cubecam import _core
 
 ROOT = Path(__file__).resolve().parent.parent
 STUB = ROOT / "python" / "cubecam" / "_core.pyi"
 
 
+def make_describable() -> None:
+    """Undo, in this process, what hides the module's contents from the generator.
+
+    Classes call themselves cubecam.Scene, which is what users see, and would be taken for imports.
+    Methods that python/cubecam/_attach.py adds are plain functions with annotations as text.
+    """
+    for name, thing in vars(_core).items():
+        if getattr(thing, "__module__", None) != "cubecam":
+            continue
+        thing.__module__ = _core.__name__
+        # Signatures name every class as cubecam.Name, those that cubecam does not export as well.
+        if not hasattr(cubecam, name):
+            setattr(cubecam, name, thing)
+        for method in vars(thing).values() if isinstance(thing, type) else ():
+            if isinstance(method, types.FunctionType) and method.__module__.startswith("cubecam"):
+                make_method(method)
+
+
+def make_method(function: types.FunctionType) -> None:
+    """Give a function the first argument `self` and annotations that are types."""
+    arguments = function.__code__.co_varnames
+    annotations = typing.get_type_hints(function)
+    annotations.pop(arguments[0], None)
+    function.__annotations__ = annotations
+    function.__code__ = function.__code__.replace(co_varnames=("self", *arguments[1:]))
+    function.__doc__ = inspect.getdoc(function)
+
+
+def without_package_prefix(text: str) -> str:
+    """Turn cubecam.Scene into Scene in code; docstrings stay as they are."""
+    lines = text.splitlines(keepends=True)
+    tokens = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    for first, dot, name in reversed(list(zip(tokens, tokens[1:], tokens[2:], strict=False))):
+        if (first.string, dot.string) == ("cubecam", ".") and hasattr(_core, name.string):
+            row, column = first.start
+            line = lines[row - 1]
+            lines[row - 1] = line[:column] + line[name.start[1] :]
+    return "".join(lines)
+
+
+def with_plain_enums(text: str) -> str:
+    """Give members of enumerations their values: annotated names are no members to type checkers.
+
+    What enum itself defines is left out; it differs between versions of Python.
+    """
+    lines = text.splitlines(keepends=True)
+    for kind in reversed(ast.parse(text).body):
+        enumeration = getattr(_core, getattr(kind, "name", ""), None)
+        if not isinstance(kind, ast.ClassDef) or not isinstance(enumeration, enum.EnumMeta):
+            continue
+        for node in reversed(kind.body):
+            decorators = getattr(node, "decorator_list", [])
+            span = slice(min(part.lineno for part in [node, *decorators]) - 1, node.end_lineno)
+            if isinstance(node, ast.FunctionDef):
+                del lines[span]
+            elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+                name = node.target.id
+                lines[span] = [f"    {name} = {enumeration[name].value!r}\n"]
+    return "".join(lines)
+
+
+def ruff(text: str, *command: str) -> str:
+    settings = f"--config={ROOT / 'pyproject.toml'}"
+    return subprocess.run(
+        [
+            sys.executable,
+            "-m",
+            "ruff",
+            *command,
+            "--quiet",
+            settings,
+            "--stdin-filename=_core.pyi",
+            "-",
+        ],
+        input=text,
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+    ).stdout
+
+
 def generate() -> str:
     """Text of the stub, by pybind11-stubgen and ruff of the versions that pyproject.toml pins."""
+    make_describable()
     with tempfile.TemporaryDirectory() as folder:
-        made = subprocess.run(
-            [
-                sys.executable,
-                "-m",
-                "pybind11_stubgen",
-                "cubecam._core",
-                "--output-dir",
-                folder,
-                "--exit-code",
-            ],
-            cwd=folder,
-            capture_output=True,
-            text=True,
-        )
-        if made.returncode != 0:
-            raise SystemExit(f"pybind11-stubgen failed:\n{made.stdout}{made.stderr}")
+        pybind11_stubgen.main([_core.__name__, "--output-dir", folder, "--exit-code"])
         text = Path(folder, "cubecam", "_core.pyi").read_text(encoding="utf-8")
-    settings = f"--config={ROOT / 'pyproject.toml'}"
-    for command in (["check", "--select=I,F401", "--fix-only"], ["format"]):
-        text = subprocess.run(
-            [sys.executable, "-m", "ruff", *command, settings, "--stdin-filename=_core.pyi", "-"],
-            input=text,
-            check=True,
-            stdout=subprocess.PIPE,
-            text=True,
-        ).stdout
-    return text
+    text = with_plain_enums(without_package_prefix(text))
+    text = ruff(text, "check", "--select=I,F401", "--fix-only")
+    return ruff(text, "format")
 
 
 def main(arguments: list[str]) -> int:
@@ -53,10 +125,8 @@ def main(arguments: list[str]) -> int:
         lines = difflib.unified_diff(
             known.splitlines(), text.splitlines(), "_core.pyi", "the built module", lineterm=""
         )
-        print("\n".join(lines))
-        print(
-            "python/cubecam/_core.pyi is not what the module says: run make stubs", file=sys.stderr
-        )
+        print("\n".join(list(lines)[:60]))
+        print("python/cubecam/_core.pyi is not what the module says: make stubs", file=sys.stderr)
         return 1
     STUB.write_text(text, encoding="utf-8")
     print(f"wrote {STUB.relative_to(ROOT)}")

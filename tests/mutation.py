@@ -166,6 +166,7 @@ def main():
 
 def run(copy, chosen):
     begin = time.perf_counter()
+    print(f"building a copy in {copy.tree.parent}", flush=True)
     copy.configure()
     if complaint := copy.compile():
         raise SystemExit(f"the sources do not build:\n{complaint}")

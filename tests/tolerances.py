@@ -34,6 +34,12 @@ TOLERANCES = {
     "unorm8_counts": Tolerance(
         1.0, "one count of 255: the value may lie on a rounding boundary", mean=0.05
     ),
+    "unorm8_filter": Tolerance(
+        7e-3,
+        "llvmpipe filters 8-bit textures in 8-bit arithmetic: weights of 1/256, rounded twice",
+        relative=0.03,
+        mean=2e-3,
+    ),
     "half": Tolerance(
         1e-6, "float16 keeps 11 bits and may be rounded to zero: at most one unit", relative=2**-10
     ),

@@ -14,7 +14,9 @@ namespace cubecam {
 
 namespace {
 
-std::string dtype_text(const py::array& array) { return py::str(array.dtype()).cast<std::string>(); }
+std::string dtype_text(const py::array& array) {
+    return py::str(array.dtype()).cast<std::string>();
+}
 
 /// "(N, N)" to {"N", "N"}.
 std::vector<std::string> split_shape(std::string_view pattern) {
@@ -110,11 +112,12 @@ void check_values(const py::array_t<T, py::array::c_style>& array, const char* n
     const auto bad = first_bad(array.data(), static_cast<std::size_t>(array.size()), values);
     if (!bad) return;
     const T value = array.data()[*bad];
-    throw py::value_error(
-        std::string(name) + ": expected " +
-        (values == Values::finite ? "finite numbers, got " : "no NaN, got ") +
-        (std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf") + " at " +
-        index_text(array, *bad));
+    throw py::value_error(std::string(name) + ": expected " +
+                          (values == Values::finite ? "finite numbers, got " : "no NaN, got ") +
+                          (std::isnan(value) ? "nan"
+                           : value > 0       ? "inf"
+                                             : "-inf") +
+                          " at " + index_text(array, *bad));
 }
 
 template <typename T>
@@ -134,10 +137,9 @@ ContiguousArray<float> narrow(const py::array& array, const char* name) {
     for (std::size_t i = 0; i < count; ++i) {
         target[i] = static_cast<float>(source[i]);
         if (std::isinf(target[i]) && !std::isinf(source[i])) {
-            throw py::value_error(std::string(name) +
-                                  ": expected numbers that float32 can hold, got " +
-                                  py::repr(py::float_(source[i])).cast<std::string>() + " at " +
-                                  index_text(to, i));
+            throw py::value_error(
+                std::string(name) + ": expected numbers that float32 can hold, got " +
+                py::repr(py::float_(source[i])).cast<std::string>() + " at " + index_text(to, i));
         }
     }
     return to;
@@ -212,8 +214,8 @@ ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
             // A negative number turns into one far above every limit.
             if (static_cast<std::uint64_t>(index) >= limit) {
                 throw py::index_error(std::string(name) + ": expected indices from 0 to " +
-                                      std::to_string(limit) + " - 1, got " +
-                                      std::to_string(index) + " at " + index_text(result, i));
+                                      std::to_string(limit) + " - 1, got " + std::to_string(index) +
+                                      " at " + index_text(result, i));
             }
             target[i] = static_cast<std::uint32_t>(index);
         }
@@ -229,8 +231,7 @@ py::dtype numpy_dtype(DType dtype) {
                                      : py::dtype::of<float>();
 }
 
-PixelArray pixel_array(py::handle value, const char* name, std::string_view shape,
-                       Values values) {
+PixelArray pixel_array(py::handle value, const char* name, std::string_view shape, Values values) {
     const py::array array = real_array(value, name);
     const char kind = array.dtype().kind();
     if (kind != 'f' && !(kind == 'u' && array.itemsize() == 1)) {
@@ -244,15 +245,16 @@ PixelArray pixel_array(py::handle value, const char* name, std::string_view shap
     check_shape(array, name, shape);
     const py::ssize_t channels = array.ndim() > 0 ? array.shape(array.ndim() - 1) : 0;
     if (channels != 1 && channels != 3 && channels != 4) {
-        throw py::value_error(std::string(name) + ": expected 1, 3 or 4 channels on the last axis, got " +
+        throw py::value_error(std::string(name) +
+                              ": expected 1, 3 or 4 channels on the last axis, got " +
                               std::to_string(channels) + " (shape " + shape_text(array) + ")");
     }
 
     const auto checked = [&]() -> PixelArray {
         if (kind == 'u') return {contiguous<std::uint8_t>(array), DType::uint8};
         if (array.itemsize() > 2) return {to_float32(array, name), DType::float32};
-        return {py::module_::import("numpy").attr("ascontiguousarray")(
-                    array, numpy_dtype(DType::float16)),
+        return {py::module_::import("numpy").attr("ascontiguousarray")(array,
+                                                                       numpy_dtype(DType::float16)),
                 DType::float16};
     };
     PixelArray result = checked();

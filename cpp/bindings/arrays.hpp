@@ -8,6 +8,14 @@
 /// object, str and dates raise TypeError; wrong shapes and values raise ValueError.
 #pragma once
 
+#include "cubecam/scene/pixels.hpp"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -15,15 +23,6 @@
 #include <string_view>
 #include <utility>
 #include <vector>
-
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include "cubecam/scene/pixels.hpp"
-
-#include <pybind11/numpy.h>
-#include <pybind11/pybind11.h>
 
 namespace cubecam {
 
@@ -52,7 +51,8 @@ ContiguousArray<float> float_array(py::handle value, const char* name, std::stri
 ContiguousArray<double> double_array(py::handle value, const char* name, std::string_view shape,
                                      Values values = Values::finite);
 
-/// Integers from 0 to 2^32 - 1; floats raise TypeError, numbers outside, or not below `limit`, IndexError.
+/// Integers from 0 to 2^32 - 1; floats raise TypeError, numbers outside, or not below `limit`,
+/// IndexError.
 ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
                                            std::string_view shape,
                                            std::uint64_t limit = std::uint64_t{1} << 32);
@@ -101,7 +101,8 @@ glm::dmat4 to_mat4(py::handle value, const char* name);
 /// Three or four numbers; the fourth is 1 where it is not given.
 glm::dvec4 to_color(py::handle value, const char* name);
 
-/// A read-only view of memory that `owner` keeps alive as long as the array, or a slice of it, lives.
+/// A read-only view of memory that `owner` keeps alive as long as the array, or a slice of it,
+/// lives.
 py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const void* data,
                         std::shared_ptr<const void> owner);
 /// The numpy type of pixels.

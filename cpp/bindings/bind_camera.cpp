@@ -4,10 +4,10 @@
 
 #include "cubecam/scene/camera.hpp"
 
+#include <pybind11/pybind11.h>
+
 #include <optional>
 #include <string>
-
-#include <pybind11/pybind11.h>
 
 namespace cubecam::bindings {
 
@@ -37,7 +37,7 @@ Examples
 >>> import cubecam as cc
 >>> lens = cc.PerspectiveCamera(fov=90).projection(aspect=2)
 >>> camera = cc.Camera(view=np.eye(4), projection=lens)
->>> camera.projection()[0, 0]
+>>> float(camera.projection()[0, 0])
 0.5
 )doc";
 
@@ -205,8 +205,8 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
     });
     made.def("__reduce__", [opening](const py::object& self) {
         return reduced(self, py::make_tuple(self.attr(opening), self.attr("position"),
-                                            self.attr("target"), self.attr("up"),
-                                            self.attr("near"), self.attr("far")));
+                                            self.attr("target"), self.attr("up"), self.attr("near"),
+                                            self.attr("far")));
     });
 }
 
@@ -264,7 +264,7 @@ void bind_camera(pybind11::module_& module) {
     guard_init(camera);
     bind_placed<PerspectiveLens>(module, "PerspectiveCamera", perspective_doc, "fov",
                                  &PerspectiveLens::fov, "float: vertical, in degrees.");
-    bind_placed<OrthographicLens>(
-        module, "OrthographicCamera", orthographic_doc, "height", &OrthographicLens::height,
-        "float: world units from the bottom to the top of the picture.");
+    bind_placed<OrthographicLens>(module, "OrthographicCamera", orthographic_doc, "height",
+                                  &OrthographicLens::height,
+                                  "float: world units from the bottom to the top of the picture.");
 }

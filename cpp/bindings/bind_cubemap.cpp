@@ -105,9 +105,9 @@ CubePtr make_cube(const py::object& faces, const std::string& convention_name, b
     const auto channels = static_cast<int>(pixels.shape(3));
     const py::gil_scoped_release release;
     const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(pixels.dtype());
-    PixelBuffer memory = convention == Convention::gl
-                             ? copy_pixels(pixels.data(), pixels.bytes())
-                             : convert_faces(pixels.data(), size, texel, convention, Convention::gl);
+    PixelBuffer memory = convention == Convention::gl ? copy_pixels(pixels.data(), pixels.bytes())
+                                                      : convert_faces(pixels.data(), size, texel,
+                                                                      convention, Convention::gl);
     return std::make_shared<CubeMap>(size, channels, pixels.dtype(), std::move(memory), mipmaps);
 }
 
@@ -147,8 +147,9 @@ py::array sample(const CubeMap& cube, const py::object& directions, const py::ob
     const float* d = towards.data();
     for (std::size_t i = 0; i < count; ++i) {
         if (d[3 * i] == 0 && d[3 * i + 1] == 0 && d[3 * i + 2] == 0) {
-            throw py::value_error("directions: expected a length other than 0, got (0, 0, 0) as number " +
-                                  std::to_string(i));
+            throw py::value_error(
+                "directions: expected a length other than 0, got (0, 0, 0) as number " +
+                std::to_string(i));
         }
     }
     const auto levels = float_array(lod, "lod", "(...)");
@@ -156,8 +157,9 @@ py::array sample(const CubeMap& cube, const py::object& directions, const py::ob
     const bool same = levels.ndim() == towards.ndim() - 1 &&
                       std::equal(shape.begin(), shape.end(), levels.shape());
     if (levels.ndim() != 0 && !same) {
-        throw py::value_error("lod: expected one number or the shape of directions without its last axis, got " +
-                              shape_text(levels));
+        throw py::value_error(
+            "lod: expected one number or the shape of directions without its last axis, got " +
+            shape_text(levels));
     }
     const auto state = cube.data();
     const bool only_zero = std::all_of(levels.data(), levels.data() + levels.size(),
@@ -210,7 +212,8 @@ CubePtr from_layout(const py::object& value, const std::optional<std::string>& l
     const PixelArray image = pixel_array(value, "image", "(H, W, C)");
     const int height = to_size(image.shape(0), "image");
     const int width = to_size(image.shape(1), "image");
-    const Layout layout = layout_name ? parse_layout(*layout_name) : recognize_layout(width, height);
+    const Layout layout =
+        layout_name ? parse_layout(*layout_name) : recognize_layout(width, height);
     if (layout == Layout::equirect) {
         return from_equirect(image, size, center, mipmaps, Sampling::centers);
     }
@@ -224,7 +227,8 @@ CubePtr from_layout(const py::object& value, const std::optional<std::string>& l
 
     const py::gil_scoped_release release;
     PixelBuffer faces = picture_to_faces(image.data(), width, height, texel, cells, given);
-    if (given != Convention::gl) faces = convert_faces(faces.data(), n, texel, given, Convention::gl);
+    if (given != Convention::gl)
+        faces = convert_faces(faces.data(), n, texel, given, Convention::gl);
     if (openexr) {
         const CubeMap bordered(n, channels, image.dtype(), std::move(faces));
         PixelBuffer centered =
@@ -240,8 +244,10 @@ py::array to_convention(const CubeMap& cube, const std::string& name) {
     PixelBuffer faces;
     {
         const py::gil_scoped_release release;
-        const std::size_t texel = static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
-        faces = convert_faces(state->pixels->data(), state->size, texel, Convention::gl, convention);
+        const std::size_t texel =
+            static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
+        faces =
+            convert_faces(state->pixels->data(), state->size, texel, Convention::gl, convention);
     }
     return owned_pixels(std::move(faces), state->dtype, face_shape(state->size, state->channels));
 }
@@ -262,8 +268,8 @@ py::array to_layout(const CubeMap& cube, const std::string& layout_name,
         PixelBuffer faces;
         if (openexr) {
             faces = resample_faces(*state, Sampling::centers, state->size, Sampling::borders);
-            picture = convert_faces(faces.data(), state->size, texel, Convention::gl,
-                                    Convention::inside);
+            picture =
+                convert_faces(faces.data(), state->size, texel, Convention::gl, Convention::inside);
         } else {
             faces = convert_faces(state->pixels->data(), state->size, texel, Convention::gl,
                                   convention);
@@ -283,7 +289,8 @@ CubePtr resize(const CubeMap& cube, int size) {
 }
 
 template <typename T>
-py::object output_view(const CubeMap& cube, std::shared_ptr<const Buffer<T>> values, int components) {
+py::object output_view(const CubeMap& cube, std::shared_ptr<const Buffer<T>> values,
+                       int components) {
     if (!values) return py::none();
     const int n = cube.data()->size;
     std::vector<py::ssize_t> shape = {6, n, n};
@@ -360,7 +367,8 @@ void bind_cubemap(py::module_& module) {
              py::arg("mipmaps") = false)
         .def_property_readonly("faces", &faces_view, docs::faces)
         .def_property_readonly(
-            "size", [](const CubeMap& c) { return c.data()->size; }, "N, texels along an edge, int.")
+            "size", [](const CubeMap& c) { return c.data()->size; },
+            "N, texels along an edge, int.")
         .def_property_readonly(
             "channels", [](const CubeMap& c) { return c.data()->channels; }, "C: 1, 3 or 4, int.")
         .def_property_readonly(
@@ -412,8 +420,9 @@ void bind_cubemap(py::module_& module) {
     const auto duplicate = [](const CubeMap& c) { return std::make_shared<CubeMap>(c); };
     cube.def("copy", duplicate, "An independent cubemap with the same contents.")
         .def("__copy__", duplicate)
-        .def("__deepcopy__", [duplicate](const CubeMap& c, const py::dict&) { return duplicate(c); },
-             py::arg("memo"))
+        .def(
+            "__deepcopy__", [duplicate](const CubeMap& c, const py::dict&) { return duplicate(c); },
+            py::arg("memo"))
         .def(
             "__eq__",
             [](const CubeMap& a, const CubeMap& b) {

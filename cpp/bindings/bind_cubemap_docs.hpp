@@ -219,7 +219,8 @@ Examples
 (24, 32, 3)
 )doc";
 
-inline constexpr const char* from_layout = R"doc(A cube from one picture of all faces, the inverse of `to_layout`.
+inline constexpr const char* from_layout =
+    R"doc(A cube from one picture of all faces, the inverse of `to_layout`.
 
 Parameters
 ----------
@@ -275,12 +276,12 @@ Examples
 inline constexpr const char* distance =
     "Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is "
     "nothing, or None. Read-only.";
-inline constexpr const char* z =
-    "Captured distance along each face's axis, ndarray (6, N, N) float32 in world units, +inf where "
-    "there is nothing, or None. Read-only.";
-inline constexpr const char* normal =
-    "Captured world shading normals towards the viewer, ndarray (6, N, N, 3) float32, 0 where there "
-    "is nothing, or None. Read-only.";
+inline constexpr const char* z = "Captured distance along each face's axis, ndarray (6, N, N) "
+                                 "float32 in world units, +inf where "
+                                 "there is nothing, or None. Read-only.";
+inline constexpr const char* normal = "Captured world shading normals towards the viewer, ndarray "
+                                      "(6, N, N, 3) float32, 0 where there "
+                                      "is nothing, or None. Read-only.";
 inline constexpr const char* position =
     "Captured world positions, ndarray (6, N, N, 3) float32, NaN where there is nothing, or None. "
     "Read-only.";

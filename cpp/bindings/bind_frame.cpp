@@ -1,9 +1,8 @@
+#include "arrays.hpp"
 #include "frame.hpp"
+#include "objects.hpp"
 
 #include <pybind11/stl.h>
-
-#include "arrays.hpp"
-#include "objects.hpp"
 
 namespace cubecam {
 
@@ -29,8 +28,8 @@ PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height) {
 namespace {
 
 py::tuple state_of(const PyFrame& frame) {
-    return py::make_tuple(frame.width, frame.height, frame.color, frame.distance, frame.z, frame.normal,
-                          frame.position, frame.id);
+    return py::make_tuple(frame.width, frame.height, frame.color, frame.distance, frame.z,
+                          frame.normal, frame.position, frame.id);
 }
 
 PyFrame frame_from(const py::tuple& state) {
@@ -49,7 +48,8 @@ PyFrame frame_from(const py::tuple& state) {
 }  // namespace
 
 void bind_frame(py::module_& m) {
-    bindings::declare<PyFrame>(m, "Frame", R"(A rendered picture: arrays with row 0 on top, each the caller's own.
+    bindings::declare<PyFrame>(
+        m, "Frame", R"(A rendered picture: arrays with row 0 on top, each the caller's own.
 
 What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs.
 
@@ -63,22 +63,29 @@ Examples
 ((2, 4, 4), [255, 0, 0, 255])
 )")
         .def_readonly("color", &PyFrame::color,
-                      "ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear unless encoded.")
+                      "ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear "
+                      "unless encoded.")
         .def_readonly("distance", &PyFrame::distance,
-                      "ndarray (H, W) float32: length of the ray, world units; +inf where nothing was hit. In an "
+                      "ndarray (H, W) float32: length of the ray, world units; +inf where nothing "
+                      "was hit. In an "
                       "orthographic picture it counts from the near plane.")
         .def_readonly("z", &PyFrame::z,
-                      "ndarray (H, W) float32: distance along the camera's axis, world units; +inf background.")
+                      "ndarray (H, W) float32: distance along the camera's axis, world units; +inf "
+                      "background.")
         .def_readonly("normal", &PyFrame::normal,
-                      "ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.")
-        .def_readonly("position", &PyFrame::position, "ndarray (H, W, 3) float32: world position; NaN background.")
-        .def_readonly("id", &PyFrame::id, "ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.")
+                      "ndarray (H, W, 3) float32: world shading normal, unit length, towards the "
+                      "viewer; 0 background.")
+        .def_readonly("position", &PyFrame::position,
+                      "ndarray (H, W, 3) float32: world position; NaN background.")
+        .def_readonly("id", &PyFrame::id,
+                      "ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.")
         .def_property_readonly(
             "size", [](const PyFrame& f) { return py::make_tuple(f.width, f.height); },
             "tuple of int: (width, height), pixels.")
         .def("__repr__",
              [](const PyFrame& f) {
-                 return "<cubecam.Frame " + std::to_string(f.width) + " x " + std::to_string(f.height) + ", " +
+                 return "<cubecam.Frame " + std::to_string(f.width) + " x " +
+                        std::to_string(f.height) + ", " +
                         py::str(f.color.attr("dtype")).cast<std::string>() + ">";
              })
         .def(py::pickle(&state_of, &frame_from));

@@ -4,10 +4,10 @@
 
 #include "cubecam/scene/image.hpp"
 
-#include <string>
-
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+
+#include <string>
 
 namespace cubecam::bindings {
 
@@ -49,15 +49,15 @@ std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const s
     const Wrap mode = parse_wrap(wrap);
     const PixelArray array = pixel_array(pixels, "pixels", "(H, W, C)");
     auto kept = std::make_shared<const PixelBuffer>(array.data(), array.data() + array.bytes());
-    return std::make_shared<Image>(
-        std::move(kept), static_cast<int>(array.shape(1)), static_cast<int>(array.shape(0)),
-        static_cast<int>(array.shape(2)), array.dtype(), mipmaps, mode);
+    return std::make_shared<Image>(std::move(kept), static_cast<int>(array.shape(1)),
+                                   static_cast<int>(array.shape(0)),
+                                   static_cast<int>(array.shape(2)), array.dtype(), mipmaps, mode);
 }
 
 py::array image_pixels(const Image& image) {
     return readonly_view(numpy_dtype(image.dtype()),
-                         {image.height(), image.width(), image.channels()},
-                         image.pixels()->data(), image.pixels());
+                         {image.height(), image.width(), image.channels()}, image.pixels()->data(),
+                         image.pixels());
 }
 
 std::string represent_image(const Image& image) {
@@ -81,7 +81,8 @@ void bind_image(pybind11::module_& module) {
         .def_property_readonly("pixels", &image_pixels,
                                "ndarray (H, W, C): a read-only view, row 0 on top.")
         .def_property_readonly(
-            "size", [](const Image& image) { return py::make_tuple(image.width(), image.height()); },
+            "size",
+            [](const Image& image) { return py::make_tuple(image.width(), image.height()); },
             "tuple of int: (width, height).")
         .def_property_readonly("channels", &Image::channels, "int: 1, 3 or 4.")
         .def_property_readonly(
@@ -99,6 +100,7 @@ void bind_image(pybind11::module_& module) {
              })
         // What never changes need not be copied.
         .def("__copy__", [](const py::object& self) { return self; })
-        .def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
-             py::arg("memo"));
+        .def(
+            "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
+            py::arg("memo"));
 }

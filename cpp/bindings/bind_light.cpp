@@ -4,9 +4,9 @@
 
 #include "cubecam/scene/light.hpp"
 
-#include <string>
-
 #include <pybind11/pybind11.h>
+
+#include <string>
 
 namespace cubecam::bindings {
 
@@ -98,8 +98,8 @@ void bind_point(py::module_& module) {
         .def(py::init([](const ArrayLike& position, const ArrayLike& color, float intensity,
                          double decay) {
                  return std::make_shared<PointLight>(
-                     PointParameters{to_point(position, "position"), decay},
-                     to_rgb(color, "color"), intensity);
+                     PointParameters{to_point(position, "position"), decay}, to_rgb(color, "color"),
+                     intensity);
              }),
              py::arg("position") = py::make_tuple(0, 0, 0),
              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
@@ -163,8 +163,8 @@ void bind_directional(py::module_& module) {
 void bind_ambient(py::module_& module) {
     declare<AmbientLight, Light>(module, "AmbientLight", ambient_doc)
         .def(py::init([](const ArrayLike& color, float intensity) {
-                 return std::make_shared<AmbientLight>(AmbientParameters{},
-                                                       to_rgb(color, "color"), intensity);
+                 return std::make_shared<AmbientLight>(AmbientParameters{}, to_rgb(color, "color"),
+                                                       intensity);
              }),
              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0)
         .def("__repr__",

@@ -1,19 +1,18 @@
 // cubecam.Material and the materials below it.
+#include "bind_material_docs.hpp"
 #include "cube_source.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
-
-#include "bind_material_docs.hpp"
 
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/material.hpp"
 #include "cubecam/scene/probe.hpp"
 
-#include <optional>
-#include <string>
-
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
 
 namespace cubecam::bindings {
 
@@ -30,8 +29,8 @@ std::shared_ptr<const Image> to_map(py::handle value) {
     return py::cast<std::shared_ptr<Image>>(value);
 }
 
-py::object from_map(const std::shared_ptr<const Image>& map) {
-    return py::cast(std::const_pointer_cast<Image>(map));
+OrNone<Image> from_map(const std::shared_ptr<const Image>& map) {
+    return or_none(std::const_pointer_cast<Image>(map));
 }
 
 SurfaceOptions surface(float opacity, bool double_sided) { return {opacity, double_sided}; }
@@ -63,16 +62,13 @@ struct Properties {
     void flag(const char* name, bool P::* field, const char* doc) {
         made.def_property(
             name, [field](const M& self) { return self.parameters().*field; },
-            [field](M& self, bool value) {
-                self.edit_parameters([&](P& p) { p.*field = value; });
-            },
+            [field](M& self, bool value) { self.edit_parameters([&](P& p) { p.*field = value; }); },
             doc);
     }
 
     void map(const char* doc) {
         made.def_property(
-            "map",
-            [](const M& self) -> OrNone<Image> { return from_map(self.parameters().map); },
+            "map", [](const M& self) { return from_map(self.parameters().map); },
             [](M& self, const MapLike& value) {
                 const auto map = to_map(value);
                 self.edit_parameters([&](P& p) { p.map = map; });
@@ -112,8 +108,7 @@ void bind_phong(py::module_& module) {
     using M = PhongMaterial;
     auto made = declare<M, Material>(module, "PhongMaterial", phong_doc);
     made.def(py::init([](const ArrayLike& color, float ka, float kd, float ks, float shininess,
-                         const MapLike& map, bool vertex_colors, float opacity,
-                         bool double_sided) {
+                         const MapLike& map, bool vertex_colors, float opacity, bool double_sided) {
                  return std::make_shared<M>(PhongParameters{to_rgba(color, "color"), ka, kd, ks,
                                                             shininess, to_map(map), vertex_colors},
                                             surface(opacity, double_sided));
@@ -138,10 +133,10 @@ void bind_mirror(py::module_& module) {
     made.def(py::init([](const ArrayLike& tint, float env_weight, const ArrayLike& color,
                          float color_weight, std::optional<float> fresnel, float opacity,
                          bool double_sided) {
-                 return std::make_shared<M>(
-                     MirrorParameters{to_rgba(tint, "tint"), env_weight, to_rgba(color, "color"),
-                                      color_weight, fresnel},
-                     surface(opacity, double_sided));
+                 return std::make_shared<M>(MirrorParameters{to_rgba(tint, "tint"), env_weight,
+                                                             to_rgba(color, "color"), color_weight,
+                                                             fresnel},
+                                            surface(opacity, double_sided));
              }),
              py::arg("tint") = py::make_tuple(1, 1, 1), py::arg("env_weight") = 1.0,
              py::arg("color") = py::make_tuple(0, 0, 0), py::arg("color_weight") = 0.0,
@@ -189,9 +184,10 @@ void bind_glass(py::module_& module) {
 
 /// Every parameter, by name: what __init__ takes as keywords.
 py::dict material_state(const py::object& self) {
-    static constexpr const char* names[] = {
-        "color", "map", "cubemap",      "vertex_colors", "ka",      "kd",      "ks",          "shininess",
-        "tint",  "eta", "env_weight", "color_weight",  "fresnel", "opacity", "double_sided"};
+    static constexpr const char* names[] = {"color",   "map",     "cubemap",     "vertex_colors",
+                                            "ka",      "kd",      "ks",          "shininess",
+                                            "tint",    "eta",     "env_weight",  "color_weight",
+                                            "fresnel", "opacity", "double_sided"};
     py::dict state;
     for (const char* name : names) {
         if (py::hasattr(self, name)) state[name] = self.attr(name);
@@ -242,7 +238,7 @@ void bind_material(pybind11::module_& module) {
     material.def("__reduce__", [](const py::object& self) {
         return reduced(self, py::tuple(), material_state(self));
     });
-    def_setstate(material, [](const py::object& self, const py::dict& state) {
+    def_setstate(material, "dict", [](const py::object& self, const py::dict& state) {
         for (const auto& [name, value] : state) py::setattr(self, name, value);
     });
 

@@ -9,10 +9,11 @@ inline constexpr const char* map_property_doc =
 inline constexpr const char* vertex_colors_property_doc =
     "bool: whether the colour is multiplied by the mesh's vertex colours.";
 
-inline constexpr const char* material_doc = R"doc(Base of the materials: how a surface answers light.
+inline constexpr const char* material_doc =
+    R"doc(Base of the materials: how a surface answers light.
 
 A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
-numbers, linear and not negative; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
+numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
 opaque is blended over what lies behind it.
 )doc";
 
@@ -21,7 +22,7 @@ inline constexpr const char* basic_doc = R"doc(Unlit: color * map * vertex colou
 Parameters
 ----------
 color : array_like (3,) or (4,)
-    Linear RGB or RGBA, not negative.
+    Linear RGB or RGBA.
 map : Image or array_like (H, W, C), optional
     A picture, placed by the mesh's uvs.
 cubemap : CubeMap or Probe, optional
@@ -57,7 +58,7 @@ in white where N.L > 0 (B. T. Phong, "Illumination for Computer Generated Pictur
 Parameters
 ----------
 color : array_like (3,) or (4,)
-    Linear RGB or RGBA, not negative.
+    Linear RGB or RGBA.
 ka, kd, ks : float
     Ambient, diffuse and specular weights, not negative.
 shininess : float
@@ -89,7 +90,8 @@ Examples
 PhongMaterial(color=(1, 0.4, 0.4, 1), kd=0.5)
 )doc";
 
-inline constexpr const char* mirror_doc = R"doc(A mirror: env_weight * tint * environment(R) + color_weight * color.
+inline constexpr const char* mirror_doc =
+    R"doc(A mirror: env_weight * tint * environment(R) + color_weight * color.
 
 R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
 the scene's, a CubeMap or a Probe.
@@ -126,7 +128,8 @@ Examples
 (0.78, None)
 )doc";
 
-inline constexpr const char* glass_doc = R"doc(Glass: F * environment(R) + (1 - F) * tint * environment(T).
+inline constexpr const char* glass_doc =
+    R"doc(Glass: F * environment(R) + (1 - F) * tint * environment(T).
 
 R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
 F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations

@@ -1,18 +1,17 @@
 // cubecam.Mesh
+#include "bind_mesh_docs.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
-
-#include "bind_mesh_docs.hpp"
 
 #include "cubecam/scene/mesh.hpp"
 #include "cubecam/scene/primitives.hpp"
 
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
 #include <cstring>
 #include <string>
 #include <vector>
-
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
 
 namespace cubecam::bindings {
 
@@ -22,7 +21,8 @@ template <class Vector, class Scalar>
 std::vector<Vector> to_vectors(const ContiguousArray<Scalar>& array) {
     static_assert(sizeof(Vector) == Vector::length() * sizeof(Scalar));
     std::vector<Vector> vectors(static_cast<std::size_t>(array.shape(0)));
-    if (!vectors.empty()) std::memcpy(vectors.data(), array.data(), vectors.size() * sizeof(Vector));
+    if (!vectors.empty())
+        std::memcpy(vectors.data(), array.data(), vectors.size() * sizeof(Vector));
     return vectors;
 }
 
@@ -47,8 +47,8 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
                                 const OrNone<ArrayLike>& colors) {
     Mesh::Arrays arrays;
     arrays.positions = to_vectors<glm::vec3>(float_array(positions, "positions", "(V, 3)"));
-    arrays.triangles = to_vectors<glm::uvec3>(
-        index_array(indices, "indices", "(F, 3)", arrays.positions.size()));
+    arrays.triangles =
+        to_vectors<glm::uvec3>(index_array(indices, "indices", "(F, 3)", arrays.positions.size()));
     if (!normals.is_none()) {
         arrays.normals = to_vectors<glm::vec3>(float_array(normals, "normals", "(V, 3)"));
     }
@@ -96,8 +96,8 @@ auto built_by(Mesh (*build)(Args...)) {
 
 void bind_primitives(Class<Mesh>& mesh) {
     namespace make = cubecam::primitives;
-    mesh.def_static("plane", built_by(&make::plane), py::arg("width") = 1.0,
-                    py::arg("depth") = 1.0, plane_doc);
+    mesh.def_static("plane", built_by(&make::plane), py::arg("width") = 1.0, py::arg("depth") = 1.0,
+                    plane_doc);
     mesh.def_static(
         "box",
         [](const OneOf<py::float_, ArrayLike>& size) {
@@ -110,8 +110,8 @@ void bind_primitives(Class<Mesh>& mesh) {
                     py::arg("subdivisions") = 3, icosphere_doc);
     mesh.def_static("cylinder", built_by(&make::cylinder), py::arg("radius") = 1.0,
                     py::arg("height") = 1.0, py::arg("segments") = 64, cylinder_doc);
-    mesh.def_static("cone", built_by(&make::cone), py::arg("radius") = 1.0,
-                    py::arg("height") = 1.0, py::arg("segments") = 64, cone_doc);
+    mesh.def_static("cone", built_by(&make::cone), py::arg("radius") = 1.0, py::arg("height") = 1.0,
+                    py::arg("segments") = 64, cone_doc);
     mesh.def_static("torus", built_by(&make::torus), py::arg("radius") = 1.0,
                     py::arg("tube") = 0.25, py::arg("segments") = 64, py::arg("sides") = 32,
                     torus_doc);
@@ -131,12 +131,13 @@ void bind_mesh(pybind11::module_& module) {
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none());
     bind_primitives(mesh);
-    mesh.def("resized",
-             [](const Mesh& self, double size) {
-                 const py::gil_scoped_release release;
-                 return std::make_shared<Mesh>(centred_and_scaled(self, size));
-             },
-             py::arg("size"), resized_doc);
+    mesh.def(
+        "resized",
+        [](const Mesh& self, double size) {
+            const py::gil_scoped_release release;
+            return std::make_shared<Mesh>(centred_and_scaled(self, size));
+        },
+        py::arg("size"), resized_doc);
 
     mesh.def_property_readonly(
         "positions", [](const Mesh& self) -> FloatRows { return rows<float>(self.positions()); },
@@ -163,12 +164,13 @@ void bind_mesh(pybind11::module_& module) {
 
     mesh.def("__repr__", &represent_mesh);
     mesh.def("__reduce__", [](const py::object& self) {
-        return reduced(self, py::make_tuple(self.attr("positions"), self.attr("indices"),
-                                            self.attr("normals"), self.attr("uvs"),
-                                            self.attr("colors")));
+        return reduced(self,
+                       py::make_tuple(self.attr("positions"), self.attr("indices"),
+                                      self.attr("normals"), self.attr("uvs"), self.attr("colors")));
     });
     // What never changes need not be copied.
     mesh.def("__copy__", [](const py::object& self) { return self; });
-    mesh.def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
-             py::arg("memo"));
+    mesh.def(
+        "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
+        py::arg("memo"));
 }

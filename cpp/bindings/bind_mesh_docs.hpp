@@ -3,7 +3,8 @@
 
 namespace cubecam::bindings {
 
-inline constexpr const char* mesh_doc = R"doc(Indexed triangles. A mesh never changes, so that scenes and renderers share it.
+inline constexpr const char* mesh_doc =
+    R"doc(Indexed triangles. A mesh never changes, so that scenes and renderers share it.
 
 Parameters
 ----------
@@ -18,7 +19,7 @@ normals : array_like (V, 3), optional
 uvs : array_like (V, 2), optional
     Texture coordinates; (0, 0) is a picture's bottom-left corner, (1, 1) its top-right one.
 colors : array_like (V, 3) or (V, 4), optional
-    Linear RGB or RGBA, not negative, alpha from 0 to 1; uint8 stands for value/255. Shown by
+    Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Shown by
     materials with ``vertex_colors=True``.
 
 Raises
@@ -69,7 +70,8 @@ Examples
 [[-5.0, 0.0, -2.0], [5.0, 0.0, 2.0]]
 )doc";
 
-inline constexpr const char* box_doc = R"doc(A centred box with flat faces, each with uv from 0 to 1.
+inline constexpr const char* box_doc =
+    R"doc(A centred box with flat faces, each with uv from 0 to 1.
 
 Pictures are upright seen from outside: +Y up on the sides, -Z on top (as on `plane`), +Z below.
 
@@ -95,7 +97,8 @@ Examples
 [0.5, 1.0, 1.5]
 )doc";
 
-inline constexpr const char* sphere_doc = R"doc(A centred sphere of rings and segments, as on a globe.
+inline constexpr const char* sphere_doc =
+    R"doc(A centred sphere of rings and segments, as on a globe.
 
 u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
 picture on it reads unmirrored from outside, its centre at +Z and its seam at -Z.
@@ -126,7 +129,8 @@ Examples
 Mesh(2145 vertices, 3968 triangles)
 )doc";
 
-inline constexpr const char* icosphere_doc = R"doc(A centred sphere of triangles of nearly equal size: a subdivided icosahedron.
+inline constexpr const char* icosphere_doc =
+    R"doc(A centred sphere of triangles of nearly equal size: a subdivided icosahedron.
 
 Texture coordinates are those of `sphere`.
 
@@ -182,7 +186,8 @@ Examples
 [1.0, 2.0, 1.0]
 )doc";
 
-inline constexpr const char* cone_doc = R"doc(A centred, closed cone round the Y axis: base at -height/2, apex at +height/2.
+inline constexpr const char* cone_doc =
+    R"doc(A centred, closed cone round the Y axis: base at -height/2, apex at +height/2.
 
 Parameters
 ----------
@@ -238,7 +243,8 @@ Examples
 [1.25, 0.25, 1.25]
 )doc";
 
-inline constexpr const char* resized_doc = R"doc(The same mesh, centred at the origin and scaled evenly.
+inline constexpr const char* resized_doc =
+    R"doc(The same mesh, centred at the origin and scaled evenly.
 
 Parameters
 ----------

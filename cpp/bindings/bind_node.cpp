@@ -5,17 +5,20 @@
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/scene.hpp"
 
-#include <cmath>
-#include <string>
-
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 namespace cubecam::bindings {
 
 namespace {
 
-constexpr const char* node_doc = R"doc(A thing in a scene: a mesh with a material somewhere, or a group.
+constexpr const char* node_doc =
+    R"doc(A thing in a scene: a mesh with a material somewhere, or a group.
 
 Made by `Scene.add`. Attributes may be set at any time; the next picture shows it. Arrays that they
 give are read-only: set the whole, ``node.position = (1, 2, 3)``.
@@ -88,6 +91,15 @@ glm::dvec3 position_of(const Placing& placing) {
     return matrix ? glm::dvec3((*matrix)[3]) : std::get<Transform>(placing).position;
 }
 
+/// From the root to the parent. Pickled in this order, each finds its own parent in the memo: a
+/// long chain is no deep recursion.
+std::vector<std::shared_ptr<Node>> ancestors(const Node& node) {
+    std::vector<std::shared_ptr<Node>> chain;
+    for (auto above = node.parent(); above; above = above->parent()) chain.push_back(above);
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
+
 void bind_placing(Class<Node>& node) {
     node.def_property(
         "position", [](const Node& self) { return point_array(position_of(self.value().placing)); },
@@ -147,14 +159,14 @@ void bind_contents(Class<Node>& node) {
         "str: for people; need not be unique.");
     node.def_property(
         "mesh",
-        [](const Node& self) { return std::const_pointer_cast<Mesh>(self.value().mesh); },
+        [](const Node& self) { return or_none(std::const_pointer_cast<Mesh>(self.value().mesh)); },
         [](Node& self, const OrNone<Mesh>& value) {
             const auto mesh = to_mesh(value);
             self.edit([&](NodeValue& next) { next.mesh = mesh; });
         },
         "Mesh or None: what is drawn; None is a group.");
     node.def_property(
-        "material", [](const Node& self) { return self.value().material; },
+        "material", [](const Node& self) { return or_none(self.value().material); },
         [](Node& self, const OrNone<Material>& value) {
             const auto material = to_material(value);
             self.edit([&](NodeValue& next) { next.material = material; });
@@ -197,7 +209,7 @@ void bind_node(pybind11::module_& module) {
     bind_contents(node);
     bind_placing(node);
     node.def_property(
-        "parent", &Node::parent,
+        "parent", [](const Node& self) { return or_none(self.parent()); },
         [](Node& self, const OrNone<Node>& value) {
             self.set_parent(to_shared_or_none<Node>(value, "parent", "a Node or None"));
         },
@@ -213,24 +225,26 @@ void bind_node(pybind11::module_& module) {
         const NodeValue value = self.value();
         const glm::dvec3 position = position_of(value.placing);
         return "Node(id=" + std::to_string(self.id()) +
-               (value.name.empty() ? std::string()
-                                   : ", name=" + py::repr(py::str(value.name)).cast<std::string>()) +
+               (value.name.empty()
+                    ? std::string()
+                    : ", name=" + py::repr(py::str(value.name)).cast<std::string>()) +
                (value.mesh ? "" : ", group") + ", position=" + tuple_text(position) + ")";
     });
 
-    // A node of a scene is that scene's node of its id: so a pickle is no deeper for many nodes that
-    // lead to each other by their probes. One in no scene takes those above it along.
+    // A node of a scene is that scene's node of its id: so a pickle is no deeper for many nodes
+    // that lead to each other by their probes. One in no scene takes those above it along.
     node.def("__reduce__", [](const std::shared_ptr<Node>& self) -> py::tuple {
         const py::object call = py::module_::import("operator").attr("methodcaller");
         if (const auto scene = self->scene()) {
             return py::make_tuple(call("_restore", self->id()), py::make_tuple(scene));
         }
         return py::make_tuple(call("_loose", self->id()), py::make_tuple(py::type::of<Scene>()),
-                              py::make_tuple(state_of_node(self->value()), self->parent()));
+                              py::make_tuple(state_of_node(self->value()), ancestors(*self)));
     });
-    def_setstate(node, [](Node& self, const py::tuple& state) {
+    def_setstate(node, "tuple", [](Node& self, const py::tuple& state) {
         const NodeValue value = node_from_state(state[0]);
         self.edit([&](NodeValue& next) { next = value; });
-        if (!state[1].is_none()) self.set_parent(state[1].cast<std::shared_ptr<Node>>());
+        const auto above = state[1].cast<std::vector<std::shared_ptr<Node>>>();
+        if (!above.empty()) self.set_parent(above.back());
     });
 }

@@ -5,13 +5,13 @@
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/probe.hpp"
 
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <pybind11/pybind11.h>
-#include <pybind11/stl.h>
 
 namespace cubecam::bindings {
 
@@ -20,9 +20,9 @@ namespace {
 constexpr const char* probe_doc = R"doc(A cubemap that keeps itself true to the scene.
 
 It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
-to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own (``renderer.cubemap(probe)``)
-and draws again only the faces that would come out different. Nodes that use a probe are left out
-of it.
+to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
+(``renderer.cubemap(probe)``) and draws again only the faces that would come out different. Nodes
+that use a probe are left out of it.
 
 Parameters
 ----------
@@ -152,7 +152,7 @@ void field(Class<Probe>& probe, const char* name, Field ProbeValue::* member, co
 
 void bind_links(Class<Probe>& probe) {
     probe.def_property(
-        "parent", [](const Probe& self) { return self.value().parent.lock(); },
+        "parent", [](const Probe& self) { return or_none(self.value().parent.lock()); },
         [](Probe& self, const OrNone<Node>& value) {
             const auto parent = to_shared_or_none<Node>(value, "parent", "a Node or None");
             self.edit([&](ProbeValue& next) { next.parent = parent; });
@@ -227,8 +227,8 @@ void bind_probe(pybind11::module_& module) {
         const auto parent = value.parent.lock();
         return "Probe(position=" + tuple_text(value.position) +
                (parent ? ", parent=node " + std::to_string(parent->id()) : std::string()) +
-               ", size=" + std::to_string(value.size) +
-               ", format='" + std::string(to_string(value.format)) + "'" +
+               ", size=" + std::to_string(value.size) + ", format='" +
+               std::string(to_string(value.format)) + "'" +
                ", update=" + py::repr(update_of(value)).cast<std::string>() + ")";
     });
     // Nodes go into the state: they may use the probe themselves.
@@ -240,7 +240,7 @@ void bind_probe(pybind11::module_& module) {
                                       py::none(), self.attr("faces_per_frame")),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
-    def_setstate(probe, [](const py::object& self, const py::tuple& state) {
+    def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {
         self.attr("parent") = state[0];
         self.attr("exclude") = state[1];
     });

@@ -1,4 +1,14 @@
+#include "arrays.hpp"
+#include "frame.hpp"
+#include "objects.hpp"
+
+#include "cubecam/error.hpp"
+#include "cubecam/render/renderer.hpp"
+
+#include <pybind11/stl.h>
+
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,33 +17,23 @@
 #include <variant>
 #include <vector>
 
-#include <pybind11/stl.h>
-
-#include "arrays.hpp"
-#include "cubecam/error.hpp"
-#include "cubecam/render/renderer.hpp"
-#include "frame.hpp"
-#include "objects.hpp"
-
 namespace cubecam {
 namespace {
 
 std::string text_of(py::handle value) { return py::repr(value).cast<std::string>(); }
 
-/// A whole number of Python or numpy, bool left out.
-int to_int(py::handle value, const char* name) {
+/// A whole number of Python or numpy, bool left out. One beyond 64 bits becomes the nearest that is
+/// not: every number here has limits that are told when they are passed.
+std::int64_t to_int(py::handle value, const char* name) {
     if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
         throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
     }
-    const long long number = PyNumber_AsSsize_t(value.ptr(), nullptr);
-    if (number < -2147483647LL || number > 2147483647LL) {
-        throw std::invalid_argument(std::string(name) + ": expected an int of 32 bits, got " + text_of(value));
-    }
-    return static_cast<int>(number);
+    return PyNumber_AsSsize_t(value.ptr(), nullptr);
 }
 
-std::pair<int, int> to_size(py::handle value) {
-    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) || py::len(value) != 2) {
+std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
+    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) ||
+        py::len(value) != 2) {
         throw TypeError("size: expected (width, height) in pixels, got " + text_of(value));
     }
     const auto pair = py::reinterpret_borrow<py::sequence>(value);
@@ -44,7 +44,8 @@ Outputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
     std::vector<std::string> names;
     for (const py::handle name : py::iter(value)) {
-        if (!py::isinstance<py::str>(name)) throw TypeError("outputs: expected names, got " + text_of(name));
+        if (!py::isinstance<py::str>(name))
+            throw TypeError("outputs: expected names, got " + text_of(name));
         names.push_back(name.cast<std::string>());
     }
     return parse_outputs(names);
@@ -52,14 +53,15 @@ Outputs to_outputs(py::handle value) {
 
 std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
     std::vector<std::int32_t> ids;
-    if (py::isinstance<Node>(exclude)) throw TypeError("exclude: expected a sequence of nodes, got one node");
-    std::optional<std::vector<std::shared_ptr<Node>>> nodes;
+    if (py::isinstance<Node>(exclude))
+        throw TypeError("exclude: expected a sequence of nodes, got one node");
     for (const py::handle item : py::iter(exclude)) {
-        if (!py::isinstance<Node>(item)) throw TypeError("exclude: expected nodes, got " + text_of(item));
+        if (!py::isinstance<Node>(item))
+            throw TypeError("exclude: expected nodes, got " + text_of(item));
         const auto node = item.cast<std::shared_ptr<Node>>();
-        if (!nodes) nodes = scene.nodes();
-        if (std::find(nodes->begin(), nodes->end(), node) == nodes->end()) {
-            throw std::invalid_argument("exclude: expected nodes of this scene, got " + text_of(item));
+        if (!scene.contains(*node)) {
+            throw std::invalid_argument("exclude: expected nodes of this scene, got " +
+                                        text_of(item));
         }
         ids.push_back(node->id());
     }
@@ -69,21 +71,33 @@ std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
 gl::DeviceChoice to_device(py::handle device) {
     if (device.is_none()) return std::string("auto");
     if (py::isinstance<py::str>(device)) return device.cast<std::string>();
-    return to_int(device, "device");
+    if (py::isinstance<gl::DeviceInfo>(device)) return device.cast<const gl::DeviceInfo&>().index;
+    const std::int64_t index = to_int(device, "device");
+    return static_cast<int>(std::clamp<std::int64_t>(index, -1, std::numeric_limits<int>::max()));
 }
 
-std::shared_ptr<Renderer> make_renderer(py::handle device, std::optional<bool> layered, std::int64_t cache_bytes,
-                                        bool debug) {
+std::optional<bool> to_layered(py::handle value) {
+    if (value.is_none()) return std::nullopt;
+    if (!py::isinstance<py::bool_>(value))
+        throw TypeError("layered: expected True, False or None, got " + text_of(value));
+    return value.cast<bool>();
+}
+
+std::shared_ptr<Renderer> make_renderer(py::handle device, py::handle layered,
+                                        std::int64_t cache_bytes, bool debug) {
     if (cache_bytes < 0) {
-        throw std::invalid_argument("cache_bytes: expected 0 or more, got " + std::to_string(cache_bytes));
+        throw std::invalid_argument("cache_bytes: expected 0 or more, got " +
+                                    std::to_string(cache_bytes));
     }
-    RendererOptions options{to_device(device), layered, static_cast<std::size_t>(cache_bytes), debug};
+    RendererOptions options{to_device(device), to_layered(layered),
+                            static_cast<std::size_t>(cache_bytes), debug};
     const py::gil_scoped_release release;
     return std::make_shared<Renderer>(std::move(options));
 }
 
-PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py::handle size, py::handle outputs,
-               const std::string& format, py::handle samples, const std::optional<std::string>& tonemap,
+PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py::handle size,
+               py::handle outputs, const std::string& format, py::handle samples,
+               const std::optional<std::string>& tonemap,
                const std::optional<std::string>& encode) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
@@ -102,9 +116,10 @@ PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py:
     return PyFrame(std::move(frame));
 }
 
-std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::handle position, py::handle size,
-                                 double near, double far, py::handle exclude, py::handle outputs,
-                                 const std::string& format, py::handle samples, py::handle eye) {
+std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::handle position,
+                                 py::handle size, double near, double far, py::handle exclude,
+                                 py::handle outputs, const std::string& format, py::handle samples,
+                                 py::handle eye) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -126,7 +141,8 @@ void update(Renderer& renderer, const Scene& scene, py::handle probes) {
         wanted.push_back(probes.cast<std::shared_ptr<Probe>>());
     } else if (!probes.is_none()) {
         for (const py::handle probe : py::iter(probes)) {
-            if (!py::isinstance<Probe>(probe)) throw TypeError("probes: expected probes, got " + text_of(probe));
+            if (!py::isinstance<Probe>(probe))
+                throw TypeError("probes: expected probes, got " + text_of(probe));
             wanted.push_back(probe.cast<std::shared_ptr<Probe>>());
         }
         if (wanted.empty()) return;
@@ -140,22 +156,28 @@ void bind_stats(py::module_& m) {
     bindings::declare<Stats>(m, "Stats", "What a renderer's last call drew, skipped and took.")
         .def_readonly("views_drawn", &Stats::views_drawn,
                       "int: pictures drawn: frames, faces of captures, faces of probes.")
-        .def_readonly("views_skipped", &Stats::views_skipped, "int: pictures that were still true and not drawn again.")
+        .def_readonly("views_skipped", &Stats::views_skipped,
+                      "int: pictures that were still true and not drawn again.")
         .def_readonly("draw_calls", &Stats::draw_calls, "int")
         .def_readonly("triangles", &Stats::triangles, "int: sent to the GPU, each view counted.")
-        .def_readonly("probes_updated", &Stats::probes_updated, "int: probes of which at least one face was drawn.")
-        .def_readonly("milliseconds", &Stats::milliseconds, "float: the whole call, reading back included.")
+        .def_readonly("probes_updated", &Stats::probes_updated,
+                      "int: probes of which at least one face was drawn.")
+        .def_readonly("milliseconds", &Stats::milliseconds,
+                      "float: the whole call, reading back included.")
         .def("__repr__", [](const Stats& s) {
-            return "<cubecam.Stats views_drawn=" + std::to_string(s.views_drawn) + " views_skipped=" +
-                   std::to_string(s.views_skipped) + " draw_calls=" + std::to_string(s.draw_calls) + " triangles=" +
-                   std::to_string(s.triangles) + " probes_updated=" + std::to_string(s.probes_updated) +
+            return "<cubecam.Stats views_drawn=" + std::to_string(s.views_drawn) +
+                   " views_skipped=" + std::to_string(s.views_skipped) +
+                   " draw_calls=" + std::to_string(s.draw_calls) +
+                   " triangles=" + std::to_string(s.triangles) +
+                   " probes_updated=" + std::to_string(s.probes_updated) +
                    " milliseconds=" + std::to_string(s.milliseconds) + ">";
         });
 }
 
 void bind_info(py::module_& m) {
     bindings::declare<gl::Limits>(m, "Limits", "What the driver allows at most.")
-        .def_readonly("max_texture_size", &gl::Limits::max_texture_size, "int: pixels along a side of a frame.")
+        .def_readonly("max_texture_size", &gl::Limits::max_texture_size,
+                      "int: pixels along a side of a frame.")
         .def_readonly("max_cube_map_texture_size", &gl::Limits::max_cube_map_texture_size,
                       "int: pixels along an edge of a face.")
         .def_readonly("max_array_texture_layers", &gl::Limits::max_array_texture_layers, "int")
@@ -166,16 +188,19 @@ void bind_info(py::module_& m) {
         .def_readonly("vendor", &RendererInfo::vendor, "str: GL_VENDOR.")
         .def_readonly("renderer", &RendererInfo::renderer, "str: GL_RENDERER.")
         .def_readonly("version", &RendererInfo::version, "str: GL_VERSION.")
-        .def_readonly("glsl_version", &RendererInfo::glsl_version, "str: GL_SHADING_LANGUAGE_VERSION.")
+        .def_readonly("glsl_version", &RendererInfo::glsl_version,
+                      "str: GL_SHADING_LANGUAGE_VERSION.")
         .def_readonly("egl_version", &RendererInfo::egl_version, "str: EGL_VERSION.")
-        .def_readonly("platform", &RendererInfo::platform, "str: \"device\", \"surfaceless\" or \"default\".")
+        .def_readonly("platform", &RendererInfo::platform,
+                      "str: \"device\", \"surfaceless\" or \"default\".")
         .def_readonly("device", &RendererInfo::device, "Device: the one that was chosen.")
         .def_readonly("limits", &RendererInfo::limits, "Limits")
         .def_readonly("software", &RendererInfo::software, "bool: whether the CPU draws.")
-        .def_readonly("layered", &RendererInfo::layered, "bool: whether one draw call serves all faces of a cube.")
+        .def_readonly("layered", &RendererInfo::layered,
+                      "bool: whether one draw call serves all faces of a cube.")
         .def("__repr__", [](const RendererInfo& i) {
-            return "<cubecam.RendererInfo " + i.renderer + ", OpenGL " + i.version + ", " + i.platform +
-                   (i.software ? ", software>" : ">");
+            return "<cubecam.RendererInfo " + i.renderer + ", OpenGL " + i.version + ", " +
+                   i.platform + (i.software ? ", software>" : ">");
         });
 }
 
@@ -189,7 +214,9 @@ void bind_renderer(pybind11::module_& m) {
     bind_info(m);
     bind_frame(m);
 
-    auto renderer = bindings::declare<Renderer>(m, "Renderer", R"(Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
+    auto renderer = bindings::declare<Renderer>(
+        m, "Renderer",
+        R"(Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
 
 A renderer owns an OpenGL 4.5 context on EGL: a GPU if there is one, else Mesa's software rasteriser. Any thread may
 use it; calls on one renderer follow each other, several renderers work in parallel. Use it in a ``with`` block, or
@@ -197,9 +224,9 @@ call :meth:`close`.
 
 Parameters
 ----------
-device : str, int or None
+device : str, int, Device or None
     "auto" (the environment variable CUBECAM_DEVICE if set, else a GPU, else software), "gpu", "software", an index
-    into :func:`devices`, part of a device's name, or a UUID. None means "auto".
+    into :func:`devices`, one of them, part of a device's name, or a UUID. None means "auto".
 layered : bool or None
     Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
     the same bytes on llvmpipe.
@@ -276,10 +303,11 @@ Examples
 >>> frame.color.tolist()
 [[[2.0, 0.0, 0.0, 1.0]]]
 )")
-        .def("capture", &capture, py::arg("scene"), py::arg("position") = py::make_tuple(0.0, 0.0, 0.0),
-             py::arg("size") = 256, py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
-             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f", py::arg("samples") = 1,
-             py::arg("eye") = py::none(),
+        .def("capture", &capture, py::arg("scene"),
+             py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
+             py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
+             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f",
+             py::arg("samples") = 1, py::arg("eye") = py::none(),
              R"(Draw what surrounds a point into a cubemap.
 
 Parameters
@@ -352,7 +380,8 @@ ValueError
     If this renderer has not drawn it yet.
 )")
         .def("close", &Renderer::close, py::call_guard<py::gil_scoped_release>(),
-             "Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.")
+             "Free the context and all it holds. Calls after that raise ContextError; closing "
+             "twice does nothing.")
         .def_property_readonly("closed", &Renderer::closed, "bool")
         .def_property_readonly("info", &Renderer::info, py::return_value_policy::copy,
                                "RendererInfo: what was chosen; it stays after close().")
@@ -364,6 +393,7 @@ ValueError
                  self.close();
              })
         .def("__repr__", [](const Renderer& self) {
-            return "<cubecam.Renderer on " + self.info().renderer + (self.closed() ? ", closed>" : ">");
+            return "<cubecam.Renderer on " + self.info().renderer +
+                   (self.closed() ? ", closed>" : ">");
         });
 }

@@ -4,10 +4,10 @@
 
 #include "cubecam/scene/scene.hpp"
 
-#include <string>
-
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+
+#include <string>
 
 namespace cubecam::bindings {
 
@@ -29,7 +29,9 @@ Background to_background(py::handle value) {
     return to_rgba(value, "background");
 }
 
-py::object from_background(const Background& background) {
+using BackgroundNow = OneOf<py::array_t<float>, CubeMap, py::none>;
+
+BackgroundNow from_background(const Background& background) {
     if (const auto* color = std::get_if<glm::vec4>(&background)) return color_array(*color);
     if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background)) {
         return py::cast(*cube);
@@ -44,13 +46,9 @@ std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
                                const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
                                const CubeLike& environment, bool visible, bool in_probes,
                                std::string name) {
-    NodeValue value{{},
-                    to_mesh(mesh),
-                    to_material(material),
-                    to_cube_source(environment, "environment"),
-                    visible,
-                    in_probes,
-                    std::move(name)};
+    NodeValue value{
+        {},      to_mesh(mesh), to_material(material), to_cube_source(environment, "environment"),
+        visible, in_probes,     std::move(name)};
     value.placing = to_placing(position, rotation, scale, matrix);
     return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
 }
@@ -72,8 +70,8 @@ py::dict scene_state(const Scene& scene) {
     py::list nodes;
     for (const auto& node : scene.nodes()) {
         const auto parent = node->parent();
-        nodes.append(py::make_tuple(node->id(), parent ? parent->id() : 0,
-                                    state_of_node(node->value())));
+        nodes.append(
+            py::make_tuple(node->id(), parent ? parent->id() : 0, state_of_node(node->value())));
     }
     py::dict state;
     state["environment"] = scene.environment();
@@ -109,7 +107,7 @@ void bind_pickling(Class<Scene>& scene) {
     scene.def("__reduce__", [](const py::object& self) {
         return reduced(self, py::tuple(), scene_state(self.cast<const Scene&>()));
     });
-    def_setstate(scene, &set_scene_state);
+    def_setstate(scene, "dict", &set_scene_state);
     scene.def("_restore", &Scene::restore, py::arg("id"), "For unpickling: the node of an id.");
     scene.def_static(
         "_loose", [](std::int32_t id) { return std::make_shared<Node>(id, NodeValue()); },
@@ -134,14 +132,13 @@ void bind_scene(pybind11::module_& module) {
               }),
               py::arg("environment") = py::none(), py::arg("background") = py::none());
     scene.def_property(
-        "environment", &Scene::environment,
+        "environment", [](const Scene& self) { return or_none(self.environment()); },
         [](Scene& self, const OrNone<CubeMap>& value) {
             self.set_environment(to_environment(value));
         },
         "CubeMap or None: what mirrors and glass show that have no environment of their own.");
     scene.def_property(
-        "background",
-        [](const Scene& self) -> BackgroundLike { return from_background(self.background()); },
+        "background", [](const Scene& self) { return from_background(self.background()); },
         [](Scene& self, const BackgroundLike& value) { self.set_background(to_background(value)); },
         "ndarray (4,) float32, CubeMap or None: what is seen where nothing is. None: the"
         " environment if there is one, else transparent black.");

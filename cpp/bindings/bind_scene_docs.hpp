@@ -20,7 +20,7 @@ Raises
 TypeError
     For an environment or background of another type.
 ValueError
-    For a colour that is negative or not finite.
+    For a colour that is not finite.
 
 Examples
 --------

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <pybind11/pybind11.h>
-
 #include "cubecam/render/frame.hpp"
+
+#include <pybind11/pybind11.h>
 
 namespace cubecam {
 

@@ -7,11 +7,11 @@
 
 #include "cubecam/scene/node.hpp"
 
+#include <pybind11/pybind11.h>
+
 #include <memory>
 #include <utility>
 #include <variant>
-
-#include <pybind11/pybind11.h>
 
 namespace cubecam::bindings {
 

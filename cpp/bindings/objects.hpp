@@ -1,12 +1,13 @@
-/// What the bindings of scene objects share: how classes are declared, and checked objects from Python.
+/// What the bindings of scene objects share: how classes are declared, and checked objects from
+/// Python.
 #pragma once
+
+#include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
 
 #include <memory>
 #include <string>
 #include <utility>
-
-#include <pybind11/pybind11.h>
-#include <pybind11/typing.h>
 
 namespace cubecam::bindings {
 
@@ -71,8 +72,14 @@ std::shared_ptr<T> to_shared_or_none(py::handle value, const char* name, const c
     return value.is_none() ? nullptr : to_shared<T>(value, name, expected);
 }
 
-/// For `__reduce__`: pickle keeps the object made of `args` in its memo before it pickles `state`, so
-/// that the state may lead back to the object.
+/// The object, or None for null.
+template <class T>
+OrNone<T> or_none(const std::shared_ptr<T>& object) {
+    return py::cast(object);
+}
+
+/// For `__reduce__`: pickle keeps the object made of `args` in its memo before it pickles `state`,
+/// so that the state may lead back to the object.
 inline py::tuple reduced(py::handle self, py::tuple args) {
     return py::make_tuple(py::type::handle_of(self), std::move(args));
 }
@@ -81,12 +88,18 @@ inline py::tuple reduced(py::handle self, py::tuple args, py::object state) {
     return py::make_tuple(py::type::handle_of(self), std::move(args), std::move(state));
 }
 
-/// Defines `__setstate__` as a method of an object that exists: of a function bound by that name
+/// Defines `__setstate__` as a method of an object that exists: of a function made by that name
 /// pybind11 expects that it constructs one.
 template <class Bound, class Function>
-void def_setstate(Bound& bound, Function&& function) {
-    bound.def("_set_state", std::forward<Function>(function), py::arg("state"), "For unpickling.");
-    bound.attr("__setstate__") = bound.attr("_set_state");
+void def_setstate(Bound& bound, const char* state_type, Function&& function) {
+    const auto class_name = bound.attr("__name__").template cast<std::string>();
+    const std::string doc = "__setstate__(self: cubecam." + class_name + ", state: " + state_type +
+                            ") -> None\n\nFor unpickling.";
+    py::options options;
+    options.disable_function_signatures();
+    bound.attr("__setstate__") =
+        py::cpp_function(std::forward<Function>(function), py::name("_set_state"),
+                         py::is_method(bound), py::arg("state"), doc.c_str());
 }
 
 }  // namespace cubecam::bindings

@@ -6,17 +6,18 @@
 
 #include "cubecam/scene/describe.hpp"
 
-#include <charconv>
-#include <string>
-
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <charconv>
+#include <string>
+
 namespace cubecam::bindings {
 
-/// Three finite numbers. Tuples and lists of plain numbers, which most calls give, go without numpy.
+/// Three finite numbers. Tuples and lists of plain numbers, which most calls give, go without
+/// numpy.
 inline glm::dvec3 to_point(py::handle value, const char* name) {
     const bool tuple = PyTuple_CheckExact(value.ptr()) != 0;
     if (tuple ? PyTuple_GET_SIZE(value.ptr()) == 3

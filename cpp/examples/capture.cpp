@@ -2,8 +2,13 @@
 //
 //     cubecam_capture_example OUT_DIR
 //
-// writes OUT_DIR/face_0.pfm ... face_5.pfm in the order +X -X +Y -Y +Z -Z: linear RGB floats, each file's rows bottom
-// to top as the PFM format has them, so that a picture viewer shows row 0 of the face (t = 0) on top.
+// writes OUT_DIR/face_0.pfm ... face_5.pfm in the order +X -X +Y -Y +Z -Z: linear RGB floats, each
+// file's rows bottom to top as the PFM format has them, so that a picture viewer shows row 0 of the
+// face (t = 0) on top.
+#include "cubecam/math/cube_face.hpp"
+#include "cubecam/render/renderer.hpp"
+#include "cubecam/scene/primitives.hpp"
+
 #include <cstddef>
 #include <exception>
 #include <filesystem>
@@ -13,15 +18,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "cubecam/math/cube_face.hpp"
-#include "cubecam/render/renderer.hpp"
-#include "cubecam/scene/primitives.hpp"
-
 namespace {
 
 using namespace cubecam;
 
-std::shared_ptr<Node> add(Scene& scene, Mesh mesh, std::shared_ptr<Material> material, glm::dvec3 position) {
+std::shared_ptr<Node> add(Scene& scene, Mesh mesh, std::shared_ptr<Material> material,
+                          glm::dvec3 position) {
     NodeValue node;
     node.mesh = std::make_shared<const Mesh>(std::move(mesh));
     node.material = std::move(material);
@@ -35,16 +37,19 @@ void build(Scene& scene) {
 
     PhongParameters floor;
     floor.color = {0.4F, 0.4F, 1.0F, 1.0F};
-    add(scene, primitives::plane(10.0, 10.0), std::make_shared<PhongMaterial>(floor), {0.0, -2.0, 0.0});
+    add(scene, primitives::plane(10.0, 10.0), std::make_shared<PhongMaterial>(floor),
+        {0.0, -2.0, 0.0});
     PhongParameters green;
     green.color = {0.4F, 1.0F, 0.4F, 1.0F};
-    add(scene, primitives::box(glm::dvec3(1.0)), std::make_shared<PhongMaterial>(green), {2.0, 0.0, 0.5});
+    add(scene, primitives::box(glm::dvec3(1.0)), std::make_shared<PhongMaterial>(green),
+        {2.0, 0.0, 0.5});
     BasicParameters red;
     red.color = {1.0F, 0.4F, 0.4F, 1.0F};
     add(scene, primitives::sphere(0.5), std::make_shared<BasicMaterial>(red), {-0.5, 0.25, -2.0});
 
     // A mirror ball that shows all of the above, by way of a cubemap of its own.
-    const auto ball = add(scene, primitives::sphere(0.75), std::make_shared<MirrorMaterial>(), {0.0, 0.5, 2.5});
+    const auto ball =
+        add(scene, primitives::sphere(0.75), std::make_shared<MirrorMaterial>(), {0.0, 0.5, 2.5});
     ProbeValue probe;
     probe.position = {0.0, 0.5, 2.5};
     ball->edit([&](NodeValue& value) { value.environment = std::make_shared<Probe>(probe); });
@@ -57,7 +62,8 @@ void write_pfm(const std::filesystem::path& path, const CubeMapData& cube, Face 
     file << "PF\n" << size << ' ' << size << "\n-1.0\n";
     for (std::size_t row = size; row-- > 0;) {
         for (std::size_t column = 0; column < size; ++column) {
-            file.write(reinterpret_cast<const char*>(texels + (row * size + column) * 4), 3 * sizeof(float));
+            file.write(reinterpret_cast<const char*>(texels + (row * size + column) * 4),
+                       3 * sizeof(float));
         }
     }
     if (!file.flush()) throw std::runtime_error("cannot write " + path.string());
@@ -81,11 +87,13 @@ int main(int count, char** arguments) {
         options.size = 64;
         const auto cube = renderer.capture(scene, options);
         for (const Face face : all_faces) {
-            write_pfm(out / ("face_" + std::to_string(face_index(face)) + ".pfm"), *cube->data(), face);
+            write_pfm(out / ("face_" + std::to_string(face_index(face)) + ".pfm"), *cube->data(),
+                      face);
         }
         const Stats stats = renderer.stats();
-        std::cout << renderer.info().renderer << ": " << stats.views_drawn << " views, " << stats.draw_calls
-                  << " draw calls, " << stats.milliseconds << " ms, written to " << out.string() << '\n';
+        std::cout << renderer.info().renderer << ": " << stats.views_drawn << " views, "
+                  << stats.draw_calls << " draw calls, " << stats.milliseconds << " ms, written to "
+                  << out.string() << '\n';
         return 0;
     } catch (const std::exception& problem) {
         std::cerr << problem.what() << '\n';

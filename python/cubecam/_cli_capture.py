@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal, TypeAlias, cast
+from typing import Annotated, Literal, TypeAlias
 
 import typer
 from rich.console import Console
@@ -13,7 +13,6 @@ from . import (
     GlassMaterial,
     Material,
     MirrorMaterial,
-    Node,
     PhongMaterial,
     PointLight,
     Renderer,
@@ -118,13 +117,13 @@ def capture(
             )
             drawn_by = str(renderer.info.renderer)
         written = [output]
-        CubeMap.save(cube, output, wanted, convention, width, center, srgb)
+        cube.save(output, wanted, convention, width, center, srgb)
         for name in more:
             written += _save_output(cube, name, output, wanted, convention or "gl")
         console = Console(soft_wrap=True)
         for path in written:
             console.print(path, markup=False, highlight=False)
-        triangles = len(cast("Node", node).mesh.indices)
+        triangles = len(node.mesh.indices)
         console.print(
             f"{triangles} triangles, 6 x {size} x {size} texels, drawn by {drawn_by}",
             highlight=False,

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import track
 
-from . import CubeMap, Error
+from . import Error
 from ._cli_common import Center, Convention, Layout, describe
 from .cubemaps import load_cubemap
 
@@ -109,7 +109,7 @@ def convert(
         try:
             cube = load_cubemap(item.source, from_layout, from_convention, size, from_center, srgb)
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
-            CubeMap.save(cube, item.path, item.layout, convention, width, center, srgb, half)
+            cube.save(item.path, item.layout, convention, width, center, srgb, half)
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:
             failed += 1
             text = describe(error)

@@ -10,7 +10,6 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
-from rich.table import Table
 
 from . import ContextError, Renderer, __version__, _cli_capture, _cli_convert, devices
 from ._cli_common import DeviceOption, fail, failures_reported, parse_device
@@ -65,36 +64,20 @@ def info(device: DeviceOption = None) -> None:
         highlight=False,
     )
     with failures_reported():
-        table = Table(box=None, pad_edge=False)
-        for heading in (
-            "index",
-            "name",
-            "vendor",
-            "driver",
-            "kind",
-            "UUID",
-            "CUDA",
-            "platform",
-            "problem",
-        ):
-            table.add_column(heading)
         for item in devices():
-            cells = (
-                item.index,
-                item.name,
+            told = [
                 item.vendor,
                 item.driver,
                 "software" if item.software else "GPU",
-                item.uuid,
-                item.cuda_index,
-                item.platform,
+                f"{item.platform} platform",
+                f"UUID {item.uuid}" if item.uuid else "",
+                f"CUDA {item.cuda_index}" if item.cuda_index is not None else "",
                 item.problem,
-            )
-            table.add_row(*("" if cell is None else str(cell) for cell in cells))
-        console.print(table)
+            ]
+            line = f"device {item.index}: {item.name}: {', '.join(text for text in told if text)}"
+            console.print(line, highlight=False, markup=False)
     try:
         with Renderer(device=parse_device(device)) as renderer:
-            console.print()
             for line in _describe(renderer.info):
                 console.print(line, highlight=False, markup=False)
     except (ContextError, ValueError) as error:

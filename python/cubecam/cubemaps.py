@@ -133,6 +133,11 @@ def load_environment(
     OSError, ImageError, ValueError
         As `load_cubemap`.
 
+    Notes
+    -----
+    Numbers are the file's. Lossy EXR compression (DWA) leaves some below 0 round lamps, also in the sample
+    photographs; where that shows, use `CubeMap(numpy.maximum(cube.faces, 0))`.
+
     Examples
     --------
     >>> import cubecam as cc

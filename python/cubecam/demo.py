@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 __all__ = ["DemoScene", "Step", "build_scene", "run"]
 
 _START = 320.0  # degrees: where the bunny stands in still pictures
-_ORBIT = 2.0  # world units from the ball's centre to the actors
+_ORBIT = 1.4  # world units from the ball's centre to the actors
 
 
 @dataclass
@@ -55,7 +55,7 @@ class DemoScene:
     teapot: Node
 
     def turn(self, angle: float) -> None:
-        """Place bunny and teapot on opposite sides of their circle round the ball, facing along it.
+        """Place bunny and teapot on opposite sides of their circle round the ball, turned with it.
 
         Parameters
         ----------
@@ -88,7 +88,7 @@ def build_scene(environment: CubeMap | None = None, probe_size: int = 256) -> De
     >>> demo = build_scene(probe_size=64)
     >>> demo.turn(90)
     >>> [round(float(x), 3) + 0 for x in demo.bunny.position]
-    [0.0, -0.1, -2.0]
+    [0.0, -0.1, -1.4]
     """
     if environment is None:
         environment = load_environment(sample_data("city.exr"))
@@ -99,12 +99,12 @@ def build_scene(environment: CubeMap | None = None, probe_size: int = 256) -> De
         load_mesh(sample_data("bunny.obj"), size=1), PhongMaterial(color=(1, 0.4, 0.4))
     )
     teapot = scene.add(
-        load_mesh(sample_data("teapot.obj"), size=1.2), PhongMaterial(color=(0.4, 1, 0.4))
+        load_mesh(sample_data("teapot.obj"), size=1), PhongMaterial(color=(0.4, 1, 0.4))
     )
     gold = MirrorMaterial(color=(0.95, 0.85, 0.4), env_weight=0.78, color_weight=0.3)
     ball = scene.add(Mesh.sphere(0.5), gold)
     ball.environment = Probe(position=(0, 0, 0), size=probe_size)
-    camera = PerspectiveCamera(fov=50, position=(0, 1, 5), target=(0, -0.1, 0))
+    camera = PerspectiveCamera(fov=50, position=(0, 1.2, 4.2), target=(0, -0.1, 0))
     demo = DemoScene(scene, camera, ball, bunny, teapot)
     demo.turn(_START)
     return demo
@@ -240,13 +240,7 @@ def _frame(renderer: Renderer, demo: DemoScene, size: int) -> Any:
 
 
 def _report(console: Console, steps: list[Step], drawn_by: str) -> None:
-    from rich.table import Table
-
-    table = Table(box=None, pad_edge=False)
-    table.add_column("step")
-    table.add_column("file")
-    table.add_column("seconds", justify="right")
     for step in steps:
-        table.add_row(step.name, str(step.path or ""), f"{step.seconds:.2f}")
-    console.print(table)
-    console.print(f"drawn by {drawn_by}", highlight=False)
+        line = f"{step.name:<26}{step.seconds:7.2f} s  {step.path or ''}".rstrip()
+        console.print(line, highlight=False, markup=False, soft_wrap=True)
+    console.print(f"drawn by {drawn_by}", highlight=False, markup=False, soft_wrap=True)

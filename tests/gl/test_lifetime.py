@@ -1,6 +1,7 @@
 """Closing, garbage, threads that end, two hundred contexts, memory."""
 
 import gc
+import pickle
 import threading
 
 import numpy as np
@@ -165,6 +166,11 @@ def test_the_end_of_the_process_is_quiet():
         """
     )
     assert done.stderr == ""
+
+
+def test_a_renderer_does_not_pickle_and_says_so(renderer):
+    with pytest.raises(TypeError, match="Renderer"):
+        pickle.dumps(renderer)
 
 
 def test_scenes_know_no_renderer(new_renderer):

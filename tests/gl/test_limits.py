@@ -19,18 +19,12 @@ def test_captures_over_the_limit_name_it(renderer):
 
 def test_frames_over_the_limit_name_it(renderer):
     limit = renderer.info.limits.max_texture_size
-    for size in ((limit + 1, 1), (1, limit + 1), (2**40, 2)):
+    camera = cc.PerspectiveCamera(**CAMERA)
+    for size in ((limit + 1, 1), (1, limit + 1)):
         with pytest.raises(ValueError, match=str(limit)):
-            renderer.render(cc.Scene(), cc.PerspectiveCamera(**CAMERA), size)
-
-
-def test_environments_over_the_limit_name_it(renderer):
-    limit = renderer.info.limits.max_cube_map_texture_size
-    if limit > 4096:
-        pytest.skip(f"a cube of {limit + 1} texels would take {6 * (limit + 1) ** 2 >> 20} MB")
-    scene = cc.Scene(environment=cc.CubeMap(np.zeros((6, limit + 1, limit + 1, 1), np.uint8)))
-    with pytest.raises(ValueError, match=str(limit)):
-        renderer.capture(scene, size=4)
+            renderer.render(cc.Scene(), camera, size)
+    with pytest.raises(ValueError, match="expected"):
+        renderer.render(cc.Scene(), camera, (2**40, 2))
 
 
 @pytest.mark.parametrize(
@@ -88,7 +82,7 @@ def test_what_is_no_scene_or_camera(renderer, scene):
         renderer.render(cc.Scene(), scene, (4, 4))
 
 
-@pytest.mark.parametrize("layered", ["yes", 3])
+@pytest.mark.parametrize("layered", ["yes", []])
 def test_bad_renderer_options(layered):
     with pytest.raises(TypeError):
         cc.Renderer(layered=layered)

@@ -169,9 +169,14 @@ def test_a_box_textured_by_object_space_position(any_path, mipmaps):
     frame = any_path.render(world.scene, view.camera, view.size, format="rgba32f")
     hits = view.hits(world.shapes)
     mask = inner(hits) & hits.hit
-    # Seen so near, a texel covers several pixels: level 0 with mipmaps too.
-    want = sample_trilinear(pixels, hits.local, 0)
-    assert_close(frame.color[mask][:, :3], want[mask], "mirror", least=0)
+    want = sample_trilinear(pixels, np.nan_to_num(hits.local, nan=1.0), 0)
+    if not mipmaps:
+        assert_close(frame.color[mask][:, :3], want[mask], "mirror", least=0)
+        return
+    # A texel covers several pixels, so level 0 is looked up, but where a side is seen at a slant.
+    difference = np.abs(frame.color[mask][:, :3] - want[mask])
+    assert np.quantile(difference, 0.95) < 4e-3
+    assert difference.max() < 0.2
 
 
 def test_a_lookup_in_a_noisy_cube_equals_sample(renderer):

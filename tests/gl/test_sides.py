@@ -122,6 +122,21 @@ def test_winding_of_each_face_is_that_of_the_others(any_path):
         assert_close(cube.distance, hits.distance, "distance", mask=interior(hits.id))
 
 
+def test_a_mirrored_projection_shows_the_mirrored_picture(renderer):
+    """As for planar mirrors: what faced the camera still does."""
+    world = World()
+    world.sphere(1, (1, 0, 0))
+    world.box(0.8, (0, 1, 0), position=(1.5, 0.3, 0), axis=(1, 1, 1), degrees=40)
+    view = perspective((1, 1, 4), (0.5, 0, 0))
+    mirror = np.diag([-1.0, 1, 1, 1]) @ view.projection
+    camera = cc.Camera(view=view.view, projection=mirror)
+    frame = renderer.render(world.scene, camera, view.size, outputs=("id", "z"))
+    hits = view.hits(world.shapes)
+    mask = interior(hits.id)[:, ::-1]
+    assert_close(frame.id, hits.id[:, ::-1], "exact", mask=mask)
+    assert_close(frame.z, hits.t[:, ::-1], "distance", mask=mask)
+
+
 def test_frames_cull_as_captures_do(renderer):
     world = World()
     world.sphere(1, scale=(-1, 1, 1))

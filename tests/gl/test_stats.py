@@ -117,12 +117,12 @@ CHANGES = {
 def test_every_change_is_seen(renderer, fresh_renderer, change):
     """Nothing is forgotten in the key: the picture is that of a renderer which never saw the old one."""
     scene = ring()
-    before = renderer.capture(scene, size=16).faces
+    before = renderer.capture(scene, size=48).faces
     change(scene)
-    after = renderer.capture(scene, size=16).faces
+    after = renderer.capture(scene, size=48).faces
     assert renderer.stats.views_drawn > 0
     assert (after != before).any()
-    assert_identical(after, fresh_renderer.capture(scene, size=16).faces)
+    assert_identical(after, fresh_renderer.capture(scene, size=48).faces)
 
 
 LIT = {

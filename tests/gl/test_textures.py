@@ -44,21 +44,23 @@ def test_uv_0_0_is_the_bottom_left(renderer, dtype, channels):
     got, hits, mask = seen(renderer, quad(CORNERS), cc.BasicMaterial(map=picture))
     want = sample_image(picture, hits.uv[mask])
     want = np.repeat(want, 3, axis=-1) if channels == 1 else want[..., :3]
-    assert_close(got[..., :3], want, "mirror")
+    assert_close(got[..., :3], want, "unorm8_filter")
 
 
 @pytest.mark.parametrize("wrap", ["repeat", "clamp"])
 def test_wrapping(renderer, wrap):
     mesh = quad(CORNERS * 3 - 1.2)
     got, hits, mask = seen(renderer, mesh, cc.BasicMaterial(map=cc.Image(PICTURE, wrap=wrap)))
-    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask], wrap), "mirror")
+    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask], wrap), "unorm8_filter")
 
 
 def test_colour_times_map(renderer):
     got, hits, mask = seen(
         renderer, quad(CORNERS), cc.BasicMaterial(color=(0.5, 2, 0.25), map=PICTURE)
     )
-    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask]) * [0.5, 2, 0.25], "mirror")
+    assert_close(
+        got[..., :3], sample_image(PICTURE, hits.uv[mask]) * [0.5, 2, 0.25], "unorm8_filter"
+    )
 
 
 def test_perspective_correct(renderer):
@@ -67,7 +69,7 @@ def test_perspective_correct(renderer):
     got, hits, mask = seen(
         renderer, quad(CORNERS), cc.BasicMaterial(map=PICTURE), view, axis=(1, 1, 0), degrees=55
     )
-    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask]), "mirror")
+    assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask]), "unorm8_filter")
 
 
 @pytest.mark.parametrize("width", [3, 4])
@@ -106,7 +108,7 @@ def test_mipmaps_average_far_away(renderer):
         spread[mipmaps] = (
             renderer.render(scene, camera, (8, 8), format="rgba32f").color[..., :3].std()
         )
-    assert spread[True] < 0.1 < 0.25 < spread[False]
+    assert spread[True] < 0.1 < 0.2 < spread[False]
 
 
 def test_maps_are_linear_numbers(renderer):

@@ -16,8 +16,8 @@ FOLDER = Path(__file__).parent
 SIZE = 96
 
 
-def studio(size=64):
-    return cc.load_environment(cc.sample_data("studio.exr"), size=size)
+def surroundings(name, size=64):
+    return cc.load_environment(cc.sample_data(f"{name}.exr"), size=size)
 
 
 def bunny(size=1.4):
@@ -31,8 +31,8 @@ def front(renderer, scene, **more):
 
 
 def draw_materials(renderer):
-    """The four materials side by side in the studio."""
-    scene = cc.Scene(environment=studio())
+    """The four materials side by side in the city."""
+    scene = cc.Scene(environment=surroundings("city"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     materials = [
         cc.BasicMaterial(color=(0.9, 0.3, 0.1)),
@@ -51,7 +51,7 @@ def draw_materials(renderer):
 
 def draw_reflection(renderer):
     """The scene of the front page: a mirror ball that shows bunny and teapot."""
-    scene = cc.Scene(environment=studio())
+    scene = cc.Scene(environment=surroundings("studio"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(cc.Mesh.plane(10, 10), cc.PhongMaterial(color=(0.4, 0.4, 1)), position=(0, -0.8, 0))
     scene.add(bunny(1), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(1.2, -0.3, 0.6))
@@ -67,7 +67,7 @@ def draw_reflection(renderer):
 
 def draw_capture(renderer):
     """A captured cube as a cross in the convention that reads naturally."""
-    scene = cc.Scene(environment=studio())
+    scene = cc.Scene(environment=surroundings("city"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(bunny(), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(0, 0, -2))
     cube = renderer.capture(scene, size=32, format="rgba8", samples=4)

@@ -164,7 +164,7 @@ class Triangles(Shape):
             q = np.cross(offset, e1[None])
             v = (q * directions[:, None]).sum(-1) / det
             t = (q * e2).sum(-1) / det
-        met = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > t_min[:, None]) & (t < t_max[:, None])
+            met = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > t_min[:, None]) & (t < t_max[:, None])
         if not self.double_sided:
             met &= det > 0  # in the mesh's own space, so that a mirroring matrix changes nothing
         t = np.where(met, t, np.inf)

@@ -82,7 +82,7 @@ BAD_MESHES = {
     "indices float": ({"indices": [[0.0, 1.0, 2.0]]}, TypeError, "indices"),
     "indices too large": ({"indices": [[0, 1, 3]]}, IndexError, "3"),
     "indices negative": ({"indices": [[0, 1, -1]]}, IndexError, "-1"),
-    "no triangle": ({"indices": np.zeros((0, 3), int)}, ValueError, "indices"),
+    "no triangle": ({"indices": np.zeros((0, 3), int)}, ValueError, "triangle"),
     "normals of 2 vertices": ({"normals": [[0, 0, 1]] * 2}, ValueError, "normals"),
     "normals nan": ({"normals": [[0, 0, np.nan]] * 3}, ValueError, "normals"),
     "uvs of 3": ({"uvs": [[0, 0, 0]] * 3}, ValueError, "uvs"),

@@ -98,7 +98,7 @@ def test_set_face_in_a_convention_puts_it_where_the_constructor_does(face):
 
 @pytest.mark.parametrize(
     ("which", "error"),
-    [(6, IndexError), (-1, IndexError), ("px", ValueError), ("+w", ValueError), (1.5, TypeError)],
+    [(6, IndexError), (-1, IndexError), ("left", ValueError), ("+w", ValueError), (1.5, TypeError)],
 )
 def test_set_face_refuses_what_is_no_face(which, error):
     with pytest.raises(error):

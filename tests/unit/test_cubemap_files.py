@@ -9,7 +9,6 @@ from tests.helpers import conventions, layouts
 from tests.reference.cube_faces import FACE_NAMES, convert, face_uv_to_direction, to_layout
 from tests.reference.equirect import faces_to_equirect, pixel_directions
 from tests.reference.pattern import direction_pattern, face_pattern, random_faces
-from tests.reference.sampling import sample_faces
 
 
 def six(folder, ending="png"):
@@ -82,18 +81,14 @@ def openexr_directions(size):
     return np.stack([face_uv_to_direction(face, *sides[face]) for face in range(6)])
 
 
-def test_openexr_layout_samples_the_borders(tmp_path, rng):
-    pixels = random_faces(rng, 9, 3)
-    cc.CubeMap(pixels).save(tmp_path / "a.exr", layout="openexr")
+def test_openexr_layout_samples_the_borders(tmp_path):
+    """The first sample lies on the edge, not half a texel inside: each stores its direction."""
+    cc.CubeMap(direction_pattern(64)).save(tmp_path / "a.exr", layout="openexr")
     stored = cc.load_image(tmp_path / "a.exr")
-    assert stored.shape == (54, 9, 3)
-    inner = np.zeros((9, 9), bool)
-    inner[1:-1, 1:-1] = True  # on the very edge each face may take the value of either
-    assert_close(
-        stored.reshape(6, 9, 9, 3)[:, inner],
-        sample_faces(pixels, openexr_directions(9))[:, inner],
-        "lookup",
-    )
+    assert stored.shape == (6 * 64, 64, 3)
+    want = openexr_directions(64)
+    want /= np.linalg.norm(want, axis=-1, keepdims=True)
+    assert np.abs(stored.reshape(want.shape) - want).max() < 0.008  # half a texel is 0.011
 
 
 def test_openexr_file_says_so_to_others(tmp_path):
@@ -150,7 +145,7 @@ def test_a_foreign_openexr_panorama_is_read_from_its_borders(tmp_path):
     )
     write_environment(tmp_path / "a.exr", directions, "LatLong Environment")
     got = cc.load_environment(tmp_path / "a.exr", size=32)
-    assert np.abs(got.faces - direction_pattern(32)).max() < 4e-3
+    assert np.abs(got.faces - direction_pattern(32)).max() < 6e-3
 
 
 def test_without_the_attribute_a_column_is_copied(tmp_path):

@@ -106,7 +106,7 @@ def test_a_failed_rename_leaves_the_old_file_and_nothing_else(writer, tmp_path, 
 
 
 def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path):
-    """RLIMIT_FSIZE stands in for the disk: writing beyond it fails with EFBIG."""
+    """RLIMIT_FSIZE stands in for the disk: writing beyond it fails with EFBIG, in memory files too."""
     path = tmp_path / "a.exr"
     path.write_bytes(b"old")
     run_python(
@@ -120,14 +120,32 @@ def test_a_full_disk_leaves_the_old_file_and_nothing_else(tmp_path):
                      lambda: cc.CubeMap(noise[None].repeat(6, 0)).save({str(path)!r}, layout="row")):
             try:
                 save()
-            except OSError as error:
-                print("OSError", error)
+            except (OSError, cc.Error) as error:
+                print(error)
             else:
                 raise SystemExit("expected an OSError")
         """
     )
     assert path.read_bytes() == b"old"
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.exr", "warm.exr"]
+
+
+@pytest.mark.parametrize("writer", ["image", "cube"])
+def test_a_disk_that_fills_up_on_the_way_leaves_the_old_file(writer, tmp_path, monkeypatch):
+    path = tmp_path / "a.exr"
+    path.write_bytes(b"old")
+    save = writers()[writer]
+
+    def half(self, data):
+        with self.open("wb") as file:
+            file.write(data[: len(data) // 2])
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("pathlib.Path.write_bytes", half)
+    with pytest.raises(OSError, match="No space"):
+        save(path)
+    assert path.read_bytes() == b"old"
+    assert [p.name for p in tmp_path.iterdir()] == ["a.exr"]
 
 
 def test_six_files_are_all_written_or_none(tmp_path):

@@ -113,7 +113,7 @@ def test_srgb_does_not_touch_floating_point_files(tmp_path):
 
 
 def test_floats_are_clipped_and_rounded_into_8_bits(tmp_path):
-    values = np.array([[[-1.0, 0.5, 2.0], [0.1, 1.0, 0.9]]])
+    values = np.array([[[-1.0, 0.501, 2.0], [0.1, 1.0, 0.703]]])
     cc.save_image(tmp_path / "a.png", values)
     want = np.rint(np.clip(values, 0, 1) * 255)
     assert np.abs(cc.load_image(tmp_path / "a.png") - want).max() <= 0.5

@@ -76,7 +76,7 @@ def test_probe_update_reads_back(update):
 def test_an_array_as_map_becomes_an_image():
     material = cc.BasicMaterial(map=np.full((2, 3, 3), 7, np.uint8))
     assert isinstance(material.map, cc.Image)
-    assert (material.map.width, material.map.height, material.map.channels) == (3, 2, 3)
+    assert (tuple(material.map.size), material.map.channels) == ((3, 2), 3)
     np.testing.assert_array_equal(material.map.pixels, 7)
 
 

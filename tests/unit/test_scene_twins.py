@@ -165,11 +165,6 @@ def test_faces_and_errors_pickle():
     assert str(error) == "no device"
 
 
-def test_a_renderer_does_not_pickle_and_says_so():
-    with pytest.raises(TypeError, match="Renderer"):
-        pickle.dumps(cc.Renderer.__new__(cc.Renderer))
-
-
 def test_revisions_are_internal():
     scene, *_ = furnished()
     for thing in (

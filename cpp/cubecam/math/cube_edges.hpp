@@ -63,8 +63,8 @@ struct TexelPlace {
 };
 
 /// The texel that lies where (row, column) would be, of which exactly one is outside 0..N-1, were
-/// the neighbour unfolded into the face's plane: -1 and N are the neighbour's edge, -2 and N + 1 the
-/// texels behind it, down to its far edge.
+/// the neighbour unfolded into the face's plane: -1 and N are the neighbour's edge, -2 and N + 1
+/// the texels behind it, down to its far edge.
 constexpr TexelPlace texel_beyond_edge(Face face, int row, int column, int size) {
     const Side side = column < 0       ? Side::left
                       : column >= size ? Side::right

@@ -25,12 +25,12 @@
 /// what someone standing in the cube sees (cubemap_layout.hpp converts to other conventions).
 #pragma once
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstddef>
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 namespace cubecam {
 

@@ -6,28 +6,28 @@
 /// u = (col + .5)/W, v = (row + .5)/H.
 #pragma once
 
-#include <cmath>
-#include <numbers>
-
 #include "cubecam/math/cube_face.hpp"
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <cmath>
+#include <numbers>
+
 namespace cubecam {
 
-/// The world axis at the centre of the panorama. neg_z: camera forward, the default; pos_z: OpenEXR,
-/// Mitsuba, OpenImageIO (y up); pos_x: three.js.
+/// The world axis at the centre of the panorama. neg_z: camera forward, the default; pos_z:
+/// OpenEXR, Mitsuba, OpenImageIO (y up); pos_x: three.js.
 enum class Center : int { neg_z, pos_z, pos_x, neg_x };
 
 template <typename T>
 constexpr glm::vec<3, T> center_forward(Center center) {
     switch (center) {
-    case Center::neg_z: return {0, 0, -1};
-    case Center::pos_z: return {0, 0, 1};
-    case Center::pos_x: return {1, 0, 0};
-    case Center::neg_x: return {-1, 0, 0};
+        case Center::neg_z: return {0, 0, -1};
+        case Center::pos_z: return {0, 0, 1};
+        case Center::pos_x: return {1, 0, 0};
+        case Center::neg_x: return {-1, 0, 0};
     }
     return {0, 0, -1};
 }

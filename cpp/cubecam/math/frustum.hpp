@@ -1,25 +1,30 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include <glm/glm.hpp>
-
 namespace cubecam {
 
-/// Whether a box can show in the picture of `view_projection` (GL clip space): false only if all eight corners lie
-/// beyond one and the same plane of the frustum (U. Assarsson, T. Moeller, "Optimized View Frustum Culling Algorithms
-/// for Bounding Boxes", JGT 5(1), 2000, in clip space). Holds for any matrix, perspective or not.
+/// Whether a box can show in the picture of `view_projection` (GL clip space): false only if all
+/// eight corners lie beyond one and the same plane of the frustum (U. Assarsson, T. Moeller,
+/// "Optimized View Frustum Culling Algorithms for Bounding Boxes", JGT 5(1), 2000, in clip space).
+/// Holds for any matrix, perspective or not.
 ///
-/// Never false for what shows: the GPU works in float, so a box within a float's error of a plane counts as inside.
-inline bool may_show(const glm::dmat4& view_projection, const glm::dvec3& low, const glm::dvec3& high) {
+/// Never false for what shows: the GPU works in float, so a box within a float's error of a plane
+/// counts as inside.
+inline bool may_show(const glm::dmat4& view_projection, const glm::dvec3& low,
+                     const glm::dvec3& high) {
     std::array<int, 6> beyond{};
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 point((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
+        const glm::dvec4 point((corner & 1) != 0 ? high.x : low.x,
+                               (corner & 2) != 0 ? high.y : low.y,
                                (corner & 4) != 0 ? high.z : low.z, 1.0);
         const glm::dvec4 clip = view_projection * point;
-        const double size = std::max({std::abs(clip.x), std::abs(clip.y), std::abs(clip.z), std::abs(clip.w)});
+        const double size =
+            std::max({std::abs(clip.x), std::abs(clip.y), std::abs(clip.z), std::abs(clip.w)});
         const double slack = 1e-5 * size;
         for (int axis = 0; axis < 3; ++axis) {
             const auto plane = static_cast<std::size_t>(2 * axis);

@@ -4,10 +4,10 @@
 /// from; both are unit vectors in one space. Results point away from the surface.
 #pragma once
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <cmath>
 
 namespace cubecam {
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cmath>
 #include <numbers>
 
-#include <glm/glm.hpp>
-
-/// Matrices of views and lenses. Right-handed world, +Y up, a camera at rest looks along -Z; GL's clip space,
-/// -1..1 in x, y and z. Double throughout: only what the GPU gets is rounded to float.
+/// Matrices of views and lenses. Right-handed world, +Y up, a camera at rest looks along -Z; GL's
+/// clip space, -1..1 in x, y and z. Double throughout: only what the GPU gets is rounded to float.
 namespace cubecam {
 
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
@@ -22,7 +22,8 @@ inline glm::dmat4 look_along(glm::dvec3 position, glm::dvec3 forward, glm::dvec3
         view[i][1] = above[i];
         view[i][2] = back[i];
     }
-    view[3] = glm::dvec4(-glm::dot(right, position), -glm::dot(above, position), -glm::dot(back, position), 1.0);
+    view[3] = glm::dvec4(-glm::dot(right, position), -glm::dot(above, position),
+                         -glm::dot(back, position), 1.0);
     return view;
 }
 
@@ -64,13 +65,15 @@ inline bool is_finite(const glm::dmat4& m) {
     return true;
 }
 
-/// Whether the upper 3x3 part squashes space flat: its determinant is nothing beside the lengths of its columns.
+/// Whether the upper 3x3 part squashes space flat: its determinant is nothing beside the lengths of
+/// its columns.
 inline bool is_singular(const glm::dmat3& m) {
     const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
     return !(std::abs(glm::determinant(m)) > 1e-12 * lengths);
 }
 
-/// The same for all of a projection. Never is a determinant more than that product (Hadamard's inequality).
+/// The same for all of a projection. Never is a determinant more than that product (Hadamard's
+/// inequality).
 inline bool is_singular(const glm::dmat4& m) {
     double lengths = 1.0;
     for (int column = 0; column < 4; ++column) lengths *= glm::length(m[column]);

@@ -1,8 +1,8 @@
 #include "cubecam/render/call.hpp"
 
-#include <algorithm>
-
 #include "cubecam/scene/revision.hpp"
+
+#include <algorithm>
 
 namespace cubecam {
 namespace {
@@ -17,16 +17,6 @@ bool uses(const NodeSnapshot& node, std::size_t probe) {
         return index != nullptr && *index == probe;
     };
     return is_probe(node.environment) || is_probe(node.cubemap);
-}
-
-TargetDescription describe(const ProbeValue& probe) {
-    TargetDescription d;
-    d.cube = true;
-    d.width = d.height = probe.size;
-    d.format = probe.format;
-    d.samples = probe.samples;
-    d.mipmaps = probe.mipmaps;
-    return d;
 }
 
 void add_light(Key& key, const LightValue& light) {
@@ -50,7 +40,8 @@ bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excl
                        [&excluded](std::int32_t id) { return contains(excluded, id); });
 }
 
-Call::Call(GpuState& gpu, const SceneSnapshot& scene) : gpu_(gpu), scene_(scene), work_(scene.probes.size()) {}
+Call::Call(GpuState& gpu, const SceneSnapshot& scene)
+    : gpu_(gpu), scene_(scene), work_(scene.probes.size()) {}
 
 const FrozenSource& Call::source_of(const NodeSnapshot& node) const {
     static const FrozenSource none;
@@ -80,17 +71,21 @@ Call::Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t
     }
     const auto* probe = std::get_if<std::size_t>(&source);
     if (probe == nullptr) return {};
-    const bool back = in_probe && work_[*probe] && work_[*probe]->due && order->is_edge_back(*in_probe, *probe);
-    const ProbeState* state = work_[*probe] ? work_[*probe]->state : gpu_.probes.find(scene_.probes[*probe].object);
+    const bool back =
+        in_probe && work_[*probe] && work_[*probe]->due && order->is_edge_back(*in_probe, *probe);
+    const ProbeState* state =
+        work_[*probe] ? work_[*probe]->state : gpu_.probes.find(scene_.probes[*probe].object);
     if (!back && state != nullptr && state->target != nullptr) {
         return {state->target->color().id(), state->revision};
     }
     // A mirror in a circle of mirrors, or a manual probe before its first update.
-    return std::holds_alternative<FrozenCube>(scene_.environment) ? look_up(scene_.environment, in_probe, order)
-                                                                  : Lookup{};
+    return std::holds_alternative<FrozenCube>(scene_.environment)
+               ? look_up(scene_.environment, in_probe, order)
+               : Lookup{};
 }
 
-std::vector<Call::Lookup> Call::look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe,
+std::vector<Call::Lookup> Call::look_up_all(const DrawPlan& plan,
+                                            std::optional<std::size_t> in_probe,
                                             const ProbeOrder* order) {
     std::vector<Lookup> lookups(scene_.nodes.size());
     for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
@@ -113,7 +108,8 @@ bool Call::count_and_decide(const ProbeSnapshot& probe, ProbeWork& work) {
         case ProbeUpdate::on_change: return true;
         case ProbeUpdate::once: return !drawn;
         case ProbeUpdate::manual: return false;
-        case ProbeUpdate::every_n_frames: return work.state->calls++ % probe.value.every == 0 || !drawn;
+        case ProbeUpdate::every_n_frames:
+            return work.state->calls++ % probe.value.every == 0 || !drawn;
     }
     return true;
 }
@@ -153,7 +149,10 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     const ProbeSnapshot& probe = scene_.probes[index];
     ProbeWork& work = *work_[index];
     ProbeState& state = *work.state;
-    const TargetDescription description = describe(probe.value);
+    TargetDescription description =
+        describe_target(gpu_.context, true, probe.value.size, probe.value.size, probe.value.samples,
+                        probe.value.format);
+    description.mipmaps = probe.value.mipmaps;
     std::optional<Budget> budget;
     if (state.target == nullptr || state.target->description() != description) {
         state.target = nullptr;  // its memory first
@@ -164,8 +163,9 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     }
     std::size_t drawn = 0;
     try {
-        drawn = draw_changed(work.views, work.plan, *state.target, look_up_all(work.plan, index, &order),
-                             Tonemap::none, Encode::none, budget);
+        drawn = draw_changed(work.views, work.plan, *state.target,
+                             look_up_all(work.plan, index, &order), Tonemap::none, Encode::none,
+                             budget);
     } catch (...) {
         state.target = nullptr;
         throw;
@@ -177,8 +177,8 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     ++stats.probes_updated;
 }
 
-std::vector<Key> Call::keys_of(std::span<const View> views, const DrawPlan& plan, const std::vector<Lookup>& lookups,
-                               Tonemap tonemap, Encode encode) {
+std::vector<Key> Call::keys_of(std::span<const View> views, const DrawPlan& plan,
+                               const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode) {
     Key common;
     common.add(tonemap);
     common.add(encode);
@@ -268,11 +268,13 @@ void Call::grade(Target& target, Tonemap tonemap, Encode encode) {
     stats.triangles += 2;
 }
 
-void Call::draw(std::span<const View> views, Target& target, const std::function<bool(const NodeSnapshot&)>& wanted,
-                Tonemap tonemap, Encode encode) {
+void Call::draw(std::span<const View> views, Target& target,
+                const std::function<bool(const NodeSnapshot&)>& wanted, Tonemap tonemap,
+                Encode encode) {
     const DrawPlan plan = make_plan(scene_, views, wanted);
     update_probes(probes_of(plan));
-    draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), tonemap, encode, std::nullopt);
+    draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), tonemap, encode,
+                 std::nullopt);
 }
 
 void Call::force(const std::vector<std::size_t>& probes) {

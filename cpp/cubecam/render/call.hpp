@@ -1,29 +1,30 @@
 #pragma once
 
+#include "cubecam/render/draw_plan.hpp"
+#include "cubecam/render/gpu_state.hpp"
+#include "cubecam/render/probe_order.hpp"
+#include "cubecam/render/surface_pass.hpp"
+
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "cubecam/render/draw_plan.hpp"
-#include "cubecam/render/gpu_state.hpp"
-#include "cubecam/render/probe_order.hpp"
-#include "cubecam/render/surface_pass.hpp"
-
 namespace cubecam {
 
 /// Whether a node, or one above it, is among `excluded`.
 bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded);
 
-/// One call of a renderer: brings the probes that its pictures need up to date, then draws the pictures whose keys
-/// differ from what their target holds.
+/// One call of a renderer: brings the probes that its pictures need up to date, then draws the
+/// pictures whose keys differ from what their target holds.
 class Call {
 public:
     Call(GpuState& gpu, const SceneSnapshot& scene);
 
     /// Draws `views` of the nodes that `wanted` lets through into `target`, their probes first.
-    void draw(std::span<const View> views, Target& target, const std::function<bool(const NodeSnapshot&)>& wanted,
+    void draw(std::span<const View> views, Target& target,
+              const std::function<bool(const NodeSnapshot&)>& wanted,
               Tonemap tonemap = Tonemap::none, Encode encode = Encode::none);
 
     /// Draws these probes (indices into the snapshot's), due or not, and what they need.
@@ -61,16 +62,18 @@ private:
     /// Probes that the nodes of a plan show, each once, in the order of the scene.
     std::vector<std::size_t> probes_of(const DrawPlan& plan) const;
     const FrozenSource& source_of(const NodeSnapshot& node) const;
-    Lookup look_up(const FrozenSource& source, std::optional<std::size_t> in_probe, const ProbeOrder* order);
+    Lookup look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
+                   const ProbeOrder* order);
 
-    /// Draws the views whose keys changed, at most as many as the budget allows. Returns how many it drew.
+    /// Draws the views whose keys changed, at most as many as the budget allows. Returns how many
+    /// it drew.
     std::size_t draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
                              const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode,
                              std::optional<Budget> budget);
     std::vector<Lookup> look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe,
                                     const ProbeOrder* order);
-    std::vector<Key> keys_of(std::span<const View> views, const DrawPlan& plan, const std::vector<Lookup>& lookups,
-                             Tonemap tonemap, Encode encode);
+    std::vector<Key> keys_of(std::span<const View> views, const DrawPlan& plan,
+                             const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode);
     void grade(Target& target, Tonemap tonemap, Encode encode);
     Lookup background_lookup();
 

@@ -7,13 +7,15 @@
 namespace cubecam {
 namespace {
 
-/// The inverse transpose, so that normals stay normal to a surface that is scaled unevenly; scaled to numbers near
-/// one, since only its direction counts and a float has no room for the inverse of a very small scale.
+/// The inverse transpose, so that normals stay normal to a surface that is scaled unevenly; scaled
+/// to numbers near one, since only its direction counts and a float has no room for the inverse of
+/// a very small scale.
 glm::mat4 normal_matrix(const glm::dmat4& world) {
     const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(glm::dmat3(world)));
     double largest = 0.0;
     for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(inverse_transpose[column][row]));
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(inverse_transpose[column][row]));
     }
     return glm::mat4(glm::mat3(inverse_transpose / largest));
 }

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
+#include "cubecam/scene/snapshot.hpp"
 
 #include <glm/glm.hpp>
 
-#include "cubecam/scene/snapshot.hpp"
+#include <cstdint>
 
 namespace cubecam {
 

@@ -1,9 +1,9 @@
 #include "cubecam/render/draw_plan.hpp"
 
+#include "cubecam/math/frustum.hpp"
+
 #include <algorithm>
 #include <limits>
-
-#include "cubecam/math/frustum.hpp"
 
 namespace cubecam {
 namespace {
@@ -14,12 +14,14 @@ struct Seen {
 };
 
 double distance_to(const View& view, const glm::dvec3& point) {
-    return view.parallel ? glm::dot(point - view.position, view.forward) : glm::distance(point, view.position);
+    return view.parallel ? glm::dot(point - view.position, view.forward)
+                         : glm::distance(point, view.position);
 }
 
 /// Views are sorted for alike if they stand in one place: then distances are equal, bit for bit.
 bool same_order(const View& a, const View& b) {
-    return a.position == b.position && a.parallel == b.parallel && (!a.parallel || a.forward == b.forward);
+    return a.position == b.position && a.parallel == b.parallel &&
+           (!a.parallel || a.forward == b.forward);
 }
 
 }  // namespace
@@ -42,9 +44,11 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views,
             translucent.push_back(std::move(planned));
             continue;
         }
-        // Of all views, also those that do not see it: what one view draws must not hang on which others are drawn.
+        // Of all views, also those that do not see it: what one view draws must not hang on which
+        // others are drawn.
         double nearest = std::numeric_limits<double>::infinity();
-        for (const View& view : views) nearest = std::min(nearest, distance_to(view, node.world_bounds.centre()));
+        for (const View& view : views)
+            nearest = std::min(nearest, distance_to(view, node.world_bounds.centre()));
         opaque.push_back({std::move(planned), nearest});
     }
 

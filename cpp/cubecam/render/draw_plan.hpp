@@ -1,12 +1,12 @@
 #pragma once
 
+#include "cubecam/render/view.hpp"
+#include "cubecam/scene/snapshot.hpp"
+
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
-
-#include "cubecam/render/view.hpp"
-#include "cubecam/scene/snapshot.hpp"
 
 namespace cubecam {
 
@@ -19,13 +19,13 @@ struct PlannedNode {
 /// What is drawn, in order: opaque nodes near to far, then translucent ones far to near.
 struct DrawPlan {
     std::vector<PlannedNode> opaque;
-    /// Back to front for the views it lists. Views that stand in one place share one sequence; others follow
-    /// each other, sequence by sequence, so a node may come several times.
+    /// Back to front for the views it lists. Views that stand in one place share one sequence;
+    /// others follow each other, sequence by sequence, so a node may come several times.
     std::vector<PlannedNode> translucent;
 };
 
-/// Culls every node that `wanted` lets through against every view and sorts what is left, ties by id: the order
-/// depends on the scene alone.
+/// Culls every node that `wanted` lets through against every view and sorts what is left, ties by
+/// id: the order depends on the scene alone.
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views,
                    const std::function<bool(const NodeSnapshot&)>& wanted);
 

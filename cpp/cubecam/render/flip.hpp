@@ -5,9 +5,10 @@
 
 namespace cubecam {
 
-/// Copies a picture with its rows in reverse order: between GL's 2D pictures, bottom row first, and ours, top row
-/// first. The only flip there is; cube faces never pass here.
-inline void flip_rows(const std::byte* from, std::byte* to, std::size_t row_bytes, std::size_t rows) {
+/// Copies a picture with its rows in reverse order: between GL's 2D pictures, bottom row first, and
+/// ours, top row first. The only flip there is; cube faces never pass here.
+inline void flip_rows(const std::byte* from, std::byte* to, std::size_t row_bytes,
+                      std::size_t rows) {
     for (std::size_t row = 0; row < rows; ++row) {
         std::memcpy(to + (rows - 1 - row) * row_bytes, from + row * row_bytes, row_bytes);
     }

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
-
 #include "cubecam/scene/format.hpp"
 #include "cubecam/scene/pixels.hpp"
+
+#include <cstdint>
 
 namespace cubecam {
 
@@ -12,12 +12,12 @@ struct Frame {
     int width = 0;
     int height = 0;
     Format format = Format::rgba8;
-    PixelBuffer color;         ///< [height][width][4]
-    Buffer<float> distance;    ///< [height][width] world units, +inf: background
-    Buffer<float> z;           ///< [height][width] world units, +inf: background
-    Buffer<float> normal;      ///< [height][width][3] world, 0: background
-    Buffer<float> position;    ///< [height][width][3] world, NaN: background
-    Buffer<std::int32_t> id;   ///< [height][width] node ids, 0: background
+    PixelBuffer color;        ///< [height][width][4]
+    Buffer<float> distance;   ///< [height][width] world units, +inf: background
+    Buffer<float> z;          ///< [height][width] world units, +inf: background
+    Buffer<float> normal;     ///< [height][width][3] world, 0: background
+    Buffer<float> position;   ///< [height][width][3] world, NaN: background
+    Buffer<std::int32_t> id;  ///< [height][width] node ids, 0: background
 };
 
 }  // namespace cubecam

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <memory>
-
+#include "cubecam/gl/context.hpp"
 #include "cubecam/gl/objects.hpp"
 #include "cubecam/render/weak_cache.hpp"
 #include "cubecam/scene/cubemap.hpp"
@@ -11,10 +8,15 @@
 #include "cubecam/scene/mesh.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
+#include <array>
+#include <cstdint>
+#include <memory>
+
 namespace cubecam {
 
-/// Vertex attribute numbers, `layout(location =)` in the shaders. Those of a view advance once an instance: on
-/// llvmpipe that costs a fraction of a lookup in a storage buffer by gl_InstanceID (docs/adr/0002).
+/// Vertex attribute numbers, `layout(location =)` in the shaders. Those of a view advance once an
+/// instance: on llvmpipe that costs a fraction of a lookup in a storage buffer by gl_InstanceID
+/// (docs/adr/0002).
 namespace attribute {
 inline constexpr GLuint position = 0;
 inline constexpr GLuint normal = 1;
@@ -47,9 +49,11 @@ struct GpuTexture {
 /// Copies on the GPU of the meshes, images and cubemaps that were drawn.
 class GpuCache {
 public:
-    explicit GpuCache(const GladGLContext& gl);
+    explicit GpuCache(const gl::Context& context);
 
     const GpuMesh& mesh(const std::shared_ptr<const Mesh>& mesh);
+    /// @throws std::invalid_argument for a picture beyond the driver's limit, naming it; so does
+    /// cube().
     const GpuTexture& image(const std::shared_ptr<const Image>& image);
     /// Uploads only the faces that changed since the last time.
     const GpuTexture& cube(const FrozenCube& cube);
@@ -65,6 +69,7 @@ private:
         std::array<std::uint64_t, 6> face_revisions{};
     };
 
+    const gl::Context* context_;
     const GladGLContext* gl_;
     gl::VertexArray views_only_;
     WeakCache<const Mesh, GpuMesh> meshes_;

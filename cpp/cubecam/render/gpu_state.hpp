@@ -1,14 +1,14 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/gpu_cache.hpp"
 #include "cubecam/render/surface_pass.hpp"
 #include "cubecam/render/target_store.hpp"
 #include "cubecam/render/weak_cache.hpp"
 #include "cubecam/scene/probe.hpp"
+
+#include <cstdint>
+#include <memory>
 
 namespace cubecam {
 
@@ -23,7 +23,8 @@ struct ProbeState {
 /// All of a renderer that lives and dies with its context.
 struct GpuState {
     GpuState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
-        : context(its_context), cache(its_context.gl()), surface(its_context, cache, layering), targets(cache_bytes) {}
+        : context(its_context), cache(its_context), surface(its_context, cache, layering),
+          targets(cache_bytes) {}
 
     gl::Context& context;
     GpuCache cache;

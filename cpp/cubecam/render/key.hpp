@@ -1,29 +1,34 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
 #include <vector>
 
-#include <glm/glm.hpp>
-
 namespace cubecam {
 
-/// Everything a picture is a function of, written one after the other. Two pictures with equal keys are equal, so the
-/// second is not drawn. Compared byte by byte and never by a hash: a collision would be a wrong picture.
+/// Everything a picture is a function of, written one after the other. Two pictures with equal keys
+/// are equal, so the second is not drawn. Compared byte by byte and never by a hash: a collision
+/// would be a wrong picture.
 class Key {
 public:
-    /// Numbers, enums and GLM's vectors and matrices: types without padding, whose bytes are their value.
+    /// Numbers, enums and GLM's vectors and matrices: types without padding, whose bytes are their
+    /// value.
     template <class Value>
     void add(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);
-        static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value> || requires { typename Value::value_type; });
+        static_assert(std::is_arithmetic_v<Value> || std::is_enum_v<Value> ||
+                      requires { typename Value::value_type; });
         const auto at = bytes_.size();
         bytes_.resize(at + sizeof(Value));
         std::memcpy(bytes_.data() + at, &value, sizeof(Value));
     }
 
-    void add(const Key& other) { bytes_.insert(bytes_.end(), other.bytes_.begin(), other.bytes_.end()); }
+    void add(const Key& other) {
+        bytes_.insert(bytes_.end(), other.bytes_.begin(), other.bytes_.end());
+    }
 
     bool operator==(const Key&) const = default;
 

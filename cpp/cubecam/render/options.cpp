@@ -15,7 +15,8 @@ Value parse(std::string_view what, std::string_view name,
         if (text == name) return value;
         expected += (expected.empty() ? "\"" : ", \"") + std::string(text) + "\"";
     }
-    throw std::invalid_argument(std::string(what) + ": expected " + expected + ", got \"" + std::string(name) + "\"");
+    throw std::invalid_argument(std::string(what) + ": expected " + expected + ", got \"" +
+                                std::string(name) + "\"");
 }
 
 }  // namespace
@@ -38,13 +39,14 @@ Outputs parse_outputs(const std::vector<std::string>& names) {
 }
 
 Tonemap parse_tonemap(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, Tonemap>, 3> known{{
-        {"reinhard", Tonemap::reinhard}, {"aces", Tonemap::aces}, {"neutral", Tonemap::neutral}}};
+    static constexpr std::array<std::pair<std::string_view, Tonemap>, 3> known{
+        {{"reinhard", Tonemap::reinhard}, {"aces", Tonemap::aces}, {"neutral", Tonemap::neutral}}};
     return parse("tonemap", name, known);
 }
 
 Encode parse_encode(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, Encode>, 1> known{{{"srgb", Encode::srgb}}};
+    static constexpr std::array<std::pair<std::string_view, Encode>, 1> known{
+        {{"srgb", Encode::srgb}}};
     return parse("encode", name, known);
 }
 

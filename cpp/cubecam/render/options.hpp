@@ -1,16 +1,16 @@
 #pragma once
 
+#include "cubecam/gl/context.hpp"
+#include "cubecam/scene/format.hpp"
+
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <glm/glm.hpp>
-
-#include "cubecam/gl/context.hpp"
-#include "cubecam/scene/format.hpp"
 
 namespace cubecam {
 
@@ -39,31 +39,32 @@ Encode parse_encode(std::string_view name);
 
 struct RendererOptions {
     gl::DeviceChoice device = std::string("auto");
-    /// Draw all views of a mesh at once: yes, no (one pass per view), or nothing: where that is faster.
+    /// Draw all views of a mesh at once: yes, no (one pass per view), or nothing: where that is
+    /// faster.
     std::optional<bool> layered;
     std::size_t cache_bytes = std::size_t{256} << 20;  ///< kept for targets of frames and captures
     bool debug = false;                                ///< driver messages become errors
 };
 
 struct FrameOptions {
-    int width = 0;   ///< pixels
-    int height = 0;  ///< pixels
+    std::int64_t width = 0;   ///< pixels
+    std::int64_t height = 0;  ///< pixels
     Outputs outputs;
     Format format = Format::rgba8;
-    int samples = 1;
+    std::int64_t samples = 1;
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
 };
 
 struct CaptureOptions {
     glm::dvec3 position{0.0};
-    int size = 256;  ///< pixels along an edge of a face
+    std::int64_t size = 256;  ///< pixels along an edge of a face
     double near = 0.05;
     double far = 1000.0;
     std::vector<std::int32_t> exclude;  ///< ids of nodes left out, with all below them
     Outputs outputs;
     Format format = Format::rgba32f;
-    int samples = 1;
+    std::int64_t samples = 1;
     std::optional<glm::dvec3> eye;  ///< none: `position`
 };
 

@@ -12,7 +12,8 @@ constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
 class Components {
 public:
     explicit Components(const std::vector<std::vector<std::size_t>>& needs)
-        : needs_(needs), of(needs.size(), unseen), index_(needs.size(), unseen), low_(needs.size(), 0) {}
+        : needs_(needs), of(needs.size(), unseen), index_(needs.size(), unseen),
+          low_(needs.size(), 0) {}
 
     void visit(std::size_t root) {
         if (index_[root] != unseen) return;
@@ -47,7 +48,8 @@ private:
     void leave() {
         const std::size_t probe = path_.back().probe;
         path_.pop_back();
-        if (!path_.empty()) low_[path_.back().probe] = std::min(low_[path_.back().probe], low_[probe]);
+        if (!path_.empty())
+            low_[path_.back().probe] = std::min(low_[path_.back().probe], low_[probe]);
         if (low_[probe] != index_[probe]) return;
         for (std::size_t member = unseen; member != probe;) {
             member = open_.back();
@@ -69,12 +71,14 @@ private:
 
 }  // namespace
 
-ProbeOrder order_probes(const std::vector<std::vector<std::size_t>>& needs, const std::vector<std::size_t>& roots) {
+ProbeOrder order_probes(const std::vector<std::vector<std::size_t>>& needs,
+                        const std::vector<std::size_t>& roots) {
     Components components(needs);
     for (const std::size_t root : roots) components.visit(root);
 
     ProbeOrder result{{}, std::move(components.of)};
-    // Without the edges back nothing goes in circles: a walk that leaves after all it needs gives the order.
+    // Without the edges back nothing goes in circles: a walk that leaves after all it needs gives
+    // the order.
     std::vector<bool> seen(needs.size(), false);
     std::vector<std::pair<std::size_t, std::size_t>> path;
     for (const std::size_t root : roots) {

@@ -1,10 +1,10 @@
 #include "cubecam/render/programs.hpp"
 
+#include "cubecam/scene/material.hpp"
+
 #include <array>
 #include <string>
 #include <variant>
-
-#include "cubecam/scene/material.hpp"
 
 namespace cubecam {
 namespace {
@@ -40,8 +40,10 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     define(variant.fresnel, "FRESNEL");
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
-    if (variant.lights >= 0) options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
-    return surfaces_.emplace(variant, gl::Program(*gl_, {"surface.vert", "surface.frag"}, options)).first->second;
+    if (variant.lights >= 0)
+        options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
+    return surfaces_.emplace(variant, gl::Program(*gl_, {"surface.vert", "surface.frag"}, options))
+        .first->second;
 }
 
 const gl::Program& Programs::skybox() {
@@ -61,7 +63,9 @@ const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
         case Tonemap::neutral: options.defines.emplace_back("TONEMAP_NEUTRAL", "1"); break;
     }
     if (encode == Encode::srgb) options.defines.emplace_back("ENCODE_SRGB", "1");
-    return grades_.emplace(std::pair{tonemap, encode}, gl::Program(*gl_, {"grade.vert", "grade.frag"}, options))
+    return grades_
+        .emplace(std::pair{tonemap, encode},
+                 gl::Program(*gl_, {"grade.vert", "grade.frag"}, options))
         .first->second;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "cubecam/gl/program.hpp"
+#include "cubecam/render/options.hpp"
+
 #include <compare>
 #include <cstddef>
 #include <map>
-
-#include "cubecam/gl/program.hpp"
-#include "cubecam/render/options.hpp"
 
 namespace cubecam {
 

@@ -1,8 +1,8 @@
 #include "cubecam/render/readback.hpp"
 
-#include <cstddef>
-
 #include "cubecam/render/flip.hpp"
+
+#include <cstddef>
 
 namespace cubecam {
 namespace {
@@ -21,20 +21,22 @@ std::byte* bytes_of(Buffer<T>& buffer) {
     return reinterpret_cast<std::byte*>(buffer.data());
 }
 
-/// Reads all layers of a target, one after the other, each as the type it is stored in: a driver that must convert
-/// takes ten times as long.
+/// Reads all layers of a target, one after the other, each as the type it is stored in: a driver
+/// that must convert takes ten times as long.
 class Reader {
 public:
-    Reader(const GladGLContext& gl, Target& target) : gl_(gl), target_(target), d_(target.description()) {
+    Reader(const GladGLContext& gl, Target& target)
+        : gl_(gl), target_(target), d_(target.description()) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
     PixelBuffer picture() {
-        Layers& layers = d_.graded ? target_.graded_pass()
+        Layers& layers = d_.graded                ? target_.graded_pass()
                          : target_.multisampled() ? target_.resolved()
                                                   : target_.color_pass();
         PixelBuffer color;
-        read(layers, Slot::color, GL_RGBA, gl_type(d_.format), 4 * dtype_size(dtype_of(d_.format)), color);
+        read(layers, Slot::color, GL_RGBA, gl_type(d_.format), 4 * dtype_size(dtype_of(d_.format)),
+             color);
         return color;
     }
 
@@ -62,10 +64,13 @@ public:
     }
 
 private:
-    Layers& output_layers() { return target_.multisampled() ? target_.output_pass() : target_.color_pass(); }
+    Layers& output_layers() {
+        return target_.multisampled() ? target_.output_pass() : target_.color_pass();
+    }
 
     template <class T>
-    void read(Layers& layers, Slot slot, GLenum format, GLenum type, std::size_t channels, Buffer<T>& to) {
+    void read(Layers& layers, Slot slot, GLenum format, GLenum type, std::size_t channels,
+              Buffer<T>& to) {
         const auto rows = static_cast<std::size_t>(d_.height);
         const std::size_t row = static_cast<std::size_t>(d_.width) * channels;
         const auto count = static_cast<std::size_t>(d_.layers());
@@ -74,7 +79,8 @@ private:
         to.resize(row * rows * count);
         for (std::size_t i = 0; i < count; ++i) {
             const GLuint framebuffer = layers.one(static_cast<int>(i));
-            gl_.NamedFramebufferReadBuffer(framebuffer, GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot));
+            gl_.NamedFramebufferReadBuffer(framebuffer,
+                                           GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot));
             gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
             T* here = d_.cube ? to.data() + i * row * rows : layer.data();
             gl_.ReadPixels(0, 0, d_.width, d_.height, format, type, here);
@@ -122,7 +128,8 @@ std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target) {
     if (d.outputs.position) outputs.position = share(reader.vector(Slot::position));
     if (d.outputs.id) outputs.id = share(reader.id());
     gl::check_gl(gl, "reading a cubemap");
-    return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps, std::move(outputs));
+    return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
+                                     std::move(outputs));
 }
 
 }  // namespace cubecam

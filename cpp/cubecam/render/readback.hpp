@@ -1,14 +1,15 @@
 #pragma once
 
-#include <memory>
-
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/target.hpp"
 #include "cubecam/scene/cubemap.hpp"
 
+#include <memory>
+
 namespace cubecam {
 
-/// Copies of what a target holds. Frames are flipped to row 0 on top; cube faces are taken as they are.
+/// Copies of what a target holds. Frames are flipped to row 0 on top; cube faces are taken as they
+/// are.
 Frame read_frame(const GladGLContext& gl, Target& target);
 std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target);
 

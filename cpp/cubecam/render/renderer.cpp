@@ -1,27 +1,28 @@
 #include "cubecam/render/renderer.hpp"
 
+#include "cubecam/error.hpp"
+#include "cubecam/render/call.hpp"
+#include "cubecam/render/readback.hpp"
+
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 
-#include "cubecam/error.hpp"
-#include "cubecam/render/call.hpp"
-#include "cubecam/render/readback.hpp"
-
 namespace cubecam {
 namespace {
 
-constexpr const char* forked =
-    "this renderer belongs to the parent process: OpenGL does not survive a fork. Expected a Renderer made in a process "
-    "of its own; start workers with multiprocessing's \"spawn\" method";
+constexpr const char* forked = "this renderer belongs to the parent process: OpenGL does not "
+                               "survive a fork. Expected a Renderer made in a process "
+                               "of its own; start workers with multiprocessing's \"spawn\" method";
 
 constexpr const char* layer_extension = "GL_ARB_shader_viewport_layer_array";
 
-/// llvmpipe frees the memory of a frame's triangles after each frame, and glibc gives it back to the kernel: a
-/// thousand page faults a frame with large meshes. Freeing one large block raises glibc's threshold for that
-/// (dynamic M_MMAP_THRESHOLD, mallopt(3)): 1.8 times the speed, measured with Mesa 22.3.
+/// llvmpipe frees the memory of a frame's triangles after each frame, and glibc gives it back to
+/// the kernel: a thousand page faults a frame with large meshes. Freeing one large block raises
+/// glibc's threshold for that (dynamic M_MMAP_THRESHOLD, mallopt(3)): 1.8 times the speed, measured
+/// with Mesa 22.3.
 void keep_freed_memory() {
     void* volatile block = std::malloc(std::size_t{32} * 1000 * 1000);
     std::free(block);
@@ -32,8 +33,8 @@ Layering layering(const gl::Context& context, const RendererOptions& options) {
     if (!options.layered) return possible ? Layering::where_faster : Layering::never;
     if (!*options.layered) return Layering::never;
     if (possible) return Layering::always;
-    throw std::invalid_argument(std::string("layered: expected None or False, since ") + context.renderer() +
-                                " lacks " + layer_extension + ", got True");
+    throw std::invalid_argument(std::string("layered: expected None or False, since ") +
+                                context.renderer() + " lacks " + layer_extension + ", got True");
 }
 
 void check_finite(const glm::dvec3& value, const char* what) {
@@ -45,8 +46,9 @@ void check(const CaptureOptions& options) {
     check_finite(options.position, "position");
     if (options.eye) check_finite(*options.eye, "eye");
     if (!(options.near > 0.0) || !(options.far > options.near) || !std::isfinite(options.far)) {
-        throw std::invalid_argument("near, far: expected 0 < near < far, got near " + std::to_string(options.near) +
-                                    " and far " + std::to_string(options.far));
+        throw std::invalid_argument("near, far: expected 0 < near < far, got near " +
+                                    std::to_string(options.near) + " and far " +
+                                    std::to_string(options.far));
     }
 }
 
@@ -66,9 +68,11 @@ struct Renderer::Gpu {
 
 Renderer::Renderer(RendererOptions options) {
     gl::Context context({options.device, options.debug});
-    info_ = {context.vendor(),   context.renderer(), context.version(),  context.glsl_version(),
-             context.egl_version(), context.platform(), context.device(), context.limits(),
-             context.software(), layering(context, options) != Layering::never};
+    info_ = {context.vendor(),      context.renderer(),
+             context.version(),     context.glsl_version(),
+             context.egl_version(), context.platform(),
+             context.device(),      context.limits(),
+             context.software(),    layering(context, options) != Layering::never};
     gpu_ = std::make_unique<Gpu>(std::move(context), options);
 }
 
@@ -76,7 +80,8 @@ Renderer::~Renderer() { close(); }
 
 void Renderer::close() noexcept {
     if (gl::in_forked_child()) {
-        // The lock may be held by a thread that was not forked along, and the objects are the parent's.
+        // The lock may be held by a thread that was not forked along, and the objects are the
+        // parent's.
         (void)gpu_.release();
         return;
     }
@@ -116,40 +121,41 @@ auto Renderer::run(Work&& work) {
     stats_ = {};
     auto result = work(state);
     state.targets.trim();
-    stats_.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    stats_.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return result;
 }
 
-Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera, const FrameOptions& options) {
+Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
+                       const FrameOptions& options) {
     return run([&](GpuState& gpu) {
-        TargetDescription description;
-        description.width = options.width;
-        description.height = options.height;
-        description.format = options.format;
-        description.outputs = options.outputs;
-        description.samples = options.samples;
+        TargetDescription description =
+            describe_target(gpu.context, false, options.width, options.height, options.samples,
+                            options.format, options.outputs);
         description.graded = options.tonemap != Tonemap::none || options.encode != Encode::none;
         Target& target = gpu.targets.get(gpu.context, description);
-        const double aspect = static_cast<double>(options.width) / options.height;
+        const double aspect =
+            static_cast<double>(options.width) / static_cast<double>(options.height);
         const View view = camera_view(matrices(camera, aspect));
         Call call(gpu, scene);
-        call.draw({&view, 1}, target, [](const NodeSnapshot&) { return true; }, options.tonemap, options.encode);
+        call.draw(
+            {&view, 1}, target, [](const NodeSnapshot&) { return true; }, options.tonemap,
+            options.encode);
         stats_ = call.stats;
         return read_frame(gpu.context.gl(), target);
     });
 }
 
-std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene, const CaptureOptions& options) {
+std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
+                                           const CaptureOptions& options) {
     check(options);
     return run([&](GpuState& gpu) {
-        TargetDescription description;
-        description.cube = true;
-        description.width = description.height = options.size;
-        description.format = options.format;
-        description.outputs = options.outputs;
-        description.samples = options.samples;
+        const TargetDescription description =
+            describe_target(gpu.context, true, options.size, options.size, options.samples,
+                            options.format, options.outputs);
         Target& target = gpu.targets.get(gpu.context, description);
-        const std::vector<View> views = cube_views(options.position, options.near, options.far, options.eye);
+        const std::vector<View> views =
+            cube_views(options.position, options.near, options.far, options.eye);
         Call call(gpu, scene);
         call.draw(views, target, [&](const NodeSnapshot& node) {
             return node.in_probes && !is_excluded(node, options.exclude);
@@ -159,16 +165,20 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene, const Cap
     });
 }
 
-void Renderer::update(const SceneSnapshot& scene, const std::vector<std::shared_ptr<Probe>>& probes) {
+void Renderer::update(const SceneSnapshot& scene,
+                      const std::vector<std::shared_ptr<Probe>>& probes) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < scene.probes.size(); ++i) {
         const auto asked = std::find(probes.begin(), probes.end(), scene.probes[i].object);
         if (probes.empty() || asked != probes.end()) indices.push_back(i);
     }
     for (const auto& probe : probes) {
-        const bool known = std::any_of(scene.probes.begin(), scene.probes.end(),
-                                       [&probe](const ProbeSnapshot& p) { return p.object == probe; });
-        if (!known) throw std::invalid_argument("probes: expected probes that a visible node of the scene uses");
+        const bool known =
+            std::any_of(scene.probes.begin(), scene.probes.end(),
+                        [&probe](const ProbeSnapshot& p) { return p.object == probe; });
+        if (!known)
+            throw std::invalid_argument(
+                "probes: expected probes that a visible node of the scene uses");
     }
     run([&](GpuState& gpu) {
         Call call(gpu, scene);
@@ -182,8 +192,8 @@ std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) 
     return run([&](GpuState& gpu) {
         const ProbeState* state = gpu.probes.find(probe);
         if (state == nullptr || state->target == nullptr) {
-            throw std::invalid_argument(
-                "probe: expected one that this renderer has drawn; render a frame that needs it, or call update()");
+            throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
+                                        "a frame that needs it, or call update()");
         }
         return read_cube(gpu.context.gl(), *state->target);
     });

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <mutex>
-#include <vector>
-
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/options.hpp"
@@ -11,6 +7,10 @@
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/scene.hpp"
+
+#include <memory>
+#include <mutex>
+#include <vector>
 
 namespace cubecam {
 
@@ -28,11 +28,12 @@ struct RendererInfo {
     bool layered = false;  ///< all views of a mesh in one draw call
 };
 
-/// Draws scenes, into frames, captures and probes. It owns an OpenGL context and everything on the GPU.
+/// Draws scenes, into frames, captures and probes. It owns an OpenGL context and everything on the
+/// GPU.
 ///
-/// Any thread may call it; calls on one renderer follow each other, several renderers work in parallel. Between calls
-/// its context is current nowhere. After close(), and in a process forked after EGL was opened, every call throws
-/// ContextError.
+/// Any thread may call it; calls on one renderer follow each other, several renderers work in
+/// parallel. Between calls its context is current nowhere. After close(), and in a process forked
+/// after EGL was opened, every call throws ContextError.
 class Renderer {
 public:
     /// @throws ContextError with every attempt, if no OpenGL 4.5 context can be had.
@@ -41,7 +42,8 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    Frame render(const SceneSnapshot& scene, const CameraValue& camera, const FrameOptions& options);
+    Frame render(const SceneSnapshot& scene, const CameraValue& camera,
+                 const FrameOptions& options);
     Frame render(const Scene& scene, const Camera& camera, const FrameOptions& options) {
         return render(scene.snapshot(), camera.value(), options);
     }
@@ -51,7 +53,8 @@ public:
         return capture(scene.snapshot(), options);
     }
 
-    /// Draws probes now, whatever their policy says: those given, or all that the scene's visible nodes use.
+    /// Draws probes now, whatever their policy says: those given, or all that the scene's visible
+    /// nodes use.
     /// @throws std::invalid_argument for a probe that no visible node of the scene uses.
     void update(const SceneSnapshot& scene, const std::vector<std::shared_ptr<Probe>>& probes);
 

@@ -1,13 +1,13 @@
 #include "cubecam/render/surface_pass.hpp"
 
+#include "cubecam/render/draw_block.hpp"
+#include "cubecam/render/instance.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
-
-#include "cubecam/render/draw_block.hpp"
-#include "cubecam/render/instance.hpp"
 
 namespace cubecam {
 namespace {
@@ -19,7 +19,8 @@ constexpr GLuint cube_unit = 1;
 constexpr std::size_t unrolled_lights = 8;
 constexpr std::size_t many_triangles = 10'000;
 
-/// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is lost.
+/// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
+/// lost.
 glm::dmat4 reverse_depth(glm::dmat4 view_projection) {
     for (int column = 0; column < 4; ++column) {
         glm::dvec4& c = view_projection[column];
@@ -54,11 +55,8 @@ struct LightsBlock {
 }  // namespace
 
 SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering)
-    : context_(&context),
-      gl_(&context.gl()),
-      cache_(&cache),
-      programs_(context.gl(), layering != Layering::never),
-      layering_(layering),
+    : context_(&context), gl_(&context.gl()), cache_(&cache),
+      programs_(context.gl(), layering != Layering::never), layering_(layering),
       black_(gl::create_texture_cube(*gl_, GL_RGBA8, 1)) {
     const std::uint8_t black[6 * 4] = {};
     gl_->TextureSubImage3D(black_.id(), 0, 0, 0, 0, 1, 1, 6, GL_RGBA, GL_UNSIGNED_BYTE, black);
@@ -90,7 +88,8 @@ void SurfacePass::upload_lights(std::span<const LightValue> lights) {
             to.color = glm::vec4(color, point->decay);
             light_decay_ = light_decay_ || point->decay != 0.0;
         } else {
-            to.position = glm::vec4(-std::get<DirectionalParameters>(light.parameters).direction, 0.0F);
+            to.position =
+                glm::vec4(-std::get<DirectionalParameters>(light.parameters).direction, 0.0F);
             to.color = glm::vec4(color, 0.0F);
         }
     }
@@ -108,18 +107,24 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
     std::vector<Instance> matrices;
     matrices.reserve(input.views.size());
     for (std::size_t v = 0; v < input.views.size(); ++v) {
-        matrices.push_back(make_instance(input.views[v], reverse_depth(input.views[v].view_projection), v));
+        matrices.push_back(
+            make_instance(input.views[v], reverse_depth(input.views[v].view_projection), v));
     }
 
-    const auto alignment = static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment);
+    const auto alignment =
+        static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment);
     const std::size_t stride = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
     std::vector<Instance> instances;
     std::vector<std::byte> blocks;
     const auto add = [&](const std::vector<PlannedNode>& from, std::vector<Item>& to) {
         for (const PlannedNode& planned : from) {
             const NodeSnapshot& node = input.scene.nodes[planned.node];
-            Item item{&node, nullptr, {}, static_cast<GLuint>(instances.size()),
-                      static_cast<GLintptr>(blocks.size()), 0};
+            Item item{&node,
+                      nullptr,
+                      {},
+                      static_cast<GLuint>(instances.size()),
+                      static_cast<GLintptr>(blocks.size()),
+                      0};
             for (const std::size_t v : planned.views) {
                 if (!input.wanted[v]) continue;
                 item.views.push_back(v);
@@ -155,20 +160,22 @@ void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
     upload_lights(input.scene.lights);
     gl_->Viewport(0, 0, target.description().width, target.description().height);
     const bool outputs = target.description().outputs.any();
-    draw_layers(input, prepared, target, target.color_pass(), true, outputs && !target.multisampled(), stats);
+    draw_layers(input, prepared, target, target.color_pass(), true,
+                outputs && !target.multisampled(), stats);
     if (outputs && target.multisampled()) {
         draw_layers(input, prepared, target, target.output_pass(), false, true, stats);
     }
     gl::check_gl(*gl_, "drawing a scene");
 }
 
-void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, Target& target, Layers& layers,
-                              bool color, bool outputs, Stats& stats) {
+void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, Target& target,
+                              Layers& layers, bool color, bool outputs, Stats& stats) {
     if (use_layers(input, prepared)) {
         if (prepared.wanted.size() == input.views.size()) {
             clear(input, target, layers, std::nullopt, color, outputs);
         } else {
-            for (const std::size_t v : prepared.wanted) clear(input, target, layers, v, color, outputs);
+            for (const std::size_t v : prepared.wanted)
+                clear(input, target, layers, v, color, outputs);
         }
         gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
         draw_all(input, prepared, std::nullopt, color, outputs, stats);
@@ -184,13 +191,15 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
 bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared) const {
     if (layering_ == Layering::never) return false;
     // One winding serves all layers of a call, so views of both kinds are drawn one by one.
-    const bool one_winding = std::all_of(prepared.wanted.begin(), prepared.wanted.end(), [&](std::size_t v) {
-        return mirrored(input.views[v]) == mirrored(input.views[prepared.wanted.front()]);
-    });
+    const bool one_winding =
+        std::all_of(prepared.wanted.begin(), prepared.wanted.end(), [&](std::size_t v) {
+            return mirrored(input.views[v]) == mirrored(input.views[prepared.wanted.front()]);
+        });
     if (!one_winding || layering_ == Layering::always) return one_winding;
     if (!context_->software()) return true;
-    // llvmpipe sets all layers' triangles up before it fills the first pixel, on one thread. Layer by layer, it fills
-    // one while it sets the next up: from some ten thousand triangles on that wins (docs/adr/0002).
+    // llvmpipe sets all layers' triangles up before it fills the first pixel, on one thread. Layer
+    // by layer, it fills one while it sets the next up: from some ten thousand triangles on that
+    // wins (docs/adr/0002).
     std::size_t triangles = 0;
     for (const Item& item : prepared.opaque) {
         triangles += static_cast<std::size_t>(item.mesh->index_count / 3) * item.views.size();
@@ -198,21 +207,26 @@ bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared) c
     return triangles < many_triangles;
 }
 
-void SurfacePass::clear(const PassInput& input, Target& target, Layers& layers, std::optional<std::size_t> view,
-                        bool color, bool outputs) {
+void SurfacePass::clear(const PassInput& input, Target& target, Layers& layers,
+                        std::optional<std::size_t> view, bool color, bool outputs) {
     const TargetDescription& description = target.description();
-    // Faces: glClearTexSubImage takes a sixth of the time on llvmpipe. Samples and single frames: glClear is as good.
+    // Faces: glClearTexSubImage takes a sixth of the time on llvmpipe. Samples and single frames:
+    // glClear is as good.
     const bool by_texture = description.cube && !(color && target.multisampled());
-    const GLuint framebuffer = by_texture ? 0 : view ? layers.one(static_cast<int>(*view)) : layers.all();
+    const GLuint framebuffer = by_texture ? 0
+                               : view     ? layers.one(static_cast<int>(*view))
+                                          : layers.all();
     const auto first = static_cast<GLint>(view.value_or(0));
     const GLsizei count = view ? 1 : description.layers();
-    const auto clear_texture = [&](const gl::Texture& texture, GLenum format, GLenum type, const void* value) {
-        gl_->ClearTexSubImage(texture.id(), 0, 0, 0, first, description.width, description.height, count, format, type,
-                              value);
+    const auto clear_texture = [&](const gl::Texture& texture, GLenum format, GLenum type,
+                                   const void* value) {
+        gl_->ClearTexSubImage(texture.id(), 0, 0, 0, first, description.width, description.height,
+                              count, format, type, value);
     };
     const auto put = [&](Slot slot, glm::vec4 value) {
         if (by_texture) {
-            clear_texture(slot == Slot::color ? target.color() : target.output(slot), GL_RGBA, GL_FLOAT, &value.x);
+            clear_texture(slot == Slot::color ? target.color() : target.output(slot), GL_RGBA,
+                          GL_FLOAT, &value.x);
         } else {
             gl_->ClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(slot), &value.x);
         }
@@ -247,8 +261,9 @@ void SurfacePass::clear(const PassInput& input, Target& target, Layers& layers, 
     }
 }
 
-void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared, std::optional<std::size_t> view,
-                           bool color, bool outputs, Stats& stats) {
+void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
+                           std::optional<std::size_t> view, bool color, bool outputs,
+                           Stats& stats) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_GREATER);
     gl_->DepthMask(GL_TRUE);
@@ -263,8 +278,10 @@ void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared, std
     gl_->DepthMask(GL_FALSE);
     if (const auto* cube = std::get_if<GLuint>(&input.background)) {
         const auto& wanted = prepared.wanted;
-        const auto place = view ? std::lower_bound(wanted.begin(), wanted.end(), *view) - wanted.begin() : 0;
-        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(place), view ? 1 : wanted.size(), stats);
+        const auto place =
+            view ? std::lower_bound(wanted.begin(), wanted.end(), *view) - wanted.begin() : 0;
+        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(place),
+                    view ? 1 : wanted.size(), stats);
     }
     gl_->Enablei(GL_BLEND, 0);
     draw_items(prepared.translucent, view, mirror, false, stats);
@@ -297,8 +314,8 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     return variant;
 }
 
-void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror, bool outputs,
-                             Stats& stats) {
+void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> view,
+                             bool mirror, bool outputs, Stats& stats) {
     const gl::Program* bound = nullptr;
     for (const Item& item : items) {
         GLuint first = item.first_instance;
@@ -320,11 +337,13 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         } else {
             gl_->Enable(GL_CULL_FACE);
         }
-        // A node's matrix of negative determinant turns the winding, a mirrored view turns it again.
+        // A node's matrix of negative determinant turns the winding, a mirrored view turns it
+        // again.
         const bool turned = (glm::determinant(glm::dmat3(item.node->world)) < 0.0) != mirror;
         gl_->FrontFace(turned ? GL_CW : GL_CCW);
 
-        gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block, sizeof(DrawBlock));
+        gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
+                             sizeof(DrawBlock));
         if (variant.map) {
             const auto map = std::visit(
                 [](const auto& p) -> std::shared_ptr<const Image> {
@@ -336,11 +355,11 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         }
         gl_->BindTextureUnit(cube_unit, item.cube != 0 ? item.cube : black_.id());
 
-        gl_->VertexArrayVertexBuffer(item.mesh->array.id(), vertex_buffer::views, instances_.id(), 0,
-                                     sizeof(Instance));
+        gl_->VertexArrayVertexBuffer(item.mesh->array.id(), vertex_buffer::views, instances_.id(),
+                                     0, sizeof(Instance));
         gl_->BindVertexArray(item.mesh->array.id());
-        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, item.mesh->index_count, GL_UNSIGNED_INT, nullptr, count,
-                                               first);
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, item.mesh->index_count,
+                                               GL_UNSIGNED_INT, nullptr, count, first);
         ++stats.draw_calls;
         stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
     }
@@ -354,7 +373,8 @@ void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t co
     gl_->BindTextureUnit(cube_unit, cube);
     gl_->VertexArrayVertexBuffer(array, vertex_buffer::views, instances_.id(), 0, sizeof(Instance));
     gl_->BindVertexArray(array);
-    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count), first_instance);
+    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
+                                         first_instance);
     gl_->DepthFunc(GL_GREATER);
     ++stats.draw_calls;
     stats.triangles += static_cast<std::int64_t>(2 * count);

@@ -1,11 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <span>
-#include <variant>
-#include <vector>
-
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/draw_plan.hpp"
 #include "cubecam/render/gpu_cache.hpp"
@@ -14,6 +8,12 @@
 #include "cubecam/render/target.hpp"
 #include "cubecam/render/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
 
 namespace cubecam {
 
@@ -33,8 +33,9 @@ struct PassInput {
 /// Whether all views of a mesh go into one draw call.
 enum class Layering { never, where_faster, always };
 
-/// The one path that draws a scene, into one view or many: opaque nodes near to far, the background, translucent
-/// nodes far to near. A mesh is drawn once for all the views that see it; without layered rendering, once for each.
+/// The one path that draws a scene, into one view or many: opaque nodes near to far, the
+/// background, translucent nodes far to near. A mesh is drawn once for all the views that see it;
+/// without layered rendering, once for each.
 class SurfacePass {
 public:
     SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering);
@@ -47,7 +48,8 @@ public:
     Programs& programs() { return programs_; }
 
 private:
-    /// A planned node with its records: `first` is its first view's, `blocks` its uniform block's offset.
+    /// A planned node with its records: `first` is its first view's, `blocks` its uniform block's
+    /// offset.
     struct Item {
         const NodeSnapshot* node;
         const GpuMesh* mesh;
@@ -65,17 +67,17 @@ private:
     };
 
     Prepared prepare(const PassInput& input);
-    void draw_layers(const PassInput& input, const Prepared& prepared, Target& target, Layers& layers, bool color,
-                     bool outputs, Stats& stats);
+    void draw_layers(const PassInput& input, const Prepared& prepared, Target& target,
+                     Layers& layers, bool color, bool outputs, Stats& stats);
     /// Draws everything into the bound framebuffer, for all wanted views or only for `view`.
-    void draw_all(const PassInput& input, const Prepared& prepared, std::optional<std::size_t> view, bool color,
-                  bool outputs, Stats& stats);
-    void draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror, bool outputs,
-                    Stats& stats);
+    void draw_all(const PassInput& input, const Prepared& prepared, std::optional<std::size_t> view,
+                  bool color, bool outputs, Stats& stats);
+    void draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror,
+                    bool outputs, Stats& stats);
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
     /// Clears all layers, or one view's.
-    void clear(const PassInput& input, Target& target, Layers& layers, std::optional<std::size_t> view, bool color,
-               bool outputs);
+    void clear(const PassInput& input, Target& target, Layers& layers,
+               std::optional<std::size_t> view, bool color, bool outputs);
     bool use_layers(const PassInput& input, const Prepared& prepared) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
     void upload_lights(std::span<const LightValue> lights);

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <unistd.h>
 
 namespace cubecam {
 namespace {
 
-constexpr GLenum depth_format = GL_DEPTH_COMPONENT32F;  // reversed depth wants a float's precision near 0
+constexpr GLenum depth_format =
+    GL_DEPTH_COMPONENT32F;  // reversed depth wants a float's precision near 0
 
 struct OutputFormat {
     Slot slot;
@@ -18,30 +20,14 @@ struct OutputFormat {
 
 // Normal and position take four channels: GL need not render to three.
 constexpr OutputFormat output_formats[] = {
-    {Slot::distance, &Outputs::distance, GL_R32F, 4}, {Slot::z, &Outputs::z, GL_R32F, 4},
-    {Slot::normal, &Outputs::normal, GL_RGBA32F, 16}, {Slot::position, &Outputs::position, GL_RGBA32F, 16},
+    {Slot::distance, &Outputs::distance, GL_R32F, 4},
+    {Slot::z, &Outputs::z, GL_R32F, 4},
+    {Slot::normal, &Outputs::normal, GL_RGBA32F, 16},
+    {Slot::position, &Outputs::position, GL_RGBA32F, 16},
     {Slot::id, &Outputs::id, GL_R32I, 4},
 };
 
 GLenum attachment(Slot slot) { return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot); }
-
-void check_limits(const gl::Context& context, const TargetDescription& d) {
-    const gl::Limits& limits = context.limits();
-    const int largest = d.cube ? std::min(limits.max_cube_map_texture_size, limits.max_framebuffer_width)
-                               : std::min(limits.max_texture_size, limits.max_framebuffer_width);
-    const char* limit = d.cube ? "GL_MAX_CUBE_MAP_TEXTURE_SIZE" : "GL_MAX_TEXTURE_SIZE";
-    if (d.width < 1 || d.height < 1 || d.width > largest || d.height > largest) {
-        const std::string got =
-            d.cube ? std::to_string(d.width) : std::to_string(d.width) + " x " + std::to_string(d.height);
-        throw std::invalid_argument("size: expected 1 to " + std::to_string(largest) + " pixels (" + limit + " of " +
-                                    context.renderer() + "), got " + got);
-    }
-    if (d.samples < 1 || d.samples > limits.max_samples) {
-        throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
-                                    " (GL_MAX_SAMPLES of " + context.renderer() + "), got " +
-                                    std::to_string(d.samples));
-    }
-}
 
 }  // namespace
 
@@ -52,6 +38,46 @@ GLenum gl_format(Format format) {
         case Format::rgba32f: return GL_RGBA32F;
     }
     return GL_RGBA32F;
+}
+
+TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
+                                  std::int64_t height, std::int64_t samples, Format format,
+                                  Outputs outputs) {
+    const gl::Limits& limits = context.limits();
+    const auto on = [&context](const char* limit) {
+        return std::string(" (") + limit + " of " + context.renderer() + ")";
+    };
+    const std::string got =
+        cube ? std::to_string(width) : std::to_string(width) + " x " + std::to_string(height);
+    const int largest = std::min({cube ? limits.max_cube_map_texture_size : limits.max_texture_size,
+                                  limits.max_framebuffer_width, limits.max_framebuffer_height});
+    if (width < 1 || height < 1 || width > largest || height > largest) {
+        throw std::invalid_argument(
+            "size: expected 1 to " + std::to_string(largest) + " pixels" +
+            on(cube ? "GL_MAX_CUBE_MAP_TEXTURE_SIZE" : "GL_MAX_TEXTURE_SIZE") + ", got " + got);
+    }
+    if (samples < 1 || samples > limits.max_samples) {
+        throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
+                                    on("GL_MAX_SAMPLES") + ", got " + std::to_string(samples));
+    }
+    TargetDescription description;
+    description.cube = cube;
+    description.width = static_cast<int>(width);
+    description.height = static_cast<int>(height);
+    description.samples = static_cast<int>(samples);
+    description.format = format;
+    description.outputs = outputs;
+    // A software driver takes its textures from main memory, and the kernel grants more than there
+    // is.
+    const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    if (context.software() && description.bytes() > memory) {
+        throw std::invalid_argument("size: expected pictures that fit into " +
+                                    std::to_string(memory >> 20) + " MiB of memory, got " + got +
+                                    " pixels, which take " +
+                                    std::to_string(description.bytes() >> 20) + " MiB");
+    }
+    return description;
 }
 
 std::size_t TargetDescription::bytes() const {
@@ -76,7 +102,8 @@ gl::Framebuffer Layers::make(std::optional<int> layer) const {
     std::fill(std::begin(draw_buffers), std::end(draw_buffers), GLenum{GL_NONE});
     for (const Attachment& a : attachments_) {
         if (layer) {
-            gl_->NamedFramebufferTextureLayer(framebuffer.id(), a.point, a.texture, a.level, *layer);
+            gl_->NamedFramebufferTextureLayer(framebuffer.id(), a.point, a.texture, a.level,
+                                              *layer);
         } else {
             gl_->NamedFramebufferTexture(framebuffer.id(), a.point, a.texture, a.level);
         }
@@ -85,7 +112,8 @@ gl::Framebuffer Layers::make(std::optional<int> layer) const {
     gl_->NamedFramebufferDrawBuffers(framebuffer.id(), slot_count, draw_buffers);
     const auto first = std::find_if(std::begin(draw_buffers), std::end(draw_buffers),
                                     [](GLenum buffer) { return buffer != GL_NONE; });
-    gl_->NamedFramebufferReadBuffer(framebuffer.id(), first == std::end(draw_buffers) ? GLenum{GL_NONE} : *first);
+    gl_->NamedFramebufferReadBuffer(framebuffer.id(),
+                                    first == std::end(draw_buffers) ? GLenum{GL_NONE} : *first);
     gl::check_framebuffer(*gl_, framebuffer, "making a render target");
     return framebuffer;
 }
@@ -103,11 +131,12 @@ GLuint Layers::one(int layer) {
 
 Target::Target(const gl::Context& context, const TargetDescription& description)
     : gl_(&context.gl()), description_(description) {
-    check_limits(context, description);
     keys.resize(static_cast<std::size_t>(description.layers()));
 
-    const GLenum color_format = gl_format(description.graded ? Format::rgba32f : description.format);
-    const int levels = description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
+    const GLenum color_format =
+        gl_format(description.graded ? Format::rgba32f : description.format);
+    const int levels =
+        description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
     color_ = make_texture(context, color_format, levels);
     depth_ = make_texture(context, depth_format, 1);
     if (description.cube) {  // a probe is looked up as any other cubemap
@@ -125,37 +154,42 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         output_pass.push_back({attachment(output.slot), texture.id()});
     }
     if (multisampled()) {
-        sample_color_ = gl::create_texture_2d_multisample_array(*gl_, color_format, description.samples,
-                                                                description.width, description.height,
-                                                                description.layers());
-        sample_depth_ = gl::create_texture_2d_multisample_array(*gl_, depth_format, description.samples,
-                                                                description.width, description.height,
-                                                                description.layers());
+        sample_color_ = gl::create_texture_2d_multisample_array(
+            *gl_, color_format, description.samples, description.width, description.height,
+            description.layers());
+        sample_depth_ = gl::create_texture_2d_multisample_array(
+            *gl_, depth_format, description.samples, description.width, description.height,
+            description.layers());
         resolved_.emplace(*gl_, color_pass, description.layers());
-        color_pass = {{attachment(Slot::color), sample_color_.id()}, {GL_DEPTH_ATTACHMENT, sample_depth_.id()}};
-        if (description.outputs.any()) output_pass_.emplace(*gl_, output_pass, description.layers());
+        color_pass = {{attachment(Slot::color), sample_color_.id()},
+                      {GL_DEPTH_ATTACHMENT, sample_depth_.id()}};
+        if (description.outputs.any())
+            output_pass_.emplace(*gl_, output_pass, description.layers());
     } else {
         color_pass.insert(color_pass.end(), output_pass.begin(), output_pass.end());
     }
     color_pass_.emplace(*gl_, color_pass, description.layers());
     if (description.graded) {
         graded_ = make_texture(context, gl_format(description.format), 1);
-        graded_pass_.emplace(*gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), graded_.id()}},
-                             description.layers());
+        graded_pass_.emplace(
+            *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), graded_.id()}},
+            description.layers());
     }
     gl::check_gl(*gl_, "making a render target");
 }
 
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
     // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2).
-    if (description_.cube) return gl::create_texture_cube(context.gl(), format, description_.width, levels);
-    return gl::create_texture_2d_array(context.gl(), format, description_.width, description_.height, 1, levels);
+    if (description_.cube)
+        return gl::create_texture_cube(context.gl(), format, description_.width, levels);
+    return gl::create_texture_2d_array(context.gl(), format, description_.width,
+                                       description_.height, 1, levels);
 }
 
 void Target::resolve(int layer) {
-    gl_->BlitNamedFramebuffer(color_pass_->one(layer), resolved_->one(layer), 0, 0, description_.width,
-                              description_.height, 0, 0, description_.width, description_.height, GL_COLOR_BUFFER_BIT,
-                              GL_NEAREST);
+    gl_->BlitNamedFramebuffer(color_pass_->one(layer), resolved_->one(layer), 0, 0,
+                              description_.width, description_.height, 0, 0, description_.width,
+                              description_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace cubecam

@@ -1,18 +1,19 @@
 #pragma once
 
-#include <compare>
-#include <cstddef>
-#include <optional>
-#include <vector>
-
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/objects.hpp"
 #include "cubecam/render/key.hpp"
 #include "cubecam/render/options.hpp"
 
+#include <compare>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
 namespace cubecam {
 
-/// Where a fragment shader's outputs go: attachment and draw-buffer numbers, `layout(location =)` in surface.frag.
+/// Where a fragment shader's outputs go: attachment and draw-buffer numbers, `layout(location =)`
+/// in surface.frag.
 enum class Slot : int { color = 0, distance = 1, z = 2, normal = 3, position = 4, id = 5 };
 inline constexpr int slot_count = 6;
 
@@ -21,9 +22,9 @@ struct TargetDescription {
     bool cube = false;  ///< six square layers that a shader can look up; else one layer
     int width = 0;
     int height = 0;
+    int samples = 1;
     Format format = Format::rgba8;
     Outputs outputs;
-    int samples = 1;
     bool mipmaps = false;
     bool graded = false;  ///< colour is drawn in float, then tone-mapped and encoded into `format`
 
@@ -32,6 +33,13 @@ struct TargetDescription {
     std::size_t bytes() const;
     auto operator<=>(const TargetDescription&) const = default;
 };
+
+/// A description of pictures of this size. @throws std::invalid_argument beyond the driver's limits
+/// or the machine's memory, naming the limit. Sizes come as the caller gave them, so that the
+/// message can say so.
+TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
+                                  std::int64_t height, std::int64_t samples, Format format,
+                                  Outputs outputs = {});
 
 /// Framebuffers over the same textures: all layers at once, and each layer alone.
 class Layers {
@@ -44,7 +52,7 @@ public:
 
     Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers);
 
-    GLuint all();             ///< for layered drawing and whole clears
+    GLuint all();  ///< for layered drawing and whole clears
     GLuint one(int layer);
 
 private:
@@ -58,11 +66,12 @@ private:
 
 /// Textures that pictures are drawn into, and for each layer the key of the picture it holds.
 ///
-/// With one sample a single pass writes colour and outputs. With more, colour is drawn multisampled and resolved,
-/// and the outputs are drawn in a pass of their own without multisampling: an average of ids would mean nothing.
+/// With one sample a single pass writes colour and outputs. With more, colour is drawn multisampled
+/// and resolved, and the outputs are drawn in a pass of their own without multisampling: an average
+/// of ids would mean nothing.
 class Target {
 public:
-    /// @throws std::invalid_argument beyond the driver's limits, naming the limit; GlError when memory is short.
+    /// @throws GlError when memory is short.
     Target(const gl::Context& context, const TargetDescription& description);
 
     const TargetDescription& description() const { return description_; }
@@ -73,7 +82,8 @@ public:
     const gl::Texture& depth() const { return depth_; }
     const gl::Texture& output(Slot slot) const { return outputs_[static_cast<std::size_t>(slot)]; }
 
-    /// What the colour pass draws into: outputs are attached as well unless the target is multisampled.
+    /// What the colour pass draws into: outputs are attached as well unless the target is
+    /// multisampled.
     Layers& color_pass() { return *color_pass_; }
     /// Outputs alone; only for a multisampled target that has some.
     Layers& output_pass() { return *output_pass_; }

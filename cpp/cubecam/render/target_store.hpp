@@ -1,15 +1,16 @@
 #pragma once
 
+#include "cubecam/render/target.hpp"
+
 #include <cstddef>
 #include <list>
 #include <memory>
 
-#include "cubecam/render/target.hpp"
-
 namespace cubecam {
 
-/// One target for each description of a frame or capture, the least recently used given up when they fill
-/// more than `capacity` bytes. The picture in a target stays, so the same frame need not be drawn again.
+/// One target for each description of a frame or capture, the least recently used given up when
+/// they fill more than `capacity` bytes. The picture in a target stays, so the same frame need not
+/// be drawn again.
 class TargetStore {
 public:
     explicit TargetStore(std::size_t capacity) : capacity_(capacity) {}

@@ -30,12 +30,14 @@ View make_view(const Matrices& matrices) {
 
 View camera_view(const Matrices& matrices) { return make_view(matrices); }
 
-std::vector<View> cube_views(glm::dvec3 position, double near, double far, std::optional<glm::dvec3> eye) {
+std::vector<View> cube_views(glm::dvec3 position, double near, double far,
+                             std::optional<glm::dvec3> eye) {
     std::vector<View> views;
     views.reserve(face_count);
     for (const Face face : all_faces) {
-        View view = make_view({look_along(position, glm::dvec3(face_forward(face)), glm::dvec3(face_up(face))),
-                               perspective(90.0, 1.0, near, far)});
+        View view = make_view(
+            {look_along(position, glm::dvec3(face_forward(face)), glm::dvec3(face_up(face))),
+             perspective(90.0, 1.0, near, far)});
         view.position = position;  // exactly, not by way of an inverse
         view.eye = eye.value_or(position);
         views.push_back(view);

@@ -6,8 +6,8 @@
 
 namespace cubecam {
 
-/// GPU copies of scene objects. They hold their object weakly and go, at the next sweep, when it has gone:
-/// a scene knows no renderer, so it cannot tell one.
+/// GPU copies of scene objects. They hold their object weakly and go, at the next sweep, when it
+/// has gone: a scene knows no renderer, so it cannot tell one.
 template <class Object, class Entry>
 class WeakCache {
 public:
@@ -22,7 +22,8 @@ public:
 
     Entry* find(const std::shared_ptr<Object>& object) {
         const auto found = entries_.find(object.get());
-        return found == entries_.end() || found->second.object.expired() ? nullptr : &found->second.entry;
+        return found == entries_.end() || found->second.object.expired() ? nullptr
+                                                                         : &found->second.entry;
     }
 
     void sweep() {

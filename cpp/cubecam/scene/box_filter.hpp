@@ -21,9 +21,9 @@ struct BoxWidth {
         : texels(std::max(wide, 1.0)), inverse(std::min(one_by_wide, 1.0)) {}
 };
 
-/// How many texels boxes reach over: two (width 1: linear interpolation), two or three (up to 2), any
-/// number. Loops are compiled for each, as the branch between would be mispredicted at every other
-/// texel.
+/// How many texels boxes reach over: two (width 1: linear interpolation), two or three (up to 2),
+/// any number. Loops are compiled for each, as the branch between would be mispredicted at every
+/// other texel.
 enum class Reach { linear, near, far };
 
 inline Reach reach_of(double texels) {
@@ -55,8 +55,8 @@ inline std::int32_t floor_to_int(double value) {
     return towards_zero - (value < towards_zero ? 1 : 0);
 }
 
-/// The box round `center`, where texel i covers i - 1/2 to i + 1/2. At width 1 it weighs its two texels
-/// as linear interpolation does.
+/// The box round `center`, where texel i covers i - 1/2 to i + 1/2. At width 1 it weighs its two
+/// texels as linear interpolation does.
 inline BoxTap box_tap(double center, const BoxWidth& width) {
     // A border this near to a texel's is that border: no texel is read for the rounding's sake.
     constexpr double snap = 1e-7;

@@ -1,10 +1,10 @@
 #include "cubecam/scene/camera.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "cubecam/math/transform.hpp"
 #include "cubecam/scene/describe.hpp"
+
+#include <algorithm>
+#include <utility>
 
 namespace cubecam {
 
@@ -62,14 +62,12 @@ void check_value(const Placed<Lens>& placed) {
 
 void check_value(const Matrices& given) {
     expect(is_finite(given.view), "a view matrix of finite numbers", "NaN or infinity");
-    expect(is_finite(given.projection), "a projection matrix of finite numbers",
-           "NaN or infinity");
+    expect(is_finite(given.projection), "a projection matrix of finite numbers", "NaN or infinity");
     const glm::dmat4& view = given.view;
     const glm::dvec4 last_row(view[0][3], view[1][3], view[2][3], view[3][3]);
     expect(last_row == glm::dvec4(0.0, 0.0, 0.0, 1.0),
            "a view matrix with (0, 0, 0, 1) as its last row", describe(glm::vec4(last_row)));
-    expect(!is_singular(glm::dmat3(view)), "a view matrix that can be inverted",
-           "a singular one");
+    expect(!is_singular(glm::dmat3(view)), "a view matrix that can be inverted", "a singular one");
     expect(!is_singular(given.projection), "a projection matrix that can be inverted",
            "a singular one");
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <optional>
-#include <variant>
+#include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
 
-#include "cubecam/scene/versioned.hpp"
+#include <optional>
+#include <variant>
 
 namespace cubecam {
 

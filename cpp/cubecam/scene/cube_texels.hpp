@@ -30,12 +30,6 @@ template <int Channels, typename Pixel>
 Lane<Channels> load_texel(const Pixel* from) {
     if constexpr (Channels == 1) {
         return to_float(from[0]);
-    } else if constexpr (Channels == 3 && std::is_same_v<Pixel, float>) {
-        double two;  // two floats at once
-        std::memcpy(&two, from, sizeof two);
-        float texel[4];
-        std::memcpy(texel, &two, sizeof two);
-        return Float4{texel[0], texel[1], from[2], 0.0f};
     } else if constexpr (Channels == 3) {
         return Float4{to_float(from[0]), to_float(from[1]), to_float(from[2]), 0.0f};
     } else if constexpr (std::is_same_v<Pixel, float>) {
@@ -47,12 +41,28 @@ Lane<Channels> load_texel(const Pixel* from) {
     }
 }
 
+/// The same, faster, where another texel follows in memory: the fourth lane of three channels is
+/// then what comes next, and nobody's concern.
+template <int Channels, typename Pixel>
+Lane<Channels> load_texel_before_another(const Pixel* from) {
+    if constexpr (Channels == 3 && std::is_same_v<Pixel, float>) {
+        return load_texel<4>(from);
+    } else {
+        return load_texel<Channels>(from);
+    }
+}
+
 template <int Channels>
 void store_texel(Lane<Channels> texel, float* to) {
     if constexpr (Channels == 1) {
         *to = texel;
+    } else if constexpr (Channels == 3) {
+        typedef double Double2 __attribute__((vector_size(16)));
+        const double two = reinterpret_cast<Double2>(texel)[0];  // 8 bytes of register, 2 floats
+        std::memcpy(to, &two, sizeof two);
+        to[2] = texel[2];
     } else {
-        std::memcpy(to, &texel, Channels * sizeof(float));
+        std::memcpy(to, &texel, sizeof texel);
     }
 }
 
@@ -103,27 +113,38 @@ struct CubeTexels {
     }
 
     Lane<Channels> bilinear(Face face, float s, float t) const {
-        const float x = s * static_cast<float>(size) - 0.5f;
-        const float y = t * static_cast<float>(size) - 0.5f;
+        return between(face, s * static_cast<float>(size) - 0.5f,
+                       t * static_cast<float>(size) - 0.5f);
+    }
+
+    /// The same at column x and row y, with texel centres at whole numbers: -1/2 to N - 1/2.
+    Lane<Channels> between(Face face, float x, float y) const {
         // From -1/2 on: rounding towards 0 after adding 1 is rounding down.
         const int column = static_cast<int>(x + 1.0f) - 1;
         const int row = static_cast<int>(y + 1.0f) - 1;
         const float right_weight = x - static_cast<float>(column);
         const float bottom_weight = y - static_cast<float>(row);
-        if (column >= 0 && row >= 0 && column + 1 < size && row + 1 < size) {
+        // Not the last column: behind its last texel there may be no memory.
+        if (column >= 0 && row >= 0 && column + 2 < size && row + 1 < size) {
+            const auto load = [](const Pixel* from) {
+                return load_texel_before_another<Channels>(from);
+            };
             const Pixel* upper = at(face, row, column);
             const Pixel* lower = upper + static_cast<std::size_t>(size) * Channels;
-            return mix_texels(mix_texels(load_texel<Channels>(upper),
-                                         load_texel<Channels>(upper + Channels), right_weight),
-                              mix_texels(load_texel<Channels>(lower),
-                                         load_texel<Channels>(lower + Channels), right_weight),
+            return mix_texels(mix_texels(load(upper), load(upper + Channels), right_weight),
+                              mix_texels(load(lower), load(lower + Channels), right_weight),
                               bottom_weight);
         }
-        return mix_texels(mix_texels(seamless(face, row, column),
-                                     seamless(face, row, column + 1), right_weight),
-                          mix_texels(seamless(face, row + 1, column),
-                                     seamless(face, row + 1, column + 1), right_weight),
-                          bottom_weight);
+        return between_faces(face, row, column, right_weight, bottom_weight);
+    }
+
+    [[gnu::noinline]] Lane<Channels> between_faces(Face face, int row, int column,
+                                                   float right_weight, float bottom_weight) const {
+        return mix_texels(
+            mix_texels(seamless(face, row, column), seamless(face, row, column + 1), right_weight),
+            mix_texels(seamless(face, row + 1, column), seamless(face, row + 1, column + 1),
+                       right_weight),
+            bottom_weight);
     }
 };
 

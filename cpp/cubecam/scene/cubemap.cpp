@@ -57,33 +57,38 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
 
     std::vector<BoxTap> taps;
     const double scale = static_cast<double>(size) / half;
-    for (int i = 0; i < half; ++i) taps.push_back(box_tap((i + 0.5) * scale - 0.5, BoxWidth(scale)));
+    for (int i = 0; i < half; ++i)
+        taps.push_back(box_tap((i + 0.5) * scale - 0.5, BoxWidth(scale)));
 
     parallel_for(0, face_count, 1, [&](std::size_t begin, std::size_t end) {
         std::vector<float> row(static_cast<std::size_t>(half) * static_cast<std::size_t>(channels));
         for (std::size_t face = begin; face < end; ++face) {
-            with_pixels(dtype, pixels + face * from_values * dtype_size(dtype), [&](const auto* from) {
-                for (int y = 0; y < half; ++y) {
-                    const BoxTap& down = taps[static_cast<std::size_t>(y)];
-                    for (int x = 0; x < half; ++x) {
-                        const BoxTap& across = taps[static_cast<std::size_t>(x)];
-                        for (int c = 0; c < channels; ++c) {
-                            row[static_cast<std::size_t>(x * channels + c)] =
-                                apply_tap<Reach::far>(down, [&](int i) {
-                                    const auto* line = from + static_cast<std::ptrdiff_t>(down.first + i) *
-                                                                  size * channels;
-                                    return apply_tap<Reach::far>(across, [&](int j) {
-                                        return to_float(line[(across.first + j) * channels + c]);
+            with_pixels(
+                dtype, pixels + face * from_values * dtype_size(dtype), [&](const auto* from) {
+                    for (int y = 0; y < half; ++y) {
+                        const BoxTap& down = taps[static_cast<std::size_t>(y)];
+                        for (int x = 0; x < half; ++x) {
+                            const BoxTap& across = taps[static_cast<std::size_t>(x)];
+                            for (int c = 0; c < channels; ++c) {
+                                row[static_cast<std::size_t>(x * channels + c)] =
+                                    apply_tap<Reach::far>(down, [&](int i) {
+                                        const auto* line =
+                                            from + static_cast<std::ptrdiff_t>(down.first + i) *
+                                                       size * channels;
+                                        return apply_tap<Reach::far>(across, [&](int j) {
+                                            return to_float(
+                                                line[(across.first + j) * channels + c]);
+                                        });
                                     });
-                                });
+                            }
                         }
+                        floats_to_pixels(
+                            dtype, row.data(), row.size(),
+                            result.data() +
+                                (face * to_values + static_cast<std::size_t>(y) * row.size()) *
+                                    dtype_size(dtype));
                     }
-                    floats_to_pixels(dtype, row.data(), row.size(),
-                                     result.data() + (face * to_values +
-                                                      static_cast<std::size_t>(y) * row.size()) *
-                                                         dtype_size(dtype));
-                }
-            });
+                });
         }
     });
     return result;
@@ -98,9 +103,11 @@ CubeMap::CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool m
         throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
     }
     if (channels != 1 && channels != 3 && channels != 4) {
-        throw std::invalid_argument("channels: expected 1, 3 or 4, got " + std::to_string(channels));
+        throw std::invalid_argument("channels: expected 1, 3 or 4, got " +
+                                    std::to_string(channels));
     }
-    CubeMapData data{size, channels, dtype, mipmaps, nullptr, new_face_revisions(), next_revision()};
+    CubeMapData data{size,           channels, dtype, mipmaps, nullptr, new_face_revisions(),
+                     next_revision()};
     if (pixels.size() != face_count * data.face_bytes()) {
         throw std::invalid_argument(
             "pixels: expected " + std::to_string(face_count * data.face_bytes()) + " bytes (6 x " +
@@ -143,12 +150,10 @@ void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
     const std::lock_guard lock(mutex_);
     const std::size_t bytes = data_->face_bytes();
     if (pixels.size() != bytes) {
-        throw std::invalid_argument("pixels: expected " + std::to_string(bytes) + " bytes (" +
-                                    std::to_string(data_->size) + " x " +
-                                    std::to_string(data_->size) + " x " +
-                                    std::to_string(data_->channels) + " " +
-                                    dtype_name(data_->dtype) + "), got " +
-                                    std::to_string(pixels.size()));
+        throw std::invalid_argument(
+            "pixels: expected " + std::to_string(bytes) + " bytes (" + std::to_string(data_->size) +
+            " x " + std::to_string(data_->size) + " x " + std::to_string(data_->channels) + " " +
+            dtype_name(data_->dtype) + "), got " + std::to_string(pixels.size()));
     }
     if (std::memcmp(data_->face_pixels(face).data(), pixels.data(), bytes) == 0) return;
 
@@ -241,8 +246,8 @@ void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const 
                     const float weight = lod - static_cast<float>(below);
                     Lane<channels> texel = levels[below].bilinear(uv.face, uv.s, uv.t);
                     if (weight > 0) {
-                        texel = mix_texels(
-                            texel, levels[below + 1].bilinear(uv.face, uv.s, uv.t), weight);
+                        texel = mix_texels(texel, levels[below + 1].bilinear(uv.face, uv.s, uv.t),
+                                           weight);
                     }
                     store_texel<channels>(texel, to + channels * i);
                 }

@@ -1,14 +1,14 @@
 #pragma once
 
+#include "cubecam/math/cube_face.hpp"
+#include "cubecam/scene/pixels.hpp"
+
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
-
-#include "cubecam/math/cube_face.hpp"
-#include "cubecam/scene/pixels.hpp"
 
 namespace cubecam {
 
@@ -31,11 +31,13 @@ struct CubeMapData {
     }
 };
 
-/// What a capture may hold beside colour; null where it was not asked for. Distances in world units.
+/// What a capture may hold beside colour; null where it was not asked for. Distances in world
+/// units.
 struct CapturedOutputs {
-    std::shared_ptr<const Buffer<float>> distance;   ///< [6][N][N] length of the ray, +inf: background
-    std::shared_ptr<const Buffer<float>> z;          ///< [6][N][N] along the face's axis, +inf
-    std::shared_ptr<const Buffer<float>> normal;     ///< [6][N][N][3] world, towards the viewer; 0
+    std::shared_ptr<const Buffer<float>>
+        distance;                                 ///< [6][N][N] length of the ray, +inf: background
+    std::shared_ptr<const Buffer<float>> z;       ///< [6][N][N] along the face's axis, +inf
+    std::shared_ptr<const Buffer<float>> normal;  ///< [6][N][N][3] world, towards the viewer; 0
     std::shared_ptr<const Buffer<float>> position;   ///< [6][N][N][3] world; NaN
     std::shared_ptr<const Buffer<std::int32_t>> id;  ///< [6][N][N] node ids; 0
 };

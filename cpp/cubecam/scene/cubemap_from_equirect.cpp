@@ -3,20 +3,21 @@
 #include "cubecam/scene/cubemap_resample.hpp"
 #include "cubecam/scene/resample_tile.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <bit>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include <glm/geometric.hpp>
-
 namespace cubecam {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int tile_size = 64;
+constexpr int tile_size = 64;  ///< whose sources fit a core's own cache
+constexpr std::size_t largest_block = std::size_t{1} << 20;  ///< texels: 16 MiB a thread
 
 /// A panorama of floats, its columns a ring, its rows going on over the poles.
 template <int Channels>
@@ -59,29 +60,21 @@ struct EquirectTexels {
             const int start = wrap(column);
             const int run = std::min(left, period - start);
             const float* from = line + static_cast<std::ptrdiff_t>(start) * Channels;
-            for (int i = 0; i < run; ++i, from += Channels) *to++ = load_texel<Channels>(from);
+            if (row + 2 < height) {
+                prefetch(from + std::ptrdiff_t{2} * width * Channels,
+                         static_cast<std::size_t>(run) * Channels * sizeof(float));
+            }
+            for (int i = 1; i < run; ++i, from += Channels) {
+                *to++ = load_texel_before_another<Channels>(from);
+            }
+            *to++ = load_texel<Channels>(from);
             column += run;
             left -= run;
         }
     }
 
-    /// The average over a box of rows and columns, none wider than `reach`.
-    template <Reach reach>
+    /// The average over a box of any size, without a copy.
     Lane<Channels> box(const BoxTap& down, const BoxTap& across) const {
-        const int start = wrap(across.first);
-        const bool plain = down.first >= 0 && down.end() <= height && start + across.inner + 1 < period;
-        if (!plain) return box_round(down, across);
-        const auto stride = static_cast<std::ptrdiff_t>(width) * Channels;
-        const float* corner = pixels + down.first * stride + start * Channels;
-        return apply_tap<reach>(down, [&](int i) {
-            const float* from = corner + i * stride;
-            return apply_tap<reach>(across,
-                                    [from](int j) { return load_texel<Channels>(from + j * Channels); });
-        });
-    }
-
-    /// The same over the seam and the poles.
-    Lane<Channels> box_round(const BoxTap& down, const BoxTap& across) const {
         return apply_tap<Reach::far>(down, [&](int i) {
             int row = down.first + i;
             int column = across.first;
@@ -104,25 +97,38 @@ public:
     }
 
     void run() const {
-        // Tiles of one quarter of a face, and with each tile its mirror images, which share its angles.
+        // Tiles of one quarter of a face, and with each tile its mirror images, which share its
+        // angles.
         const int half = (size_ + 1) / 2;
         const int across = (half + tile_size - 1) / tile_size;
         const int down = (size_ + tile_size - 1) / tile_size;
         const int side_tiles = across * down;
         const int tiles = side_tiles + across * across;
-        parallel_for(0, static_cast<std::size_t>(tiles), 1, [&](std::size_t begin, std::size_t end) {
+        const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
             for (int tile = static_cast<int>(begin); tile < static_cast<int>(end); ++tile) {
                 if (tile < side_tiles) {
-                    sides(tile / across * tile_size, tile % across * tile_size, half);
+                    sides(tile / across * tile_size, tile % across * tile_size, half, scratch);
                 } else {
                     const int pole = tile - side_tiles;
-                    poles(pole / across * tile_size, pole % across * tile_size, half);
+                    poles(pole / across * tile_size, pole % across * tile_size, half, scratch);
                 }
             }
-        });
+        };
+        parallel_for_with<Scratch>(0, static_cast<std::size_t>(tiles), 1, fill);
     }
 
 private:
+    /// Memory that one tile after another uses.
+    struct Scratch {
+        TapList across;
+        TapList down;
+        TapList down_south;
+        FilteredRows<Channels> filtered;
+        SourceBlock<Channels> block;
+        Buffer<double> angles;
+        Buffer<BoxWidth> widths;
+    };
+
     /// Of a texel's centre: -1 to 1 across the face.
     double coordinate(int index) const { return (index + 0.5) * texel_ - 1; }
 
@@ -133,17 +139,19 @@ private:
                          Channels;
     }
 
-    /// Counted from the picture's centre to the right: against the azimuth, which turns from +Z to +X.
-    double longitude(double azimuth) const {
-        return center_azimuth_ - azimuth;
-    }
+    /// Counted from the picture's centre to the right: against the azimuth, which turns from +Z to
+    /// +X.
+    double longitude(double azimuth) const { return center_azimuth_ - azimuth; }
 
-    /// A tile of the left half of each side face, and its mirror image. With a the horizontal and y the
-    /// vertical coordinate on the face: longitude = +-atan(a), latitude = atan(y cos(longitude)).
-    void sides(int row_begin, int column_begin, int half) const {
+    /// A tile of the left half of each side face, and its mirror image. With a the horizontal and y
+    /// the vertical coordinate on the face: longitude = +-atan(a), latitude = atan(y
+    /// cos(longitude)).
+    void sides(int row_begin, int column_begin, int half, Scratch& scratch) const {
+        TapList& across = scratch.across;
+        TapList& down = scratch.down;
+        FilteredRows<Channels>& filtered = scratch.filtered;
         const int rows = std::min(tile_size, size_ - row_begin);
         const int columns = std::min(tile_size, half - column_begin);
-        TapList down;
         down.resize(static_cast<std::size_t>(rows * columns));
         for (int j = 0; j < columns; ++j) {
             const double a = coordinate(column_begin + j);
@@ -156,8 +164,6 @@ private:
                          BoxWidth(texel_ / (secant * square) * source_.rows / pi));
             }
         }
-        FilteredRows<Channels> filtered;
-        TapList across;
         for (const Face face : {Face::pos_x, Face::neg_x, Face::pos_z, Face::neg_z}) {
             const glm::dvec3 major = face_axes(face).major;
             const glm::dvec3 s_axis = face_axes(face).s_axis;
@@ -181,9 +187,9 @@ private:
                         float* to = target(face, row_begin + i,
                                            mirrored ? size_ - 1 - column_begin : column_begin);
                         for (int j = 0; j < columns; ++j, ++tap) {
-                            store_texel<Channels>(
-                                filtered.template at<reach()>(down[tap], static_cast<std::size_t>(j)),
-                                to);
+                            store_texel<Channels>(filtered.template at<reach()>(
+                                                      down[tap], static_cast<std::size_t>(j)),
+                                                  to);
                             to += mirrored ? -Channels : Channels;
                         }
                     }
@@ -192,42 +198,78 @@ private:
         }
     }
 
-    /// A tile of one quarter of +Y, and its mirror images on +Y and -Y. The box is laid along rows and
-    /// columns of the panorama: as high as the texel is along the meridian, as wide as across it.
-    void poles(int row_begin, int column_begin, int half) const {
-        for (int row = row_begin; row < std::min(row_begin + tile_size, half); ++row) {
-            for (int column = column_begin; column < std::min(column_begin + tile_size, half);
-                 ++column) {
+    /// A tile of one quarter of +Y, and its mirror images on +Y and -Y. The box is laid along rows
+    /// and columns of the panorama: as high as the texel is along the meridian, as wide as across
+    /// it.
+    void poles(int row_begin, int column_begin, int half, Scratch& scratch) const {
+        TapList& across = scratch.across;
+        TapList& north = scratch.down;
+        TapList& south = scratch.down_south;
+        Buffer<double>& angles = scratch.angles;  // azimuths, in the quarter of positive x and z
+        Buffer<BoxWidth>& widths = scratch.widths;
+        SourceBlock<Channels>& block = scratch.block;
+        const int rows = std::min(tile_size, half - row_begin);
+        const int columns = std::min(tile_size, half - column_begin);
+        const auto count = static_cast<std::size_t>(rows * columns);
+        north.resize(count);
+        south.resize(count);
+        angles.resize(count);
+        widths.clear();
+        widths.reserve(count);
+        for (int row = row_begin; row < row_begin + rows; ++row) {
+            for (int column = column_begin; column < column_begin + columns; ++column) {
                 const double s = -coordinate(column);  // >= 0
                 const double t = -coordinate(row);
                 const double square = s * s + t * t;
                 const double radius = std::sqrt(square);
                 const BoxWidth high(texel_ / (1 + square) * source_.rows / pi);
-                const double turns = std::min(texel_ / (2 * pi * radius), 1.0);
-                const BoxWidth wide(turns * source_.period);
                 const double from_pole = fast_atan(radius, std::sqrt(1 + square));
-                const BoxTap north = box_tap(source_.row_of(pi / 2 - from_pole), high);
-                const BoxTap south = box_tap(source_.row_of(from_pole - pi / 2), high);
                 const double ratio = std::min(s, t) / std::max(std::max(s, t), 1e-300);
-                const double small_angle = fast_atan(ratio, std::sqrt(1 + ratio * ratio));
-                const double angle = s < t ? small_angle : pi / 2 - small_angle;
-                with_reach(reach_of(std::max(high.texels, wide.texels)), [&](auto reach) {
-                    // On +Y, x grows with the column and z with the row; on -Y rows are turned over.
-                    for (const bool positive_x : {false, true}) {
-                        for (const bool positive_z : {false, true}) {
-                            const double azimuth = positive_z ? angle : pi - angle;
-                            const BoxTap across = box_tap(
-                                source_.column_of(longitude(positive_x ? azimuth : -azimuth)), wide);
-                            const int at_column = positive_x ? size_ - 1 - column : column;
-                            const int at_row = positive_z ? size_ - 1 - row : row;
-                            store_texel<Channels>(source_.template box<reach()>(north, across),
-                                                  target(Face::pos_y, at_row, at_column));
-                            store_texel<Channels>(
-                                source_.template box<reach()>(south, across),
-                                target(Face::neg_y, size_ - 1 - at_row, at_column));
+                const double angle = fast_atan(ratio, std::sqrt(1 + ratio * ratio));
+                const std::size_t index = widths.size();
+                north.set(index, source_.row_of(pi / 2 - from_pole), high);
+                south.set(index, source_.row_of(from_pole - pi / 2), high);
+                angles[index] = s < t ? angle : pi / 2 - angle;
+                widths.emplace_back(std::min(texel_ / (2 * pi * radius), 1.0) * source_.period);
+            }
+        }
+        for (const bool positive_x : {false, true}) {
+            for (const bool positive_z : {false, true}) {
+                across.resize(count);
+                for (std::size_t i = 0; i < count; ++i) {
+                    const double azimuth = positive_z ? angles[i] : pi - angles[i];
+                    across.set(i, source_.column_of(longitude(positive_x ? azimuth : -azimuth)),
+                               widths[i]);
+                }
+                for (const Face face : {Face::pos_y, Face::neg_y}) {
+                    const TapList& down = face == Face::pos_y ? north : south;
+                    const bool copied = down.range.size() * across.range.size() <= largest_block;
+                    if (copied) {
+                        block.fill(down.range, across.range,
+                                   [&](int row, int begin, int end, Lane<Channels>* to) {
+                                       source_.read(row, begin, end, to);
+                                   });
+                    }
+                    // x grows with the column; z with the row on +Y, against it on -Y.
+                    const bool last_rows = positive_z == (face == Face::pos_y);
+                    std::size_t i = 0;
+                    for (int row = row_begin; row < row_begin + rows; ++row) {
+                        for (int column = column_begin; column < column_begin + columns;
+                             ++column, ++i) {
+                            float* to = target(face, last_rows ? size_ - 1 - row : row,
+                                               positive_x ? size_ - 1 - column : column);
+                            if (!copied) {
+                                store_texel<Channels>(source_.box(down[i], across[i]), to);
+                                continue;
+                            }
+                            const double widest = std::max(widths[i].texels, down.widest);
+                            with_reach(reach_of(widest), [&](auto reach) {
+                                store_texel<Channels>(
+                                    block.template at<reach()>(down[i], across[i]), to);
+                            });
                         }
                     }
-                });
+                }
             }
         }
     }
@@ -244,10 +286,10 @@ void check_equirect(const EquirectPixels& from, int size) {
     const bool good = borders ? from.width >= 2 && from.height >= 2
                               : from.height >= 1 && from.width == 2 * from.height;
     if (!good) {
-        throw std::invalid_argument(
-            std::string("equirect: expected a picture ") +
-            (borders ? "of at least 2 x 2" : "twice as wide as high") + ", got width " +
-            std::to_string(from.width) + " and height " + std::to_string(from.height));
+        throw std::invalid_argument(std::string("equirect: expected a picture ") +
+                                    (borders ? "of at least 2 x 2" : "twice as wide as high") +
+                                    ", got width " + std::to_string(from.width) + " and height " +
+                                    std::to_string(from.height));
     }
     if (size < 1) {
         throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
@@ -261,7 +303,8 @@ const float* as_floats(DType dtype, const std::byte* pixels, std::size_t count,
     if (dtype == DType::float32) return reinterpret_cast<const float*>(pixels);
     kept.resize(count);
     parallel_for(0, count, std::size_t{1} << 18, [&](std::size_t begin, std::size_t end) {
-        pixels_to_floats(dtype, pixels + begin * dtype_size(dtype), end - begin, kept.data() + begin);
+        pixels_to_floats(dtype, pixels + begin * dtype_size(dtype), end - begin,
+                         kept.data() + begin);
     });
     return kept.data();
 }

@@ -31,13 +31,13 @@ std::string plain_name(std::string_view name) {
 FaceSource face_in_gl(Convention convention, Face face) {
     const bool vertical = face == Face::pos_y || face == Face::neg_y;
     switch (convention) {
-    case Convention::gl: break;
-    case Convention::inside: return {face, !vertical, vertical};
-    case Convention::three:
-        return {face == Face::pos_x   ? Face::neg_x
-                : face == Face::neg_x ? Face::pos_x
-                                      : face,
-                true, false};
+        case Convention::gl: break;
+        case Convention::inside: return {face, !vertical, vertical};
+        case Convention::three:
+            return {face == Face::pos_x   ? Face::neg_x
+                    : face == Face::neg_x ? Face::pos_x
+                                          : face,
+                    true, false};
     }
     return {face, false, false};
 }
@@ -55,37 +55,36 @@ std::array<Cell, face_count> layout_cells(Layout layout, Convention convention) 
     const Face front = inside ? Face::neg_z : Face::pos_z;
     const Face back = inside ? Face::pos_z : Face::neg_z;
     switch (layout) {
-    case Layout::cross:
-    case Layout::vertical_cross: {
-        const bool upright = layout == Layout::vertical_cross;
-        return {{{Face::pos_x, 2, 1, false},
-                 {Face::neg_x, 0, 1, false},
-                 {Face::pos_y, 1, 0, false},
-                 {Face::neg_y, 1, 2, false},
-                 {front, 1, 1, false},
-                 upright ? Cell{back, 1, 3, true} : Cell{back, 3, 1, false}}};
-    }
-    case Layout::row:
-    case Layout::column: {
-        std::array<Cell, face_count> cells{};
-        for (int i = 0; i < face_count; ++i) {
-            cells[static_cast<std::size_t>(i)] = layout == Layout::row
-                                                     ? Cell{static_cast<Face>(i), i, 0, false}
-                                                     : Cell{static_cast<Face>(i), 0, i, false};
+        case Layout::cross:
+        case Layout::vertical_cross: {
+            const bool upright = layout == Layout::vertical_cross;
+            return {{{Face::pos_x, 2, 1, false},
+                     {Face::neg_x, 0, 1, false},
+                     {Face::pos_y, 1, 0, false},
+                     {Face::neg_y, 1, 2, false},
+                     {front, 1, 1, false},
+                     upright ? Cell{back, 1, 3, true} : Cell{back, 3, 1, false}}};
         }
-        return cells;
-    }
-    case Layout::equirect:
-    case Layout::openexr: break;
+        case Layout::row:
+        case Layout::column: {
+            std::array<Cell, face_count> cells{};
+            for (int i = 0; i < face_count; ++i) {
+                cells[static_cast<std::size_t>(i)] = layout == Layout::row
+                                                         ? Cell{static_cast<Face>(i), i, 0, false}
+                                                         : Cell{static_cast<Face>(i), 0, i, false};
+            }
+            return cells;
+        }
+        case Layout::equirect:
+        case Layout::openexr: break;
     }
     throw std::invalid_argument("layout: expected cross, vertical_cross, row or column, got '" +
                                 std::string(to_string(layout)) + "', which must be resampled");
 }
 
 /// Copies rows of texels; `from` and `to` point at the first, rows lie a stride of bytes apart.
-void copy_rows(const std::byte* from, std::size_t from_stride, std::byte* to,
-               std::size_t to_stride, int size, std::size_t texel, bool flip_columns,
-               bool flip_rows) {
+void copy_rows(const std::byte* from, std::size_t from_stride, std::byte* to, std::size_t to_stride,
+               int size, std::size_t texel, bool flip_columns, bool flip_rows) {
     const auto count = static_cast<std::size_t>(size);
     for (std::size_t row = 0; row < count; ++row) {
         const std::byte* source = from + (flip_rows ? count - 1 - row : row) * from_stride;
@@ -156,12 +155,12 @@ std::string_view to_string(Convention convention) {
 
 std::string_view to_string(Layout layout) {
     switch (layout) {
-    case Layout::cross: return "cross";
-    case Layout::vertical_cross: return "vertical_cross";
-    case Layout::row: return "row";
-    case Layout::column: return "column";
-    case Layout::equirect: return "equirect";
-    case Layout::openexr: return "openexr";
+        case Layout::cross: return "cross";
+        case Layout::vertical_cross: return "vertical_cross";
+        case Layout::row: return "row";
+        case Layout::column: return "column";
+        case Layout::equirect: return "equirect";
+        case Layout::openexr: return "openexr";
     }
     return "";
 }
@@ -181,7 +180,8 @@ void copy_face(const std::byte* from, int size, std::size_t texel, FaceSource fl
 
 PixelBuffer convert_faces(const std::byte* faces, int size, std::size_t texel, Convention from,
                           Convention to) {
-    const std::size_t bytes = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * texel;
+    const std::size_t bytes =
+        static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * texel;
     PixelBuffer result(bytes * face_count);
     for (const Face face : all_faces) {
         const FaceSource source = face_source(from, to, face);
@@ -219,8 +219,8 @@ int layout_face_size(Layout layout, int width, int height) {
     const PictureSize unit = layout_size(layout, 1);
     const int size = width / unit.width;
     if (size < 1 || width != size * unit.width || height != size * unit.height) {
-        throw std::invalid_argument("picture: expected " + std::string(to_string(layout)) +
-                                    ", " + std::to_string(unit.width) + "N x " +
+        throw std::invalid_argument("picture: expected " + std::string(to_string(layout)) + ", " +
+                                    std::to_string(unit.width) + "N x " +
                                     std::to_string(unit.height) + "N (width x height), got " +
                                     std::to_string(width) + " x " + std::to_string(height));
     }

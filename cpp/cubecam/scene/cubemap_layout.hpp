@@ -2,14 +2,14 @@
 /// computes nothing, so that each way there and back gives the same bytes.
 #pragma once
 
+#include "cubecam/math/cube_face.hpp"
+#include "cubecam/math/equirect.hpp"
+#include "cubecam/scene/pixels.hpp"
+
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-
-#include "cubecam/math/cube_face.hpp"
-#include "cubecam/math/equirect.hpp"
-#include "cubecam/scene/pixels.hpp"
 
 namespace cubecam {
 
@@ -51,8 +51,7 @@ struct FaceSource {
 FaceSource face_source(Convention from, Convention to, Face face);
 
 /// Copies one face, flipped as asked; `texel` bytes each.
-void copy_face(const std::byte* from, int size, std::size_t texel, FaceSource flips,
-               std::byte* to);
+void copy_face(const std::byte* from, int size, std::size_t texel, FaceSource flips, std::byte* to);
 
 /// Six faces [6][N][N], `texel` bytes each, from one convention to another.
 PixelBuffer convert_faces(const std::byte* faces, int size, std::size_t texel, Convention from,

@@ -3,13 +3,13 @@
 #include "cubecam/math/parallel.hpp"
 #include "cubecam/scene/resample_tile.hpp"
 
+#include <glm/geometric.hpp>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
-
-#include <glm/geometric.hpp>
 
 namespace cubecam {
 
@@ -18,7 +18,8 @@ namespace {
 /// One destination column of a panorama, as its side face sees it.
 struct PanoramaColumn {
     Face face;
-    double across;  ///< horizontal coordinate on the face, -1 to 1 from left to right as seen in GL's picture
+    double across;  ///< horizontal coordinate on the face, -1 to 1 from left to right as seen in
+                    ///< GL's picture
     double secant;  ///< of the longitude within the face
     double cosine;  ///< its inverse
     double x;       ///< the horizontal unit direction
@@ -60,26 +61,36 @@ public:
             begin = end;
         }
         const std::size_t bands = static_cast<std::size_t>((height_ + tile - 1) / tile);
-        parallel_for(0, bands * spans.size(), 1, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const int row = static_cast<int>(i / spans.size()) * tile;
-                const auto [first, last] = spans[i % spans.size()];
-                fill_tile(row, std::min(row + tile, height_), first, last);
-            }
-        });
+        parallel_for_with<Scratch>(
+            0, bands * spans.size(), 1, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const int row = static_cast<int>(i / spans.size()) * tile;
+                    const auto [first, last] = spans[i % spans.size()];
+                    fill_tile(row, std::min(row + tile, height_), first, last, scratch);
+                }
+            });
     }
 
 private:
+    /// Memory that one tile after another uses.
+    struct Scratch {
+        TapList down;
+        TapList across;
+        FilteredRows<Channels> filtered;
+    };
+
     /// The `first` of a tap whose texel is on +Y or -Y.
     static constexpr std::int32_t over_the_edge = std::numeric_limits<std::int32_t>::min();
 
-    const PanoramaColumn& column(int index) const { return columns_[static_cast<std::size_t>(index)]; }
+    const PanoramaColumn& column(int index) const {
+        return columns_[static_cast<std::size_t>(index)];
+    }
     double latitude(int row) const { return latitudes_[static_cast<std::size_t>(row)]; }
 
     static PanoramaColumn make_column(const glm::dvec3& d) {
         const bool on_x = std::abs(d.x) >= std::abs(d.z);
-        const Face face = on_x ? (d.x > 0 ? Face::pos_x : Face::neg_x)
-                               : (d.z > 0 ? Face::pos_z : Face::neg_z);
+        const Face face =
+            on_x ? (d.x > 0 ? Face::pos_x : Face::neg_x) : (d.z > 0 ? Face::pos_z : Face::neg_z);
         const double secant = 1 / (on_x ? std::abs(d.x) : std::abs(d.z));
         const glm::dvec3 s_axis = face_axes(face).s_axis;
         return {face, glm::dot(s_axis, d) * secant, secant, 1 / secant, d.x, d.z};
@@ -94,19 +105,21 @@ private:
     /// A coordinate of -1 to 1 on a face, in texels with centres at whole numbers.
     double texel_of(double coordinate) const { return ((coordinate + 1) * cube_.size - 1) / 2; }
 
-    /// Side faces meet a vertical line at t = tan(latitude) / cos(longitude), for which s is constant:
-    /// rows first, columns then. What looks over a side's edge is on +Y or -Y.
-    void fill_tile(int row_begin, int row_end, int begin, int end) const {
+    /// Side faces meet a vertical line at t = tan(latitude) / cos(longitude), for which s is
+    /// constant: rows first, columns then. What looks over a side's edge is on +Y or -Y.
+    void fill_tile(int row_begin, int row_end, int begin, int end, Scratch& scratch) const {
+        TapList& down = scratch.down;
+        TapList& across = scratch.across;
+        FilteredRows<Channels>& filtered = scratch.filtered;
         const double half_size = cube_.size / 2.0;
         const auto columns = static_cast<std::size_t>(end - begin);
         const Face face = column(begin).face;
-        TapList down;
-        TapList across;
         down.resize(static_cast<std::size_t>(row_end - row_begin) * columns);
         across.resize(columns);
         for (std::size_t j = 0; j < columns; ++j) {
             const PanoramaColumn& c = column(begin + static_cast<int>(j));
-            across.set(j, texel_of(c.across), BoxWidth(c.secant * c.secant * lon_step_ * half_size));
+            across.set(j, texel_of(c.across),
+                       BoxWidth(c.secant * c.secant * lon_step_ * half_size));
         }
         std::size_t index = 0;
         for (int row = row_begin; row < row_end; ++row) {
@@ -119,11 +132,11 @@ private:
                 if (std::abs(height) > 1) {
                     down.taps[index].first = over_the_edge;
                 } else {
-                    down.set(index, texel_of(-height), BoxWidth(step * c.secant, inverse * c.cosine));
+                    down.set(index, texel_of(-height),
+                             BoxWidth(step * c.secant, inverse * c.cosine));
                 }
             }
         }
-        FilteredRows<Channels> filtered;
         filtered.filter(down.range, across, [&](int row, int from, int to, Lane<Channels>* line) {
             read_face_row(cube_, face, row, from, to, line);
         });
@@ -144,8 +157,8 @@ private:
         });
     }
 
-    /// The texels of a row that are on +Y or -Y. There the destination's texels are turned against the
-    /// face's, so they are sampled instead: as often each way as they are texels long.
+    /// The texels of a row that are on +Y or -Y. There the destination's texels are turned against
+    /// the face's, so they are sampled instead: as often each way as they are texels long.
     void fill_pole_row(int row, int begin, const BoxTap* taps, std::size_t columns) const {
         const double pi = std::numbers::pi;
         const bool up = latitude(row) > 0;
@@ -155,30 +168,40 @@ private:
         const double half_size = cube_.size / 2.0;
         const int along = samples_for((1 + radius * radius) * lat_step_ * half_size);
         const int around = samples_for(radius * lon_step_ * half_size);
-        std::vector<glm::dvec3> samples;  // radius, and cosine and sine of the turn round the pole
+        struct Sample {
+            float cosine;  ///< of the turn round the pole, times the radius
+            float sine;
+        };
+        std::vector<Sample> samples;
         for (int i = 0; i < along; ++i) {
             const double r = std::tan(from_pole + ((i + 0.5) / along - 0.5) * lat_step_);
             for (int j = 0; j < around; ++j) {
                 const double turn = ((j + 0.5) / around - 0.5) * lon_step_;
-                samples.emplace_back(r, std::cos(turn), std::sin(turn));
+                samples.push_back({static_cast<float>(r * std::cos(turn)),
+                                   static_cast<float>(r * std::sin(turn))});
             }
         }
+        const Face face = up ? Face::pos_y : Face::neg_y;
+        const auto half_texels = static_cast<float>(half_size);
+        const float middle = half_texels - 0.5f;
         const float weight = 1.0f / static_cast<float>(samples.size());
         for (std::size_t j = 0; j < columns; ++j) {
             if (taps[j].first != over_the_edge) continue;
             const PanoramaColumn& c = column(begin + static_cast<int>(j));
-            const auto sample = [&](const glm::dvec3& at) {
-                const auto x = static_cast<float>(at.x * (c.x * at.y - c.z * at.z));
-                const auto z = static_cast<float>(at.x * (c.z * at.y + c.x * at.z));
+            const auto column_x = static_cast<float>(c.x);
+            const auto column_z = static_cast<float>(c.z);
+            const auto look = [&](const Sample& at) {
+                const float x = column_x * at.cosine - column_z * at.sine;
+                const float z = column_z * at.cosine + column_x * at.sine;
                 if (std::abs(x) > 1 || std::abs(z) > 1) {
                     const FaceUv<float> uv = direction_to_face_uv(glm::vec3(x, y, z));
                     return cube_.bilinear(uv.face, uv.s, uv.t);
                 }
-                return cube_.bilinear(up ? Face::pos_y : Face::neg_y, (x + 1) / 2, (y * z + 1) / 2);
+                return cube_.between(face, x * half_texels + middle, y * z * half_texels + middle);
             };
-            const Lane<Channels> first = sample(samples[0]);
+            const Lane<Channels> first = look(samples[0]);
             Lane<Channels> sum{};
-            for (std::size_t i = 1; i < samples.size(); ++i) sum += sample(samples[i]) - first;
+            for (std::size_t i = 1; i < samples.size(); ++i) sum += look(samples[i]) - first;
             store_texel<Channels>(first + sum * weight, target(row, begin + static_cast<int>(j)));
         }
     }
@@ -234,7 +257,8 @@ Buffer<float> cube_to_equirect(const CubeMapData& cube, int width, Center center
         Buffer<float> kept;
         const float* faces = as_floats(cube.dtype, cube.pixels->data(),
                                        cube.pixels->size() / dtype_size(cube.dtype), kept);
-        result.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) * channels);
+        result.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
+                      channels);
         CubeToEquirect<channels>({faces, cube.size}, width, center, sampling, result.data()).run();
     });
     return result;
@@ -251,8 +275,8 @@ PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sam
         constexpr int channels = decltype(constant)::value;
         Buffer<float> kept;
         const CubeTexels<float, channels> texels = {
-            as_floats(cube.dtype, cube.pixels->data(),
-                      cube.pixels->size() / dtype_size(cube.dtype), kept),
+            as_floats(cube.dtype, cube.pixels->data(), cube.pixels->size() / dtype_size(cube.dtype),
+                      kept),
             cube.size};
         const TapList across = face_taps(cube.size, from, size, to, 0, size);
         const auto n = static_cast<std::size_t>(size);
@@ -261,24 +285,30 @@ PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sam
 
         constexpr int band = 32;  // rows of a face at a time
         const int bands = (size + band - 1) / band;
-        parallel_for(0, static_cast<std::size_t>(face_count * bands), 1, [&](std::size_t begin, std::size_t end) {
-            FilteredRows<channels> filtered;
-            for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
-                const Face face = static_cast<Face>(i / bands);
-                const int first = i % bands * band;
-                const TapList down =
-                    face_taps(cube.size, from, size, to, first, std::min(first + band, size));
-                filtered.filter(down.range, across, [&](int row, int at, int until, Lane<channels>* line) {
-                    read_face_row(texels, face, row, at, until, line);
-                });
-                float* target = floats + (face_index(face) * n + static_cast<std::size_t>(first)) * n * channels;
-                for (const BoxTap& tap : down.taps) {
-                    for (std::size_t column = 0; column < n; ++column, target += channels) {
-                        store_texel<channels>(filtered.template at<Reach::far>(tap, column), target);
+        parallel_for(
+            0, static_cast<std::size_t>(face_count * bands), 1,
+            [&](std::size_t begin, std::size_t end) {
+                FilteredRows<channels> filtered;
+                for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
+                    const Face face = static_cast<Face>(i / bands);
+                    const int first = i % bands * band;
+                    const TapList down =
+                        face_taps(cube.size, from, size, to, first, std::min(first + band, size));
+                    filtered.filter(down.range, across,
+                                    [&](int row, int at, int until, Lane<channels>* line) {
+                                        read_face_row(texels, face, row, at, until, line);
+                                    });
+                    float* target =
+                        floats +
+                        (face_index(face) * n + static_cast<std::size_t>(first)) * n * channels;
+                    for (const BoxTap& tap : down.taps) {
+                        for (std::size_t column = 0; column < n; ++column, target += channels) {
+                            store_texel<channels>(filtered.template at<Reach::far>(tap, column),
+                                                  target);
+                        }
                     }
                 }
-            }
-        });
+            });
     });
     return result;
 }

@@ -16,8 +16,8 @@
 namespace cubecam {
 
 /// Where the samples of a picture lie. borders: the first and the last of each row and column lie
-/// on the picture's edges (OpenEXR's environment maps: ImfEnvmap.h), so the edges of two faces, and the
-/// first and last columns of a panorama, say the same.
+/// on the picture's edges (OpenEXR's environment maps: ImfEnvmap.h), so the edges of two faces, and
+/// the first and last columns of a panorama, say the same.
 enum class Sampling { centers, borders };
 
 struct EquirectPixels {
@@ -31,7 +31,8 @@ struct EquirectPixels {
 };
 
 /// float32 [6][size][size][channels], "gl". uint8 counts as value/255.
-/// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least 2),
+/// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least
+/// 2),
 ///         channels is 1, 3 or 4, size at least 1.
 PixelBuffer equirect_to_cube(const EquirectPixels& from, int size);
 
@@ -43,7 +44,8 @@ Buffer<float> cube_to_equirect(const CubeMapData& cube, int width, Center center
                                Sampling sampling = Sampling::centers);
 
 /// Six "gl" faces of one size and sampling to another, float32, uint8 as value/255.
-/// @throws std::invalid_argument for sizes below 1 (with borders: below 2), or borders on both sides.
+/// @throws std::invalid_argument for sizes below 1 (with borders: below 2), or borders on both
+/// sides.
 PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to);
 
 }  // namespace cubecam

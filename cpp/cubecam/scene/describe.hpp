@@ -1,13 +1,13 @@
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
 
 /// Words for messages, and the checks that use them: "expected ..., got ...".
 namespace cubecam {
@@ -45,12 +45,15 @@ inline bool fits_float(const glm::dvec3& v) {
 }
 
 inline void expect_finite(double value, std::string_view name) {
-    if (!fits_float(value)) expect(false, std::string("a finite ").append(name), describe(value));
+    if (!fits_float(value))
+        expect(false, std::string(name).append(" finite and within float32's range"),
+               describe(value));
 }
 
 inline void expect_finite(const glm::dvec3& value, std::string_view name) {
     if (!fits_float(value)) {
-        expect(false, std::string(name).append(" of 3 finite numbers"), describe(value));
+        expect(false, std::string(name).append(" of 3 finite numbers within float32's range"),
+               describe(value));
     }
 }
 
@@ -66,13 +69,13 @@ inline void expect_positive(double value, std::string_view name) {
     }
 }
 
-/// A linear RGBA colour: light that is finite and not negative, alpha from 0 to 1.
+/// A linear RGBA colour: any finite numbers (an unlit colour may as well say a direction), alpha
+/// from 0 to 1.
 inline void expect_color(const glm::vec4& color, std::string_view name) {
     bool right = color.a >= 0.0F && color.a <= 1.0F;
-    for (int i = 0; i < 3; ++i) right = right && color[i] >= 0.0F && std::isfinite(color[i]);
+    for (int i = 0; i < 3; ++i) right = right && std::isfinite(color[i]);
     if (!right) {
-        expect(false,
-               std::string(name).append(" finite, not negative and with an alpha from 0 to 1"),
+        expect(false, std::string(name).append(" finite, with an alpha from 0 to 1"),
                describe(color));
     }
 }

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "cubecam/scene/pixels.hpp"
+
 #include <cstdint>
 #include <string_view>
-
-#include "cubecam/scene/pixels.hpp"
 
 namespace cubecam {
 

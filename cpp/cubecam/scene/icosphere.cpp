@@ -1,3 +1,6 @@
+#include "cubecam/scene/describe.hpp"
+#include "cubecam/scene/primitives.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,9 +10,6 @@
 #include <unordered_map>
 #include <utility>
 #include <vector>
-
-#include "cubecam/scene/describe.hpp"
-#include "cubecam/scene/primitives.hpp"
 
 namespace cubecam::primitives {
 
@@ -27,11 +27,21 @@ struct Icosahedron {
 Icosahedron icosahedron() {
     constexpr double g = std::numbers::phi;
     Icosahedron solid{
-        {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-         {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-        {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-         {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8},
-         {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}},
+        {{-1, g, 0},
+         {1, g, 0},
+         {-1, -g, 0},
+         {1, -g, 0},
+         {0, -1, g},
+         {0, 1, g},
+         {0, -1, -g},
+         {0, 1, -g},
+         {g, 0, -1},
+         {g, 0, 1},
+         {-g, 0, -1},
+         {-g, 0, 1}},
+        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}},
     };
     for (glm::dvec3& direction : solid.directions) direction = glm::normalize(direction);
     return solid;
@@ -71,7 +81,8 @@ glm::dvec2 uv_of(const glm::dvec3& d) {
 
 bool is_pole(const glm::dvec3& d) { return d.x * d.x + d.z * d.z < 1e-20; }
 
-/// The u of a triangle's corners, made to run on over the seam; a pole gets the middle of the others.
+/// The u of a triangle's corners, made to run on over the seam; a pole gets the middle of the
+/// others.
 std::array<double, 3> unwrapped_us(const std::array<glm::dvec3, 3>& corners) {
     std::array<double, 3> u{};
     double largest = 0.0;

@@ -1,11 +1,11 @@
 #include "cubecam/scene/image.hpp"
 
+#include "cubecam/scene/revision.hpp"
+
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "cubecam/scene/revision.hpp"
 
 namespace cubecam {
 

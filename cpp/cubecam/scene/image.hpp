@@ -1,11 +1,11 @@
 #pragma once
 
+#include "cubecam/scene/pixels.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
-
-#include "cubecam/scene/pixels.hpp"
 
 namespace cubecam {
 
@@ -16,14 +16,16 @@ enum class Wrap : std::uint8_t { repeat, clamp };
 Wrap parse_wrap(std::string_view name);
 std::string_view to_string(Wrap wrap);
 
-/// A picture that a material shows: (height, width, channels), row 0 on top, uv (0, 0) its bottom-left.
+/// A picture that a material shows: (height, width, channels), row 0 on top, uv (0, 0) its
+/// bottom-left.
 ///
 /// Immutable: the renderer uploads it once, keyed by its revision, and threads may share it.
 class Image {
 public:
     using Pixels = std::shared_ptr<const PixelBuffer>;
 
-    /// @throws std::invalid_argument when the pixel count does not match, a side is 0 or channels is not 1, 3 or 4.
+    /// @throws std::invalid_argument when the pixel count does not match, a side is 0 or channels
+    /// is not 1, 3 or 4.
     Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps, Wrap wrap);
 
     int width() const { return width_; }

@@ -1,9 +1,9 @@
 #include "cubecam/scene/light.hpp"
 
+#include "cubecam/scene/describe.hpp"
+
 #include <cmath>
 #include <utility>
-
-#include "cubecam/scene/describe.hpp"
 
 namespace cubecam {
 

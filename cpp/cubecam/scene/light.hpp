@@ -1,10 +1,10 @@
 #pragma once
 
-#include <variant>
+#include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
 
-#include "cubecam/scene/versioned.hpp"
+#include <variant>
 
 namespace cubecam {
 
@@ -35,8 +35,8 @@ struct LightValue {
     bool operator==(const LightValue&) const = default;
 };
 
-/// Throws std::invalid_argument for a value that is not finite, negative light or a direction of no length;
-/// normalises the direction.
+/// Throws std::invalid_argument for a value that is not finite, negative light or a direction of no
+/// length; normalises the direction.
 void check(LightValue& value);
 
 class Light {
@@ -64,7 +64,8 @@ private:
 template <class Parameters>
 class LightOf : public Light {
 public:
-    explicit LightOf(Parameters parameters = {}, glm::vec3 color = glm::vec3(1.0F), float intensity = 1.0F)
+    explicit LightOf(Parameters parameters = {}, glm::vec3 color = glm::vec3(1.0F),
+                     float intensity = 1.0F)
         : Light({parameters, color, intensity}) {}
 
     Parameters parameters() const { return std::get<Parameters>(value().parameters); }

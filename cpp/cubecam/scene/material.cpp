@@ -1,8 +1,8 @@
 #include "cubecam/scene/material.hpp"
 
-#include <utility>
-
 #include "cubecam/scene/describe.hpp"
+
+#include <utility>
 
 namespace cubecam {
 
@@ -50,8 +50,7 @@ void check(const MaterialValue& value) {
     std::visit([](const auto& parameters) { check_parameters(parameters); }, value.parameters);
 }
 
-Material::Material(MaterialValue value)
-    : value_((cubecam::check(value), std::move(value))) {}
+Material::Material(MaterialValue value) : value_((cubecam::check(value), std::move(value))) {}
 
 bool translucent(const MaterialValue& value) {
     const float own = std::visit([](const auto& p) { return alpha(p); }, value.parameters);

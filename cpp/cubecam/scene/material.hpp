@@ -1,14 +1,14 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <variant>
-
-#include <glm/glm.hpp>
-
 #include "cubecam/scene/image.hpp"
 #include "cubecam/scene/lookup.hpp"
 #include "cubecam/scene/versioned.hpp"
+
+#include <glm/glm.hpp>
+
+#include <memory>
+#include <optional>
+#include <variant>
 
 namespace cubecam {
 
@@ -44,7 +44,8 @@ struct PhongParameters {
     bool operator==(const PhongParameters&) const = default;
 };
 
-/// env_weight * tint * environment(R) + color_weight * color; with `fresnel` = F0, env_weight times Schlick's term.
+/// env_weight * tint * environment(R) + color_weight * color; with `fresnel` = F0, env_weight times
+/// Schlick's term.
 struct MirrorParameters {
     glm::vec4 tint{1.0F};
     float env_weight = 1.0F;
@@ -55,7 +56,8 @@ struct MirrorParameters {
     bool operator==(const MirrorParameters&) const = default;
 };
 
-/// F * environment(R) + (1 - F) * tint * environment(T) with the exact dielectric F; without fresnel, T alone.
+/// F * environment(R) + (1 - F) * tint * environment(T) with the exact dielectric F; without
+/// fresnel, T alone.
 struct GlassParameters {
     float eta = 1.0F / 1.52F;  ///< n_outside / n_inside
     bool fresnel = true;
@@ -64,7 +66,8 @@ struct GlassParameters {
     bool operator==(const GlassParameters&) const = default;
 };
 
-using MaterialParameters = std::variant<BasicParameters, PhongParameters, MirrorParameters, GlassParameters>;
+using MaterialParameters =
+    std::variant<BasicParameters, PhongParameters, MirrorParameters, GlassParameters>;
 
 struct MaterialValue {
     MaterialParameters parameters;
@@ -121,7 +124,8 @@ using PhongMaterial = MaterialOf<PhongParameters>;
 using MirrorMaterial = MaterialOf<MirrorParameters>;
 using GlassMaterial = MaterialOf<GlassParameters>;
 
-/// Whether the material alone makes a surface translucent (its map and the mesh's colours can, too).
+/// Whether the material alone makes a surface translucent (its map and the mesh's colours can,
+/// too).
 bool translucent(const MaterialValue& value);
 
 }  // namespace cubecam

@@ -1,14 +1,14 @@
 #include "cubecam/scene/mesh.hpp"
 
+#include "cubecam/scene/describe.hpp"
+#include "cubecam/scene/revision.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "cubecam/scene/describe.hpp"
-#include "cubecam/scene/revision.hpp"
 
 namespace cubecam {
 
@@ -26,13 +26,12 @@ void check_finite(const std::vector<Vector>& values, const char* name) {
     }
 }
 
-void check_colors(const std::vector<glm::vec4>& colors) {
+void check_alpha(const std::vector<glm::vec4>& colors) {
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const glm::vec4& c = colors[i];
-        if (c.r >= 0.0F && c.g >= 0.0F && c.b >= 0.0F && c.a >= 0.0F && c.a <= 1.0F) continue;
-        throw std::invalid_argument(
-            "expected colors that are not negative, alpha from 0 to 1, got " + describe(c) +
-            " at vertex " + std::to_string(i));
+        if (c.a >= 0.0F && c.a <= 1.0F) continue;
+        throw std::invalid_argument("expected colors with an alpha from 0 to 1, got " +
+                                    describe(c) + " at vertex " + std::to_string(i));
     }
 }
 
@@ -100,7 +99,7 @@ Mesh::Mesh(Arrays arrays) : revision_(next_revision()) {
     check_finite(arrays.normals, "normals");
     check_finite(arrays.uvs, "uvs");
     check_finite(arrays.colors, "colors");
-    check_colors(arrays.colors);
+    check_alpha(arrays.colors);
 
     if (arrays.normals.empty()) {
         arrays.normals = smooth_normals(arrays.positions, arrays.triangles);

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
-
-#include <glm/glm.hpp>
 
 namespace cubecam {
 
@@ -34,7 +34,8 @@ public:
         std::vector<glm::vec4> colors;      ///< empty: none
     };
 
-    /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that differ from positions';
+    /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that
+    /// differ from positions';
     /// @throws std::out_of_range for an index beyond the vertices.
     explicit Mesh(Arrays arrays);
 

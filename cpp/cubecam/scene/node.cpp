@@ -1,13 +1,13 @@
 #include "cubecam/scene/node.hpp"
 
+#include "cubecam/math/transform.hpp"
+#include "cubecam/scene/describe.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "cubecam/math/transform.hpp"
-#include "cubecam/scene/describe.hpp"
 
 namespace cubecam {
 
@@ -71,9 +71,9 @@ Transform transform_of(const Placing& placing) {
         axes[i] /= scale[i];
     }
     // Loose enough for matrices that were float32 once.
-    const double shear = std::max({std::abs(glm::dot(axes[0], axes[1])),
-                                   std::abs(glm::dot(axes[1], axes[2])),
-                                   std::abs(glm::dot(axes[2], axes[0]))});
+    const double shear =
+        std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
+                  std::abs(glm::dot(axes[2], axes[0]))});
     expect(shear < 1e-5, "a matrix without shear, for its rotation and scale",
            "axes that are not at right angles; use the matrix itself");
     if (glm::determinant(axes) < 0.0) {

@@ -1,5 +1,12 @@
 #pragma once
 
+#include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/material.hpp"
+#include "cubecam/scene/mesh.hpp"
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -7,13 +14,6 @@
 #include <utility>
 #include <variant>
 #include <vector>
-
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-
-#include "cubecam/scene/lookup.hpp"
-#include "cubecam/scene/material.hpp"
-#include "cubecam/scene/mesh.hpp"
 
 namespace cubecam {
 
@@ -42,7 +42,8 @@ struct NodeValue {
     std::string name;
 };
 
-/// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the rotation.
+/// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the
+/// rotation.
 void check(Placing& placing);
 
 glm::dmat4 matrix_of(const Placing& placing);
@@ -51,8 +52,8 @@ glm::dmat4 matrix_of(const Placing& placing);
 /// @throws std::invalid_argument where the matrix has a shear, which they cannot say.
 Transform transform_of(const Placing& placing);
 
-/// What the nodes of one tree of trees share: those of one scene, or those that are in none together.
-/// The mutex makes a snapshot one moment; being in a scene is sharing the scene's graph.
+/// What the nodes of one tree of trees share: those of one scene, or those that are in none
+/// together. The mutex makes a snapshot one moment; being in a scene is sharing the scene's graph.
 struct NodeGraph {
     explicit NodeGraph(bool belongs_to_scene) : of_scene(belongs_to_scene) {}
 
@@ -81,7 +82,8 @@ public:
     glm::dmat4 world_matrix() const;
     std::shared_ptr<Scene> scene() const;  ///< null: in none
 
-    /// `change` gets a NodeValue, which is checked afterwards. The old value stays if anything throws.
+    /// `change` gets a NodeValue, which is checked afterwards. The old value stays if anything
+    /// throws.
     template <class Change>
     void edit(Change&& change) {
         NodeValue old;  // what it lets go of is destroyed after the lock
@@ -125,7 +127,7 @@ private:
     std::shared_ptr<Node> parent_;
     std::vector<std::weak_ptr<Node>> children_;
 
-    mutable std::mutex graph_guard_;     ///< for the pointer alone, held for no longer than a copy
+    mutable std::mutex graph_guard_;    ///< for the pointer alone, held for no longer than a copy
     std::shared_ptr<NodeGraph> graph_;  ///< changed only with both the old and the new one locked
 };
 

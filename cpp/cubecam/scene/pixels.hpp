@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -35,7 +36,10 @@ struct UninitializedAllocator : std::allocator<T> {
     UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}
     template <typename U>
     void construct(U* at) noexcept {
-        ::new (static_cast<void*>(at)) U;
+        // GCC sets even `new Float4` to 0, so nothing at all is done where nothing needs to be.
+        if constexpr (!std::is_trivially_default_constructible_v<U>) {
+            ::new (static_cast<void*>(at)) U;
+        }
     }
     template <typename U, typename... Args>
     void construct(U* at, Args&&... args) {
@@ -56,8 +60,7 @@ inline float half_to_float(std::uint16_t half) {
     const std::uint32_t exponent = bits & exponent_mask;
     bits += (127u - 15u) << 23;
     const std::uint32_t special = bits + ((128u - 16u) << 23);
-    const float small =
-        std::bit_cast<float>(bits + (1u << 23)) - std::bit_cast<float>(113u << 23);
+    const float small = std::bit_cast<float>(bits + (1u << 23)) - std::bit_cast<float>(113u << 23);
     bits = exponent == exponent_mask ? special
            : exponent == 0           ? std::bit_cast<std::uint32_t>(small)
                                      : bits;
@@ -76,7 +79,7 @@ inline std::uint16_t float_to_half(float value) {
         std::bit_cast<std::uint32_t>(std::bit_cast<float>(bits) + std::bit_cast<float>(magic)) -
         magic;
     const std::uint32_t normal = (bits + ((15u - 127u) << 23) + 0xfffu + ((bits >> 13) & 1u)) >> 13;
-    const std::uint32_t half = bits >= ((127u + 16u) << 23)   ? special
+    const std::uint32_t half = bits >= ((127u + 16u) << 23)  ? special
                                : bits < ((127u - 14u) << 23) ? small
                                                              : normal;
     return static_cast<std::uint16_t>(half | (sign >> 16));

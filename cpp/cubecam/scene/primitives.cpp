@@ -1,5 +1,7 @@
 #include "cubecam/scene/primitives.hpp"
 
+#include "cubecam/scene/describe.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +9,6 @@
 #include <numbers>
 #include <string>
 #include <utility>
-
-#include "cubecam/scene/describe.hpp"
 
 namespace cubecam::primitives {
 
@@ -146,9 +146,9 @@ Mesh sphere(double radius, int segments, int rings) {
         const glm::dvec2 polar = turn(row, 2 * rings);
         const bool pole = row == 0 || row == rings;
         for (int column = 0; column <= segments; ++column) {
-            const glm::dvec3 outward = pole ? glm::dvec3(0.0, -polar.y, 0.0)
-                                            : polar.x * around(column, segments) +
-                                                  glm::dvec3(0.0, -polar.y, 0.0);
+            const glm::dvec3 outward =
+                pole ? glm::dvec3(0.0, -polar.y, 0.0)
+                     : polar.x * around(column, segments) + glm::dvec3(0.0, -polar.y, 0.0);
             // A pole's vertices belong to one triangle each: the middle of its stretch of picture.
             const double shift = row == 0 ? -0.5 : row == rings ? 0.5 : 0.0;
             const double u = std::clamp((column + shift) / segments, 0.0, 1.0);

@@ -1,16 +1,17 @@
 #pragma once
 
-#include <glm/glm.hpp>
-
 #include "cubecam/scene/mesh.hpp"
 
-/// Meshes by formula, centred at the origin, with outward normals and texture coordinates. What goes
-/// round the Y axis has its seam at -Z and the middle of a picture at +Z, unmirrored seen from outside.
-/// All throw std::invalid_argument for a length that is not positive and finite, too few segments, or
-/// more than 16,777,216 vertices.
+#include <glm/glm.hpp>
+
+/// Meshes by formula, centred at the origin, with outward normals and texture coordinates. What
+/// goes round the Y axis has its seam at -Z and the middle of a picture at +Z, unmirrored seen from
+/// outside. All throw std::invalid_argument for a length that is not positive and finite, too few
+/// segments, or more than 16,777,216 vertices.
 namespace cubecam::primitives {
 
-/// In the XZ plane, normal +Y; uv (0, 0) at (-x, +z): a picture on it is upright seen from +Y, -Z up.
+/// In the XZ plane, normal +Y; uv (0, 0) at (-x, +z): a picture on it is upright seen from +Y, -Z
+/// up.
 Mesh plane(double width, double depth);
 
 /// Six faces with normals of their own (24 vertices), each with uv 0..1, upright seen from outside:
@@ -29,7 +30,8 @@ Mesh cylinder(double radius, double height, int segments = 64);
 /// Round the Y axis, base at -height/2, apex at +height/2, with a base.
 Mesh cone(double radius, double height, int segments = 64);
 
-/// Round the Y axis: `radius` to the centre of the tube, `tube` the radius of the tube, the smaller.
+/// Round the Y axis: `radius` to the centre of the tube, `tube` the radius of the tube, the
+/// smaller.
 Mesh torus(double radius, double tube, int segments = 64, int sides = 32);
 
 }  // namespace cubecam::primitives

@@ -1,11 +1,11 @@
 #include "cubecam/scene/probe.hpp"
 
+#include "cubecam/scene/describe.hpp"
+#include "cubecam/scene/revision.hpp"
+
 #include <algorithm>
 #include <string>
 #include <utility>
-
-#include "cubecam/scene/describe.hpp"
-#include "cubecam/scene/revision.hpp"
 
 namespace cubecam {
 
@@ -32,12 +32,13 @@ void check(const ProbeValue& value) {
     expect_positive(value.near, "near");
     expect_positive(value.far, "far");
     if (!(value.near < value.far)) {
-        expect(false, "near < far", "near " + describe(value.near) + ", far " + describe(value.far));
+        expect(false, "near < far",
+               "near " + describe(value.near) + ", far " + describe(value.far));
     }
     expect(value.samples >= 1, "samples of at least 1", std::to_string(value.samples));
     expect(value.every >= 1, "update every 1 or more frames", std::to_string(value.every));
-    expect(value.faces_per_frame >= 1 && value.faces_per_frame <= 6,
-           "faces_per_frame from 1 to 6", std::to_string(value.faces_per_frame));
+    expect(value.faces_per_frame >= 1 && value.faces_per_frame <= 6, "faces_per_frame from 1 to 6",
+           std::to_string(value.faces_per_frame));
 }
 
 Probe::Probe(ProbeValue value)

@@ -1,13 +1,13 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <vector>
+#include "cubecam/scene/format.hpp"
+#include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
 
-#include "cubecam/scene/format.hpp"
-#include "cubecam/scene/versioned.hpp"
+#include <cstdint>
+#include <memory>
+#include <vector>
 
 namespace cubecam {
 
@@ -31,20 +31,22 @@ struct ProbeValue {
     bool mipmaps = false;
     int samples = 1;
     ProbeUpdate update = ProbeUpdate::on_change;
-    int every = 1;             ///< n of every_n_frames
-    int faces_per_frame = 6;   ///< at most so many faces are drawn in one call
+    int every = 1;            ///< n of every_n_frames
+    int faces_per_frame = 6;  ///< at most so many faces are drawn in one call
     std::vector<std::weak_ptr<Node>> exclude;
 
     bool operator==(const ProbeValue& other) const;
 };
 
-/// Throws std::invalid_argument: size < 1, near <= 0, near >= far, samples < 1, n < 1, faces outside 1..6.
+/// Throws std::invalid_argument: size < 1, near <= 0, near >= far, samples < 1, n < 1, faces
+/// outside 1..6.
 void check(const ProbeValue& value);
 
-/// A cubemap that keeps itself true to the scene. It is only a description: each renderer holds contents of its own.
+/// A cubemap that keeps itself true to the scene. It is only a description: each renderer holds
+/// contents of its own.
 ///
-/// The nodes that use a probe are left out of it. Attached to a node, it follows that node's position;
-/// its axes stay the world's.
+/// The nodes that use a probe are left out of it. Attached to a node, it follows that node's
+/// position; its axes stay the world's.
 class Probe {
 public:
     using State = Versioned<ProbeValue>::State;

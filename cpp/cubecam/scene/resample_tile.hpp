@@ -56,8 +56,8 @@ class FilteredRows {
 public:
     using Texel = Lane<Channels>;
 
-    /// Source rows `rows`, filtered by `across`. `read(row, begin, end, to)` gives texels begin..end of
-    /// a source row, whatever lies there.
+    /// Source rows `rows`, filtered by `across`. `read(row, begin, end, to)` gives texels
+    /// begin..end of a source row, whatever lies there.
     template <typename Read>
     void filter(const TapRange& rows, const TapList& across, const Read& read) {
         rows_ = rows;
@@ -79,8 +79,8 @@ public:
 
     template <Reach reach>
     Texel at(const BoxTap& down, std::size_t column) const {
-        const Texel* from = texels_.data() +
-                            static_cast<std::size_t>(down.first - rows_.begin) * columns_ + column;
+        const Texel* from =
+            texels_.data() + static_cast<std::size_t>(down.first - rows_.begin) * columns_ + column;
         const std::size_t stride = columns_;
         return apply_tap<reach>(
             down, [from, stride](int i) { return from[static_cast<std::size_t>(i) * stride]; });
@@ -92,6 +92,50 @@ private:
     std::size_t columns_ = 0;
     TapRange rows_;
 };
+
+/// A rectangle of the source, copied together: read in order of memory, and looked up without a
+/// thought for seams and edges.
+template <int Channels>
+class SourceBlock {
+public:
+    using Texel = Lane<Channels>;
+
+    template <typename Read>
+    void fill(const TapRange& rows, const TapRange& columns, const Read& read) {
+        rows_ = rows;
+        columns_ = columns;
+        texels_.resize(rows.size() * columns.size());
+        Texel* to = texels_.data();
+        for (int row = rows.begin; row < rows.end; ++row, to += columns.size()) {
+            read(row, columns.begin, columns.end, to);
+        }
+    }
+
+    /// The average over a box.
+    template <Reach reach>
+    Texel at(const BoxTap& down, const BoxTap& across) const {
+        const std::size_t stride = columns_.size();
+        const Texel* corner = texels_.data() +
+                              static_cast<std::size_t>(down.first - rows_.begin) * stride +
+                              static_cast<std::size_t>(across.first - columns_.begin);
+        return apply_tap<reach>(down, [&](int i) {
+            const Texel* from = corner + static_cast<std::size_t>(i) * stride;
+            return apply_tap<reach>(across, [from](int j) { return from[j]; });
+        });
+    }
+
+private:
+    Buffer<Texel> texels_;
+    TapRange rows_;
+    TapRange columns_;
+};
+
+/// Asks for `bytes` from an address that will be read soon. Rows of a picture lie on different
+/// pages, where the processor does not look ahead by itself.
+inline void prefetch(const void* address, std::size_t bytes) {
+    const auto* from = static_cast<const char*>(address);
+    for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(from + i);
+}
 
 /// Texels begin..end of one row of a face, neighbours beyond its edges.
 template <int Channels>
@@ -105,8 +149,17 @@ void read_face_row(const CubeTexels<float, Channels>& cube, Face face, int row, 
     for (; column < std::min(end, 0); ++column) *to++ = cube.seamless(face, row, column);
     if (column < cube.size) {
         const float* from = cube.at(face, row, column);
-        for (; column < std::min(end, cube.size); ++column, from += Channels) {
+        if (row + 2 < cube.size) {
+            prefetch(cube.at(face, row + 2, column),
+                     static_cast<std::size_t>(std::max(end - column, 0)) * Channels *
+                         sizeof(float));
+        }
+        for (; column < std::min(end, cube.size - 1); ++column, from += Channels) {
+            *to++ = load_texel_before_another<Channels>(from);
+        }
+        if (column < std::min(end, cube.size)) {
             *to++ = load_texel<Channels>(from);
+            ++column;
         }
     }
     for (; column < end; ++column) *to++ = cube.seamless(face, row, column);

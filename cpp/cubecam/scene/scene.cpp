@@ -1,13 +1,13 @@
 #include "cubecam/scene/scene.hpp"
 
+#include "cubecam/scene/describe.hpp"
+
 #include <algorithm>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
-
-#include "cubecam/scene/describe.hpp"
 
 namespace cubecam {
 
@@ -86,19 +86,19 @@ void Scene::remove(const std::shared_ptr<Node>& node) {
     std::vector<std::shared_ptr<Node>> removed;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
     if (!node || node->graph() != graph_) {
-        throw std::invalid_argument("expected a node of this scene, got " +
-                                    (node ? "node " + std::to_string(node->id()) +
-                                                " of another or of none"
-                                          : std::string("none")));
+        throw std::invalid_argument(
+            "expected a node of this scene, got " +
+            (node ? "node " + std::to_string(node->id()) + " of another or of none"
+                  : std::string("none")));
     }
     removed = node->subtree();
     node->detach();
     const auto loose = std::make_shared<NodeGraph>(false);
     for (const auto& below : removed) below->set_graph(loose);
     if (removed.size() == 1) {
-        nodes_.erase(std::lower_bound(
-            nodes_.begin(), nodes_.end(), node->id(),
-            [](const auto& other, std::int32_t id) { return other->id() < id; }));
+        nodes_.erase(
+            std::lower_bound(nodes_.begin(), nodes_.end(), node->id(),
+                             [](const auto& other, std::int32_t id) { return other->id() < id; }));
     } else {
         std::erase_if(nodes_, [&](const auto& other) { return other->graph() == loose; });
     }

@@ -1,20 +1,21 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <variant>
-#include <vector>
-
-#include <glm/glm.hpp>
-
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/lookup.hpp"
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
+
 namespace cubecam {
 
-/// Nothing (the environment if there is one, else transparent black), a linear RGBA colour, or a skybox.
+/// Nothing (the environment if there is one, else transparent black), a linear RGBA colour, or a
+/// skybox.
 using Background = std::variant<std::monostate, glm::vec4, std::shared_ptr<CubeMap>>;
 
 /// Nodes, lights, and what surrounds them. Plain data: it knows nothing of who draws it.
@@ -29,7 +30,8 @@ public:
     std::shared_ptr<CubeMap> environment() const;
     void set_environment(std::shared_ptr<CubeMap> environment);
     Background background() const;
-    /// @throws std::invalid_argument for a colour that is not finite, negative, or of an alpha beyond 0..1.
+    /// @throws std::invalid_argument for a colour that is not finite, negative, or of an alpha
+    /// beyond 0..1.
     void set_background(Background background);
 
     /// @throws std::invalid_argument for a singular transform or a parent of another scene.

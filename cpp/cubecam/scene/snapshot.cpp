@@ -1,12 +1,12 @@
 #include "cubecam/scene/snapshot.hpp"
 
+#include "cubecam/scene/scene.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
-
-#include "cubecam/scene/scene.hpp"
 
 namespace cubecam {
 
@@ -79,9 +79,9 @@ private:
     std::size_t index_of(const Node& node) const {
         const auto guess = static_cast<std::size_t>(node.id() - nodes_.front()->id());
         if (guess < nodes_.size() && nodes_[guess].get() == &node) return guess;
-        const auto at = std::lower_bound(
-            nodes_.begin(), nodes_.end(), node.id(),
-            [](const auto& other, std::int32_t id) { return other->id() < id; });
+        const auto at =
+            std::lower_bound(nodes_.begin(), nodes_.end(), node.id(),
+                             [](const auto& other, std::int32_t id) { return other->id() < id; });
         return static_cast<std::size_t>(at - nodes_.begin());
     }
 

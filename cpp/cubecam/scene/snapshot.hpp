@@ -1,17 +1,17 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <variant>
-#include <vector>
-
-#include <glm/glm.hpp>
-
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/material.hpp"
 #include "cubecam/scene/mesh.hpp"
 #include "cubecam/scene/probe.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <variant>
+#include <vector>
 
 namespace cubecam {
 
@@ -21,7 +21,8 @@ struct FrozenCube {
     std::shared_ptr<const CubeMapData> data;
 };
 
-/// A cube lookup in a snapshot: none, a fixed cubemap, or the index of a probe in SceneSnapshot::probes.
+/// A cube lookup in a snapshot: none, a fixed cubemap, or the index of a probe in
+/// SceneSnapshot::probes.
 using FrozenSource = std::variant<std::monostate, FrozenCube, std::size_t>;
 
 struct NodeSnapshot {
@@ -50,7 +51,8 @@ struct SceneSnapshot {
     std::variant<glm::vec4, FrozenCube> background;
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in order of id
     std::vector<LightValue> lights;
-    std::vector<ProbeSnapshot> probes;  ///< those that `nodes` use, in the order of their first user
+    std::vector<ProbeSnapshot>
+        probes;  ///< those that `nodes` use, in the order of their first user
 };
 
 }  // namespace cubecam

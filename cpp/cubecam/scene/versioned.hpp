@@ -1,17 +1,17 @@
 #pragma once
 
+#include "cubecam/scene/revision.hpp"
+
 #include <cstdint>
 #include <mutex>
 #include <utility>
-
-#include "cubecam/scene/revision.hpp"
 
 namespace cubecam {
 
 /// A plain value behind a mutex, with the revision of its last real change.
 ///
-/// Setting an equal value changes nothing: the renderer compares revisions to decide whether a picture
-/// it already holds is still true, so a needless new revision would be a needless redraw.
+/// Setting an equal value changes nothing: the renderer compares revisions to decide whether a
+/// picture it already holds is still true, so a needless new revision would be a needless redraw.
 template <class Value>
 class Versioned {
 public:

@@ -1,0 +1,2643 @@
+"""
+The compiled part of cubecam. Use `import cubecam`, which has all of it.
+"""
+
+from __future__ import annotations
+
+import collections.abc
+import enum
+import os
+import typing
+
+import numpy
+import numpy.typing
+
+__all__: list[str] = [
+    "AmbientLight",
+    "BasicMaterial",
+    "Camera",
+    "ContextError",
+    "CubeMap",
+    "Device",
+    "DirectionalLight",
+    "Error",
+    "Face",
+    "FileError",
+    "Frame",
+    "GlError",
+    "GlassMaterial",
+    "Image",
+    "ImageError",
+    "Light",
+    "Limits",
+    "Material",
+    "Mesh",
+    "MeshError",
+    "MirrorMaterial",
+    "Node",
+    "OrthographicCamera",
+    "PerspectiveCamera",
+    "PhongMaterial",
+    "PointLight",
+    "Probe",
+    "Renderer",
+    "RendererInfo",
+    "Scene",
+    "ShaderError",
+    "Stats",
+    "axis_angle",
+    "devices",
+]
+
+class Error(RuntimeError):
+    """
+    Base of cubecam's own exceptions; below it are those of the environment.
+    """
+
+class ContextError(Error):
+    """
+    No OpenGL context can be had, or it can no longer be used.
+
+    The text tells every attempt, why it failed, and what to install.
+    """
+
+class ShaderError(Error):
+    """
+    A shader did not compile or link; the text has the log and the source lines.
+    """
+
+class GlError(Error):
+    """
+    OpenGL reported an error, such as too little memory.
+    """
+
+class FileError(Error):
+    """
+    A file's contents cannot be read, or not be written.
+    """
+
+class ImageError(FileError):
+    """
+    An image file's contents cannot be used.
+    """
+
+class MeshError(FileError):
+    """
+    A mesh file's contents cannot be used.
+    """
+
+class Device:
+    """
+    A device that can render, as `devices` lists it.
+
+    Attributes
+    ----------
+    index : int
+        Its place in `devices()`, for ``Renderer(device=index)``; -1 for a context that no EGL device
+        stands behind.
+    name : str
+        For example ``"NVIDIA GeForce RTX 4090"`` or ``"llvmpipe (LLVM 15.0.6, 256 bits)"``;
+        ``"unknown"`` if the driver does not tell.
+    vendor : str
+        Who made the driver, or ``"unknown"``.
+    driver : str
+        The driver's name or version, for example ``"nvidia"`` or ``"Mesa 22.3.6"``; empty if it does
+        not tell.
+    software : bool
+        Whether it renders on the CPU.
+    uuid : str
+        32 hexadecimal digits in groups of 8-4-4-4-12; empty if the driver does not tell.
+    cuda_index : int or None
+        CUDA's number of the same GPU, which need not be `index`.
+    drm_node : str
+        For example ``"/dev/dri/renderD128"``; empty if there is none.
+    platform : str
+        ``"device"``; for a renderer's own device also ``"surfaceless"`` or ``"default"``.
+    problem : str
+        Why it cannot be used; empty when it can.
+    """
+    def __repr__(self: Device) -> str: ...
+    @property
+    def cuda_index(self) -> int | None: ...
+    @property
+    def driver(self) -> str: ...
+    @property
+    def drm_node(self) -> str: ...
+    @property
+    def index(self) -> int: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def platform(self) -> str: ...
+    @property
+    def problem(self) -> str: ...
+    @property
+    def software(self) -> bool: ...
+    @property
+    def uuid(self) -> str: ...
+    @property
+    def vendor(self) -> str: ...
+
+class Node:
+    """
+    A thing in a scene: a mesh with a material somewhere, or a group.
+
+    Made by `Scene.add`. Attributes may be set at any time; the next picture shows it. Arrays that they
+    give are read-only: set the whole, ``node.position = (1, 2, 3)``.
+
+    A node pickles together with its scene, so that ``pickle.dumps((scene, ball))`` keeps ball inside
+    scene; one that was removed pickles by itself, with the nodes above it.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> arm = scene.add(position=(0, 1, 0), rotation=cc.axis_angle((0, 0, 1), 90))
+    >>> hand = scene.add(cc.Mesh.box(.1), position=(2, 0, 0), parent=arm)
+    >>> hand.world_matrix[:3, 3].round(12).tolist()
+    [0.0, 3.0, 0.0]
+    """
+    def __reduce__(self: Node) -> tuple: ...
+    def __repr__(self: Node) -> str: ...
+    def __setstate__(self: Node, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def children(self) -> tuple[Node, ...]:
+        """
+        tuple of Node: in order of id.
+        """
+    @property
+    def environment(self) -> CubeMap | Probe | None:
+        """
+        CubeMap, Probe or None: what mirrors and glass show; None is the scene's.
+        """
+    @environment.setter
+    def environment(self, arg1: CubeMap | Probe | None) -> None: ...
+    @property
+    def id(self) -> int:
+        """
+        int: from 1 in order of add, never used again in the scene; 0 is the background in id pictures.
+        """
+    @property
+    def in_probes(self) -> bool:
+        """
+        bool: False is absent from captures and probes, as is all below it; still drawn in frames, and still showing probes.
+        """
+    @in_probes.setter
+    def in_probes(self, arg1: bool) -> None: ...
+    @property
+    def material(self) -> Material | None:
+        """
+        Material or None: None, with a mesh, becomes a new PhongMaterial.
+        """
+    @material.setter
+    def material(self, arg1: Material | None) -> None: ...
+    @property
+    def matrix(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: node to parent, read-only. Setting it replaces position, rotation and scale; it must not be singular, and its last row is (0, 0, 0, 1).
+        """
+    @matrix.setter
+    def matrix(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def mesh(self) -> Mesh | None:
+        """
+        Mesh or None: what is drawn; None is a group.
+        """
+    @mesh.setter
+    def mesh(self, arg1: Mesh | None) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        str: for people; need not be unique.
+        """
+    @name.setter
+    def name(self, arg1: str) -> None: ...
+    @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: what it moves with. Setting it keeps the node's own position, rotation and scale; a cycle raises ValueError.
+        """
+    @parent.setter
+    def parent(self, arg1: Node | None) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: relative to the parent, read-only.
+        """
+    @position.setter
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.
+        """
+    @rotation.setter
+    def rotation(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def scale(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: along the node's own axes, read-only; one number sets all three.
+        """
+    @scale.setter
+    def scale(self, arg1: float | numpy.typing.ArrayLike) -> None: ...
+    @property
+    def visible(self) -> bool:
+        """
+        bool: False is drawn nowhere, nor is anything below it.
+        """
+    @visible.setter
+    def visible(self, arg1: bool) -> None: ...
+    @property
+    def world_matrix(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: node to world, read-only.
+        """
+
+class Probe:
+    """
+    A cubemap that keeps itself true to the scene.
+
+    It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
+    to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
+    (``renderer.cubemap(probe)``) and draws again only the faces that would come out different. Nodes
+    that use a probe are left out of it.
+
+    Parameters
+    ----------
+    position : array_like (3,)
+        World space; with a parent, from the parent's position.
+    size : int
+        Texels along an edge of a face.
+    near, far : float
+        World units: 0 < near < far.
+    format : {"rgba16f", "rgba8", "rgba32f"}
+        What a texel is kept in. rgba8 clips light above 1.
+    mipmaps : bool
+        Whether lookups are trilinear.
+    samples : int
+        Samples of each texel, for smooth edges (MSAA); 1 is none.
+    update : {"on_change", "once", "manual"} or int
+        "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
+        by ``renderer.update``. n: on every n-th call that needs it.
+    exclude : iterable of Node
+        What it does not see, whole subtrees, beside the nodes that use it.
+    parent : Node, optional
+        It goes where this node goes; its axes stay the world's. The probe does not keep it alive.
+    faces_per_frame : int
+        At most so many faces are drawn in one call, from 1 to 6.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range, near >= far, or another format or update.
+    TypeError
+        For a parent or excluded things that are not nodes.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(0, 1, 0))
+    >>> ball.environment = cc.Probe(parent=ball, size=128)
+    >>> ball.environment.update
+    'on_change'
+    """
+    def __init__(
+        self: Probe,
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        size: typing.SupportsInt | typing.SupportsIndex = 256,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+        format: str = "rgba16f",
+        mipmaps: bool = False,
+        samples: typing.SupportsInt | typing.SupportsIndex = 1,
+        update: str | int = "on_change",
+        exclude: collections.abc.Iterable[Node] = (),
+        parent: Node | None = None,
+        faces_per_frame: typing.SupportsInt | typing.SupportsIndex = 6,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Probe) -> str: ...
+    def __setstate__(self: Probe, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def exclude(self) -> tuple[Node, ...]:
+        """
+        tuple of Node: what it does not see, whole subtrees, beside the nodes that use it.
+        """
+    @exclude.setter
+    def exclude(self, arg1: collections.abc.Iterable[Node]) -> None: ...
+    @property
+    def faces_per_frame(self) -> int:
+        """
+        int: at most so many faces are drawn in one call.
+        """
+    @faces_per_frame.setter
+    def faces_per_frame(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def far(self) -> float:
+        """
+        float: nothing farther is seen; world units.
+        """
+    @far.setter
+    def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def format(self) -> str:
+        """
+        str: "rgba8", "rgba16f" or "rgba32f".
+        """
+    @format.setter
+    def format(self, arg1: str) -> None: ...
+    @property
+    def mipmaps(self) -> bool:
+        """
+        bool: whether lookups are trilinear.
+        """
+    @mipmaps.setter
+    def mipmaps(self, arg1: bool) -> None: ...
+    @property
+    def near(self) -> float:
+        """
+        float: nothing nearer is seen; world units.
+        """
+    @near.setter
+    def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: the node that it follows.
+        """
+    @parent.setter
+    def parent(self, arg1: Node | None) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: world space, or from the parent's position; read-only.
+        """
+    @position.setter
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def samples(self) -> int:
+        """
+        int: samples of each texel (MSAA); 1 is none.
+        """
+    @samples.setter
+    def samples(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def size(self) -> int:
+        """
+        int: texels along an edge of a face.
+        """
+    @size.setter
+    def size(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def update(self) -> str | int:
+        """
+        str or int: "on_change", "once", "manual", or every how many calls.
+        """
+    @update.setter
+    def update(self, arg1: str | int) -> None: ...
+
+class Scene:
+    """
+    Nodes, lights and what surrounds them.
+
+    A scene knows nothing of who draws it; any number of renderers may, on any threads.
+
+    Parameters
+    ----------
+    environment : CubeMap, optional
+        What mirrors and glass show; see `load_environment`.
+    background : array_like (3,) or (4,), or CubeMap, optional
+        What is seen where nothing is: a linear colour, or a cubemap as skybox. None: the environment
+        if there is one, else transparent black.
+
+    Raises
+    ------
+    TypeError
+        For an environment or background of another type.
+    ValueError
+        For a colour that is not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(.4, .4, .4))
+    >>> lamp = scene.add(cc.PointLight(position=(3, 4, 3)))
+    >>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(0, 1, 0))
+    >>> scene
+    Scene(1 node, 1 light)
+    >>> ball.id, ball in scene
+    (1, True)
+    """
+    @staticmethod
+    def _loose(id: typing.SupportsInt | typing.SupportsIndex) -> Node:
+        """
+        For unpickling: an empty node that is in no scene.
+        """
+    def __contains__(self: Scene, thing: typing.Any) -> bool:
+        """
+        Whether a node or a light is in the scene.
+        """
+    def __init__(
+        self: Scene,
+        environment: CubeMap | None = None,
+        background: numpy.typing.ArrayLike | CubeMap | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Scene) -> str: ...
+    def __setstate__(self: Scene, state: dict) -> None:
+        """
+        For unpickling.
+        """
+    def _restore(self: Scene, id: typing.SupportsInt | typing.SupportsIndex) -> Node:
+        """
+        For unpickling: the node of an id.
+        """
+    @typing.overload
+    def add(self: Scene, light: Light) -> Light:
+        """
+        Add a light.
+
+        Parameters
+        ----------
+        light : Light
+            It may be in other scenes as well.
+
+        Returns
+        -------
+        Light
+            The same light.
+
+        Raises
+        ------
+        ValueError
+            If it is in this scene already.
+        """
+    @typing.overload
+    def add(
+        self: Scene,
+        mesh: Mesh | None = None,
+        material: Material | None = None,
+        *,
+        position: numpy.typing.ArrayLike | None = None,
+        rotation: numpy.typing.ArrayLike | None = None,
+        scale: float | numpy.typing.ArrayLike | None = None,
+        matrix: numpy.typing.ArrayLike | None = None,
+        parent: Node | None = None,
+        environment: CubeMap | Probe | None = None,
+        visible: bool = True,
+        in_probes: bool = True,
+        name: str = "",
+    ) -> Node:
+        """
+        Add a mesh with a material, or a group.
+
+        Parameters
+        ----------
+        mesh : Mesh, optional
+            None: a group, to carry other nodes.
+        material : Material, optional
+            None: a new PhongMaterial.
+        position : array_like (3,), optional
+            Relative to the parent; (0, 0, 0).
+        rotation : array_like (4,), optional
+            Quaternion (w, x, y, z) of any length but 0, such as `axis_angle` gives; (1, 0, 0, 0).
+        scale : float or array_like (3,), optional
+            Along the node's own axes, never 0; 1. A negative number mirrors.
+        matrix : array_like (4, 4), optional
+            Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
+        parent : Node, optional
+            A node of this scene that the new one moves with.
+        environment : CubeMap or Probe, optional
+            What mirrors and glass show; None is the scene's.
+        visible : bool
+            False is drawn nowhere, nor is anything below it.
+        in_probes : bool
+            False is absent from captures and probes, as is all below it; still drawn in frames.
+        name : str
+            For people.
+
+        Returns
+        -------
+        Node
+            With the next id: 1 for the first.
+
+        Raises
+        ------
+        TypeError
+            For an argument of another type.
+        ValueError
+            For numbers that are not finite, a singular matrix or a scale of 0, a matrix together with
+            parts, or a parent that is not in this scene.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(), cc.PhongMaterial(color=(1, .4, .4)), scale=2,
+        ...                 rotation=cc.axis_angle((0, 1, 0), 45), name="crate")
+        >>> box.scale.tolist(), box.name
+        ([2.0, 2.0, 2.0], 'crate')
+        """
+    def clear(self: Scene) -> None:
+        """
+        Take all nodes and lights out.
+        """
+    def remove(self: Scene, thing: Node | Light) -> None:
+        """
+        Take a node and all below it, or a light, out.
+
+        They keep their values; ids are not used again.
+
+        Parameters
+        ----------
+        thing : Node or Light
+            What to remove.
+
+        Raises
+        ------
+        ValueError
+            If it is not in this scene.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> group = scene.add()
+        >>> child = scene.add(cc.Mesh.box(), parent=group)
+        >>> scene.remove(group)
+        >>> scene.nodes, child.parent is group
+        ((), True)
+        """
+    @property
+    def background(self) -> numpy.typing.NDArray[numpy.float32] | CubeMap | None:
+        """
+        ndarray (4,) float32, CubeMap or None: what is seen where nothing is. None: the environment if there is one, else transparent black.
+        """
+    @background.setter
+    def background(self, arg1: numpy.typing.ArrayLike | CubeMap | None) -> None: ...
+    @property
+    def environment(self) -> CubeMap | None:
+        """
+        CubeMap or None: what mirrors and glass show that have no environment of their own.
+        """
+    @environment.setter
+    def environment(self, arg1: CubeMap | None) -> None: ...
+    @property
+    def lights(self) -> tuple[Light, ...]:
+        """
+        tuple of Light: in order of add.
+        """
+    @property
+    def nodes(self) -> tuple[Node, ...]:
+        """
+        tuple of Node: all of them, in order of id.
+        """
+
+class Face(enum.IntEnum):
+    """
+    The six faces of a cube, in the order of every array here.
+
+    As integers, 0 to 5: ``cube.faces[cc.Face.POS_Y]``. Axes and orientation are OpenGL's (OpenGL 4.6,
+    section 8.13), drawn in docs/conventions.md.
+    """
+
+    NEG_X = 1
+    NEG_Y = 3
+    NEG_Z = 5
+    POS_X = 0
+    POS_Y = 2
+    POS_Z = 4
+
+class CubeMap:
+    """
+    Six square pictures that surround a point.
+
+    Memory is always laid out as OpenGL's cube maps are: ``faces[f, row, col]`` is the texel with
+    ``s = (col + .5)/N`` and ``t = (row + .5)/N`` on face `f` of +X -X +Y -Y +Z -Z (OpenGL 4.6, section
+    8.13; docs/conventions.md). Safe to share between threads; compared by contents.
+
+    Parameters
+    ----------
+    faces : array_like (6, N, N, C), or six of (N, N, C)
+        C is 1, 3 or 4. uint8 (which stands for value/255), float16 or float32 are kept; float64 becomes
+        float32. Linear, raw numbers. NaN is refused, inf is kept.
+    convention : {"gl", "inside", "three"}, default "gl"
+        How `faces` are given: "gl" as above; "inside" as one sees them from the middle (OpenEXR); "three"
+        as three.js and D3D skybox files have them.
+    mipmaps : bool, default False
+        Lookups, here and on the GPU, are trilinear over box-filtered levels.
+
+    Raises
+    ------
+    ValueError
+        Faces that are not square or not alike, another number of channels, NaN, an unknown convention.
+    TypeError
+        bool, complex, text, or integers other than uint8.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cubecam as cc
+    >>> cube = cc.CubeMap(np.full((6, 8, 8, 3), 0.5, np.float32))
+    >>> cube
+    CubeMap(size=8, channels=3, dtype=float32, mipmaps=False)
+    >>> cube.sample([0, 1, 0])
+    array([0.5, 0.5, 0.5], dtype=float32)
+    """
+
+    __hash__: typing.ClassVar[None] = None
+    @staticmethod
+    def from_equirect(
+        image: typing.Any,
+        size: typing.SupportsInt | typing.SupportsIndex | None = None,
+        center: str = "-z",
+        mipmaps: bool = False,
+        sampling: str = "centers",
+    ) -> CubeMap:
+        """
+        A cube from a panorama.
+
+        Filtered over each texel's footprint: shrinking does not alias, round the poles whole rows are
+        averaged; enlarging is bilinear, wraps round and goes on over the poles.
+
+        Parameters
+        ----------
+        image : array_like (H, 2H, C)
+            uint8 (value/255), float16, float32 or float64; unmirrored, row 0 at +Y.
+        size : int, optional
+            Of a face; by default the next power of two from W / pi, which loses nothing.
+        center : {"-z", "+z", "+x", "-x"}, default "-z"
+            The axis at the centre column.
+        mipmaps : bool, default False
+            Of the new cube.
+        sampling : {"centers", "borders"}, default "centers"
+            Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) will do.
+
+        Returns
+        -------
+        CubeMap
+            float32.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
+        CubeMap(size=64, channels=3, dtype=float32, mipmaps=False)
+        """
+    @staticmethod
+    def from_layout(
+        image: typing.Any,
+        layout: str | None = None,
+        convention: str = "gl",
+        mipmaps: bool = False,
+        size: typing.SupportsInt | typing.SupportsIndex | None = None,
+        center: str = "-z",
+    ) -> CubeMap:
+        """
+        A cube from one picture of all faces, the inverse of `to_layout`.
+
+        Parameters
+        ----------
+        image : array_like (H, W, C)
+        layout : str, optional
+            As in `to_layout`. By default what the shape says: width to height of 4:3 cross, 3:4
+            vertical_cross, 6:1 row, 1:6 column, 2:1 equirect. Shape never tells the convention.
+        convention : {"gl", "inside", "three"}, default "gl"
+            Of the faces in `image`.
+        mipmaps : bool, default False
+            Of the new cube.
+        size, center
+            As in `from_equirect`, for "equirect" only.
+
+        Returns
+        -------
+        CubeMap
+            In the dtype of `image`; float32 from "equirect" and "openexr".
+
+        Raises
+        ------
+        ValueError
+            A shape that is none of these, or not that of `layout`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_layout(np.zeros((24, 32, 3), np.uint8))
+        CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False)
+        """
+    def __copy__(self: CubeMap) -> CubeMap: ...
+    def __deepcopy__(self: CubeMap, memo: dict) -> CubeMap: ...
+    def __eq__(self: CubeMap, other: CubeMap) -> bool:
+        """
+        Whether the contents are the same bit for bit, captured outputs included.
+        """
+    def __getstate__(self: CubeMap) -> tuple: ...
+    def __init__(
+        self: CubeMap, faces: typing.Any, convention: str = "gl", mipmaps: bool = False
+    ) -> None: ...
+    def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: CubeMap) -> str: ...
+    def __setstate__(self: CubeMap, arg0: tuple) -> None: ...
+    def _repr_png_(self) -> bytes:
+        """
+        Give the picture that Jupyter shows: a cross seen from within, tone-mapped if the numbers are floats.
+        """
+    def copy(self: CubeMap) -> CubeMap:
+        """
+        An independent cubemap with the same contents.
+        """
+    def resize(self: CubeMap, size: typing.SupportsInt | typing.SupportsIndex) -> CubeMap:
+        """
+        The same cube with faces of another size.
+
+        Parameters
+        ----------
+        size : int
+            Shrinking averages the area of each texel; enlarging is bilinear and seamless.
+
+        Returns
+        -------
+        CubeMap
+            Of the same dtype and mipmaps, without captured outputs.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
+        (6, 2, 2, 3)
+        """
+    def sample(self: CubeMap, directions: typing.Any, lod: typing.Any = 0.0) -> numpy.ndarray:
+        """
+        Look directions up, seamlessly and bilinearly.
+
+        The same numbers as GLSL ``textureLod`` with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (OpenGL 4.6,
+        section 8.14): texels beyond an edge are the neighbour's, the missing fourth of a corner is the average of
+        the other three.
+
+        Parameters
+        ----------
+        directions : array_like (..., 3)
+            World axes, from the centre of the cube outwards, of any length but 0.
+        lod : float or array_like (...,), default 0
+            Level of detail: 0 is `faces`, each further level has half the size. Other than 0 only with
+            ``mipmaps=True``, trilinear, clamped to the levels there are.
+
+        Returns
+        -------
+        ndarray (..., C) float32
+            Yours to write. uint8 as value/255.
+
+        Raises
+        ------
+        ValueError
+            A direction that is not finite or has length 0; `lod` without mipmaps or of another shape.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> faces = np.arange(6, dtype=np.float32).reshape(6, 1, 1, 1).repeat(4, 1).repeat(4, 2)
+        >>> cube = cc.CubeMap(faces)
+        >>> cube.sample([[1, 0, 0], [0, -1, 0], [1, 0, 1]]).ravel()
+        array([0., 3., 2.], dtype=float32)
+        """
+    def save(
+        self,
+        path: str | os.PathLike[str] | collections.abc.Sequence[str | os.PathLike[str]],
+        layout: str | None = None,
+        convention: str | None = None,
+        width: int | None = None,
+        center: str = "-z",
+        srgb: bool = False,
+        half: bool = False,
+    ) -> None:
+        """
+        Write a cubemap as one picture or six files. The method `CubeMap.save`.
+
+        Parameters
+        ----------
+        path : path, sequence of six paths, or a name with {face}
+            The extension names the kind of file, as in `save_image`. {face} becomes px nx py ny pz nz.
+        layout : str, optional
+            "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
+            "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
+            samples on the borders and the `envmap` attribute, .exr only.
+        convention : {"gl", "inside", "three"}, optional
+            How the faces are stored; "gl" by default ("inside" for "openexr").
+        width : int, optional
+            Of an equirect, in pixels, even; 4 times the face size by default.
+        center : {"-z", "+z", "+x", "-x"}
+            The direction in the middle of an equirect.
+        srgb, half : bool
+            As in `save_image`.
+
+        Raises
+        ------
+        OSError
+            A folder is missing or may not be written, or the disk is full. The old files stay as they were.
+        ValueError
+            Unknown names, options that do not go together, numbers that the file cannot hold.
+
+        Notes
+        -----
+        Cells of a cross that no face covers are 0. A cubemap of float16 goes to EXR as half.
+
+        Examples
+        --------
+        >>> import cubecam as cc, tempfile, pathlib
+        >>> folder = pathlib.Path(tempfile.mkdtemp())
+        >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=32)
+        >>> cube.save(folder / "probe.exr", layout="cross", convention="inside")
+        >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
+        True
+        """
+    def set_face(
+        self: CubeMap, face: typing.Any, pixels: typing.Any, convention: str = "gl"
+    ) -> None:
+        """
+        Replace one face.
+
+        Only this face is uploaded again, and nothing when it is the same.
+
+        Parameters
+        ----------
+        face : Face, int from 0 to 5, or str
+            "+x", "px", "pos_x", ... as `convention` calls it.
+        pixels : array_like (N, N, C)
+            Of the cube's size, channels and dtype.
+        convention : {"gl", "inside", "three"}, default "gl"
+            How `pixels` and `face` are meant.
+
+        Raises
+        ------
+        ValueError
+            Another shape, NaN, an unknown face.
+        TypeError
+            Another dtype (float64 is taken for float32).
+        IndexError
+            A number outside 0 to 5.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cube = cc.CubeMap(np.zeros((6, 2, 2, 1), np.uint8))
+        >>> cube.set_face("+y", np.full((2, 2, 1), 255, np.uint8))
+        >>> cube.sample([0, 1, 0])
+        array([1.], dtype=float32)
+        """
+    def to_convention(self: CubeMap, convention: str) -> numpy.ndarray:
+        """
+        The six faces in another convention.
+
+        Parameters
+        ----------
+        convention : {"gl", "inside", "three"}
+
+        Returns
+        -------
+        ndarray (6, N, N, C) in `dtype`
+            A copy, yours to write. ``CubeMap(array, convention)`` gives this cube back exactly.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cube = cc.CubeMap(np.random.default_rng(1).random((6, 4, 4, 3)).astype("float32"))
+        >>> cc.CubeMap(cube.to_convention("three"), convention="three") == cube
+        True
+        """
+    def to_equirect(
+        self: CubeMap,
+        width: typing.SupportsInt | typing.SupportsIndex | None = None,
+        center: str = "-z",
+        sampling: str = "centers",
+    ) -> numpy.ndarray:
+        """
+        The panorama that this cube holds.
+
+        Unmirrored, row 0 at +Y. Filtered over each texel's footprint, so that shrinking does not alias;
+        enlarging is bilinear and seamless.
+
+        Parameters
+        ----------
+        width : int, optional
+            Even; 4 * size by default, which keeps the resolution.
+        center : {"-z", "+z", "+x", "-x"}, default "-z"
+            The axis at the centre: "-z" camera forward; "+z" OpenEXR, Mitsuba; "+x" three.js.
+        sampling : {"centers", "borders"}, default "centers"
+            Where samples lie. "borders": the first and last row and column lie on the edges, as in
+            OpenEXR's latitude-longitude maps.
+
+        Returns
+        -------
+        ndarray (width / 2, width, C) float32
+            Yours to write. uint8 as value/255.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z").shape
+        (32, 64, 4)
+        """
+    def to_layout(self: CubeMap, layout: str = "cross", convention: str = "gl") -> numpy.ndarray:
+        """
+        One picture of all faces.
+
+        Parameters
+        ----------
+        layout : {"cross", "vertical_cross", "row", "column", "equirect", "openexr"}, default "cross"
+            "cross" (or "horizontal_cross") is 4N x 3N with -X, the second cell, +X and the last from left to
+            right, +Y above and -Y below the second; "vertical_cross" is 3N x 4N with the last one below -Y,
+            turned by 180 degrees. "row" and "column" are in order of the faces. "equirect" is
+            ``to_equirect()``. "openexr" is OpenEXR's cube: a column of "inside" faces whose samples lie on the
+            borders, resampled.
+        convention : {"gl", "inside", "three"}, default "gl"
+            Of the faces in it; the second cell is +Z, for "inside" -Z. Not looked at for "equirect" and
+            "openexr", which have their own.
+
+        Returns
+        -------
+        ndarray (H, W, C)
+            In `dtype` (cells without a face are 0), float32 where resampled. Yours to write.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", "inside").shape
+        (24, 32, 3)
+        """
+    @property
+    def _face_revisions(self) -> tuple:
+        """
+        Which face changed when, six int that only ever grow; for tests.
+        """
+    @property
+    def channels(self) -> int:
+        """
+        C: 1, 3 or 4, int.
+        """
+    @property
+    def distance(self) -> typing.Any:
+        """
+        Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
+        """
+    @property
+    def dtype(self) -> numpy.dtype[typing.Any]:
+        """
+        numpy.dtype: uint8, float16 or float32.
+        """
+    @property
+    def faces(self) -> numpy.ndarray:
+        """
+        Pixels, ndarray (6, N, N, C) in `dtype`, "gl" layout.
+
+        A read-only view that outlives the cube, and keeps its values when the cube changes.
+        """
+    @property
+    def id(self) -> typing.Any:
+        """
+        Captured `node.id`, ndarray (6, N, N) int32, 0 where there is nothing, or None. Read-only.
+        """
+    @property
+    def mipmaps(self) -> bool:
+        """
+        Whether lookups are trilinear, bool.
+        """
+    @property
+    def normal(self) -> typing.Any:
+        """
+        Captured world shading normals towards the viewer, ndarray (6, N, N, 3) float32, 0 where there is nothing, or None. Read-only.
+        """
+    @property
+    def position(self) -> typing.Any:
+        """
+        Captured world positions, ndarray (6, N, N, 3) float32, NaN where there is nothing, or None. Read-only.
+        """
+    @property
+    def size(self) -> int:
+        """
+        N, texels along an edge, int.
+        """
+    @property
+    def z(self) -> typing.Any:
+        """
+        Captured distance along each face's axis, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
+        """
+
+class Image:
+    """
+    A picture that a material shows. It never changes.
+
+    Numbers are taken as they are: linear and raw (uint8 as value/255). Decode an 8-bit photograph with
+    ``load_image(path, srgb=True)`` first.
+
+    Parameters
+    ----------
+    pixels : array_like (H, W, C)
+        1 (grey), 3 (RGB) or 4 (RGBA) channels, row 0 on top. uint8, float16 or float32 is kept, float64
+        becomes float32. uv (0, 0) is the bottom-left corner.
+    mipmaps : bool
+        Whether lookups are trilinear, for pictures that are seen small. False: bilinear.
+    wrap : {"repeat", "clamp"}
+        What a lookup outside 0..1 gives.
+
+    Raises
+    ------
+    TypeError
+        For pixels of another type.
+    ValueError
+        For another shape, an image without pixels, NaN, or another `wrap`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cubecam as cc
+    >>> checks = np.indices((8, 8)).sum(axis=0)[..., None] % 2 * np.uint8(255)
+    >>> image = cc.Image(checks.astype(np.uint8), wrap="clamp")
+    >>> image.size, image.channels, image.dtype
+    ((8, 8), 1, dtype('uint8'))
+    """
+    def __copy__(self) -> typing.Any: ...
+    def __deepcopy__(self, memo: dict) -> typing.Any: ...
+    def __init__(
+        self: Image, pixels: numpy.typing.ArrayLike, mipmaps: bool = False, wrap: str = "repeat"
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Image) -> str: ...
+    def _repr_png_(self) -> bytes:
+        """
+        Give the picture that Jupyter shows.
+        """
+    @property
+    def channels(self) -> int:
+        """
+        int: 1, 3 or 4.
+        """
+    @property
+    def dtype(self) -> numpy.dtype[typing.Any]:
+        """
+        numpy.dtype: uint8, float16 or float32.
+        """
+    @property
+    def mipmaps(self) -> bool:
+        """
+        bool: whether lookups are trilinear.
+        """
+    @property
+    def pixels(self) -> numpy.ndarray:
+        """
+        ndarray (H, W, C): a read-only view, row 0 on top.
+        """
+    @property
+    def size(self) -> tuple[int, int]:
+        """
+        tuple of int: (width, height).
+        """
+    @property
+    def wrap(self) -> str:
+        """
+        str: "repeat" or "clamp".
+        """
+
+class Mesh:
+    """
+    Indexed triangles. A mesh never changes, so that scenes and renderers share it.
+
+    Parameters
+    ----------
+    positions : array_like (V, 3)
+        Object-space positions, finite; kept as float32.
+    indices : array_like (F, 3) of int
+        The three corners of each triangle, counter-clockwise seen from outside, from 0 to V - 1.
+    normals : array_like (V, 3), optional
+        Outward normals of any length. Those of length 0 become smooth ones. None: all are computed
+        smooth, as the sum of the triangles' normals weighted by the angle at the vertex (G. Thuermer
+        and C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
+    uvs : array_like (V, 2), optional
+        Texture coordinates; (0, 0) is a picture's bottom-left corner, (1, 1) its top-right one.
+    colors : array_like (V, 3) or (V, 4), optional
+        Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Shown by
+        materials with ``vertex_colors=True``.
+
+    Raises
+    ------
+    TypeError
+        For arrays of bool, complex, object or str, and for indices that are not integers.
+    ValueError
+        For other shapes, unequal lengths, NaN or infinity, or no triangle.
+    IndexError
+        For an index outside 0 to V - 1.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> mesh = cc.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> mesh.normals[0].tolist()
+    [0.0, 0.0, 1.0]
+    >>> mesh.bounds.tolist()
+    [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
+    >>> cc.Mesh.box(2)
+    Mesh(24 vertices, 12 triangles)
+    """
+    @staticmethod
+    def box(size: float | numpy.typing.ArrayLike = 1.0) -> Mesh:
+        """
+        A centred box with flat faces, each with uv from 0 to 1.
+
+        Pictures are upright seen from outside: +Y up on the sides, -Z on top (as on `plane`), +Z below.
+
+        Parameters
+        ----------
+        size : float or array_like (3,)
+            Extents along X, Y and Z, above 0; one number for all three.
+
+        Returns
+        -------
+        Mesh
+            24 vertices, 12 triangles.
+
+        Raises
+        ------
+        ValueError
+            For an extent that is not above 0.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.box((1, 2, 3)).bounds[1].tolist()
+        [0.5, 1.0, 1.5]
+        """
+    @staticmethod
+    def cone(
+        radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        height: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+    ) -> Mesh:
+        """
+        A centred, closed cone round the Y axis: base at -height/2, apex at +height/2.
+
+        Parameters
+        ----------
+        radius, height : float
+            Of the base, and from the base to the apex; above 0.
+        segments : int
+            Round the axis, at least 3.
+
+        Returns
+        -------
+        Mesh
+            2 * segments triangles.
+
+        Raises
+        ------
+        ValueError
+            For a length that is not above 0, or too few or too many segments.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> len(cc.Mesh.cone(segments=16).indices)
+        32
+        """
+    @staticmethod
+    def cylinder(
+        radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        height: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+    ) -> Mesh:
+        """
+        A centred, closed cylinder round the Y axis.
+
+        On its side u runs round as on `sphere` and v upwards; each cap shows the disc of a picture.
+
+        Parameters
+        ----------
+        radius, height : float
+            Above 0.
+        segments : int
+            Round the axis, at least 3.
+
+        Returns
+        -------
+        Mesh
+            4 * segments triangles.
+
+        Raises
+        ------
+        ValueError
+            For a length that is not above 0, or too few or too many segments.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.cylinder(1, 4).bounds[1].tolist()
+        [1.0, 2.0, 1.0]
+        """
+    @staticmethod
+    def icosphere(
+        radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        subdivisions: typing.SupportsInt | typing.SupportsIndex = 3,
+    ) -> Mesh:
+        """
+        A centred sphere of triangles of nearly equal size: a subdivided icosahedron.
+
+        Texture coordinates are those of `sphere`.
+
+        Parameters
+        ----------
+        radius : float
+            Above 0.
+        subdivisions : int
+            From 0 to 9; each splits every triangle into four.
+
+        Returns
+        -------
+        Mesh
+            20 * 4**subdivisions triangles.
+
+        Raises
+        ------
+        ValueError
+            For a radius that is not above 0 or another number of subdivisions.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> len(cc.Mesh.icosphere(1, subdivisions=3).indices)
+        1280
+        """
+    @staticmethod
+    def plane(
+        width: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        depth: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> Mesh:
+        """
+        A rectangle in the XZ plane, centred, normal +Y.
+
+        Seen from +Y with -Z up, a picture on it is upright. Its back is culled unless the material is
+        double-sided.
+
+        Parameters
+        ----------
+        width, depth : float
+            Extents along X and Z, above 0.
+
+        Returns
+        -------
+        Mesh
+            4 vertices, 2 triangles.
+
+        Raises
+        ------
+        ValueError
+            For an extent that is not above 0.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.plane(10, 4).bounds.tolist()
+        [[-5.0, 0.0, -2.0], [5.0, 0.0, 2.0]]
+        """
+    @staticmethod
+    def sphere(
+        radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+        rings: typing.SupportsInt | typing.SupportsIndex = 32,
+    ) -> Mesh:
+        """
+        A centred sphere of rings and segments, as on a globe.
+
+        u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
+        picture on it reads unmirrored from outside, its centre at +Z and its seam at -Z.
+
+        Parameters
+        ----------
+        radius : float
+            Above 0.
+        segments : int
+            Round the Y axis, at least 3.
+        rings : int
+            From pole to pole, at least 2.
+
+        Returns
+        -------
+        Mesh
+            2 * segments * (rings - 1) triangles.
+
+        Raises
+        ------
+        ValueError
+            For a radius that is not above 0, too few segments or rings, or more than 16,777,216 vertices.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.sphere(0.5)
+        Mesh(2145 vertices, 3968 triangles)
+        """
+    @staticmethod
+    def torus(
+        radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        tube: typing.SupportsFloat | typing.SupportsIndex = 0.25,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+        sides: typing.SupportsInt | typing.SupportsIndex = 32,
+    ) -> Mesh:
+        """
+        A centred torus round the Y axis.
+
+        Parameters
+        ----------
+        radius : float
+            From the axis to the centre of the tube.
+        tube : float
+            Radius of the tube: above 0, below `radius`.
+        segments : int
+            Round the axis, at least 3.
+        sides : int
+            Round the tube, at least 3.
+
+        Returns
+        -------
+        Mesh
+            2 * segments * sides triangles.
+
+        Raises
+        ------
+        ValueError
+            For such lengths or numbers, or more than 16,777,216 vertices.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.torus(1, .25).bounds[1].tolist()
+        [1.25, 0.25, 1.25]
+        """
+    def __copy__(self) -> typing.Any: ...
+    def __deepcopy__(self, memo: dict) -> typing.Any: ...
+    def __init__(
+        self: Mesh,
+        positions: numpy.typing.ArrayLike,
+        indices: numpy.typing.ArrayLike,
+        normals: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        colors: numpy.typing.ArrayLike | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Mesh) -> str: ...
+    def resized(self: Mesh, size: typing.SupportsFloat | typing.SupportsIndex) -> Mesh:
+        """
+        The same mesh, centred at the origin and scaled evenly.
+
+        Parameters
+        ----------
+        size : float
+            The largest extent that the result has, in world units.
+
+        Returns
+        -------
+        Mesh
+            A new mesh; normals, uvs and colours are the same.
+
+        Raises
+        ------
+        ValueError
+            For a size that is not above 0, or a mesh whose vertices are all at one point.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.box((1, 2, 4)).resized(1).bounds[1].tolist()
+        [0.125, 0.25, 0.5]
+        """
+    @property
+    def bounds(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.
+        """
+    @property
+    def colors(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
+        """
+    @property
+    def indices(self) -> numpy.typing.NDArray[numpy.uint32]:
+        """
+        ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside; a read-only view.
+        """
+    @property
+    def normals(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (V, 3) float32: unit vectors; a read-only view.
+        """
+    @property
+    def positions(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (V, 3) float32: a read-only view.
+        """
+    @property
+    def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
+        """
+        ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
+        """
+
+class Material:
+    """
+    Base of the materials: how a surface answers light.
+
+    A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
+    numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
+    opaque is blended over what lies behind it.
+    """
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self) -> str: ...
+    def __setstate__(self: Material, state: dict) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def double_sided(self) -> bool:
+        """
+        bool: True shows both sides, its normal turned to the viewer; False culls back faces.
+        """
+    @double_sided.setter
+    def double_sided(self, arg1: bool) -> None: ...
+    @property
+    def opacity(self) -> float:
+        """
+        float: from 0 to 1, times the alpha of the colours.
+        """
+    @opacity.setter
+    def opacity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class BasicMaterial(Material):
+    """
+    Unlit: color * map * vertex colour * cubemap.
+
+    Parameters
+    ----------
+    color : array_like (3,) or (4,)
+        Linear RGB or RGBA.
+    map : Image or array_like (H, W, C), optional
+        A picture, placed by the mesh's uvs.
+    cubemap : CubeMap or Probe, optional
+        Looked up in the direction of the object-space position, so that a box or sphere shows the
+        whole of it and turns with it. Its alpha does not count.
+    vertex_colors : bool
+        Whether the mesh's colours count.
+    opacity : float
+        From 0 to 1.
+    double_sided : bool
+        False culls back faces.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+    TypeError
+        For a map or cubemap of another type.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.BasicMaterial((1, 0, 0, .5))
+    BasicMaterial(color=(1, 0, 0, 0.5))
+    """
+    def __init__(
+        self: BasicMaterial,
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        map: Image | numpy.typing.ArrayLike | None = None,
+        cubemap: CubeMap | Probe | None = None,
+        vertex_colors: bool = False,
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+    ) -> None: ...
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def cubemap(self) -> CubeMap | Probe | None:
+        """
+        CubeMap, Probe or None: looked up by the object-space position.
+        """
+    @cubemap.setter
+    def cubemap(self, arg1: CubeMap | Probe | None) -> None: ...
+    @property
+    def map(self) -> Image | None:
+        """
+        Image or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
+        """
+    @map.setter
+    def map(self, arg1: Image | numpy.typing.ArrayLike | None) -> None: ...
+    @property
+    def vertex_colors(self) -> bool:
+        """
+        bool: whether the colour is multiplied by the mesh's vertex colours.
+        """
+    @vertex_colors.setter
+    def vertex_colors(self, arg1: bool) -> None: ...
+
+class PhongMaterial(Material):
+    """
+    Phong's reflection model.
+
+    ka * color, once, plus for every light: kd * color * max(N.L, 0), and ks * max(R.V, 0)**shininess
+    in white where N.L > 0 (B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6),
+    1975). An `AmbientLight` adds its light times ka * color.
+
+    Parameters
+    ----------
+    color : array_like (3,) or (4,)
+        Linear RGB or RGBA.
+    ka, kd, ks : float
+        Ambient, diffuse and specular weights, not negative.
+    shininess : float
+        Above 0; greater is a smaller highlight.
+    map : Image or array_like (H, W, C), optional
+        A picture that multiplies color, placed by the mesh's uvs.
+    vertex_colors : bool
+        Whether the mesh's colours multiply color.
+    opacity : float
+        From 0 to 1.
+    double_sided : bool
+        False culls back faces.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+    TypeError
+        For a map of another type.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> red = cc.PhongMaterial(color=(1, .4, .4))
+    >>> red.ka, red.kd, red.ks, red.shininess
+    (0.2, 0.7, 1.0, 10.0)
+    >>> red.kd = .5
+    >>> red
+    PhongMaterial(color=(1, 0.4, 0.4, 1), kd=0.5)
+    """
+    def __init__(
+        self: PhongMaterial,
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
+        kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
+        ks: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
+        map: Image | numpy.typing.ArrayLike | None = None,
+        vertex_colors: bool = False,
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+    ) -> None: ...
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def ka(self) -> float:
+        """
+        float: ambient weight.
+        """
+    @ka.setter
+    def ka(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def kd(self) -> float:
+        """
+        float: diffuse weight.
+        """
+    @kd.setter
+    def kd(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def ks(self) -> float:
+        """
+        float: specular weight; highlights are white.
+        """
+    @ks.setter
+    def ks(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def map(self) -> Image | None:
+        """
+        Image or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
+        """
+    @map.setter
+    def map(self, arg1: Image | numpy.typing.ArrayLike | None) -> None: ...
+    @property
+    def shininess(self) -> float:
+        """
+        float: Phong's exponent.
+        """
+    @shininess.setter
+    def shininess(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def vertex_colors(self) -> bool:
+        """
+        bool: whether the colour is multiplied by the mesh's vertex colours.
+        """
+    @vertex_colors.setter
+    def vertex_colors(self, arg1: bool) -> None: ...
+
+class MirrorMaterial(Material):
+    """
+    A mirror: env_weight * tint * environment(R) + color_weight * color.
+
+    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
+    the scene's, a CubeMap or a Probe.
+
+    Parameters
+    ----------
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is reflected.
+    env_weight : float
+        Weight of what is reflected, not negative.
+    color : array_like (3,) or (4,)
+        Linear RGB or RGBA that the surface adds.
+    color_weight : float
+        Its weight, not negative.
+    fresnel : float, optional
+        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
+        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+        Rendering", 1994). None: it is not.
+    opacity : float
+        From 0 to 1.
+    double_sided : bool
+        False culls back faces.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
+    >>> gold.env_weight, gold.fresnel
+    (0.78, None)
+    """
+    def __init__(
+        self: MirrorMaterial,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        color: numpy.typing.ArrayLike = (0, 0, 0),
+        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+    ) -> None: ...
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def color_weight(self) -> float:
+        """
+        float: weight of the mirror's own colour.
+        """
+    @color_weight.setter
+    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def env_weight(self) -> float:
+        """
+        float: weight of what is reflected.
+        """
+    @env_weight.setter
+    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fresnel(self) -> float | None:
+        """
+        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is reflected.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class GlassMaterial(Material):
+    """
+    Glass: F * environment(R) + (1 - F) * tint * environment(T).
+
+    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
+    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
+    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+
+    Parameters
+    ----------
+    eta : float
+        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
+    fresnel : bool
+        False: T alone.
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is refracted.
+    opacity : float
+        From 0 to 1.
+    double_sided : bool
+        False culls back faces.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
+    >>> water.fresnel
+    True
+    """
+    def __init__(
+        self: GlassMaterial,
+        eta: typing.SupportsFloat | typing.SupportsIndex = 0.6578947368421053,
+        fresnel: bool = True,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+    ) -> None: ...
+    @property
+    def eta(self) -> float:
+        """
+        float: refractive index outside divided by the one inside.
+        """
+    @eta.setter
+    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fresnel(self) -> bool:
+        """
+        bool: whether part of the light is reflected; False: all is refracted.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: bool) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is refracted.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class Light:
+    """
+    Base of the lights.
+
+    A light may be in several scenes; a change shows in all of them.
+    """
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (3,) float32: linear RGB, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def intensity(self) -> float:
+        """
+        float: times color.
+        """
+    @intensity.setter
+    def intensity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
+class PointLight(Light):
+    """
+    Light from one point, the same in all directions.
+
+    Parameters
+    ----------
+    position : array_like (3,)
+        World space.
+    color : array_like (3,)
+        Linear RGB, not negative.
+    intensity : float
+        Times color, not negative.
+    decay : float
+        The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> lamp = cc.PointLight(position=(3, 4, 3))
+    >>> lamp.intensity = 2
+    >>> lamp
+    PointLight(position=(3, 4, 3), color=(1, 1, 1), intensity=2, decay=0)
+    """
+    def __init__(
+        self: PointLight,
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: PointLight) -> str: ...
+    @property
+    def decay(self) -> float:
+        """
+        float: the light falls with distance**-decay.
+        """
+    @decay.setter
+    def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: world space, read-only.
+        """
+    @position.setter
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class DirectionalLight(Light):
+    """
+    Light from far away, such as the sun's.
+
+    Parameters
+    ----------
+    direction : array_like (3,)
+        The way the light travels, in world space, of any length but 0; kept normalised. Straight down
+        by default.
+    color : array_like (3,)
+        Linear RGB, not negative.
+    intensity : float
+        Times color, not negative.
+
+    Raises
+    ------
+    ValueError
+        For a direction of no length, or a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.DirectionalLight(direction=(0, 0, -2)).direction.tolist()
+    [0.0, 0.0, -1.0]
+    """
+    def __init__(
+        self: DirectionalLight,
+        direction: numpy.typing.ArrayLike = (0, -1, 0),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: DirectionalLight) -> str: ...
+    @property
+    def direction(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: the way the light travels, unit length, read-only.
+        """
+    @direction.setter
+    def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class AmbientLight(Light):
+    """
+    Light that comes from everywhere alike.
+
+    Parameters
+    ----------
+    color : array_like (3,)
+        Linear RGB, not negative.
+    intensity : float
+        Times color, not negative.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.AmbientLight(intensity=.5)
+    AmbientLight(color=(1, 1, 1), intensity=0.5)
+    """
+    def __init__(
+        self: AmbientLight,
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: AmbientLight) -> str: ...
+
+class Camera:
+    """
+    A camera given by its matrices.
+
+    Matrices act on column vectors and are written in reading order, so that ``view @ point`` works.
+    World and camera are right-handed, +Y up, the camera looking along -Z; clip space is OpenGL's, from
+    -1 to 1 in x, y and z.
+
+    Parameters
+    ----------
+    view : array_like (4, 4)
+        World to camera; last row (0, 0, 0, 1).
+    projection : array_like (4, 4)
+        Camera to clip space, for the shape of picture that is asked for.
+
+    Raises
+    ------
+    ValueError
+        For a matrix that is singular or not finite, or another shape.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import cubecam as cc
+    >>> lens = cc.PerspectiveCamera(fov=90).projection(aspect=2)
+    >>> camera = cc.Camera(view=np.eye(4), projection=lens)
+    >>> float(camera.projection()[0, 0])
+    0.5
+    """
+    def __init__(
+        self: Camera, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Camera) -> str: ...
+    def projection(
+        self: Camera, aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Camera to clip space.
+
+        Parameters
+        ----------
+        aspect : float
+            Width of the picture divided by its height. A camera given by its matrices ignores it.
+
+        Returns
+        -------
+        ndarray (4, 4) float64
+            Read-only.
+
+        Raises
+        ------
+        ValueError
+            For an aspect that is not above 0.
+        """
+    @property
+    def view(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: world to camera, read-only.
+        """
+    @view.setter
+    def view(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class PerspectiveCamera(Camera):
+    """
+    A camera with a vanishing point.
+
+    Parameters
+    ----------
+    fov : float
+        Vertical field of view in degrees, above 0 and below 180.
+    position : array_like (3,)
+        World space.
+    target : array_like (3,), optional
+        A point it looks at. None: straight ahead along -Z, wherever it stands.
+    up : array_like (3,)
+        What is up in the picture; not along the line of sight.
+    near, far : float
+        Depths in world units between which things are seen: 0 < near < far.
+
+    Raises
+    ------
+    ValueError
+        For a target that is the position, an up along the line of sight, near >= far, or a number out
+        of its range or not finite.
+
+    Notes
+    -----
+    The matrices are those of gluLookAt and gluPerspective.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(fov=70, position=(0, 1, 5), target=(0, 0, 0))
+    >>> camera.position = (0, 1, 8)
+    >>> camera.target.tolist()
+    [0.0, 0.0, 0.0]
+    """
+    def __init__(
+        self: PerspectiveCamera,
+        fov: typing.SupportsFloat | typing.SupportsIndex = 60.0,
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        target: numpy.typing.ArrayLike | None = None,
+        up: numpy.typing.ArrayLike = (0, 1, 0),
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: PerspectiveCamera) -> str: ...
+    @property
+    def far(self) -> float:
+        """
+        float: nothing farther is seen; world units.
+        """
+    @far.setter
+    def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fov(self) -> float:
+        """
+        float: vertical, in degrees.
+        """
+    @fov.setter
+    def fov(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def near(self) -> float:
+        """
+        float: nothing nearer is seen; world units.
+        """
+    @near.setter
+    def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: world space, read-only. Setting it leaves the target.
+        """
+    @position.setter
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        ndarray (3,) float64 or None: a point it looks at, read-only; None is along -Z.
+        """
+    @target.setter
+    def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    @property
+    def up(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: what is up in the picture, read-only.
+        """
+    @up.setter
+    def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def view(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: world to camera, read-only.
+        """
+
+class OrthographicCamera(Camera):
+    """
+    A camera of parallel rays.
+
+    The incident direction of mirrors and highlights is the view direction; `distance` counts from the
+    near plane.
+
+    Parameters
+    ----------
+    height : float
+        World units from the bottom to the top of the picture, above 0.
+    position : array_like (3,)
+        World space.
+    target : array_like (3,), optional
+        A point it looks at. None: straight ahead along -Z, wherever it stands.
+    up : array_like (3,)
+        What is up in the picture; not along the line of sight.
+    near, far : float
+        Depths in world units between which things are seen: near < far.
+
+    Raises
+    ------
+    ValueError
+        For a target that is the position, an up along the line of sight, near >= far, or a number out
+        of its range or not finite.
+
+    Notes
+    -----
+    The matrices are those of gluLookAt and glOrtho.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.OrthographicCamera(height=4).projection(aspect=2)[:2, :2].tolist()
+    [[0.25, 0.0], [0.0, 0.5]]
+    """
+    def __init__(
+        self: OrthographicCamera,
+        height: typing.SupportsFloat | typing.SupportsIndex = 2.0,
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        target: numpy.typing.ArrayLike | None = None,
+        up: numpy.typing.ArrayLike = (0, 1, 0),
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: OrthographicCamera) -> str: ...
+    @property
+    def far(self) -> float:
+        """
+        float: nothing farther is seen; world units.
+        """
+    @far.setter
+    def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def height(self) -> float:
+        """
+        float: world units from the bottom to the top of the picture.
+        """
+    @height.setter
+    def height(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def near(self) -> float:
+        """
+        float: nothing nearer is seen; world units.
+        """
+    @near.setter
+    def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: world space, read-only. Setting it leaves the target.
+        """
+    @position.setter
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
+        """
+        ndarray (3,) float64 or None: a point it looks at, read-only; None is along -Z.
+        """
+    @target.setter
+    def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    @property
+    def up(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: what is up in the picture, read-only.
+        """
+    @up.setter
+    def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def view(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: world to camera, read-only.
+        """
+
+class Stats:
+    """
+    What a renderer's last call drew, skipped and took.
+    """
+    def __repr__(self: Stats) -> str: ...
+    @property
+    def draw_calls(self) -> int:
+        """
+        int
+        """
+    @property
+    def milliseconds(self) -> float:
+        """
+        float: the whole call, reading back included.
+        """
+    @property
+    def probes_updated(self) -> int:
+        """
+        int: probes of which at least one face was drawn.
+        """
+    @property
+    def triangles(self) -> int:
+        """
+        int: sent to the GPU, each view counted.
+        """
+    @property
+    def views_drawn(self) -> int:
+        """
+        int: pictures drawn: frames, faces of captures, faces of probes.
+        """
+    @property
+    def views_skipped(self) -> int:
+        """
+        int: pictures that were still true and not drawn again.
+        """
+
+class Limits:
+    """
+    What the driver allows at most.
+    """
+    @property
+    def max_array_texture_layers(self) -> int:
+        """
+        int
+        """
+    @property
+    def max_color_attachments(self) -> int:
+        """
+        int
+        """
+    @property
+    def max_cube_map_texture_size(self) -> int:
+        """
+        int: pixels along an edge of a face.
+        """
+    @property
+    def max_samples(self) -> int:
+        """
+        int: of multisampling.
+        """
+    @property
+    def max_texture_size(self) -> int:
+        """
+        int: pixels along a side of a frame.
+        """
+
+class RendererInfo:
+    """
+    What a renderer runs on.
+    """
+    def __repr__(self: RendererInfo) -> str: ...
+    @property
+    def device(self) -> Device:
+        """
+        Device: the one that was chosen.
+        """
+    @property
+    def egl_version(self) -> str:
+        """
+        str: EGL_VERSION.
+        """
+    @property
+    def glsl_version(self) -> str:
+        """
+        str: GL_SHADING_LANGUAGE_VERSION.
+        """
+    @property
+    def layered(self) -> bool:
+        """
+        bool: whether one draw call serves all faces of a cube.
+        """
+    @property
+    def limits(self) -> Limits:
+        """
+        Limits
+        """
+    @property
+    def platform(self) -> str:
+        """
+        str: "device", "surfaceless" or "default".
+        """
+    @property
+    def renderer(self) -> str:
+        """
+        str: GL_RENDERER.
+        """
+    @property
+    def software(self) -> bool:
+        """
+        bool: whether the CPU draws.
+        """
+    @property
+    def vendor(self) -> str:
+        """
+        str: GL_VENDOR.
+        """
+    @property
+    def version(self) -> str:
+        """
+        str: GL_VERSION.
+        """
+
+class Frame:
+    """
+    A rendered picture: arrays with row 0 on top, each the caller's own.
+
+    What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(1, 0, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 2))
+    >>> frame.color.shape, frame.color[0, 0].tolist()
+    ((2, 4, 4), [255, 0, 0, 255])
+    """
+    def __getstate__(self: Frame) -> tuple: ...
+    def __repr__(self: Frame) -> str: ...
+    def __setstate__(self: Frame, arg0: tuple) -> None: ...
+    def _repr_png_(self) -> bytes:
+        """
+        Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats.
+        """
+    @property
+    def color(self) -> typing.Any:
+        """
+        ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear unless encoded.
+        """
+    @property
+    def distance(self) -> typing.Any:
+        """
+        ndarray (H, W) float32: length of the ray, world units; +inf where nothing was hit. In an orthographic picture it counts from the near plane.
+        """
+    @property
+    def id(self) -> typing.Any:
+        """
+        ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.
+        """
+    @property
+    def normal(self) -> typing.Any:
+        """
+        ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
+        """
+    @property
+    def position(self) -> typing.Any:
+        """
+        ndarray (H, W, 3) float32: world position; NaN background.
+        """
+    @property
+    def size(self) -> tuple[int, int]:
+        """
+        tuple of int: (width, height), pixels.
+        """
+    @property
+    def z(self) -> typing.Any:
+        """
+        ndarray (H, W) float32: distance along the camera's axis, world units; +inf background.
+        """
+
+class Renderer:
+    """
+    Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
+
+    A renderer owns an OpenGL 4.5 context on EGL: a GPU if there is one, else Mesa's software rasteriser. Any thread may
+    use it; calls on one renderer follow each other, several renderers work in parallel. Use it in a ``with`` block, or
+    call :meth:`close`.
+
+    Parameters
+    ----------
+    device : str, int, Device or None
+        "auto" (the environment variable CUBECAM_DEVICE if set, else a GPU, else software), "gpu", "software", an index
+        into :func:`devices`, one of them, part of a device's name, or a UUID. None means "auto".
+    layered : bool or None
+        Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
+        the same bytes on llvmpipe.
+    cache_bytes : int
+        GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. Default
+        256 MiB.
+    debug : bool
+        Ask for a debug context, whose errors tell more.
+
+    Raises
+    ------
+    ContextError
+        No context can be had. The message tells each device that was tried, why it failed, and what to install.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(0.1, 0.2, 0.3))
+    >>> ball = scene.add(cc.Mesh.sphere(0.5), cc.BasicMaterial(color=(1, 1, 0)))
+    >>> camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 3), target=(0, 0, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, camera, size=(64, 48), outputs=("distance",))
+    ...     cube = renderer.capture(scene, position=(0, 0, 2), size=32)
+    >>> frame.color.shape, round(float(frame.distance.min()), 1)
+    ((48, 64, 4), 2.5)
+    >>> cube.faces.shape
+    (6, 32, 32, 4)
+    """
+    def __enter__(self: Renderer) -> Renderer: ...
+    def __exit__(self: Renderer, *args) -> None: ...
+    def __init__(
+        self: Renderer,
+        device: typing.Any = "auto",
+        layered: typing.Any = None,
+        cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
+        debug: bool = False,
+    ) -> None: ...
+    def __repr__(self: Renderer) -> str: ...
+    def capture(
+        self: Renderer,
+        scene: Scene,
+        position: typing.Any = (0.0, 0.0, 0.0),
+        size: typing.Any = 256,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+        exclude: typing.Any = (),
+        outputs: typing.Any = (),
+        format: str = "rgba32f",
+        samples: typing.Any = 1,
+        eye: typing.Any = None,
+    ) -> CubeMap:
+        """
+        Draw what surrounds a point into a cubemap.
+
+        Parameters
+        ----------
+        scene : Scene
+        position : array_like (3,)
+            World position. The six views look along the world's axes, 90 degrees each.
+        size : int
+            Pixels along an edge of a face.
+        near, far : float
+            Clip distances along each face's axis, world units, 0 < near < far.
+        exclude : sequence of Node
+            Left out, with all below them.
+        outputs : sequence of str
+            Besides ``faces``: any of "distance", "z", "normal", "position", "id".
+        format : str
+            "rgba32f" (float32), "rgba16f" (float16) or "rgba8" (uint8, clamped).
+        samples : int
+            Multisampling of colour, see :meth:`render`.
+        eye : array_like (3,) or None
+            From where highlights and mirrors are seen; None: from ``position``.
+
+        Returns
+        -------
+        CubeMap
+            ``faces`` (6, size, size, 4) in the order +X -X +Y -Y +Z -Z, laid out as OpenGL does (section 8.13 of the 4.6
+            specification): ``texture(cube, world_direction)`` needs no flip.
+
+        Raises
+        ------
+        ValueError, TypeError, ContextError
+            As :meth:`render`; also for nodes of another scene.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> floor = scene.add(cc.Mesh.plane(10, 10), cc.BasicMaterial(color=(1, 0, 0)), position=(0, -1, 0))
+        >>> with cc.Renderer() as renderer:
+        ...     cube = renderer.capture(scene, size=16, outputs=("distance", "id"))
+        >>> cube.sample((0, -1, 0)).tolist(), int(cube.id[3, 8, 8])
+        ([1.0, 0.0, 0.0, 1.0], 1)
+        """
+    def close(self: Renderer) -> None:
+        """
+        Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.
+        """
+    def cubemap(self: Renderer, probe: Probe) -> CubeMap:
+        """
+        What a probe holds now, in the probe's format.
+
+        Raises
+        ------
+        ValueError
+            If this renderer has not drawn it yet.
+        """
+    def render(
+        self: Renderer,
+        scene: Scene,
+        camera: Camera,
+        size: typing.Any,
+        outputs: typing.Any = (),
+        format: str = "rgba8",
+        samples: typing.Any = 1,
+        tonemap: str | None = None,
+        encode: str | None = None,
+    ) -> Frame:
+        """
+        Draw a picture, with every probe its mirrors need brought up to date first.
+
+        A picture that would come out as the last one of this size and format did is not drawn again.
+
+        Parameters
+        ----------
+        scene : Scene
+        camera : Camera
+        size : (int, int)
+            (width, height), pixels.
+        outputs : sequence of str
+            Besides colour: any of "distance", "z", "normal", "position", "id".
+        format : str
+            "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16) or "rgba32f" (float32).
+        samples : int
+            Multisampling of colour: 1 for none, at most ``info.limits.max_samples``. The outputs are those of samples=1.
+        tonemap : str or None
+            "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024),
+            after resolving. None: values stay as they are.
+        encode : str or None
+            "srgb" (IEC 61966-2-1) or None: linear.
+
+        Returns
+        -------
+        Frame
+            Arrays of shape (height, width, ...), row 0 on top.
+
+        Raises
+        ------
+        ValueError
+            For an unknown name, a size or sample count beyond the driver's limits, or an impossible camera.
+        ContextError
+            After :meth:`close`, or in a forked process.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> with cc.Renderer() as renderer:
+        ...     frame = renderer.render(cc.Scene(background=(2, 0, 0)), cc.PerspectiveCamera(), size=(1, 1), format="rgba16f")
+        >>> frame.color.tolist()
+        [[[2.0, 0.0, 0.0, 1.0]]]
+        """
+    def update(self: Renderer, scene: Scene, probes: typing.Any = None) -> None:
+        """
+        Draw probes now, whatever their ``update`` says.
+
+        Parameters
+        ----------
+        scene : Scene
+        probes : Probe, sequence of Probe, or None
+            None: all that visible nodes of the scene use.
+
+        Raises
+        ------
+        ValueError
+            For a probe that no visible node uses.
+        """
+    @property
+    def closed(self) -> bool:
+        """
+        bool
+        """
+    @property
+    def info(self) -> RendererInfo:
+        """
+        RendererInfo: what was chosen; it stays after close().
+        """
+    @property
+    def stats(self) -> Stats:
+        """
+        Stats: of the last call.
+        """
+
+def axis_angle(
+    axis: numpy.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
+) -> numpy.typing.NDArray[numpy.float64]:
+    """
+    The quaternion of a turn round an axis.
+
+    Parameters
+    ----------
+    axis : array_like (3,)
+        Of any length but 0. Seen with the axis pointing at the viewer, the turn is counter-clockwise.
+    degrees : float
+        The angle.
+
+    Returns
+    -------
+    ndarray (4,) float64
+        (w, x, y, z), unit length: cos(degrees / 2), then sin(degrees / 2) times the axis.
+
+    Raises
+    ------
+    ValueError
+        For an axis of no length, or numbers that are not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.axis_angle((0, 2, 0), 180).round(12).tolist()
+    [0.0, 0.0, 1.0, 0.0]
+    """
+
+def devices() -> list[Device]:
+    """
+    The devices that can render.
+
+    Nothing is chosen or kept. The first call may start drivers to learn their names. A device whose
+    driver does not start is listed too, with the reason in its `problem`.
+
+    Returns
+    -------
+    list of Device
+        In the order that ``Renderer(device=index)`` counts them. Empty if EGL cannot list devices; a
+        `Renderer` may still find the surfaceless or the default display.
+
+    Raises
+    ------
+    ContextError
+        If there is no EGL library, or in a process forked after EGL was opened.
+    """
+
+__version__: str = "0.1.0"
