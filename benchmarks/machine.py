@@ -33,6 +33,7 @@ def describe() -> dict[str, str | int]:
     found: dict[str, str | int] = {
         "cpu": _cpu(),
         "cores": len(os.sched_getaffinity(0)),
+        "load": f"{os.getloadavg()[0]:.1f}",  # much above 0 before the start: others work here too
         "gl": _gl(),
         "python": platform.python_version(),
     }

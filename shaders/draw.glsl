@@ -1,10 +1,11 @@
-// One draw call: a node (cpp/cubecam/render/surface_pass.cpp writes this block).
+// A draw call: a node (cpp/cubecam/render/draw_block.hpp writes this block).
+//
+// Only vertex shaders read it: a fragment shader gets what it needs as flat inputs, which llvmpipe loads once a
+// triangle, while it reads a uniform block anew for every eight pixels (docs/adr/0004).
 layout(std140, binding = 0) uniform Draw {
     mat4 u_model;
     mat4 u_normal_matrix;  // inverse transpose of u_model, upper 3x3
-    vec4 u_color;          // linear RGB; a: the surface's whole alpha but for maps and vertex colours
-    vec4 u_tint;
-    vec4 u_parameters;     // the material's own, see its file
+    vec4 u_material[2];    // the material's own, see its file
+    float u_alpha;         // opacity and the colours' alpha; maps and vertex colours come on top
     int u_node_id;
-    int u_translucent;     // 0: alpha is written as 1
 };

@@ -1,14 +1,13 @@
 #ifdef MATERIAL_MIRROR
-// u_parameters: env_weight, color_weight, F0 (with FRESNEL).
+// v_material[0]: env_weight * tint, F0 (with FRESNEL). v_material[1].rgb: color_weight * color.
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994.
 vec3 shade(Surface surface) {
-    vec3 reflected = reflect(surface.incident, surface.normal);
-    float weight = u_parameters.x;
+    vec3 reflected = v_material[0].rgb * environment(reflect(surface.incident, surface.normal));
 #ifdef FRESNEL
-    float f0 = u_parameters.z;
+    float f0 = v_material[0].a;
     float m = 1.0 - clamp(-dot(surface.incident, surface.normal), 0.0, 1.0);
-    weight *= f0 + (1.0 - f0) * (m * m) * (m * m) * m;
+    reflected *= f0 + (1.0 - f0) * (m * m) * (m * m) * m;
 #endif
-    return weight * u_tint.rgb * environment(reflected) + u_parameters.y * u_color.rgb;
+    return reflected + v_material[1].rgb;
 }
 #endif

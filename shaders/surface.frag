@@ -1,12 +1,13 @@
 // Every mesh: what is common here, what a material answers in its own file.
-#include "draw.glsl"
+#define STAGE in
+#include "surface.glsl"
 
 struct Surface {
     vec3 position;         // world
-    vec3 position_object;
+    vec3 position_object;  // with HAS_CUBE
     vec3 normal;           // world, unit length, towards the viewer on double-sided surfaces
     vec3 incident;         // world, unit length, from the eye to the surface
-    vec4 color;            // material colour times map times vertex colour
+    vec3 tint;             // map times vertex colour
 };
 
 #include "environment.glsl"
@@ -16,24 +17,12 @@ struct Surface {
 #include "mirror.glsl"
 #include "glass.glsl"
 
-in vec3 v_position;
-in vec3 v_normal;
-flat in vec4 v_eye;
 #ifdef HAS_MAP
 layout(binding = 0) uniform sampler2D u_map;
-in vec2 v_uv;
-#endif
-#ifdef HAS_VERTEX_COLORS
-in vec4 v_color;
-#endif
-#ifdef HAS_CUBE
-in vec3 v_position_object;
 #endif
 
 layout(location = 0) out vec4 o_color;
 #ifdef OUTPUTS
-flat in vec4 v_view_position;
-flat in vec3 v_view_forward;
 layout(location = 1) out float o_distance;
 layout(location = 2) out float o_z;
 layout(location = 3) out vec4 o_normal;
@@ -55,15 +44,21 @@ void main() {
     if (!gl_FrontFacing) surface.normal = -surface.normal;
 #endif
     surface.incident = v_eye.w == 0.0 ? normalize(v_position - v_eye.xyz) : v_eye.xyz;
-    surface.color = u_color;
+    vec4 tint = vec4(1.0);
 #ifdef HAS_MAP
-    surface.color *= texture(u_map, v_uv);
+    tint *= texture(u_map, v_uv);
 #endif
 #ifdef HAS_VERTEX_COLORS
-    surface.color *= v_color;
+    tint *= v_color;
 #endif
+    surface.tint = tint.rgb;
 
-    o_color = vec4(shade(surface), u_translucent != 0 ? surface.color.a : 1.0);
+    o_color.rgb = shade(surface);
+#ifdef TRANSLUCENT
+    o_color.a = tint.a * v_alpha;
+#else
+    o_color.a = 1.0;
+#endif
 #ifdef OUTPUTS
     vec3 from_view = v_position - v_view_position.xyz;
     float z = dot(from_view, v_view_forward);
@@ -71,6 +66,6 @@ void main() {
     o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;
     o_normal = vec4(surface.normal, 0.0);
     o_position = vec4(v_position, 1.0);
-    o_id = u_node_id;
+    o_id = v_node_id;
 #endif
 }

@@ -1,29 +1,16 @@
 // Every mesh, for every view. One source and an invariant position: layered and one-pass drawing give equal bytes.
+#define STAGE out
 #include "view.glsl"
 #include "draw.glsl"
+#include "lights.glsl"
+#include "surface.glsl"
 
 layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
-#ifdef HAS_MAP
 layout(location = 2) in vec2 a_uv;
-out vec2 v_uv;
-#endif
-#ifdef HAS_VERTEX_COLORS
 layout(location = 3) in vec4 a_color;
-out vec4 v_color;
-#endif
-#ifdef HAS_CUBE
-out vec3 v_position_object;
-#endif
 
 invariant gl_Position;
-out vec3 v_position;  // world
-out vec3 v_normal;    // world, any length
-flat out vec4 v_eye;
-#ifdef OUTPUTS
-flat out vec4 v_view_position;
-flat out vec3 v_view_forward;
-#endif
 
 void main() {
     vec4 position_world = u_model * vec4(a_position, 1.0);
@@ -32,6 +19,7 @@ void main() {
     v_position = position_world.xyz;
     v_normal = mat3(u_normal_matrix) * a_normal;
     v_eye = a_view_eye;
+    v_material = u_material;
 #ifdef HAS_MAP
     v_uv = a_uv;
 #endif
@@ -41,8 +29,20 @@ void main() {
 #ifdef HAS_CUBE
     v_position_object = a_position;
 #endif
+#ifdef TRANSLUCENT
+    v_alpha = u_alpha;
+#endif
+#ifdef LIGHT_COUNT
+#if LIGHT_COUNT > 0
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
+        v_light_position[i] = u_lights[i].position;
+        v_light_color[i] = u_lights[i].color;
+    }
+#endif
+#endif
 #ifdef OUTPUTS
     v_view_position = a_view_position;
     v_view_forward = a_view_forward.xyz;
+    v_node_id = u_node_id;
 #endif
 }

@@ -22,29 +22,36 @@ def pytest_addoption(parser):
     )
 
 
+def describe_device():
+    """(what draws, whether that is llvmpipe)."""
+    import cubecam
+
+    try:
+        with cubecam.Renderer(device=DEVICE) as renderer:
+            info = renderer.info
+            text = f"{info.renderer} ({info.vendor}), GL {info.version}, layered {info.layered}"
+            return text, info.software and "llvmpipe" in info.renderer
+    except cubecam.ContextError as error:
+        return f"none: {error}", False
+
+
+def pytest_sessionstart(session):
+    if os.environ.get("CUBECAM_EXPECT_SOFTWARE") == "1":
+        text, software = describe_device()
+        if not software:
+            pytest.exit(f"CUBECAM_EXPECT_SOFTWARE=1, expected llvmpipe, got {text}", returncode=1)
+
+
 def pytest_report_header(config):
     try:
         import cubecam
     except ImportError as error:
         return f"cubecam: not importable ({error})"
-    lines = [
-        f"cubecam {cubecam.__version__} at {Path(cubecam.__file__).parent}, numpy {np.__version__}"
+    place = Path(cubecam.__file__).parent
+    return [
+        f"cubecam {cubecam.__version__} at {place}, numpy {np.__version__}",
+        f"device: {describe_device()[0]}",
     ]
-    try:
-        with cubecam.Renderer(device=DEVICE) as renderer:
-            info = renderer.info
-            lines.append(
-                f"device: {info.renderer} ({info.vendor}), GL {info.version}, layered {info.layered}"
-            )
-            software = info.software
-    except cubecam.ContextError as error:
-        lines.append(f"device: none: {error}")
-        software = False
-    if os.environ.get("CUBECAM_EXPECT_SOFTWARE") == "1" and not (
-        software and "llvmpipe" in lines[-1]
-    ):
-        raise pytest.UsageError(f"CUBECAM_EXPECT_SOFTWARE=1 but {lines[-1]}")
-    return lines
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ if its old text is no longer to be found exactly once: then tests/mutations.py m
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -116,7 +117,12 @@ def stale(mutations):
 
 
 def occurrences(path, text):
-    return path.read_text().count(text) if path.exists() else 0
+    return len(pattern(text).findall(path.read_text())) if path.exists() else 0
+
+
+def pattern(text):
+    """Finds the text however a formatter has broken its lines."""
+    return re.compile(r"\s+".join(re.escape(word) for word in text.split()))
 
 
 def try_mutation(copy, mutation):
@@ -124,7 +130,7 @@ def try_mutation(copy, mutation):
     path = copy.tree / mutation.file
     original = path.read_text()
     compiled = mutation.file.startswith(("cpp/", "shaders/"))
-    path.write_text(original.replace(mutation.old, mutation.new))
+    path.write_text(pattern(mutation.old).sub(lambda _: mutation.new, original))
     try:
         if compiled and (complaint := copy.compile()):
             return f"does not build:\n{complaint}"

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Mutation:
-    """`old` stands exactly once in `file`."""
+    """`old` stands exactly once in `file`, its spaces being any white space."""
 
     name: str
     file: str
@@ -81,8 +81,8 @@ MUTATIONS = [
     Mutation(
         "convention: three does not swap",
         "cpp/cubecam/scene/cubemap_layout.cpp",
-        "{face == Face::pos_x   ? Face::neg_x\n                : face == Face::neg_x ? Face::pos_x",
-        "{face == Face::pos_x   ? Face::pos_x\n                : face == Face::neg_x ? Face::neg_x",
+        "face == Face::pos_x ? Face::neg_x : face == Face::neg_x ? Face::pos_x",
+        "face == Face::pos_x ? Face::pos_x : face == Face::neg_x ? Face::neg_x",
         CONVENTIONS,
     ),
     Mutation(
@@ -117,8 +117,8 @@ MUTATIONS = [
     Mutation(
         "mirror: the normal's sign",
         "shaders/mirror.glsl",
-        "vec3 reflected = reflect(surface.incident, surface.normal);",
-        "vec3 reflected = surface.incident - 2.0 * surface.normal;",
+        "environment(reflect(surface.incident, surface.normal))",
+        "environment(surface.incident - 2.0 * surface.normal)",
         LOOKUPS,
     ),
     Mutation(
@@ -131,8 +131,8 @@ MUTATIONS = [
     Mutation(
         "glass: eta upside down",
         "shaders/glass.glsl",
-        "float eta = u_parameters.x;",
-        "float eta = 1.0 / u_parameters.x;",
+        "refract(surface.incident, surface.normal, eta)",
+        "refract(surface.incident, surface.normal, 1.0 / eta)",
         LOOKUPS,
     ),
     Mutation(
@@ -145,15 +145,15 @@ MUTATIONS = [
     Mutation(
         "phong: highlight on the dark side",
         "shaders/phong.glsl",
-        "if (n_dot_l > 0.0) {",
-        "if (true) {",
+        "if (n_dot_l <= 0.0) return vec3(0.0);",
+        "",
         PHONG,
     ),
     Mutation(
         "phong: ambient for each light",
         "shaders/phong.glsl",
-        "vec3 answer = u_parameters.y * n_dot_l * surface.color.rgb",
-        "vec3 answer = (u_parameters.x + u_parameters.y * n_dot_l) * surface.color.rgb",
+        "vec3 answer = n_dot_l * v_material[1].rgb * surface.tint",
+        "vec3 answer = (v_material[0].rgb + n_dot_l * v_material[1].rgb) * surface.tint",
         PHONG,
     ),
     Mutation(

@@ -81,7 +81,7 @@ def test_double_sided_turns_the_normal_to_the_viewer(renderer):
     """Inside a lit shell: Phong with the inward normal, on both drawing sides."""
     world = World()
     material = cc.PhongMaterial(color=(0.5, 0.7, 0.9), double_sided=True)
-    world.sphere(2, material=material, subdivisions=3)
+    world.sphere(2, material=material, subdivisions=2)
     world.scene.add(cc.PointLight(position=(0.5, 0.8, -0.4)))
     hits = capture_hits(world, (0.2, -0.1, 0.3), 24)
     cube = renderer.capture(world.scene, position=(0.2, -0.1, 0.3), size=24, outputs=("normal",))

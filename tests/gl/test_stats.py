@@ -5,7 +5,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.gl.world import Triangles, capture_hits, matrix_of
+from tests.gl.world import Triangles, capture_hits, matrix_of, smooth_environment
 
 
 def ring():
@@ -166,15 +166,17 @@ OPTIONS = {
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 def test_options_are_part_of_the_key(renderer, fresh_renderer, options):
     scene = ring()
-    scene.nodes[1].material = cc.MirrorMaterial(color=(0.2, 0, 0), color_weight=1)
+    scene.environment = cc.CubeMap(smooth_environment(8))
+    scene.nodes[1].material = cc.MirrorMaterial()
+    scene.nodes[1].scale = 3
     if "exclude" in options:
         options = {"exclude": [scene.nodes[0]]}
-    renderer.capture(scene, size=16)
+    before = renderer.capture(scene, size=16)
     got = renderer.capture(scene, size=16, **options)
+    assert got != before or "outputs" in options
     assert_identical(got.faces, fresh_renderer.capture(scene, size=16, **options).faces)
-    renderer.capture(scene, size=16)
-    again = renderer.capture(scene, size=16, **options)
-    assert_identical(again.faces, got.faces)
+    assert_identical(renderer.capture(scene, size=16).faces, before.faces)
+    assert_identical(renderer.capture(scene, size=16, **options).faces, got.faces)
 
 
 def test_frames_have_their_options_in_the_key(renderer, fresh_renderer):

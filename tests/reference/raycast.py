@@ -154,16 +154,16 @@ class Triangles(Shape):
         return np.flatnonzero((miss * miss).sum(-1) <= radius**2)
 
     def _chunk(self, origins, directions, corners, t_min, t_max):
+        """All rays against all triangles; the paper's triple products, turned so that each is a matrix product."""
         a = corners[:, 0]
         e1, e2 = corners[:, 1] - a, corners[:, 2] - a
-        p = np.cross(directions[:, None], e2[None])
-        det = (p * e1).sum(-1)
-        offset = origins[:, None] - a[None]
+        n = np.cross(e1, e2)
+        moment = np.cross(origins, directions)
+        det = -directions @ n.T
         with np.errstate(divide="ignore", invalid="ignore"):
-            u = (p * offset).sum(-1) / det
-            q = np.cross(offset, e1[None])
-            v = (q * directions[:, None]).sum(-1) / det
-            t = (q * e2).sum(-1) / det
+            u = (moment @ e2.T - directions @ np.cross(e2, a).T) / det
+            v = (-moment @ e1.T - directions @ np.cross(a, e1).T) / det
+            t = (origins @ n.T - (a * n).sum(-1)) / det
             met = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > t_min[:, None]) & (t < t_max[:, None])
         if not self.double_sided:
             met &= det > 0  # in the mesh's own space, so that a mirroring matrix changes nothing
@@ -171,7 +171,11 @@ class Triangles(Shape):
         which = t.argmin(-1)
         rows = np.arange(len(t))
         bary = np.nan_to_num(np.stack([u[rows, which], v[rows, which]], axis=-1))
-        return t[rows, which], which, np.where(np.isfinite(t[rows, which])[:, None], bary, 0)
+        return (
+            t[rows, which],
+            which,
+            np.where(np.isfinite(t[rows, which])[:, None], bary, 0),
+        )
 
     @staticmethod
     def _interpolate(values, vertices, weights):

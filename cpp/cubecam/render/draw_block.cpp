@@ -20,37 +20,40 @@ glm::mat4 normal_matrix(const glm::dmat4& world) {
     return glm::mat4(glm::mat3(inverse_transpose / largest));
 }
 
-void fill(DrawBlock& block, const BasicParameters& p) { block.color = p.color; }
-
-void fill(DrawBlock& block, const PhongParameters& p) {
-    block.color = p.color;
-    // pow(0, 0) is undefined in GLSL.
-    block.parameters = {p.ka, p.kd, p.ks, std::max(p.shininess, 1e-6F)};
+/// Each writes what shaders/<material>.glsl reads. Factors that no texture changes are multiplied here, once.
+void fill(DrawBlock& block, const BasicParameters& p, const glm::vec3&) {
+    block.material[0] = p.color;
+    block.alpha = p.color.a;
 }
 
-void fill(DrawBlock& block, const MirrorParameters& p) {
-    block.color = glm::vec4(glm::vec3(p.color), p.color.a * p.tint.a);
-    block.tint = p.tint;
-    block.parameters = {p.env_weight, p.color_weight, p.fresnel.value_or(0.0F), 0.0F};
+void fill(DrawBlock& block, const PhongParameters& p, const glm::vec3& ambient) {
+    const glm::vec3 color(p.color);
+    block.material[0] = glm::vec4(p.ka * color * ambient, p.shininess);
+    block.material[1] = glm::vec4(p.kd * color, p.ks);
+    block.alpha = p.color.a;
 }
 
-void fill(DrawBlock& block, const GlassParameters& p) {
-    block.color = glm::vec4(1.0F, 1.0F, 1.0F, p.tint.a);
-    block.tint = p.tint;
-    block.parameters = {p.eta, 0.0F, 0.0F, 0.0F};
+void fill(DrawBlock& block, const MirrorParameters& p, const glm::vec3&) {
+    block.material[0] = glm::vec4(p.env_weight * glm::vec3(p.tint), p.fresnel.value_or(0.0F));
+    block.material[1] = glm::vec4(p.color_weight * glm::vec3(p.color), 0.0F);
+    block.alpha = p.tint.a * p.color.a;
+}
+
+void fill(DrawBlock& block, const GlassParameters& p, const glm::vec3&) {
+    block.material[0] = glm::vec4(glm::vec3(p.tint), p.eta);
+    block.alpha = p.tint.a;
 }
 
 }  // namespace
 
-DrawBlock make_draw_block(const NodeSnapshot& node) {
+DrawBlock make_draw_block(const NodeSnapshot& node, const glm::vec3& ambient) {
     DrawBlock block{};
     block.model = glm::mat4(node.world);
     block.normal_matrix = normal_matrix(node.world);
     block.node_id = node.id;
-    block.translucent = node.translucent ? 1 : 0;
     const MaterialValue& material = node.material.value;
-    std::visit([&block](const auto& parameters) { fill(block, parameters); }, material.parameters);
-    block.color.a *= material.surface.opacity;
+    std::visit([&](const auto& parameters) { fill(block, parameters, ambient); }, material.parameters);
+    block.alpha *= material.surface.opacity;
     return block;
 }
 

@@ -12,15 +12,14 @@ namespace cubecam {
 struct DrawBlock {
     glm::mat4 model;
     glm::mat4 normal_matrix;
-    glm::vec4 color;
-    glm::vec4 tint;
-    glm::vec4 parameters;
+    glm::vec4 material[2];  ///< what the material's shader file says
+    float alpha;
     std::int32_t node_id;
-    std::int32_t translucent;
     std::int32_t padding[2] = {0, 0};
 };
-static_assert(sizeof(DrawBlock) == 192);
+static_assert(sizeof(DrawBlock) == 176);
 
-DrawBlock make_draw_block(const NodeSnapshot& node);
+/// `ambient` is what falls on everything: 1, the model's own ambient light, plus the scene's ambient lights.
+DrawBlock make_draw_block(const NodeSnapshot& node, const glm::vec3& ambient);
 
 }  // namespace cubecam

@@ -38,6 +38,7 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     define(variant.cube, "HAS_CUBE");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.fresnel, "FRESNEL");
+    define(variant.translucent, "TRANSLUCENT");
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
     if (variant.lights >= 0)

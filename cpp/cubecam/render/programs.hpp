@@ -20,6 +20,7 @@ struct SurfaceVariant {
     bool cube = false;  ///< a basic material that shows a cubemap
     bool double_sided = false;
     bool fresnel = false;
+    bool translucent = false;
     bool outputs = false;
     int lights = 0;  ///< unrolled so many times; -1: a loop
     bool decay = false;

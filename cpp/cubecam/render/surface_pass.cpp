@@ -1,5 +1,6 @@
 #include "cubecam/render/surface_pass.hpp"
 
+#include "cubecam/render/clear.hpp"
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/instance.hpp"
 
@@ -16,7 +17,7 @@ constexpr GLuint draw_binding = 0;
 constexpr GLuint lights_binding = 1;
 constexpr GLuint map_unit = 0;
 constexpr GLuint cube_unit = 1;
-constexpr std::size_t unrolled_lights = 8;
+constexpr std::size_t flat_lights = 4;  // beyond that the vertex stage has no room for them
 constexpr std::size_t many_triangles = 10'000;
 
 /// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
@@ -47,7 +48,6 @@ struct LightBlock {
 };
 
 struct LightsBlock {
-    glm::vec4 ambient{1.0F};
     glm::ivec4 counts{0};
     LightBlock lights[max_lights];
 };
@@ -70,12 +70,13 @@ SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering l
 
 void SurfacePass::upload_lights(std::span<const LightValue> lights) {
     LightsBlock block;
+    ambient_ = glm::vec3(1.0F);
     light_count_ = 0;
     light_decay_ = false;
     for (const LightValue& light : lights) {
         const glm::vec3 color = light.color * light.intensity;
         if (std::holds_alternative<AmbientParameters>(light.parameters)) {
-            block.ambient += glm::vec4(color, 0.0F);
+            ambient_ += color;
             continue;
         }
         if (light_count_ == max_lights) {
@@ -133,7 +134,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
             if (item.views.empty()) continue;
             item.mesh = &cache_->mesh(node.mesh);
             item.cube = input.cube_of(planned.node);
-            const DrawBlock block = make_draw_block(node);
+            const DrawBlock block = make_draw_block(node, ambient_);
             blocks.resize(blocks.size() + stride);
             std::memcpy(blocks.data() + item.block, &block, sizeof(block));
             to.push_back(std::move(item));
@@ -155,9 +156,8 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 }
 
 void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
-    const Prepared prepared = prepare(input);
-    if (prepared.wanted.empty()) return;
     upload_lights(input.scene.lights);
+    const Prepared prepared = prepare(input);
     gl_->Viewport(0, 0, target.description().width, target.description().height);
     const bool outputs = target.description().outputs.any();
     draw_layers(input, prepared, target, target.color_pass(), true,
@@ -170,22 +170,31 @@ void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
 
 void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, Target& target,
                               Layers& layers, bool color, bool outputs, Stats& stats) {
-    if (use_layers(input, prepared)) {
-        if (prepared.wanted.size() == input.views.size()) {
-            clear(input, target, layers, std::nullopt, color, outputs);
-        } else {
-            for (const std::size_t v : prepared.wanted)
-                clear(input, target, layers, v, color, outputs);
+    const auto* plain = std::get_if<glm::vec4>(&input.background);
+    const ClearValues values{plain != nullptr ? *plain : glm::vec4(0.0F), color, outputs};
+    const bool by_texture = target.description().cube && !(color && target.multisampled());
+    if (by_texture) clear_layers(*gl_, target, prepared.wanted, values);
+    const auto bind = [&](std::size_t view) {
+        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.one(static_cast<int>(view)));
+    };
+
+    if (!use_layers(input, prepared)) {
+        for (const std::size_t v : prepared.wanted) {
+            bind(v);
+            if (!by_texture) clear_bound(*gl_, target, values);
+            draw_all(input, prepared, v, color, outputs, stats);
         }
-        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
-        draw_all(input, prepared, std::nullopt, color, outputs, stats);
         return;
     }
+    const bool all = prepared.wanted.size() == input.views.size();
     for (const std::size_t v : prepared.wanted) {
-        clear(input, target, layers, v, color, outputs);
-        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.one(static_cast<int>(v)));
-        draw_all(input, prepared, v, color, outputs, stats);
+        if (by_texture || all) break;
+        bind(v);
+        clear_bound(*gl_, target, values);
     }
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
+    if (!by_texture && all) clear_bound(*gl_, target, values);
+    draw_all(input, prepared, std::nullopt, color, outputs, stats);
 }
 
 bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared) const {
@@ -205,60 +214,6 @@ bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared) c
         triangles += static_cast<std::size_t>(item.mesh->index_count / 3) * item.views.size();
     }
     return triangles < many_triangles;
-}
-
-void SurfacePass::clear(const PassInput& input, Target& target, Layers& layers,
-                        std::optional<std::size_t> view, bool color, bool outputs) {
-    const TargetDescription& description = target.description();
-    // Faces: glClearTexSubImage takes a sixth of the time on llvmpipe. Samples and single frames:
-    // glClear is as good.
-    const bool by_texture = description.cube && !(color && target.multisampled());
-    const GLuint framebuffer = by_texture ? 0
-                               : view     ? layers.one(static_cast<int>(*view))
-                                          : layers.all();
-    const auto first = static_cast<GLint>(view.value_or(0));
-    const GLsizei count = view ? 1 : description.layers();
-    const auto clear_texture = [&](const gl::Texture& texture, GLenum format, GLenum type,
-                                   const void* value) {
-        gl_->ClearTexSubImage(texture.id(), 0, 0, 0, first, description.width, description.height,
-                              count, format, type, value);
-    };
-    const auto put = [&](Slot slot, glm::vec4 value) {
-        if (by_texture) {
-            clear_texture(slot == Slot::color ? target.color() : target.output(slot), GL_RGBA,
-                          GL_FLOAT, &value.x);
-        } else {
-            gl_->ClearNamedFramebufferfv(framebuffer, GL_COLOR, static_cast<GLint>(slot), &value.x);
-        }
-    };
-
-    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    gl_->DepthMask(GL_TRUE);
-    if (color) {
-        const auto* plain = std::get_if<glm::vec4>(&input.background);
-        put(Slot::color, plain != nullptr ? *plain : glm::vec4(0.0F));
-    }
-    if (outputs) {
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-        const Outputs& wanted = description.outputs;
-        if (wanted.distance) put(Slot::distance, glm::vec4(infinity));
-        if (wanted.z) put(Slot::z, glm::vec4(infinity));
-        if (wanted.normal) put(Slot::normal, glm::vec4(0.0F));
-        if (wanted.position) put(Slot::position, glm::vec4(nan));
-        const GLint none[4] = {0, 0, 0, 0};
-        if (wanted.id && by_texture) {
-            clear_texture(target.output(Slot::id), GL_RED_INTEGER, GL_INT, none);
-        } else if (wanted.id) {
-            gl_->ClearNamedFramebufferiv(framebuffer, GL_COLOR, static_cast<GLint>(Slot::id), none);
-        }
-    }
-    const float far = 0.0F;
-    if (by_texture) {
-        clear_texture(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far);
-    } else {
-        gl_->ClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far);
-    }
 }
 
 void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
@@ -295,6 +250,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     variant.material = material.parameters.index();
     variant.double_sided = material.surface.double_sided;
     variant.outputs = outputs;
+    variant.translucent = node.translucent;
     const auto textures = [&](const auto& parameters) {
         variant.map = parameters.map != nullptr && node.mesh->uvs() != nullptr;
         variant.vertex_colors = parameters.vertex_colors && node.mesh->colors() != nullptr;
@@ -304,7 +260,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
         variant.cube = basic->cubemap.index() != 0;
     } else if (const auto* phong = std::get_if<PhongParameters>(&material.parameters)) {
         textures(*phong);
-        variant.lights = light_count_ <= unrolled_lights ? static_cast<int>(light_count_) : -1;
+        variant.lights = light_count_ <= flat_lights ? static_cast<int>(light_count_) : -1;
         variant.decay = light_decay_;
     } else if (const auto* mirror = std::get_if<MirrorParameters>(&material.parameters)) {
         variant.fresnel = mirror->fresnel.has_value();

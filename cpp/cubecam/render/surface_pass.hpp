@@ -75,9 +75,6 @@ private:
     void draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror,
                     bool outputs, Stats& stats);
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
-    /// Clears all layers, or one view's.
-    void clear(const PassInput& input, Target& target, Layers& layers,
-               std::optional<std::size_t> view, bool color, bool outputs);
     bool use_layers(const PassInput& input, const Prepared& prepared) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
     void upload_lights(std::span<const LightValue> lights);
@@ -89,6 +86,7 @@ private:
     Layering layering_;
     gl::Texture black_;
     gl::Buffer instances_, blocks_, lights_;
+    glm::vec3 ambient_{1.0F};
     std::size_t light_count_ = 0;
     bool light_decay_ = false;
 };

@@ -1,0 +1,63 @@
+#include "cubecam/render/clear.hpp"
+
+#include <limits>
+
+namespace cubecam {
+namespace {
+
+constexpr GLint no_id[4] = {0, 0, 0, 0};
+constexpr float far_depth = 0.0F;  // depth is reversed
+
+/// Calls `put(slot, four floats)` for colour and every output that holds floats.
+template <class Put>
+void for_each_float(const Target& target, const ClearValues& values, Put&& put) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+    if (values.with_color) put(Slot::color, values.color);
+    if (!values.with_outputs) return;
+    const Outputs& outputs = target.description().outputs;
+    if (outputs.distance) put(Slot::distance, glm::vec4(infinity));
+    if (outputs.z) put(Slot::z, glm::vec4(infinity));
+    if (outputs.normal) put(Slot::normal, glm::vec4(0.0F));
+    if (outputs.position) put(Slot::position, glm::vec4(nan));
+}
+
+bool clears_id(const Target& target, const ClearValues& values) {
+    return values.with_outputs && target.description().outputs.id;
+}
+
+}  // namespace
+
+void clear_bound(const GladGLContext& gl, const Target& target, const ClearValues& values) {
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.DepthMask(GL_TRUE);
+    for_each_float(target, values, [&gl](Slot slot, const glm::vec4& value) {
+        gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(slot), &value.x);
+    });
+    if (clears_id(target, values)) {
+        gl.ClearBufferiv(GL_COLOR, static_cast<GLint>(Slot::id), no_id);
+    }
+    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+}
+
+void clear_layers(const GladGLContext& gl, const Target& target,
+                  std::span<const std::size_t> layers, const ClearValues& values) {
+    const TargetDescription& d = target.description();
+    for (const std::size_t layer : layers) {
+        const auto clear = [&](const gl::Texture& texture, GLenum format, GLenum type,
+                               const void* value) {
+            gl.ClearTexSubImage(texture.id(), 0, 0, 0, static_cast<GLint>(layer), d.width, d.height,
+                                1, format, type, value);
+        };
+        for_each_float(target, values, [&](Slot slot, const glm::vec4& value) {
+            const bool color = slot == Slot::color;
+            clear(color ? target.color() : target.output(slot), GL_RGBA, GL_FLOAT, &value.x);
+        });
+        if (clears_id(target, values)) {
+            clear(target.output(Slot::id), GL_RED_INTEGER, GL_INT, no_id);
+        }
+        clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far_depth);
+    }
+}
+
+}  // namespace cubecam
