@@ -121,9 +121,10 @@ void Call::find_work(std::size_t index, std::vector<std::vector<std::size_t>>& n
     work.due = count_and_decide(probe, work);
     if (!work.due) return;  // it shows what it holds, and needs nothing
     work.views = cube_views(probe.position, probe.value.near, probe.value.far);
-    work.plan = make_plan(scene_, work.views, [&](const NodeSnapshot& node) {
-        return node.in_probes && !uses(node, index) && !is_excluded(node, probe.excluded);
-    });
+    work.plan = make_plan(
+        scene_, work.views, probe.value.size, probe.value.size, [&](const NodeSnapshot& node) {
+            return node.in_probes && !uses(node, index) && !is_excluded(node, probe.excluded);
+        });
     needs[index] = probes_of(work.plan);
 }
 
@@ -177,8 +178,9 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     ++stats.probes_updated;
 }
 
-std::vector<Key> Call::keys_of(std::span<const View> views, const DrawPlan& plan,
-                               const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode) {
+std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPlan& plan,
+                                      const std::vector<Lookup>& lookups, Tonemap tonemap,
+                                      Encode encode) {
     Key common;
     common.add(tonemap);
     common.add(encode);
@@ -188,25 +190,28 @@ std::vector<Key> Call::keys_of(std::span<const View> views, const DrawPlan& plan
     common.add(scene_.lights.size());
     for (const LightValue& light : scene_.lights) add_light(common, light);
 
-    std::vector<Key> keys(views.size(), common);
+    std::vector<PictureKey> keys(views.size());
     for (std::size_t v = 0; v < views.size(); ++v) {
         const View& view = views[v];
-        keys[v].add(view.view);
-        keys[v].add(view.view_projection);
-        keys[v].add(view.position);
-        keys[v].add(view.eye);
-        keys[v].add(view.near);
+        Key& key = keys[v].common;
+        key = common;
+        key.add(view.view);
+        key.add(view.view_projection);
+        key.add(view.position);
+        key.add(view.eye);
+        key.add(view.near);
     }
     for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
         for (const PlannedNode& planned : *nodes) {
             const NodeSnapshot& node = scene_.nodes[planned.node];
             Key key;
-            key.add(node.id);
             key.add(node.world);
             key.add(node.mesh->revision());
             key.add(node.material.revision);
             key.add(lookups[planned.node].revision);
-            for (const std::size_t v : planned.views) keys[v].add(key);
+            for (const PlannedNode::Sight& sight : planned.sights) {
+                keys[sight.view].nodes.push_back({node.id, key, sight.bounds});
+            }
         }
     }
     return keys;
@@ -215,41 +220,44 @@ std::vector<Key> Call::keys_of(std::span<const View> views, const DrawPlan& plan
 std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
                                const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode,
                                std::optional<Budget> budget) {
-    std::vector<Key> keys = keys_of(views, plan, lookups, tonemap, encode);
-    std::vector<bool> wanted(views.size(), false);
+    std::vector<PictureKey> keys = keys_of(views, plan, lookups, tonemap, encode);
+    const Rect whole{0, 0, target.description().width, target.description().height};
+    std::vector<std::vector<Rect>> damaged(views.size());
     std::size_t count = 0;
     std::size_t last = 0;
     const std::size_t first = budget ? budget->first : 0;
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::size_t v = (first + i) % views.size();
-        if (target.keys[v] == keys[v] || (budget && count == budget->faces)) {
+        if (!budget || count < budget->faces) damaged[v] = damage(target.keys[v], keys[v], whole);
+        if (damaged[v].empty()) {
             ++stats.views_skipped;
             continue;
         }
-        wanted[v] = true;
         last = i + 1;
         ++count;
     }
     if (count == 0) return 0;
     stats.views_drawn += static_cast<std::int64_t>(count);
 
-    // Until they are drawn, these layers hold nothing that can be trusted.
+    std::vector<Region> regions;
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (wanted[v]) target.keys[v].reset();
+        for (const Rect& rect : damaged[v]) regions.push_back({v, rect});
+        // Until they are drawn, these layers hold nothing that can be trusted.
+        if (!damaged[v].empty()) target.keys[v].reset();
     }
     const Lookup sky = background_lookup();
     const auto* color = std::get_if<glm::vec4>(&scene_.background);
-    gpu_.surface.draw({scene_, views, plan, wanted,
+    gpu_.surface.draw({scene_, views, plan, std::move(regions),
                        color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
                        [&lookups](std::size_t node) { return lookups[node].texture; }},
                       target, stats);
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (wanted[v] && target.multisampled()) target.resolve(static_cast<int>(v));
+        if (!damaged[v].empty() && target.multisampled()) target.resolve(static_cast<int>(v));
     }
     if (target.description().graded) grade(target, tonemap, encode);
     gl::check_gl(gpu_.context.gl(), "finishing a picture");
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (wanted[v]) target.keys[v] = std::move(keys[v]);
+        if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
     }
     return budget ? last : count;
 }
@@ -271,7 +279,8 @@ void Call::grade(Target& target, Tonemap tonemap, Encode encode) {
 void Call::draw(std::span<const View> views, Target& target,
                 const std::function<bool(const NodeSnapshot&)>& wanted, Tonemap tonemap,
                 Encode encode) {
-    const DrawPlan plan = make_plan(scene_, views, wanted);
+    const DrawPlan plan =
+        make_plan(scene_, views, target.description().width, target.description().height, wanted);
     update_probes(probes_of(plan));
     draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), tonemap, encode,
                  std::nullopt);

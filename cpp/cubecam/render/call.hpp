@@ -72,8 +72,9 @@ private:
                              std::optional<Budget> budget);
     std::vector<Lookup> look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe,
                                     const ProbeOrder* order);
-    std::vector<Key> keys_of(std::span<const View> views, const DrawPlan& plan,
-                             const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode);
+    std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
+                                    const std::vector<Lookup>& lookups, Tonemap tonemap,
+                                    Encode encode);
     void grade(Target& target, Tonemap tonemap, Encode encode);
     Lookup background_lookup();
 

@@ -40,24 +40,21 @@ void clear_bound(const GladGLContext& gl, const Target& target, const ClearValue
     gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
 }
 
-void clear_layers(const GladGLContext& gl, const Target& target,
-                  std::span<const std::size_t> layers, const ClearValues& values) {
-    const TargetDescription& d = target.description();
-    for (const std::size_t layer : layers) {
-        const auto clear = [&](const gl::Texture& texture, GLenum format, GLenum type,
-                               const void* value) {
-            gl.ClearTexSubImage(texture.id(), 0, 0, 0, static_cast<GLint>(layer), d.width, d.height,
-                                1, format, type, value);
-        };
-        for_each_float(target, values, [&](Slot slot, const glm::vec4& value) {
-            const bool color = slot == Slot::color;
-            clear(color ? target.color() : target.output(slot), GL_RGBA, GL_FLOAT, &value.x);
-        });
-        if (clears_id(target, values)) {
-            clear(target.output(Slot::id), GL_RED_INTEGER, GL_INT, no_id);
-        }
-        clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far_depth);
+void clear_layer(const GladGLContext& gl, const Target& target, int layer, const Rect& rect,
+                 const ClearValues& values) {
+    const auto clear = [&](const gl::Texture& texture, GLenum format, GLenum type,
+                           const void* value) {
+        gl.ClearTexSubImage(texture.id(), 0, rect.x0, rect.y0, layer, rect.width(), rect.height(),
+                            1, format, type, value);
+    };
+    for_each_float(target, values, [&](Slot slot, const glm::vec4& value) {
+        const bool color = slot == Slot::color;
+        clear(color ? target.color() : target.output(slot), GL_RGBA, GL_FLOAT, &value.x);
+    });
+    if (clears_id(target, values)) {
+        clear(target.output(Slot::id), GL_RED_INTEGER, GL_INT, no_id);
     }
+    clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far_depth);
 }
 
 }  // namespace cubecam

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "cubecam/render/target.hpp"
 
 namespace cubecam {
@@ -14,15 +12,16 @@ struct ClearValues {
     bool with_outputs;  ///< and what the target has of outputs
 };
 
-/// Clears the framebuffer that is bound, all of its layers.
+/// Clears the framebuffer that is bound, all of its layers, within the scissor.
 ///
-/// Not by glClearNamedFramebuffer, which binds and puts back: on llvmpipe each binding ends a scene,
-/// and the third waits until the first is drawn.
+/// Not by glClearNamedFramebuffer, which binds and puts back: on llvmpipe each binding ends a
+/// scene, and the third waits until the first is drawn.
 void clear_bound(const GladGLContext& gl, const Target& target, const ClearValues& values);
 
-/// Clears some layers of a cube without multisampling, by glClearTexSubImage: on llvmpipe in a sixth
-/// of glClear's time. It waits for what is being drawn into them, so it comes before all drawing.
-void clear_layers(const GladGLContext& gl, const Target& target,
-                  std::span<const std::size_t> layers, const ClearValues& values);
+/// Clears a part of one layer of a cube without multisampling, by glClearTexSubImage: on llvmpipe
+/// in a sixth of glClear's time. It waits for what is being drawn there, so it comes before all
+/// drawing.
+void clear_layer(const GladGLContext& gl, const Target& target, int layer, const Rect& rect,
+                 const ClearValues& values);
 
 }  // namespace cubecam

@@ -20,7 +20,8 @@ glm::mat4 normal_matrix(const glm::dmat4& world) {
     return glm::mat4(glm::mat3(inverse_transpose / largest));
 }
 
-/// Each writes what shaders/<material>.glsl reads. Factors that no texture changes are multiplied here, once.
+/// Each writes what shaders/<material>.glsl reads. Factors that no texture changes are multiplied
+/// here, once.
 void fill(DrawBlock& block, const BasicParameters& p, const glm::vec3&) {
     block.material[0] = p.color;
     block.alpha = p.color.a;
@@ -52,7 +53,8 @@ DrawBlock make_draw_block(const NodeSnapshot& node, const glm::vec3& ambient) {
     block.normal_matrix = normal_matrix(node.world);
     block.node_id = node.id;
     const MaterialValue& material = node.material.value;
-    std::visit([&](const auto& parameters) { fill(block, parameters, ambient); }, material.parameters);
+    std::visit([&](const auto& parameters) { fill(block, parameters, ambient); },
+               material.parameters);
     block.alpha *= material.surface.opacity;
     return block;
 }

@@ -19,7 +19,8 @@ struct DrawBlock {
 };
 static_assert(sizeof(DrawBlock) == 176);
 
-/// `ambient` is what falls on everything: 1, the model's own ambient light, plus the scene's ambient lights.
+/// `ambient` is what falls on everything: 1, the model's own ambient light, plus the scene's
+/// ambient lights.
 DrawBlock make_draw_block(const NodeSnapshot& node, const glm::vec3& ambient);
 
 }  // namespace cubecam

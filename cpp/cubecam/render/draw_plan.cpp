@@ -1,6 +1,7 @@
 #include "cubecam/render/draw_plan.hpp"
 
 #include "cubecam/math/frustum.hpp"
+#include "cubecam/render/screen_bounds.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -26,7 +27,7 @@ bool same_order(const View& a, const View& b) {
 
 }  // namespace
 
-DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views,
+DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
                    const std::function<bool(const NodeSnapshot&)>& wanted) {
     std::vector<Seen> opaque;
     std::vector<PlannedNode> translucent;
@@ -36,10 +37,11 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views,
         PlannedNode planned{index, {}};
         for (std::size_t v = 0; v < views.size(); ++v) {
             if (may_show(views[v].view_projection, node.world_bounds.low, node.world_bounds.high)) {
-                planned.views.push_back(v);
+                planned.sights.push_back(
+                    {v, screen_bounds(views[v], node.world_bounds, width, height)});
             }
         }
-        if (planned.views.empty()) continue;
+        if (planned.sights.empty()) continue;
         if (node.translucent) {
             translucent.push_back(std::move(planned));
             continue;
@@ -66,10 +68,10 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views,
         std::vector<Seen> sequence;
         for (const PlannedNode& planned : translucent) {
             PlannedNode part{planned.node, {}};
-            for (const std::size_t v : planned.views) {
-                if (same_order(views[first], views[v])) part.views.push_back(v);
+            for (const PlannedNode::Sight& sight : planned.sights) {
+                if (same_order(views[first], views[sight.view])) part.sights.push_back(sight);
             }
-            if (part.views.empty()) continue;
+            if (part.sights.empty()) continue;
             const glm::dvec3 centre = scene.nodes[planned.node].world_bounds.centre();
             sequence.push_back({std::move(part), distance_to(views[first], centre)});
         }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/math/rect.hpp"
 #include "cubecam/render/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
@@ -10,10 +11,14 @@
 
 namespace cubecam {
 
-/// One node and the views that may see it (indices into the views planned for, ascending).
+/// One node and the views that may see it.
 struct PlannedNode {
-    std::size_t node;  ///< index into SceneSnapshot::nodes
-    std::vector<std::size_t> views;
+    struct Sight {
+        std::size_t view;  ///< index into the views planned for
+        Rect bounds;       ///< the pixels it can touch there
+    };
+    std::size_t node;           ///< index into SceneSnapshot::nodes
+    std::vector<Sight> sights;  ///< by view, ascending
 };
 
 /// What is drawn, in order: opaque nodes near to far, then translucent ones far to near.
@@ -24,9 +29,9 @@ struct DrawPlan {
     std::vector<PlannedNode> translucent;
 };
 
-/// Culls every node that `wanted` lets through against every view and sorts what is left, ties by
-/// id: the order depends on the scene alone.
-DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views,
+/// For pictures of `width` x `height`: culls every node that `wanted` lets through against every
+/// view and sorts what is left, ties by id: the order depends on the scene alone.
+DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
                    const std::function<bool(const NodeSnapshot&)>& wanted);
 
 }  // namespace cubecam

@@ -99,17 +99,16 @@ void SurfacePass::upload_lights(std::span<const LightValue> lights) {
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, lights_binding, lights_.id());
 }
 
+void SurfacePass::set_scissor(const Rect& rect) {
+    gl_->Scissor(rect.x0, rect.y0, rect.width(), rect.height());
+}
+
 SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
     Prepared prepared;
-    for (std::size_t v = 0; v < input.wanted.size(); ++v) {
-        if (input.wanted[v]) prepared.wanted.push_back(v);
-    }
-
-    std::vector<Instance> matrices;
-    matrices.reserve(input.views.size());
-    for (std::size_t v = 0; v < input.views.size(); ++v) {
-        matrices.push_back(
-            make_instance(input.views[v], reverse_depth(input.views[v].view_projection), v));
+    std::vector<Instance> views;  // of each region
+    for (const Region& region : input.regions) {
+        const View& view = input.views[region.view];
+        views.push_back(make_instance(view, reverse_depth(view.view_projection), region.view));
     }
 
     const auto alignment =
@@ -126,12 +125,16 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                       static_cast<GLuint>(instances.size()),
                       static_cast<GLintptr>(blocks.size()),
                       0};
-            for (const std::size_t v : planned.views) {
-                if (!input.wanted[v]) continue;
-                item.views.push_back(v);
-                instances.push_back(matrices[v]);
+            auto sight = planned.sights.begin();
+            for (std::size_t r = 0; r < input.regions.size(); ++r) {
+                const Region& region = input.regions[r];
+                while (sight != planned.sights.end() && sight->view < region.view) ++sight;
+                if (sight == planned.sights.end()) break;
+                if (sight->view != region.view || !sight->bounds.overlaps(region.rect)) continue;
+                item.regions.push_back(r);
+                instances.push_back(views[r]);
             }
-            if (item.views.empty()) continue;
+            if (item.regions.empty()) continue;
             item.mesh = &cache_->mesh(node.mesh);
             item.cube = input.cube_of(planned.node);
             const DrawBlock block = make_draw_block(node, ambient_);
@@ -145,8 +148,9 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 
     prepared.first_skybox = static_cast<GLuint>(instances.size());
     if (std::holds_alternative<GLuint>(input.background)) {
-        for (const std::size_t v : prepared.wanted) {
-            instances.push_back(make_instance(input.views[v], input.views[v].far_to_world, v));
+        for (const Region& region : input.regions) {
+            const View& view = input.views[region.view];
+            instances.push_back(make_instance(view, view.far_to_world, region.view));
         }
     }
     // New buffers instead of rewriting the old: the GPU may still read those.
@@ -156,15 +160,21 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 }
 
 void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
+    const TargetDescription& description = target.description();
+    const Rect whole{0, 0, description.width, description.height};
     upload_lights(input.scene.lights);
     const Prepared prepared = prepare(input);
-    gl_->Viewport(0, 0, target.description().width, target.description().height);
-    const bool outputs = target.description().outputs.any();
+    gl_->Viewport(0, 0, description.width, description.height);
+    // Never off: how pixels come out may not hang on the rectangle, but may on the test itself
+    // (GL 4.6 appendix A.3, rule 2).
+    gl_->Enable(GL_SCISSOR_TEST);
+    const bool outputs = description.outputs.any();
     draw_layers(input, prepared, target, target.color_pass(), true,
                 outputs && !target.multisampled(), stats);
     if (outputs && target.multisampled()) {
         draw_layers(input, prepared, target, target.output_pass(), false, true, stats);
     }
+    set_scissor(whole);  // resolving and grading obey it, too
     gl::check_gl(*gl_, "drawing a scene");
 }
 
@@ -173,58 +183,71 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     const auto* plain = std::get_if<glm::vec4>(&input.background);
     const ClearValues values{plain != nullptr ? *plain : glm::vec4(0.0F), color, outputs};
     const bool by_texture = target.description().cube && !(color && target.multisampled());
-    if (by_texture) clear_layers(*gl_, target, prepared.wanted, values);
-    const auto bind = [&](std::size_t view) {
-        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.one(static_cast<int>(view)));
+    if (by_texture) {
+        for (const Region& region : input.regions) {
+            clear_layer(*gl_, target, static_cast<int>(region.view), region.rect, values);
+        }
+    }
+    const auto bind = [&](const Region& region) {
+        gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.one(static_cast<int>(region.view)));
+        set_scissor(region.rect);
+        if (!by_texture) clear_bound(*gl_, target, values);
     };
 
-    if (!use_layers(input, prepared)) {
-        for (const std::size_t v : prepared.wanted) {
-            bind(v);
-            if (!by_texture) clear_bound(*gl_, target, values);
-            draw_all(input, prepared, v, color, outputs, stats);
+    const Rect whole{0, 0, target.description().width, target.description().height};
+    if (!use_layers(input, prepared, whole)) {
+        for (std::size_t r = 0; r < input.regions.size(); ++r) {
+            bind(input.regions[r]);
+            draw_all(input, prepared, r, color, outputs, stats);
         }
         return;
     }
-    const bool all = prepared.wanted.size() == input.views.size();
-    for (const std::size_t v : prepared.wanted) {
-        if (by_texture || all) break;
-        bind(v);
-        clear_bound(*gl_, target, values);
+    const bool all = input.regions.size() == input.views.size();
+    if (!all && !by_texture) {
+        for (const Region& region : input.regions) bind(region);
     }
     gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
-    if (!by_texture && all) clear_bound(*gl_, target, values);
+    set_scissor(whole);
+    if (all && !by_texture) clear_bound(*gl_, target, values);
     draw_all(input, prepared, std::nullopt, color, outputs, stats);
 }
 
-bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared) const {
+bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
+                             const Rect& whole) const {
     if (layering_ == Layering::never) return false;
-    // One winding serves all layers of a call, so views of both kinds are drawn one by one.
+    // One scissor serves all layers, and one winding: other pictures are drawn one by one. (A
+    // viewport for each region would do, but llvmpipe then transforms vertices by slower code that
+    // rounds otherwise.)
+    const bool one_scissor =
+        std::all_of(input.regions.begin(), input.regions.end(),
+                    [&whole](const Region& region) { return region.rect == whole; });
     const bool one_winding =
-        std::all_of(prepared.wanted.begin(), prepared.wanted.end(), [&](std::size_t v) {
-            return mirrored(input.views[v]) == mirrored(input.views[prepared.wanted.front()]);
+        std::all_of(input.regions.begin(), input.regions.end(), [&](const Region& region) {
+            return mirrored(input.views[region.view]) ==
+                   mirrored(input.views[input.regions.front().view]);
         });
-    if (!one_winding || layering_ == Layering::always) return one_winding;
+    if (!one_winding || !one_scissor) return false;
+    if (layering_ == Layering::always) return true;
     if (!context_->software()) return true;
     // llvmpipe sets all layers' triangles up before it fills the first pixel, on one thread. Layer
     // by layer, it fills one while it sets the next up: from some ten thousand triangles on that
     // wins (docs/adr/0002).
     std::size_t triangles = 0;
     for (const Item& item : prepared.opaque) {
-        triangles += static_cast<std::size_t>(item.mesh->index_count / 3) * item.views.size();
+        triangles += static_cast<std::size_t>(item.mesh->index_count / 3) * item.regions.size();
     }
     return triangles < many_triangles;
 }
 
 void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
-                           std::optional<std::size_t> view, bool color, bool outputs,
+                           std::optional<std::size_t> region, bool color, bool outputs,
                            Stats& stats) {
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_GREATER);
     gl_->DepthMask(GL_TRUE);
     gl_->Disable(GL_BLEND);
-    const bool mirror = mirrored(input.views[view.value_or(prepared.wanted.front())]);
-    draw_items(prepared.opaque, view, mirror, outputs, stats);
+    const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
+    draw_items(prepared.opaque, region, mirror, outputs, stats);
     if (!color) return;  // neither the background nor anything translucent writes the outputs
 
     for (int slot = 1; slot < slot_count; ++slot) {
@@ -232,14 +255,11 @@ void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
     }
     gl_->DepthMask(GL_FALSE);
     if (const auto* cube = std::get_if<GLuint>(&input.background)) {
-        const auto& wanted = prepared.wanted;
-        const auto place =
-            view ? std::lower_bound(wanted.begin(), wanted.end(), *view) - wanted.begin() : 0;
-        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(place),
-                    view ? 1 : wanted.size(), stats);
+        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(region.value_or(0)),
+                    region ? 1 : input.regions.size(), stats);
     }
     gl_->Enablei(GL_BLEND, 0);
-    draw_items(prepared.translucent, view, mirror, false, stats);
+    draw_items(prepared.translucent, region, mirror, false, stats);
     gl_->Disablei(GL_BLEND, 0);
     gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
@@ -270,16 +290,16 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     return variant;
 }
 
-void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> view,
+void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> region,
                              bool mirror, bool outputs, Stats& stats) {
     const gl::Program* bound = nullptr;
     for (const Item& item : items) {
         GLuint first = item.first_instance;
-        auto count = static_cast<GLsizei>(item.views.size());
-        if (view) {
-            const auto place = std::lower_bound(item.views.begin(), item.views.end(), *view);
-            if (place == item.views.end() || *place != *view) continue;
-            first += static_cast<GLuint>(place - item.views.begin());
+        auto count = static_cast<GLsizei>(item.regions.size());
+        if (region) {
+            const auto place = std::lower_bound(item.regions.begin(), item.regions.end(), *region);
+            if (place == item.regions.end() || *place != *region) continue;
+            first += static_cast<GLuint>(place - item.regions.begin());
             count = 1;
         }
         const MaterialValue& material = item.node->material.value;

@@ -20,12 +20,18 @@ namespace cubecam {
 /// What is behind everything: a colour, or a cube texture drawn as skybox.
 using BackgroundSource = std::variant<glm::vec4, GLuint>;
 
+/// A part of a view's picture that is drawn.
+struct Region {
+    std::size_t view;
+    Rect rect;
+};
+
 /// One set of pictures to draw.
 struct PassInput {
     const SceneSnapshot& scene;
     std::span<const View> views;  ///< view i goes to layer i
     const DrawPlan& plan;
-    std::vector<bool> wanted;  ///< which views; the layers of the others stay as they are
+    std::vector<Region> regions;  ///< by view, ascending; all other pixels stay as they are
     BackgroundSource background;
     std::function<GLuint(std::size_t node)> cube_of;  ///< the cube texture a node looks up; 0: none
 };
@@ -48,34 +54,33 @@ public:
     Programs& programs() { return programs_; }
 
 private:
-    /// A planned node with its records: `first` is its first view's, `blocks` its uniform block's
-    /// offset.
+    /// A planned node and the regions it shows in.
     struct Item {
         const NodeSnapshot* node;
         const GpuMesh* mesh;
-        std::vector<std::size_t> views;
-        GLuint first_instance;
-        GLintptr block;
+        std::vector<std::size_t> regions;  ///< indices into PassInput::regions, ascending
+        GLuint first_instance;             ///< record of the first of them
+        GLintptr block;                    ///< offset of its uniform block
         GLuint cube;
     };
 
     struct Prepared {
         std::vector<Item> opaque;
         std::vector<Item> translucent;
-        GLuint first_skybox = 0;  ///< instance of the skybox in the first wanted view
-        std::vector<std::size_t> wanted;
+        GLuint first_skybox = 0;  ///< record of the skybox in the first region
     };
 
     Prepared prepare(const PassInput& input);
     void draw_layers(const PassInput& input, const Prepared& prepared, Target& target,
                      Layers& layers, bool color, bool outputs, Stats& stats);
-    /// Draws everything into the bound framebuffer, for all wanted views or only for `view`.
-    void draw_all(const PassInput& input, const Prepared& prepared, std::optional<std::size_t> view,
-                  bool color, bool outputs, Stats& stats);
-    void draw_items(std::span<const Item> items, std::optional<std::size_t> view, bool mirror,
+    /// Draws everything into the bound framebuffer, in all regions or only in one.
+    void draw_all(const PassInput& input, const Prepared& prepared,
+                  std::optional<std::size_t> region, bool color, bool outputs, Stats& stats);
+    void draw_items(std::span<const Item> items, std::optional<std::size_t> region, bool mirror,
                     bool outputs, Stats& stats);
+    void set_scissor(const Rect& rect);
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
-    bool use_layers(const PassInput& input, const Prepared& prepared) const;
+    bool use_layers(const PassInput& input, const Prepared& prepared, const Rect& whole) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
     void upload_lights(std::span<const LightValue> lights);
 

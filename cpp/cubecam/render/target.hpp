@@ -2,8 +2,8 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/objects.hpp"
-#include "cubecam/render/key.hpp"
 #include "cubecam/render/options.hpp"
+#include "cubecam/render/picture_key.hpp"
 
 #include <compare>
 #include <cstddef>
@@ -94,7 +94,7 @@ public:
     void resolve(int layer);
 
     /// The key of what each layer holds; nothing: not to be trusted.
-    std::vector<std::optional<Key>> keys;
+    std::vector<std::optional<PictureKey>> keys;
 
 private:
     gl::Texture make_texture(const gl::Context& context, GLenum format, int levels) const;

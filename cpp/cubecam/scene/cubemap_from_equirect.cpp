@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numbers>
@@ -96,7 +97,9 @@ public:
         center_azimuth_ = std::atan2(forward.x, forward.z);
     }
 
-    void run() const {
+    /// Whether all numbers came out finite.
+    bool run() const {
+        std::atomic<bool> numbers{true};
         // Tiles of one quarter of a face, and with each tile its mirror images, which share its
         // angles.
         const int half = (size_ + 1) / 2;
@@ -105,6 +108,7 @@ public:
         const int side_tiles = across * down;
         const int tiles = side_tiles + across * across;
         const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+            scratch.numbers = true;
             for (int tile = static_cast<int>(begin); tile < static_cast<int>(end); ++tile) {
                 if (tile < side_tiles) {
                     sides(tile / across * tile_size, tile % across * tile_size, half, scratch);
@@ -113,8 +117,10 @@ public:
                     poles(pole / across * tile_size, pole % across * tile_size, half, scratch);
                 }
             }
+            if (!scratch.numbers) numbers = false;
         };
         parallel_for_with<Scratch>(0, static_cast<std::size_t>(tiles), 1, fill);
+        return numbers;
     }
 
 private:
@@ -127,6 +133,8 @@ private:
         SourceBlock<Channels> block;
         Buffer<double> angles;
         Buffer<BoxWidth> widths;
+        Lane<Channels> line[tile_size];
+        bool numbers;
     };
 
     /// Of a texel's centre: -1 to 1 across the face.
@@ -164,6 +172,11 @@ private:
                          BoxWidth(texel_ / (secant * square) * source_.rows / pi));
             }
         }
+        const Reach reach = reach_of(down.widest());
+        const auto read = [&](int row, int begin, int end, Lane<Channels>* to) {
+            source_.read(row, begin, end, to);
+        };
+        bool first = true;
         for (const Face face : {Face::pos_x, Face::neg_x, Face::pos_z, Face::neg_z}) {
             const glm::dvec3 major = face_axes(face).major;
             const glm::dvec3 s_axis = face_axes(face).s_axis;
@@ -177,23 +190,21 @@ private:
                     across.set(static_cast<std::size_t>(j), source_.column_of(middle + turn),
                                BoxWidth(texel_ / (1 + a * a) * source_.period / (2 * pi)));
                 }
-                filtered.filter(down.range, across,
-                                [&](int row, int begin, int end, Lane<Channels>* to) {
-                                    source_.read(row, begin, end, to);
-                                });
-                with_reach(reach_of(down.widest), [&](auto reach) {
-                    std::size_t tap = 0;
-                    for (int i = 0; i < rows; ++i) {
-                        float* to = target(face, row_begin + i,
-                                           mirrored ? size_ - 1 - column_begin : column_begin);
-                        for (int j = 0; j < columns; ++j, ++tap) {
-                            store_texel<Channels>(filtered.template at<reach()>(
-                                                      down[tap], static_cast<std::size_t>(j)),
-                                                  to);
-                            to += mirrored ? -Channels : Channels;
-                        }
-                    }
-                });
+                if (first) {
+                    filtered.fill(down, across, read);
+                } else {
+                    filtered.refill(across, read);
+                }
+                first = false;
+                const int at_column = mirrored ? size_ - 1 - column_begin : column_begin;
+                for (int i = 0; i < rows; ++i) {
+                    const auto count = static_cast<std::size_t>(columns);
+                    filtered.filter(reach, down, static_cast<std::size_t>(i) * count, 0, count,
+                                    scratch.line);
+                    scratch.numbers &=
+                        store_texels<Channels>(scratch.line, count, mirrored ? -1 : 1,
+                                               target(face, row_begin + i, at_column));
+                }
             }
         }
     }
@@ -242,35 +253,51 @@ private:
                                widths[i]);
                 }
                 for (const Face face : {Face::pos_y, Face::neg_y}) {
-                    const TapList& down = face == Face::pos_y ? north : south;
-                    const bool copied = down.range.size() * across.range.size() <= largest_block;
+                    TapList& down = face == Face::pos_y ? north : south;
+                    const bool copied =
+                        down.range().size() * across.range().size() <= largest_block;
                     if (copied) {
-                        block.fill(down.range, across.range,
+                        block.fill(down, across,
                                    [&](int row, int begin, int end, Lane<Channels>* to) {
                                        source_.read(row, begin, end, to);
                                    });
                     }
                     // x grows with the column; z with the row on +Y, against it on -Y.
                     const bool last_rows = positive_z == (face == Face::pos_y);
-                    std::size_t i = 0;
-                    for (int row = row_begin; row < row_begin + rows; ++row) {
-                        for (int column = column_begin; column < column_begin + columns;
-                             ++column, ++i) {
-                            float* to = target(face, last_rows ? size_ - 1 - row : row,
-                                               positive_x ? size_ - 1 - column : column);
-                            if (!copied) {
-                                store_texel<Channels>(source_.box(down[i], across[i]), to);
-                                continue;
+                    const int at_column = positive_x ? size_ - 1 - column_begin : column_begin;
+                    for (int i = 0; i < rows; ++i) {
+                        const int row = row_begin + i;
+                        const std::size_t begin = static_cast<std::size_t>(i * columns);
+                        const std::size_t end = begin + static_cast<std::size_t>(columns);
+                        if (copied) {
+                            filter_runs(block, down, across, widths, begin, end, scratch.line);
+                        } else {
+                            for (std::size_t k = begin; k < end; ++k) {
+                                scratch.line[k - begin] = source_.box(down[k], across[k]);
                             }
-                            const double widest = std::max(widths[i].texels, down.widest);
-                            with_reach(reach_of(widest), [&](auto reach) {
-                                store_texel<Channels>(
-                                    block.template at<reach()>(down[i], across[i]), to);
-                            });
                         }
+                        scratch.numbers &= store_texels<Channels>(
+                            scratch.line, end - begin, positive_x ? -1 : 1,
+                            target(face, last_rows ? size_ - 1 - row : row, at_column));
                     }
                 }
             }
+        }
+    }
+
+    /// Boxes grow towards the pole: runs of texels that reach equally far.
+    static void filter_runs(const SourceBlock<Channels>& block, const TapList& down,
+                            const TapList& across, const Buffer<BoxWidth>& widths,
+                            std::size_t begin, std::size_t end, Lane<Channels>* to) {
+        const auto reach_at = [&](std::size_t i) {
+            return reach_of(std::max(widths[i].texels, down.widest()));
+        };
+        for (std::size_t i = begin; i < end;) {
+            const Reach reach = reach_at(i);
+            std::size_t until = i + 1;
+            while (until < end && reach_at(until) == reach) ++until;
+            block.filter(reach, down, across, i, until - i, to + (i - begin));
+            i = until;
         }
     }
 
@@ -296,6 +323,29 @@ void check_equirect(const EquirectPixels& from, int size) {
     }
 }
 
+/// A copy in which inf is the largest number there is, or half floats have: inf - inf, which
+/// filters would come to, is NaN. Looked for only where a result was NaN, since most pictures have
+/// none.
+Buffer<float> without_infinities(const float* pixels, std::size_t values,
+                                 const EquirectPixels& from) {
+    float largest = 65504.0f;
+    for (std::size_t i = 0; i < values; ++i) {
+        if (std::isnan(pixels[i])) {
+            const auto channels = static_cast<std::size_t>(from.channels);
+            const auto row = channels * static_cast<std::size_t>(from.width);
+            throw std::invalid_argument(
+                "image: expected no NaN, got nan at [" + std::to_string(i / row) + ", " +
+                std::to_string(i % row / channels) + ", " + std::to_string(i % channels) + "]");
+        }
+        if (!std::isinf(pixels[i])) largest = std::max(largest, std::abs(pixels[i]));
+    }
+    Buffer<float> finite(values);
+    for (std::size_t i = 0; i < values; ++i) {
+        finite[i] = std::isinf(pixels[i]) ? std::copysign(largest, pixels[i]) : pixels[i];
+    }
+    return finite;
+}
+
 }  // namespace
 
 const float* as_floats(DType dtype, const std::byte* pixels, std::size_t count,
@@ -314,23 +364,25 @@ PixelBuffer equirect_to_cube(const EquirectPixels& from, int size) {
     const bool borders = from.sampling == Sampling::borders;
     const auto n = static_cast<std::size_t>(size);
     const auto channels = static_cast<std::size_t>(from.channels);
+    const auto values =
+        static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height) * channels;
     PixelBuffer result;
     with_channels(from.channels, [&](auto constant) {
         constexpr int count = decltype(constant)::value;
         Buffer<float> kept;
-        const float* pixels = as_floats(from.dtype, from.pixels,
-                                        static_cast<std::size_t>(from.width) *
-                                            static_cast<std::size_t>(from.height) * channels,
-                                        kept);
-        const EquirectTexels<count> source = {pixels,
-                                              from.width,
-                                              from.height,
-                                              from.center,
-                                              borders ? from.width - 1 : from.width,
-                                              borders ? 0.0 : -0.5,
-                                              borders ? from.height - 1.0 : from.height};
+        EquirectTexels<count> source = {as_floats(from.dtype, from.pixels, values, kept),
+                                        from.width,
+                                        from.height,
+                                        from.center,
+                                        borders ? from.width - 1 : from.width,
+                                        borders ? 0.0 : -0.5,
+                                        borders ? from.height - 1.0 : from.height};
         result.resize(face_count * n * n * channels * sizeof(float));
-        EquirectToCube<count>(source, size, reinterpret_cast<float*>(result.data())).run();
+        auto* const to = reinterpret_cast<float*>(result.data());
+        if (EquirectToCube<count>(source, size, to).run()) return;
+        const Buffer<float> finite = without_infinities(source.pixels, values, from);
+        source.pixels = finite.data();
+        EquirectToCube<count>(source, size, to).run();
     });
     return result;
 }

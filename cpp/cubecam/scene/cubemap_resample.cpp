@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,8 @@
 namespace cubecam {
 
 namespace {
+
+constexpr int panorama_tile = 64;  ///< whose sources fit a core's own cache
 
 /// One destination column of a panorama, as its side face sees it.
 struct PanoramaColumn {
@@ -33,24 +34,24 @@ public:
                    Sampling sampling, float* to)
         : cube_(cube), width_(width), height_(width / 2), to_(to) {
         const bool borders = sampling == Sampling::borders;
-        const double pi = std::numbers::pi;
+        constexpr double half_turn = std::numbers::pi;
         const double offset = borders ? 0.0 : 0.5;
-        lon_step_ = 2 * pi / (borders ? width_ - 1 : width_);
-        lat_step_ = pi / (borders ? std::max(height_ - 1, 1) : height_);
+        lon_step_ = 2 * half_turn / (borders ? width_ - 1 : width_);
+        lat_step_ = half_turn / (borders ? std::max(height_ - 1, 1) : height_);
         const glm::dvec3 forward = center_forward<double>(center);
         const glm::dvec3 right = center_right<double>(center);
         for (int column = 0; column < width_; ++column) {
-            const double longitude = (column + offset) * lon_step_ - pi;
+            const double longitude = (column + offset) * lon_step_ - half_turn;
             const glm::dvec3 d = std::sin(longitude) * right + std::cos(longitude) * forward;
             columns_.push_back(make_column(d));
         }
         for (int row = 0; row < height_; ++row) {
-            latitudes_.push_back(pi / 2 - (row + offset) * lat_step_);
+            latitudes_.push_back(half_turn / 2 - (row + offset) * lat_step_);
         }
     }
 
     void run() const {
-        constexpr int tile = 64;
+        constexpr int tile = panorama_tile;
         std::vector<std::pair<int, int>> spans;  // of columns that look at one side face
         for (int begin = 0; begin < width_;) {
             int end = begin + 1;
@@ -77,10 +78,8 @@ private:
         TapList down;
         TapList across;
         FilteredRows<Channels> filtered;
+        Lane<Channels> line[panorama_tile];
     };
-
-    /// The `first` of a tap whose texel is on +Y or -Y.
-    static constexpr std::int32_t over_the_edge = std::numeric_limits<std::int32_t>::min();
 
     const PanoramaColumn& column(int index) const {
         return columns_[static_cast<std::size_t>(index)];
@@ -130,40 +129,43 @@ private:
                 const PanoramaColumn& c = column(j);
                 const double height = tangent * c.secant;
                 if (std::abs(height) > 1) {
-                    down.taps[index].first = over_the_edge;
+                    down.set_absent(index);
                 } else {
                     down.set(index, texel_of(-height),
                              BoxWidth(step * c.secant, inverse * c.cosine));
                 }
             }
         }
-        filtered.filter(down.range, across, [&](int row, int from, int to, Lane<Channels>* line) {
+        filtered.fill(down, across, [&](int row, int from, int to, Lane<Channels>* line) {
             read_face_row(cube_, face, row, from, to, line);
         });
-        with_reach(reach_of(down.widest), [&](auto reach) {
-            for (int row = row_begin; row < row_end; ++row) {
-                const BoxTap* taps = &down[static_cast<std::size_t>(row - row_begin) * columns];
-                float* to = target(row, begin);
-                bool poles = false;
-                for (std::size_t j = 0; j < columns; ++j, to += Channels) {
-                    if (taps[j].first == over_the_edge) {
-                        poles = true;
-                    } else {
-                        store_texel<Channels>(filtered.template at<reach()>(taps[j], j), to);
-                    }
+        const Reach reach = reach_of(down.widest());
+        for (int row = row_begin; row < row_end; ++row) {
+            const std::size_t taps = static_cast<std::size_t>(row - row_begin) * columns;
+            for (std::size_t j = 0; j < columns;) {
+                const bool pole = down.absent(taps + j);
+                std::size_t until = j + 1;
+                while (until < columns && down.absent(taps + until) == pole) ++until;
+                const int from = begin + static_cast<int>(j);
+                if (pole) {
+                    fill_pole_run(row, from, begin + static_cast<int>(until));
+                } else {
+                    filtered.filter(reach, down, taps + j, j, until - j, scratch.line);
+                    store_texels<Channels>(scratch.line, until - j, 1, target(row, from));
                 }
-                if (poles) fill_pole_row(row, begin, taps, columns);
+                j = until;
             }
-        });
+        }
     }
 
-    /// The texels of a row that are on +Y or -Y. There the destination's texels are turned against
-    /// the face's, so they are sampled instead: as often each way as they are texels long.
-    void fill_pole_row(int row, int begin, const BoxTap* taps, std::size_t columns) const {
-        const double pi = std::numbers::pi;
+    /// Columns begin..end of a row, which are on +Y or -Y. There the destination's texels are
+    /// turned against the face's, so they are sampled instead: as often each way as they are texels
+    /// long.
+    void fill_pole_run(int row, int begin, int end) const {
+        constexpr double half_turn = std::numbers::pi;
         const bool up = latitude(row) > 0;
         const float y = up ? 1.0f : -1.0f;
-        const double from_pole = pi / 2 - std::abs(latitude(row));
+        const double from_pole = half_turn / 2 - std::abs(latitude(row));
         const double radius = std::tan(from_pole);
         const double half_size = cube_.size / 2.0;
         const int along = samples_for((1 + radius * radius) * lat_step_ * half_size);
@@ -185,9 +187,8 @@ private:
         const auto half_texels = static_cast<float>(half_size);
         const float middle = half_texels - 0.5f;
         const float weight = 1.0f / static_cast<float>(samples.size());
-        for (std::size_t j = 0; j < columns; ++j) {
-            if (taps[j].first != over_the_edge) continue;
-            const PanoramaColumn& c = column(begin + static_cast<int>(j));
+        for (int j = begin; j < end; ++j) {
+            const PanoramaColumn& c = column(j);
             const auto column_x = static_cast<float>(c.x);
             const auto column_z = static_cast<float>(c.z);
             const auto look = [&](const Sample& at) {
@@ -202,7 +203,7 @@ private:
             const Lane<Channels> first = look(samples[0]);
             Lane<Channels> sum{};
             for (std::size_t i = 1; i < samples.size(); ++i) sum += look(samples[i]) - first;
-            store_texel<Channels>(first + sum * weight, target(row, begin + static_cast<int>(j)));
+            store_texel<Channels>(first + sum * weight, target(row, j));
         }
     }
 
@@ -220,19 +221,21 @@ private:
     float* to_;
 };
 
-/// The taps of one axis from faces of n texels to texels begin..end of faces of `size`.
-TapList face_taps(int n, Sampling from, int size, Sampling to, int begin, int end) {
+/// The taps of one axis from faces of n texels to texels begin..end of faces of `size`, each
+/// `times`.
+void face_taps(int n, Sampling from, int size, Sampling to, int begin, int end, std::size_t times,
+               TapList& taps) {
     const double reach = from == Sampling::borders ? n - 1.0 : n;  // texels from edge to edge
     const double offset = from == Sampling::borders ? 0.0 : -0.5;
     const double steps = to == Sampling::borders ? size - 1.0 : size;
     const double start = to == Sampling::borders ? 0.0 : 0.5;
-    TapList taps;
-    taps.resize(static_cast<std::size_t>(end - begin));
+    taps.resize(static_cast<std::size_t>(end - begin) * times);
+    std::size_t index = 0;
     for (int i = begin; i < end; ++i) {
-        taps.set(static_cast<std::size_t>(i - begin), (i + start) / steps * reach + offset,
-                 BoxWidth(reach / steps));
+        for (std::size_t j = 0; j < times; ++j) {
+            taps.set(index++, (i + start) / steps * reach + offset, BoxWidth(reach / steps));
+        }
     }
-    return taps;
 }
 
 void check_face_size(int size, Sampling sampling) {
@@ -278,37 +281,41 @@ PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sam
             as_floats(cube.dtype, cube.pixels->data(), cube.pixels->size() / dtype_size(cube.dtype),
                       kept),
             cube.size};
-        const TapList across = face_taps(cube.size, from, size, to, 0, size);
         const auto n = static_cast<std::size_t>(size);
         result.resize(face_count * n * n * channels * sizeof(float));
         auto* const floats = reinterpret_cast<float*>(result.data());
 
+        struct Scratch {
+            TapList down;
+            TapList across;
+            FilteredRows<channels> filtered;
+            Buffer<Lane<channels>> line;
+        };
         constexpr int band = 32;  // rows of a face at a time
         const int bands = (size + band - 1) / band;
-        parallel_for(
-            0, static_cast<std::size_t>(face_count * bands), 1,
-            [&](std::size_t begin, std::size_t end) {
-                FilteredRows<channels> filtered;
-                for (int i = static_cast<int>(begin); i < static_cast<int>(end); ++i) {
-                    const Face face = static_cast<Face>(i / bands);
-                    const int first = i % bands * band;
-                    const TapList down =
-                        face_taps(cube.size, from, size, to, first, std::min(first + band, size));
-                    filtered.filter(down.range, across,
-                                    [&](int row, int at, int until, Lane<channels>* line) {
-                                        read_face_row(texels, face, row, at, until, line);
-                                    });
-                    float* target =
-                        floats +
-                        (face_index(face) * n + static_cast<std::size_t>(first)) * n * channels;
-                    for (const BoxTap& tap : down.taps) {
-                        for (std::size_t column = 0; column < n; ++column, target += channels) {
-                            store_texel<channels>(filtered.template at<Reach::far>(tap, column),
-                                                  target);
-                        }
-                    }
+        const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+            TapList& down = scratch.down;
+            face_taps(cube.size, from, size, to, 0, size, 1, scratch.across);
+            scratch.line.resize(n);
+            for (std::size_t i = begin; i < end; ++i) {
+                const Face face = all_faces[i / static_cast<std::size_t>(bands)];
+                const int first = static_cast<int>(i) % bands * band;
+                const int last = std::min(first + band, size);
+                face_taps(cube.size, from, size, to, first, last, n, down);
+                scratch.filtered.fill(down, scratch.across,
+                                      [&](int row, int at, int until, Lane<channels>* line) {
+                                          read_face_row(texels, face, row, at, until, line);
+                                      });
+                float* target = floats + (face_index(face) * n + static_cast<std::size_t>(first)) *
+                                             n * channels;
+                for (std::size_t tap = 0; tap < down.size(); tap += n, target += n * channels) {
+                    scratch.filtered.filter(reach_of(down.widest()), down, tap, 0, n,
+                                            scratch.line.data());
+                    store_texels<channels>(scratch.line.data(), n, 1, target);
                 }
-            });
+            }
+        };
+        parallel_for_with<Scratch>(0, static_cast<std::size_t>(face_count * bands), 1, fill);
     });
     return result;
 }

@@ -30,10 +30,12 @@ struct EquirectPixels {
     Sampling sampling = Sampling::centers;
 };
 
-/// float32 [6][size][size][channels], "gl". uint8 counts as value/255.
+/// float32 [6][size][size][channels], "gl". uint8 counts as value/255. All
+/// inf count as the largest other number, at least 65504 (half floats' largest, where most come
+/// from).
 /// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least
-/// 2),
-///         channels is 1, 3 or 4, size at least 1.
+///         2), channels is 1, 3 or 4, size at least 1; or for a NaN
+///         that reaches the result.
 PixelBuffer equirect_to_cube(const EquirectPixels& from, int size);
 
 /// The face size that loses nothing: the next power of two from width / pi.

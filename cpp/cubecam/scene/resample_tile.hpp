@@ -1,16 +1,15 @@
-/// The shared half of resampling between cubes and panoramas: a tile whose columns depend on the
-/// destination's column alone. For the .cpp files of cubemaps only.
+/// What resampling works with, tile by tile: filters as lists of taps, copied and filtered pieces
+/// of the source. For the .cpp files of cubemaps only.
 #pragma once
 
 #include "cubecam/scene/box_filter.hpp"
+#include "cubecam/scene/box_kernels.hpp"
 #include "cubecam/scene/cube_texels.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
-#include <vector>
 
 namespace cubecam {
 
@@ -27,70 +26,59 @@ struct TapRange {
         begin = std::min(begin, tap.first);
         end = std::max(end, tap.end());
     }
-    bool empty() const { return begin >= end; }
-    std::size_t size() const { return empty() ? 0 : static_cast<std::size_t>(end - begin); }
+    std::size_t size() const { return begin < end ? static_cast<std::size_t>(end - begin) : 0; }
 };
 
 /// Taps of a tile, with what they have in common.
-struct TapList {
-    Buffer<BoxTap> taps;
-    TapRange range;
-    double widest = 0;
-
-    void resize(std::size_t count) {
-        taps.resize(count);
-        range = {};
-        widest = 0;
-    }
-    void set(std::size_t index, double center, const BoxWidth& width) {
-        taps[index] = box_tap(center, width);
-        range.include(taps[index]);
-        widest = std::max(widest, width.texels);
-    }
-    const BoxTap& operator[](std::size_t index) const { return taps[index]; }
-};
-
-/// A tile of the source, filtered along rows, then along columns.
-template <int Channels>
-class FilteredRows {
+class TapList {
 public:
-    using Texel = Lane<Channels>;
-
-    /// Source rows `rows`, filtered by `across`. `read(row, begin, end, to)` gives texels
-    /// begin..end of a source row, whatever lies there.
-    template <typename Read>
-    void filter(const TapRange& rows, const TapList& across, const Read& read) {
-        rows_ = rows;
-        columns_ = across.taps.size();
-        line_.resize(across.range.size());
-        texels_.resize(rows.size() * columns_);
-        with_reach(reach_of(across.widest), [&](auto reach) {
-            Texel* to = texels_.data();
-            for (int row = rows.begin; row < rows.end; ++row) {
-                read(row, across.range.begin, across.range.end, line_.data());
-                const Texel* line = line_.data() - across.range.begin;
-                for (const BoxTap& tap : across.taps) {
-                    const Texel* at = line + tap.first;
-                    *to++ = apply_tap<reach()>(tap, [at](int i) { return at[i]; });
-                }
-            }
-        });
+    void resize(std::size_t count) {
+        taps_.resize(count);
+        range_ = {};
+        widest_ = 0;
+        bound_stride_ = 0;
     }
 
-    template <Reach reach>
-    Texel at(const BoxTap& down, std::size_t column) const {
-        const Texel* from =
-            texels_.data() + static_cast<std::size_t>(down.first - rows_.begin) * columns_ + column;
-        const std::size_t stride = columns_;
-        return apply_tap<reach>(
-            down, [from, stride](int i) { return from[static_cast<std::size_t>(i) * stride]; });
+    void set(std::size_t index, double center, const BoxWidth& width) {
+        taps_[index] = box_tap(center, width);
+        range_.include(taps_[index]);
+        widest_ = std::max(widest_, width.texels);
     }
+
+    /// For a texel that is not this tile's to filter.
+    void set_absent(std::size_t index) { taps_[index] = {0, -1, 0, 0}; }
+    bool absent(std::size_t index) const { return taps_[index].inner < 0; }
+
+    const BoxTap& operator[](std::size_t index) const { return taps_[index]; }
+    std::size_t size() const { return taps_.size(); }
+    const TapRange& range() const { return range_; }
+    double widest() const { return widest_; }
+
+    /// For texels that lie `stride` apart, where the list's range begins at 0. `columns`: tap i is
+    /// then for column i % columns, which is one texel further on each. Does nothing a second time.
+    void bind(std::size_t stride, std::size_t columns = 1) {
+        if (stride == bound_stride_) return;
+        bound_stride_ = stride;
+        constexpr auto bytes = static_cast<std::int64_t>(sizeof(Float4));
+        const auto step = static_cast<std::int64_t>(stride) * bytes;
+        bound_.resize(taps_.size());
+        std::size_t column = 0;
+        for (std::size_t i = 0; i < taps_.size(); ++i) {
+            const BoxTap& tap = taps_[i];
+            bound_[i] = {static_cast<std::int32_t>((tap.first - range_.begin) * step +
+                                                   static_cast<std::int64_t>(column) * bytes),
+                         static_cast<std::int32_t>((tap.inner + 1) * step), tap.near, tap.last};
+            if (++column == columns) column = 0;
+        }
+    }
+    const BoundTap* bound(std::size_t index) const { return bound_.data() + index; }
 
 private:
-    Buffer<Texel> line_;
-    Buffer<Texel> texels_;
-    std::size_t columns_ = 0;
-    TapRange rows_;
+    Buffer<BoxTap> taps_;
+    Buffer<BoundTap> bound_;
+    TapRange range_;
+    double widest_ = 0;
+    std::size_t bound_stride_ = 0;  ///< 0: not bound
 };
 
 /// A rectangle of the source, copied together: read in order of memory, and looked up without a
@@ -100,21 +88,46 @@ class SourceBlock {
 public:
     using Texel = Lane<Channels>;
 
+    /// `read(row, begin, end, to)` gives texels begin..end of a source row, whatever lies there.
+    /// Binds the two lists to the block.
     template <typename Read>
-    void fill(const TapRange& rows, const TapRange& columns, const Read& read) {
-        rows_ = rows;
-        columns_ = columns;
-        texels_.resize(rows.size() * columns.size());
+    void fill(TapList& down, TapList& across, const Read& read) {
+        rows_ = down.range();
+        columns_ = across.range();
+        stride_ = (columns_.size() + 15) / 16 * 16;  // often the next block's too: bound once
+        down.bind(stride_);
+        across.bind(1);
+        texels_.resize(rows_.size() * stride_);
         Texel* to = texels_.data();
-        for (int row = rows.begin; row < rows.end; ++row, to += columns.size()) {
-            read(row, columns.begin, columns.end, to);
+        for (int row = rows_.begin; row < rows_.end; ++row, to += stride_) {
+            read(row, columns_.begin, columns_.end, to);
         }
     }
 
-    /// The average over a box.
+    /// The averages over `count` boxes, down[index] by across[index] and on.
+    void filter(Reach reach, const TapList& down, const TapList& across, std::size_t index,
+                std::size_t count, Texel* to) const {
+        if constexpr (Channels > 1) {
+            const auto stride = static_cast<std::ptrdiff_t>(stride_ * sizeof(Float4));
+            const auto kernel = reach == Reach::linear ? filter_boxes_linear
+                                : reach == Reach::near ? filter_boxes_near
+                                                       : nullptr;
+            if (kernel) {
+                return kernel(texels_.data(), stride, down.bound(index), across.bound(index), count,
+                              to);
+            }
+        }
+        with_reach(reach, [&](auto constant) {
+            for (std::size_t i = index; i < index + count; ++i) {
+                *to++ = at<constant()>(down[i], across[i]);
+            }
+        });
+    }
+
+private:
     template <Reach reach>
     Texel at(const BoxTap& down, const BoxTap& across) const {
-        const std::size_t stride = columns_.size();
+        const std::size_t stride = stride_;
         const Texel* corner = texels_.data() +
                               static_cast<std::size_t>(down.first - rows_.begin) * stride +
                               static_cast<std::size_t>(across.first - columns_.begin);
@@ -124,11 +137,110 @@ public:
         });
     }
 
-private:
     Buffer<Texel> texels_;
+    std::size_t stride_ = 0;
     TapRange rows_;
     TapRange columns_;
 };
+
+/// A tile whose columns depend on the destination's column alone: filtered along rows once, then
+/// along columns.
+template <int Channels>
+class FilteredRows {
+public:
+    using Texel = Lane<Channels>;
+
+    /// Source rows that `down` needs, filtered by `across`, one tap a column. `down` has a tap for
+    /// each texel of the destination, [row][column], and is bound to the result.
+    template <typename Read>
+    void fill(TapList& down, TapList& across, const Read& read) {
+        rows_ = down.range();
+        columns_ = across.size();
+        down.bind(columns_, columns_);
+        refill(across, read);
+    }
+
+    /// The same rows and `down` once more, with other columns.
+    template <typename Read>
+    void refill(TapList& across, const Read& read) {
+        across.bind(1);
+        line_.resize(across.range().size());
+        texels_.resize(rows_.size() * columns_);
+        const Reach reach = reach_of(across.widest());
+        Texel* to = texels_.data();
+        for (int row = rows_.begin; row < rows_.end; ++row, to += columns_) {
+            read(row, across.range().begin, across.range().end, line_.data());
+            filter_line(reach, across, to);
+        }
+    }
+
+    /// Along columns: taps down[index] and on, for columns from `column` on.
+    void filter(Reach reach, const TapList& down, std::size_t index, std::size_t column,
+                std::size_t count, Texel* to) const {
+        if constexpr (Channels > 1) {
+            const auto step = static_cast<std::ptrdiff_t>(columns_ * sizeof(Float4));
+            if (reach == Reach::linear) {
+                return filter_linear(texels_.data(), step, down.bound(index), count, to);
+            }
+            if (reach == Reach::near) {
+                return filter_near(texels_.data(), step, down.bound(index), count, to);
+            }
+        }
+        with_reach(reach, [&](auto constant) {
+            const std::size_t stride = columns_;
+            for (std::size_t i = 0; i < count; ++i) {
+                const BoxTap& tap = down[index + i];
+                const Texel* from = texels_.data() +
+                                    static_cast<std::size_t>(tap.first - rows_.begin) * stride +
+                                    column + i;
+                *to++ = apply_tap<constant()>(tap, [from, stride](int j) {
+                    return from[static_cast<std::size_t>(j) * stride];
+                });
+            }
+        });
+    }
+
+private:
+    void filter_line(Reach reach, const TapList& across, Texel* to) const {
+        if constexpr (Channels > 1) {
+            constexpr auto next = static_cast<std::ptrdiff_t>(sizeof(Float4));
+            if (reach == Reach::linear) {
+                return filter_linear(line_.data(), next, across.bound(0), columns_, to);
+            }
+            if (reach == Reach::near) {
+                return filter_near(line_.data(), next, across.bound(0), columns_, to);
+            }
+        }
+        with_reach(reach, [&](auto constant) {
+            const Texel* line = line_.data();
+            for (std::size_t i = 0; i < columns_; ++i) {
+                const Texel* from = line + (across[i].first - across.range().begin);
+                to[i] = apply_tap<constant()>(across[i], [from](int j) { return from[j]; });
+            }
+        });
+    }
+
+    Buffer<Texel> line_;
+    Buffer<Texel> texels_;
+    std::size_t columns_ = 0;
+    TapRange rows_;
+};
+
+/// Writes texels one after another, or one before another: step 1 or -1. Whether none of them is
+/// NaN.
+template <int Channels>
+bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float* to) {
+    auto bad = from[0] - from[0] != 0.0f;
+    for (std::size_t i = 0; i < count; ++i, to += step * Channels) {
+        bad |= from[i] - from[i] != 0.0f;
+        store_texel<Channels>(from[i], to);
+    }
+    if constexpr (Channels == 1) {
+        return !bad;
+    } else {
+        return !(bad[0] || bad[1] || bad[2] || (Channels == 4 && bad[3]));
+    }
+}
 
 /// Asks for `bytes` from an address that will be read soon. Rows of a picture lie on different
 /// pages, where the processor does not look ahead by itself.
