@@ -1,7 +1,7 @@
 #ifdef MATERIAL_BASIC
-// Unlit. v_material[0].rgb: colour.
+// Unlit. material[0].rgb: colour.
 vec3 shade(Surface surface) {
-    vec3 color = v_material[0].rgb * surface.tint;
+    vec3 color = material[0].rgb * surface.tint;
 #ifdef HAS_CUBE
     color *= environment(surface.position_object);
 #endif

@@ -1,7 +1,7 @@
 // A draw call: a node (cpp/cubecam/render/draw_block.hpp writes this block).
 //
-// Only vertex shaders read it: a fragment shader gets what it needs as flat inputs, which llvmpipe loads once a
-// triangle, while it reads a uniform block anew for every eight pixels (docs/adr/0004).
+// Fragment shaders get what they need of it as flat inputs (surface.glsl), which llvmpipe loads once a triangle, while it
+// reads a uniform block anew for every eight pixels (docs/adr/0004).
 layout(std140, binding = 0) uniform Draw {
     mat4 u_model;
     mat4 u_normal_matrix;  // inverse transpose of u_model, upper 3x3

@@ -1,8 +1,8 @@
 #ifdef MATERIAL_GLASS
-// v_material[0]: tint, eta = n_outside / n_inside. Without FRESNEL the refraction alone, but where there is none.
+// material[0]: tint, eta = n_outside / n_inside. Without FRESNEL the refraction alone, but where there is none.
 // Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
 vec3 shade(Surface surface) {
-    float eta = v_material[0].a;
+    float eta = material[0].a;
     vec3 reflected = reflect(surface.incident, surface.normal);
     vec3 refracted = refract(surface.incident, surface.normal, eta);
     bool total = dot(refracted, refracted) == 0.0;
@@ -18,6 +18,6 @@ vec3 shade(Surface surface) {
     f = total ? 1.0 : f;
 
     // Both lookups for every fragment: a mipmapped one takes its level from the neighbours'.
-    return f * environment(reflected) + (1.0 - f) * v_material[0].rgb * environment(total ? reflected : refracted);
+    return f * environment(reflected) + (1.0 - f) * material[0].rgb * environment(total ? reflected : refracted);
 }
 #endif

@@ -1,13 +1,13 @@
 #ifdef MATERIAL_MIRROR
-// v_material[0]: env_weight * tint, F0 (with FRESNEL). v_material[1].rgb: color_weight * color.
+// material[0]: env_weight * tint, F0 (with FRESNEL). material[1].rgb: color_weight * color.
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994.
 vec3 shade(Surface surface) {
-    vec3 reflected = v_material[0].rgb * environment(reflect(surface.incident, surface.normal));
+    vec3 reflected = material[0].rgb * environment(reflect(surface.incident, surface.normal));
 #ifdef FRESNEL
-    float f0 = v_material[0].a;
+    float f0 = material[0].a;
     float m = 1.0 - clamp(-dot(surface.incident, surface.normal), 0.0, 1.0);
     reflected *= f0 + (1.0 - f0) * (m * m) * (m * m) * m;
 #endif
-    return reflected + v_material[1].rgb;
+    return reflected + material[1].rgb;
 }
 #endif

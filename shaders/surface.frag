@@ -1,5 +1,7 @@
 // Every mesh: what is common here, what a material answers in its own file.
 #define STAGE in
+#include "draw.glsl"
+#include "lights.glsl"
 #include "surface.glsl"
 
 struct Surface {
@@ -11,7 +13,6 @@ struct Surface {
 };
 
 #include "environment.glsl"
-#include "lights.glsl"
 #include "basic.glsl"
 #include "phong.glsl"
 #include "mirror.glsl"

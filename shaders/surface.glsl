@@ -1,9 +1,30 @@
 // What the vertex shader hands to the fragment shader; STAGE is `out` or `in`.
-// Constants of a draw call travel as flat inputs, see draw.glsl.
+//
+// Constants of a draw call travel as flat inputs, see draw.glsl. Meshes of many small triangles (DENSE) leave them in
+// their blocks: every input costs each triangle. `material` and `light_*` are where they are.
+#ifdef DENSE
+#define material u_material
+#define light_position(i) u_lights[i].position
+#define light_color(i) u_lights[i].color
+#else
+flat STAGE vec4 v_material[2];
+#define material v_material
+#ifdef LIGHT_COUNT
+#if LIGHT_COUNT > 0
+flat STAGE vec4 v_light_position[LIGHT_COUNT];
+flat STAGE vec4 v_light_color[LIGHT_COUNT];
+#endif
+#define light_position(i) v_light_position[i]
+#define light_color(i) v_light_color[i]
+#else
+#define light_position(i) u_lights[i].position
+#define light_color(i) u_lights[i].color
+#endif
+#endif
+
 STAGE vec3 v_position;  // world
 STAGE vec3 v_normal;    // world, any length
 flat STAGE vec4 v_eye;  // see view.glsl
-flat STAGE vec4 v_material[2];
 #ifdef HAS_MAP
 STAGE vec2 v_uv;
 #endif
@@ -15,12 +36,6 @@ STAGE vec3 v_position_object;
 #endif
 #ifdef TRANSLUCENT
 flat STAGE float v_alpha;
-#endif
-#ifdef LIGHT_COUNT
-#if LIGHT_COUNT > 0
-flat STAGE vec4 v_light_position[LIGHT_COUNT];
-flat STAGE vec4 v_light_color[LIGHT_COUNT];
-#endif
 #endif
 #ifdef OUTPUTS
 flat STAGE vec4 v_view_position;

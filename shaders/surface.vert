@@ -19,7 +19,9 @@ void main() {
     v_position = position_world.xyz;
     v_normal = mat3(u_normal_matrix) * a_normal;
     v_eye = a_view_eye;
+#ifndef DENSE
     v_material = u_material;
+#endif
 #ifdef HAS_MAP
     v_uv = a_uv;
 #endif
@@ -32,7 +34,7 @@ void main() {
 #ifdef TRANSLUCENT
     v_alpha = u_alpha;
 #endif
-#ifdef LIGHT_COUNT
+#if defined(LIGHT_COUNT) && !defined(DENSE)
 #if LIGHT_COUNT > 0
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         v_light_position[i] = u_lights[i].position;

@@ -140,7 +140,10 @@ def try_mutation(copy, mutation):
     finally:
         path.write_text(original)
     if done.returncode == 1:
-        return "killed"
+        broken = [
+            word for word in ("ShaderError", "SyntaxError", "ImportError") if word in done.stdout
+        ]
+        return f"is no program any more: {broken[0]}" if broken else "killed"
     if done.returncode == 0:
         return "SURVIVED"
     return f"pytest ended with {done.returncode}:\n{done.stdout[-2000:]}{done.stderr[-1000:]}"

@@ -152,8 +152,15 @@ MUTATIONS = [
     Mutation(
         "phong: ambient for each light",
         "shaders/phong.glsl",
-        "vec3 answer = n_dot_l * v_material[1].rgb * surface.tint",
-        "vec3 answer = (v_material[0].rgb + n_dot_l * v_material[1].rgb) * surface.tint",
+        "result += light_answer(surface,",
+        "result += result + light_answer(surface,",
+        PHONG,
+    ),
+    Mutation(
+        "phong: highlight towards the light",
+        "shaders/phong.glsl",
+        "2.0 * n_dot_l * dot(surface.normal, surface.incident)",
+        "0.0 * n_dot_l",
         PHONG,
     ),
     Mutation(
@@ -222,9 +229,23 @@ MUTATIONS = [
         STATS,
     ),
     Mutation(
+        "damage: where a node was is left as it is",
+        "cpp/cubecam/render/picture_key.cpp",
+        "if (found != old.end()) add(found->second->bounds);",
+        "",
+        ("tests/gl/test_damage.py",),
+    ),
+    Mutation(
+        "damage: bounds mirrored",
+        "cpp/cubecam/render/screen_bounds.cpp",
+        "const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;",
+        "const glm::dvec2 ndc = glm::dvec2(-clip.x, clip.y) / clip.w;",
+        ("tests/gl/test_damage.py",),
+    ),
+    Mutation(
         "key: the eye forgotten",
         CALL,
-        "keys[v].add(view.eye);",
+        "key.add(view.eye);",
         "",
         STATS,
     ),

@@ -102,9 +102,8 @@ def capture(
     with failures_reported():
         scene = Scene(environment=load_environment(environment, srgb=srgb) if environment else None)
         scene.add(PointLight(position=light))
-        node = scene.add(
-            load_mesh(mesh, size=mesh_size), _material(material, color), position=mesh_position
-        )
+        loaded = load_mesh(mesh, size=mesh_size)
+        scene.add(loaded, _material(material, color), position=mesh_position)
         with Renderer(device=parse_device(device)) as renderer:
             cube = renderer.capture(
                 scene,
@@ -123,7 +122,7 @@ def capture(
         console = Console(soft_wrap=True)
         for path in written:
             console.print(path, markup=False, highlight=False)
-        triangles = len(node.mesh.indices)
+        triangles = len(loaded.indices)
         console.print(
             f"{triangles} triangles, 6 x {size} x {size} texels, drawn by {drawn_by}",
             highlight=False,

@@ -229,6 +229,8 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::size_t v = (first + i) % views.size();
         if (!budget || count < budget->faces) damaged[v] = damage(target.keys[v], keys[v], whole);
+        // llvmpipe (Mesa 22.3) lets samples beyond the scissor's edge through.
+        if (target.multisampled() && !damaged[v].empty()) damaged[v] = {whole};
         if (damaged[v].empty()) {
             ++stats.views_skipped;
             continue;

@@ -41,6 +41,7 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     define(variant.translucent, "TRANSLUCENT");
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
+    define(variant.dense, "DENSE");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
     return surfaces_.emplace(variant, gl::Program(*gl_, {"surface.vert", "surface.frag"}, options))

@@ -21,6 +21,7 @@ struct SurfaceVariant {
     bool double_sided = false;
     bool fresnel = false;
     bool translucent = false;
+    bool dense = false;  ///< many small triangles: constants stay in their blocks
     bool outputs = false;
     int lights = 0;  ///< unrolled so many times; -1: a loop
     bool decay = false;

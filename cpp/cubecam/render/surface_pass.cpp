@@ -18,7 +18,8 @@ constexpr GLuint lights_binding = 1;
 constexpr GLuint map_unit = 0;
 constexpr GLuint cube_unit = 1;
 constexpr std::size_t flat_lights = 4;  // beyond that the vertex stage has no room for them
-constexpr std::size_t many_triangles = 10'000;
+constexpr std::size_t many_triangles = 10'000;   // of a call
+constexpr std::size_t dense_triangles = 4'000;   // of a mesh
 
 /// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
 /// lost.
@@ -271,6 +272,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     variant.double_sided = material.surface.double_sided;
     variant.outputs = outputs;
     variant.translucent = node.translucent;
+    variant.dense = node.mesh->triangles()->size() >= dense_triangles;
     const auto textures = [&](const auto& parameters) {
         variant.map = parameters.map != nullptr && node.mesh->uvs() != nullptr;
         variant.vertex_colors = parameters.vertex_colors && node.mesh->colors() != nullptr;
