@@ -627,7 +627,8 @@ class CubeMap:
     ----------
     faces : array_like (6, N, N, C), or six of (N, N, C)
         C is 1, 3 or 4. uint8 (which stands for value/255), float16 or float32 are kept; float64 becomes
-        float32. Linear, raw numbers. NaN is refused, inf is kept.
+        float32. Linear, raw numbers. NaN is refused; inf is kept, and lookups near it give inf or NaN, as
+        on the GPU.
     convention : {"gl", "inside", "three"}, default "gl"
         How `faces` are given: "gl" as above; "inside" as one sees them from the middle (OpenEXR); "three"
         as three.js and D3D skybox files have them.
@@ -670,7 +671,8 @@ class CubeMap:
         Parameters
         ----------
         image : array_like (H, 2H, C)
-            uint8 (value/255), float16, float32 or float64; unmirrored, row 0 at +Y.
+            uint8 (value/255), float16, float32 or float64; unmirrored, row 0 at +Y. NaN is refused; inf
+            counts as the largest other number in it, at least 65504.
         size : int, optional
             Of a face; by default the next power of two from W / pi, which loses nothing.
         center : {"-z", "+z", "+x", "-x"}, default "-z"

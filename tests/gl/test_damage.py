@@ -16,7 +16,7 @@ STEPS = 12
 def crowd(rng, offset=(0, 0, 0), size=4.0):
     """Opaque, translucent, textured and mirrored things of all sizes, some of them touching."""
     scene = cc.Scene(environment=cc.CubeMap(smooth_environment(16), mipmaps=True))
-    scene.add(cc.PointLight(position=np.array(offset) + (2, 5, 3)))
+    scene.add(cc.PointLight(position=np.add(offset, (2, 5, 3))))
     root = scene.add(position=offset)
     picture = rng.integers(0, 256, (16, 16, 3), dtype=np.uint8)
     materials = [
@@ -135,7 +135,7 @@ def test_far_from_the_origin(both, distance):
     rng = np.random.default_rng(9)
     offset = np.array([distance, 0.3 * distance, -0.7 * distance])
     scene = crowd(rng, offset)
-    camera = cc.PerspectiveCamera(fov=40, position=offset + (2, 1.5, 5), target=offset)
+    camera = cc.PerspectiveCamera(fov=40, position=np.add(offset, (2, 1.5, 5)), target=offset)
     follow(*both, lambda r: r.render(scene, camera, (128, 96)), scene, rng, ["color"])
 
 

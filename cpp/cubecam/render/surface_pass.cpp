@@ -17,9 +17,9 @@ constexpr GLuint draw_binding = 0;
 constexpr GLuint lights_binding = 1;
 constexpr GLuint map_unit = 0;
 constexpr GLuint cube_unit = 1;
-constexpr std::size_t flat_lights = 4;  // beyond that the vertex stage has no room for them
-constexpr std::size_t many_triangles = 10'000;   // of a call
-constexpr std::size_t dense_triangles = 4'000;   // of a mesh
+constexpr std::size_t flat_lights = 4;          // beyond that the vertex stage has no room for them
+constexpr std::size_t many_triangles = 10'000;  // of a call
+constexpr std::size_t dense_triangles = 4'000;  // of a mesh
 
 /// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
 /// lost.

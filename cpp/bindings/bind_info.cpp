@@ -1,0 +1,66 @@
+#include "info.hpp"
+#include "objects.hpp"
+
+#include "cubecam/render/renderer.hpp"
+
+#include <pybind11/stl.h>
+
+#include <string>
+
+namespace cubecam {
+
+namespace py = pybind11;
+
+void bind_stats(py::module_& m) {
+    bindings::declare<Stats>(m, "Stats", "What a renderer's last call drew, skipped and took.")
+        .def_readonly("views_drawn", &Stats::views_drawn,
+                      "int: pictures drawn: frames, faces of captures, faces of probes.")
+        .def_readonly("views_skipped", &Stats::views_skipped,
+                      "int: pictures that were still true and not drawn again.")
+        .def_readonly("draw_calls", &Stats::draw_calls, "int")
+        .def_readonly("triangles", &Stats::triangles, "int: sent to the GPU, each view counted.")
+        .def_readonly("probes_updated", &Stats::probes_updated,
+                      "int: probes of which at least one face was drawn.")
+        .def_readonly("milliseconds", &Stats::milliseconds,
+                      "float: the whole call, reading back included.")
+        .def("__repr__", [](const Stats& s) {
+            return "<cubecam.Stats views_drawn=" + std::to_string(s.views_drawn) +
+                   " views_skipped=" + std::to_string(s.views_skipped) +
+                   " draw_calls=" + std::to_string(s.draw_calls) +
+                   " triangles=" + std::to_string(s.triangles) +
+                   " probes_updated=" + std::to_string(s.probes_updated) +
+                   " milliseconds=" + std::to_string(s.milliseconds) + ">";
+        });
+}
+
+void bind_info(py::module_& m) {
+    bindings::declare<gl::Limits>(m, "Limits", "What the driver allows at most.")
+        .def_readonly("max_texture_size", &gl::Limits::max_texture_size,
+                      "int: pixels along a side of a frame.")
+        .def_readonly("max_cube_map_texture_size", &gl::Limits::max_cube_map_texture_size,
+                      "int: pixels along an edge of a face.")
+        .def_readonly("max_array_texture_layers", &gl::Limits::max_array_texture_layers, "int")
+        .def_readonly("max_samples", &gl::Limits::max_samples, "int: of multisampling.")
+        .def_readonly("max_color_attachments", &gl::Limits::max_color_attachments, "int");
+
+    bindings::declare<RendererInfo>(m, "RendererInfo", "What a renderer runs on.")
+        .def_readonly("vendor", &RendererInfo::vendor, "str: GL_VENDOR.")
+        .def_readonly("renderer", &RendererInfo::renderer, "str: GL_RENDERER.")
+        .def_readonly("version", &RendererInfo::version, "str: GL_VERSION.")
+        .def_readonly("glsl_version", &RendererInfo::glsl_version,
+                      "str: GL_SHADING_LANGUAGE_VERSION.")
+        .def_readonly("egl_version", &RendererInfo::egl_version, "str: EGL_VERSION.")
+        .def_readonly("platform", &RendererInfo::platform,
+                      "str: \"device\", \"surfaceless\" or \"default\".")
+        .def_readonly("device", &RendererInfo::device, "Device: the one that was chosen.")
+        .def_readonly("limits", &RendererInfo::limits, "Limits")
+        .def_readonly("software", &RendererInfo::software, "bool: whether the CPU draws.")
+        .def_readonly("layered", &RendererInfo::layered,
+                      "bool: whether one draw call serves all faces of a cube.")
+        .def("__repr__", [](const RendererInfo& i) {
+            return "<cubecam.RendererInfo " + i.renderer + ", OpenGL " + i.version + ", " +
+                   i.platform + (i.software ? ", software>" : ">");
+        });
+}
+
+}  // namespace cubecam
