@@ -2,7 +2,7 @@
 const int MAX_LIGHTS = 256;
 
 struct Light {
-    vec4 position;  // xyz: where it is (w = 1), or the direction towards it (w = 0); world
+    vec4 position;  // xyz: where it is, from u_origin (w = 1), or the direction towards it (w = 0); world
     vec4 color;     // rgb: linear colour times intensity; a: decay
 };
 

@@ -5,7 +5,7 @@
 #include "surface.glsl"
 
 struct Surface {
-    vec3 position;         // world
+    vec3 position;         // world, from u_origin
     vec3 position_object;  // with HAS_CUBE
     vec3 normal;           // world, unit length, towards the viewer on double-sided surfaces
     vec3 incident;         // world, unit length, from the eye to the surface
@@ -66,7 +66,7 @@ void main() {
     o_z = z;
     o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;
     o_normal = vec4(surface.normal, 0.0);
-    o_position = vec4(v_position, 1.0);
+    o_position = vec4(v_position + v_origin, 1.0);
     o_id = v_node_id;
 #endif
 }

@@ -22,7 +22,7 @@ flat STAGE vec4 v_light_color[LIGHT_COUNT];
 #endif
 #endif
 
-STAGE vec3 v_position;  // world
+STAGE vec3 v_position;  // world, from u_origin
 STAGE vec3 v_normal;    // world, any length
 flat STAGE vec4 v_eye;  // see view.glsl
 #ifdef HAS_MAP
@@ -40,5 +40,6 @@ flat STAGE float v_alpha;
 #ifdef OUTPUTS
 flat STAGE vec4 v_view_position;
 flat STAGE vec3 v_view_forward;
+flat STAGE vec3 v_origin;
 flat STAGE int v_node_id;
 #endif

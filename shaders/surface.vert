@@ -46,5 +46,6 @@ void main() {
     v_view_position = a_view_position;
     v_view_forward = a_view_forward.xyz;
     v_node_id = u_node_id;
+    v_origin = u_origin.xyz;
 #endif
 }

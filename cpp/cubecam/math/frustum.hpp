@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace cubecam {
 
@@ -13,21 +12,19 @@ namespace cubecam {
 /// "Optimized View Frustum Culling Algorithms for Bounding Boxes", JGT 5(1), 2000, in clip space).
 /// Holds for any matrix, perspective or not.
 ///
-/// Never false for what shows: the GPU works in float, so a box within a float's error of a plane
-/// counts as inside.
+/// `error` is how far off the GPU's float arithmetic may put a corner's clip coordinates: within
+/// that of a plane a box counts as inside, so never false for what shows.
 inline bool may_show(const glm::dmat4& view_projection, const glm::dvec3& low,
-                     const glm::dvec3& high) {
+                     const glm::dvec3& high, const glm::dvec4& error) {
     std::array<int, 6> beyond{};
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec4 point((corner & 1) != 0 ? high.x : low.x,
                                (corner & 2) != 0 ? high.y : low.y,
                                (corner & 4) != 0 ? high.z : low.z, 1.0);
         const glm::dvec4 clip = view_projection * point;
-        const double size =
-            std::max({std::abs(clip.x), std::abs(clip.y), std::abs(clip.z), std::abs(clip.w)});
-        const double slack = 1e-5 * size;
         for (int axis = 0; axis < 3; ++axis) {
             const auto plane = static_cast<std::size_t>(2 * axis);
+            const double slack = error[axis] + error.w;
             beyond[plane] += clip[axis] < -clip.w - slack;
             beyond[plane + 1] += clip[axis] > clip.w + slack;
         }

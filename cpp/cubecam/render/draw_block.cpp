@@ -47,9 +47,13 @@ void fill(DrawBlock& block, const GlassParameters& p, const glm::vec3&) {
 
 }  // namespace
 
-DrawBlock make_draw_block(const NodeSnapshot& node, const glm::vec3& ambient) {
+DrawBlock make_draw_block(const NodeSnapshot& node, const glm::dvec3& origin,
+                          const glm::vec3& ambient) {
     DrawBlock block{};
-    block.model = glm::mat4(node.world);
+    glm::dmat4 model = node.world;
+    model[3] -= glm::dvec4(origin, 0.0);
+    block.model = glm::mat4(model);
+    block.origin = glm::vec4(origin, 0.0F);
     block.normal_matrix = normal_matrix(node.world);
     block.node_id = node.id;
     const MaterialValue& material = node.material.value;

@@ -16,11 +16,13 @@ struct DrawBlock {
     float alpha;
     std::int32_t node_id;
     std::int32_t padding[2] = {0, 0};
+    glm::vec4 origin;  ///< xyz: world position that positions in the shaders count from
 };
-static_assert(sizeof(DrawBlock) == 176);
+static_assert(sizeof(DrawBlock) == 192);
 
-/// `ambient` is what falls on everything: 1, the model's own ambient light, plus the scene's
-/// ambient lights.
-DrawBlock make_draw_block(const NodeSnapshot& node, const glm::vec3& ambient);
+/// `origin` is where the shaders' positions count from. `ambient` is what falls on everything: 1,
+/// the model's own ambient light, plus the scene's ambient lights.
+DrawBlock make_draw_block(const NodeSnapshot& node, const glm::dvec3& origin,
+                          const glm::vec3& ambient);
 
 }  // namespace cubecam

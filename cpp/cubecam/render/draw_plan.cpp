@@ -36,10 +36,10 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
         if (!wanted(node)) continue;
         PlannedNode planned{index, {}};
         for (std::size_t v = 0; v < views.size(); ++v) {
-            if (may_show(views[v].view_projection, node.world_bounds.low, node.world_bounds.high)) {
-                planned.sights.push_back(
-                    {v, screen_bounds(views[v], node.world_bounds, width, height)});
-            }
+            const glm::dvec4 error = clip_error(views[v], node);
+            const Bounds& bounds = node.world_bounds;
+            if (!may_show(views[v].view_projection, bounds.low, bounds.high, error)) continue;
+            planned.sights.push_back({v, screen_bounds(views[v], bounds, error, width, height)});
         }
         if (planned.sights.empty()) continue;
         if (node.translucent) {

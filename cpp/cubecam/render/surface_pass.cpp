@@ -4,6 +4,8 @@
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/instance.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -34,11 +36,13 @@ glm::dmat4 reverse_depth(glm::dmat4 view_projection) {
 /// Whether a view shows the world mirrored: GL's own projections have a negative determinant.
 bool mirrored(const View& view) { return glm::determinant(view.view_projection) > 0.0; }
 
-Instance make_instance(const View& view, const glm::dmat4& matrix, std::size_t layer) {
+Instance make_instance(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
+                       std::size_t layer) {
     Instance instance;
     instance.matrix = glm::mat4(matrix);
-    instance.eye = view.parallel ? glm::vec4(view.forward, 1.0F) : glm::vec4(view.eye, 0.0F);
-    instance.position = glm::vec4(view.position, view.near);
+    instance.eye =
+        view.parallel ? glm::vec4(view.forward, 1.0F) : glm::vec4(view.eye - origin, 0.0F);
+    instance.position = glm::vec4(view.position - origin, view.near);
     instance.forward = glm::vec4(view.forward, static_cast<float>(layer));
     return instance;
 }
@@ -69,7 +73,7 @@ SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering l
     gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-void SurfacePass::upload_lights(std::span<const LightValue> lights) {
+void SurfacePass::upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin) {
     LightsBlock block;
     ambient_ = glm::vec3(1.0F);
     light_count_ = 0;
@@ -86,7 +90,7 @@ void SurfacePass::upload_lights(std::span<const LightValue> lights) {
         }
         LightBlock& to = block.lights[light_count_++];
         if (const auto* point = std::get_if<PointParameters>(&light.parameters)) {
-            to.position = glm::vec4(point->position, 1.0F);
+            to.position = glm::vec4(point->position - origin, 1.0F);
             to.color = glm::vec4(color, point->decay);
             light_decay_ = light_decay_ || point->decay != 0.0;
         } else {
@@ -106,10 +110,14 @@ void SurfacePass::set_scissor(const Rect& rect) {
 
 SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
     Prepared prepared;
+    // The shaders' positions count from where the first view stands: far from the world's origin a
+    // float would have no digits left for what is near.
+    const glm::dvec3 origin = input.views.front().position;
     std::vector<Instance> views;  // of each region
     for (const Region& region : input.regions) {
         const View& view = input.views[region.view];
-        views.push_back(make_instance(view, reverse_depth(view.view_projection), region.view));
+        const glm::dmat4 from_origin = glm::translate(view.view_projection, origin);
+        views.push_back(make_instance(view, reverse_depth(from_origin), origin, region.view));
     }
 
     const auto alignment =
@@ -138,7 +146,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
             if (item.regions.empty()) continue;
             item.mesh = &cache_->mesh(node.mesh);
             item.cube = input.cube_of(planned.node);
-            const DrawBlock block = make_draw_block(node, ambient_);
+            const DrawBlock block = make_draw_block(node, origin, ambient_);
             blocks.resize(blocks.size() + stride);
             std::memcpy(blocks.data() + item.block, &block, sizeof(block));
             to.push_back(std::move(item));
@@ -151,7 +159,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
     if (std::holds_alternative<GLuint>(input.background)) {
         for (const Region& region : input.regions) {
             const View& view = input.views[region.view];
-            instances.push_back(make_instance(view, view.far_to_world, region.view));
+            instances.push_back(make_instance(view, view.far_to_world, origin, region.view));
         }
     }
     // New buffers instead of rewriting the old: the GPU may still read those.
@@ -163,7 +171,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
     const TargetDescription& description = target.description();
     const Rect whole{0, 0, description.width, description.height};
-    upload_lights(input.scene.lights);
+    upload_lights(input.scene.lights, input.views.front().position);
     const Prepared prepared = prepare(input);
     gl_->Viewport(0, 0, description.width, description.height);
     // Never off: how pixels come out may not hang on the rectangle, but may on the test itself

@@ -82,7 +82,7 @@ private:
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
     bool use_layers(const PassInput& input, const Prepared& prepared, const Rect& whole) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
-    void upload_lights(std::span<const LightValue> lights);
+    void upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin);
 
     const gl::Context* context_;
     const GladGLContext* gl_;
