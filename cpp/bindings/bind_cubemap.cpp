@@ -1,11 +1,13 @@
 // cubecam.CubeMap and cubecam.Face.
 #include "arrays.hpp"
 #include "bind_cubemap_docs.hpp"
+#include "objects.hpp"
 
 #include "cubecam/math/parallel.hpp"
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/cubemap_layout.hpp"
 #include "cubecam/scene/cubemap_resample.hpp"
+#include "cubecam/scene/memory.hpp"
 
 #include <pybind11/native_enum.h>
 #include <pybind11/pybind11.h>
@@ -178,12 +180,20 @@ py::array sample(const CubeMap& cube, const py::object& directions, const py::ob
     return result;
 }
 
+/// Refuses float pictures that memory cannot hold.
+void check_floats(double width, double height, int channels) {
+    check_memory(4.0 * width * height * channels,
+                 std::to_string(static_cast<long long>(width)) + " x " +
+                     std::to_string(static_cast<long long>(height)) + " pixels");
+}
+
 py::array to_equirect(const CubeMap& cube, std::optional<int> width, const std::string& center_name,
                       const std::string& sampling_name) {
     const Center center = parse_center(center_name);
     const Sampling sampling = parse_sampling(sampling_name);
     const auto state = cube.data();
     const int columns = to_size(width.value_or(4 * state->size), "width");
+    check_floats(columns, columns / 2.0, state->channels);
     Buffer<float> pixels;
     {
         const py::gil_scoped_release release;
@@ -198,6 +208,7 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
     const int width = to_size(image.shape(1), "image");
     const auto channels = static_cast<int>(image.shape(2));
     const int n = to_size(size.value_or(default_face_size(width)), "size");
+    check_floats(n, 6.0 * n, channels);
     const py::gil_scoped_release release;
     PixelBuffer faces = equirect_to_cube(
         {image.data(), width, height, channels, image.dtype(), center, sampling}, n);
@@ -282,6 +293,7 @@ py::array to_layout(const CubeMap& cube, const std::string& layout_name,
 CubePtr resize(const CubeMap& cube, int size) {
     to_size(size, "size");
     const auto state = cube.data();
+    check_floats(size, 6.0 * size, state->channels);
     const py::gil_scoped_release release;
     PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers);
     return std::make_shared<CubeMap>(size, state->channels, state->dtype,
@@ -361,8 +373,7 @@ void bind_cubemap(py::module_& module) {
         .finalize();
     module.attr("Face").attr("__module__") = "cubecam";
 
-    py::class_<CubeMap, CubePtr> cube(module, "CubeMap", docs::cubemap);
-    cube.attr("__module__") = "cubecam";
+    auto cube = bindings::declare<CubeMap>(module, "CubeMap", docs::cubemap);
     cube.def(py::init(&make_cube), py::arg("faces"), py::arg("convention") = "gl",
              py::arg("mipmaps") = false)
         .def_property_readonly("faces", &faces_view, docs::faces)

@@ -1,4 +1,6 @@
 // cubecam.Device and cubecam.devices().
+#include "objects.hpp"
+
 #include "cubecam/gl/devices.hpp"
 
 #include <pybind11/pybind11.h>
@@ -79,8 +81,7 @@ void bind_device(py::module_& module) {
     using namespace cubecam::bindings;
     using cubecam::gl::DeviceInfo;
 
-    py::class_<DeviceInfo> device(module, "Device", device_doc);
-    device.attr("__module__") = "cubecam";
+    auto device = declare<DeviceInfo>(module, "Device", device_doc);
     device.def_readonly("index", &DeviceInfo::index)
         .def_readonly("name", &DeviceInfo::name)
         .def_readonly("vendor", &DeviceInfo::vendor)

@@ -88,7 +88,11 @@ Examples
                         std::to_string(f.height) + ", " +
                         py::str(f.color.attr("dtype")).cast<std::string>() + ">";
              })
-        .def(py::pickle(&state_of, &frame_from));
+        .def("__reduce__", [](const PyFrame& frame) -> py::tuple {
+            const py::object restore = py::module_::import("cubecam._core").attr("_restore_frame");
+            return py::make_tuple(restore, py::make_tuple(state_of(frame)));
+        });
+    m.def("_restore_frame", &frame_from, py::arg("state"), "For unpickling.");
 }
 
 }  // namespace cubecam

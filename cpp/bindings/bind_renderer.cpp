@@ -29,7 +29,9 @@ std::int64_t to_int(py::handle value, const char* name) {
     if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
         throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
     }
-    return PyNumber_AsSsize_t(value.ptr(), nullptr);
+    const std::int64_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);
+    if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+    return number;
 }
 
 std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
@@ -44,6 +46,9 @@ std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
 Outputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
     std::vector<std::string> names;
+    if (!py::isinstance<py::iterable>(value)) {
+        throw TypeError("outputs: expected a sequence of names, got " + text_of(value));
+    }
     for (const py::handle name : py::iter(value)) {
         if (!py::isinstance<py::str>(name))
             throw TypeError("outputs: expected names, got " + text_of(name));
@@ -54,8 +59,9 @@ Outputs to_outputs(py::handle value) {
 
 std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
     std::vector<std::int32_t> ids;
-    if (py::isinstance<Node>(exclude))
-        throw TypeError("exclude: expected a sequence of nodes, got one node");
+    if (py::isinstance<Node>(exclude) || !py::isinstance<py::iterable>(exclude)) {
+        throw TypeError("exclude: expected a sequence of nodes, got " + text_of(exclude));
+    }
     for (const py::handle item : py::iter(exclude)) {
         if (!py::isinstance<Node>(item))
             throw TypeError("exclude: expected nodes, got " + text_of(item));
@@ -141,6 +147,9 @@ void update(Renderer& renderer, const Scene& scene, py::handle probes) {
     if (py::isinstance<Probe>(probes)) {
         wanted.push_back(probes.cast<std::shared_ptr<Probe>>());
     } else if (!probes.is_none()) {
+        if (!py::isinstance<py::iterable>(probes)) {
+            throw TypeError("probes: expected probes, got " + text_of(probes));
+        }
         for (const py::handle probe : py::iter(probes)) {
             if (!py::isinstance<Probe>(probe))
                 throw TypeError("probes: expected probes, got " + text_of(probe));

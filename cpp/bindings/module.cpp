@@ -21,6 +21,23 @@ void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
 
+/// What cannot be pickled says so. Left to itself, pickle's protocols 0 and 1 make an instance in a
+/// way that pybind11 answers by ending the process.
+static void refuse_pickling(pybind11::module_& module) {
+    namespace py = pybind11;
+    const py::object plain = py::module_::import("builtins").attr("object").attr("__reduce__");
+    for (const auto& [name, thing] : module.attr("__dict__").cast<py::dict>()) {
+        const auto kind = py::type::handle_of(thing).attr("__name__").cast<std::string>();
+        if (kind != "pybind11_type" || !py::object(thing.attr("__reduce__")).is(plain)) continue;
+        thing.attr("__reduce__") = py::cpp_function(
+            [](const py::object& self) -> py::tuple {
+                throw py::type_error("cannot pickle a cubecam." +
+                                     cubecam::bindings::type_name(self));
+            },
+            py::name("__reduce__"), py::is_method(thing));
+    }
+}
+
 PYBIND11_MODULE(_core, module) {
     using namespace cubecam;
     using cubecam::bindings::declare;
@@ -45,4 +62,5 @@ PYBIND11_MODULE(_core, module) {
     bind_node(module);
     bind_scene(module);
     bind_renderer(module);
+    refuse_pickling(module);
 }

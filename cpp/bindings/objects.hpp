@@ -5,8 +5,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/typing.h>
 
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <typeinfo>
 #include <utility>
 
 namespace cubecam::bindings {
@@ -19,10 +21,17 @@ using Class = py::class_<T, Bases..., std::shared_ptr<T>>;
 
 /// Makes a class that prints and pickles as `cubecam.NAME`. Its module is set before any method is
 /// defined, so that signatures name it so, too.
+///
+/// An instance whose __init__ has not run (a subclass that touches itself before
+/// super().__init__()) has no C++ object. pybind11 then hands out memory that nothing was built in;
+/// here it raises.
 template <class T, class... Bases>
 Class<T, Bases...> declare(py::module_& module, const char* name, const char* doc) {
     Class<T, Bases...> made(module, name, doc);
     made.attr("__module__") = "cubecam";
+    py::detail::get_type_info(typeid(T))->operator_new = [](std::size_t) -> void* {
+        throw py::type_error("expected an object whose __init__() was called");
+    };
     return made;
 }
 

@@ -130,6 +130,8 @@ class _Target:
         self, source: str, output: str | None, layout: str | None, extension: str | None
     ) -> None:
         self.source = source
+        if not Path(source).name:
+            raise typer.BadParameter(f"expected a file, got {source!r}")
         stem, own = _stem(source), Path(source).suffix
         wanted = "." + extension.lower().lstrip(".") if extension else own
         named = output is not None and (

@@ -116,6 +116,7 @@ class Device:
     problem : str
         Why it cannot be used; empty when it can.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self: Device) -> str: ...
     @property
     def cuda_index(self) -> int | None: ...
@@ -1817,6 +1818,7 @@ class Light:
 
     A light may be in several scenes; a change shows in all of them.
     """
+    def __reduce__(self) -> tuple: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -2211,6 +2213,7 @@ class Stats:
     """
     What a renderer's last call drew, skipped and took.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self: Stats) -> str: ...
     @property
     def draw_calls(self) -> int:
@@ -2247,6 +2250,7 @@ class Limits:
     """
     What the driver allows at most.
     """
+    def __reduce__(self) -> tuple: ...
     @property
     def max_array_texture_layers(self) -> int:
         """
@@ -2277,6 +2281,7 @@ class RendererInfo:
     """
     What a renderer runs on.
     """
+    def __reduce__(self) -> tuple: ...
     def __repr__(self: RendererInfo) -> str: ...
     @property
     def device(self) -> Device:
@@ -2344,9 +2349,8 @@ class Frame:
     >>> frame.color.shape, frame.color[0, 0].tolist()
     ((2, 4, 4), [255, 0, 0, 255])
     """
-    def __getstate__(self: Frame) -> tuple: ...
+    def __reduce__(self: Frame) -> tuple: ...
     def __repr__(self: Frame) -> str: ...
-    def __setstate__(self: Frame, arg0: tuple) -> None: ...
     def _repr_png_(self) -> bytes:
         """
         Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats.
@@ -2437,6 +2441,7 @@ class Renderer:
         cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
         debug: bool = False,
     ) -> None: ...
+    def __reduce__(self) -> tuple: ...
     def __repr__(self: Renderer) -> str: ...
     def capture(
         self: Renderer,
@@ -2592,6 +2597,11 @@ class Renderer:
         """
         Stats: of the last call.
         """
+
+def _restore_frame(state: tuple) -> Frame:
+    """
+    For unpickling.
+    """
 
 def axis_angle(
     axis: numpy.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex

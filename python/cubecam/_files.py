@@ -22,7 +22,7 @@ def as_path(path: object) -> Path:
                 raise ValueError("expected a path, got an empty string")
             if "\0" in name:
                 raise ValueError(f"expected a path, got a name with a zero byte: {name!r}")
-            return Path(name).expanduser()
+            return Path(os.path.expanduser(name))  # noqa: PTH111 - pathlib raises for ~nobody
     raise TypeError(f"expected a path as str or os.PathLike, got {type(path).__name__}")
 
 

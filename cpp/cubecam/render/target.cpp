@@ -1,10 +1,10 @@
 #include "cubecam/render/target.hpp"
 
+#include "cubecam/scene/memory.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <unistd.h>
-
 namespace cubecam {
 namespace {
 
@@ -67,16 +67,8 @@ TargetDescription describe_target(const gl::Context& context, bool cube, std::in
     description.samples = static_cast<int>(samples);
     description.format = format;
     description.outputs = outputs;
-    // A software driver takes its textures from main memory, and the kernel grants more than there
-    // is.
-    const auto memory = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    if (context.software() && description.bytes() > memory) {
-        throw std::invalid_argument("size: expected pictures that fit into " +
-                                    std::to_string(memory >> 20) + " MiB of memory, got " + got +
-                                    " pixels, which take " +
-                                    std::to_string(description.bytes() >> 20) + " MiB");
-    }
+    // A software driver takes its textures from main memory.
+    if (context.software()) check_memory(static_cast<double>(description.bytes()), got + " pixels");
     return description;
 }
 

@@ -20,8 +20,9 @@ View make_view(const Matrices& matrices) {
     view.forward = -glm::normalize(glm::dvec3(world[2]));
     view.parallel = is_parallel(matrices.projection);
     if (view.parallel) {
-        // The near plane is where clip z is -1: p22 z + p32 = -1, and the camera looks along -z.
-        view.near = (1.0 + matrices.projection[3][2]) / matrices.projection[2][2];
+        // The near plane is where clip z is -w: p22 z + p32 = -p33, and the camera looks along -z.
+        const glm::dmat4& p = matrices.projection;
+        view.near = (p[3][3] + p[3][2]) / p[2][2];
     }
     return view;
 }
