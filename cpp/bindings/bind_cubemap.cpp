@@ -389,10 +389,6 @@ void bind_cubemap(py::module_& module) {
             "mipmaps", [](const CubeMap& c) { return c.data()->mipmaps; },
             "Whether lookups are trilinear, bool.")
         .def_property_readonly(
-            "_face_revisions",
-            [](const CubeMap& c) { return py::tuple(py::cast(c.data()->face_revisions)); },
-            "Which face changed when, six int that only ever grow; for tests.")
-        .def_property_readonly(
             "distance", [](const CubeMap& c) { return output_view(c, c.outputs().distance, 1); },
             docs::distance)
         .def_property_readonly(

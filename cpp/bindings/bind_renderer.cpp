@@ -80,7 +80,8 @@ gl::DeviceChoice to_device(py::handle device) {
     if (py::isinstance<py::str>(device)) return device.cast<std::string>();
     if (py::isinstance<gl::DeviceInfo>(device)) return device.cast<const gl::DeviceInfo&>().index;
     const std::int64_t index = to_int(device, "device");
-    return static_cast<int>(std::clamp<std::int64_t>(index, -1, std::numeric_limits<int>::max()));
+    return static_cast<int>(std::clamp<std::int64_t>(index, std::numeric_limits<int>::min(),
+                                                     std::numeric_limits<int>::max()));
 }
 
 std::optional<bool> to_layered(py::handle value) {

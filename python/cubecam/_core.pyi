@@ -984,11 +984,6 @@ class CubeMap:
         (24, 32, 3)
         """
     @property
-    def _face_revisions(self) -> tuple:
-        """
-        Which face changed when, six int that only ever grow; for tests.
-        """
-    @property
     def channels(self) -> int:
         """
         C: 1, 3 or 4, int.

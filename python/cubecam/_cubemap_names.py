@@ -16,6 +16,8 @@ FACE_NAMES = (
     ("posx", "negx", "posy", "negy", "posz", "negz"),
     ("pos-x", "neg-x", "pos-y", "neg-y", "pos-z", "neg-z"),
 )
+CONVENTIONS = ("gl", "inside", "three")
+CENTERS = ("-z", "+z", "+x", "-x")
 LAYOUTS = ("cross", "vertical_cross", "row", "column", "equirect", "openexr", "faces")
 
 
@@ -27,6 +29,16 @@ def layout_name(layout: str | None) -> str | None:
     if name not in LAYOUTS:
         raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {layout!r}")
     return name
+
+
+def check_names(convention: str | None, center: str | None) -> None:
+    """Refuse unknown names, those that will not be needed as well: a typo must not pass."""
+    if convention is not None and str(convention).lower() not in CONVENTIONS:
+        raise ValueError(
+            f"convention: expected one of {', '.join(CONVENTIONS)}, got {convention!r}"
+        )
+    if center is not None and str(center).lower() not in CENTERS:
+        raise ValueError(f"center: expected one of {', '.join(CENTERS)}, got {center!r}")
 
 
 def check_openexr(convention: str | None) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _formats
 from ._core import CubeMap
-from ._cubemap_names import Source, check_openexr, layout_name, six_paths
+from ._cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from ._files import as_path, write_files
 from ._pixels import Array
 
@@ -66,7 +66,10 @@ def save_cubemap(
     True
     """
     wanted = layout_name(layout)
+    check_names(convention, center)
     paths = six_paths(path, for_reading=False)
+    if paths is not None and len(set(paths)) < 6:
+        raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
     if width is not None and wanted != "equirect":
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
     half = half or cube.dtype == np.float16

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _formats, _oiio
 from ._core import CubeMap, ImageError
-from ._cubemap_names import Source, check_openexr, layout_name, six_paths
+from ._cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from ._files import existing_file
 from ._pixels import Array, to_float32
 
@@ -82,6 +82,7 @@ def load_cubemap(
     (6, 64, 64, 3)
     """
     wanted = layout_name(layout)
+    check_names(convention, center)
     paths = six_paths(path, for_reading=True)
     if paths is not None:
         if wanted not in (None, "faces"):

@@ -92,8 +92,8 @@ def save_image(path: PathLike, pixels: Any, srgb: bool = False, half: bool = Fal
     ========================  =========================================================================
 
     One channel is written as grey where the file can, else as three equal ones (HDR, WebP). HDR, JPEG and BMP
-    hold no alpha: a fourth channel is left out where it is 1 throughout, and refused otherwise. JPEG
-    is written at quality 95 without colour subsampling.
+    hold no alpha: a fourth channel is left out where it is 1 throughout, and refused otherwise. WebP
+    forgets the colour where alpha is 0. JPEG is written at quality 95 without colour subsampling.
 
     Examples
     --------
@@ -118,7 +118,8 @@ def save_animation(
     path : str or os.PathLike
         Ends in .png (APNG: all colours, opened by every browser), .gif (256 colours) or .webp (lossless).
     frames : iterable of array_like (H, W) or (H, W, C)
-        As for `save_image`, all of one size. Alpha is kept, except in a GIF.
+        As for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored as
+        one that lasts as long.
     fps : float
         Frames a second, above 0 and up to 100. A GIF's frames last a whole number of hundredths of a second.
     srgb : bool

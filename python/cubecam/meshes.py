@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import math
+import re
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -105,7 +108,11 @@ def _read(path: Path, extension: str) -> list[_Part]:
 
     try:
         # process=False: no vertex is merged, dropped or moved.
-        scene = trimesh.load_scene(str(path), process=False, **_KINDS[extension])
+        if extension == ".obj":
+            text = io.StringIO(_obj_text(path))
+            scene = trimesh.load_scene(text, "obj", process=False, **_KINDS[extension])
+        else:
+            scene = trimesh.load_scene(str(path), process=False, **_KINDS[extension])
     except MemoryError:
         raise
     except (
@@ -126,6 +133,22 @@ def _read(path: Path, extension: str) -> list[_Part]:
             f"{path}: expected triangles, got {', '.join(kinds) or 'nothing'} without any"
         )
     return parts
+
+
+def _obj_text(path: Path) -> str:
+    """Read an OBJ file as trimesh wants it: as text, and without comments behind numbers."""
+    data = path.read_bytes()
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")  # names and comments of older exporters
+    text = re.sub(r"^([ \t]*(?:v|vt|vn|f)[ \t][^#\r\n]*)#.*$", r"\1", text, flags=re.MULTILINE)
+    zero = re.search(r"^[ \t]*f(?:[ \t].*?)?[ \t]0(?:[/ \t\r]|$)", text, flags=re.MULTILINE)
+    if zero:
+        raise ValueError(
+            f"expected indices from 1 (or negative ones), got {zero.group().strip()!r}"
+        )
+    return text
 
 
 def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> _Part:

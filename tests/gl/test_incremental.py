@@ -57,8 +57,9 @@ def edit_scale(scene, rng):
 
 
 def edit_color(scene, rng):
-    node = scene.nodes[rng.integers(1, 6)]
-    node.material.color = rng.random(3)
+    material = scene.nodes[rng.integers(1, 6)].material
+    name = "tint" if isinstance(material, cc.GlassMaterial) else "color"
+    setattr(material, name, rng.random(3))
 
 
 def edit_opacity(scene, rng):

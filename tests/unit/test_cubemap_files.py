@@ -212,3 +212,20 @@ def test_a_picture_of_no_known_shape_is_refused_with_its_shape(tmp_path):
 
 def test_names_of_faces_go_with_the_order():
     assert FACE_NAMES == ("+x", "-x", "+y", "-y", "+z", "-z")
+
+
+@pytest.mark.parametrize("options", [{"convention": "bogus"}, {"center": "bogus"}])
+def test_unknown_names_are_refused_where_they_are_not_needed(tmp_path, options):
+    cube = cc.CubeMap(face_pattern(4))
+    with pytest.raises(ValueError, match="bogus"):
+        cube.save(
+            tmp_path / "a.png", layout="equirect" if "convention" in options else None, **options
+        )
+    with pytest.raises(ValueError, match="bogus"):
+        cc.load_cubemap(cc.sample_data("city.exr"), **options)
+
+
+def test_one_path_for_two_faces_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="six different paths"):
+        cc.CubeMap(face_pattern(4)).save([tmp_path / "a.png"] * 6)
+    assert not list(tmp_path.iterdir())

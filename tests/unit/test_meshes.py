@@ -256,3 +256,27 @@ def test_a_mesh_without_triangles_is_a_mesh_error(tmp_path):
 def test_unknown_sample_data_names_what_there_is():
     with pytest.raises(ValueError, match=r"bunny\.obj"):
         cc.sample_data("dragon.obj")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"# M\xf6bel\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
+        b"v 0 0 0\nv 1 0 0 # the second\nv 1 1 0\nf 1 2 3 # all\n",
+        b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\n",
+    ],
+    ids=["latin-1", "comments", "negative"],
+)
+def test_obj_files_as_people_write_them(tmp_path, text):
+    path = tmp_path / "a.obj"
+    path.write_bytes(text)
+    mesh = cc.load_mesh(path)
+    assert mesh.positions.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
+    assert mesh.indices.tolist() == [[0, 1, 2]]
+
+
+def test_obj_indices_start_at_1(tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n")
+    with pytest.raises(cc.MeshError, match="indices from 1"):
+        cc.load_mesh(path)

@@ -48,9 +48,6 @@ public:
 
     void draw(const PassInput& input, Target& target, Stats& stats);
 
-    /// A cube of one black texel, what is reflected where there is no environment.
-    GLuint black_cube() const { return black_.id(); }
-
     Programs& programs() { return programs_; }
 
 private:
@@ -89,7 +86,7 @@ private:
     GpuCache* cache_;
     Programs programs_;
     Layering layering_;
-    gl::Texture black_;
+    gl::Texture black_;  ///< a cube of one texel: what is reflected where there is no environment
     gl::Buffer instances_, blocks_, lights_;
     glm::vec3 ambient_{1.0F};
     std::size_t light_count_ = 0;

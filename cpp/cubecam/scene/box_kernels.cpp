@@ -28,7 +28,9 @@ typedef float Float8 __attribute__((vector_size(32)));
 }
 
 [[gnu::always_inline]] inline Float4 texel_at(const char* address) {
-    return *reinterpret_cast<const Float4*>(address);
+    Float4 texel;  // at any address that floats may have
+    std::memcpy(&texel, address, sizeof texel);
+    return texel;
 }
 
 /// The weights of two taps.
@@ -88,9 +90,9 @@ template <typename Body>
 }
 
 template <bool near>
-[[gnu::always_inline]] inline void filter(const Float4* base, std::ptrdiff_t step,
+[[gnu::always_inline]] inline void filter(const void* base, std::ptrdiff_t step,
                                           const BoundTap* taps, std::size_t count, Float4* to) {
-    const char* from = reinterpret_cast<const char*>(base);
+    const char* from = static_cast<const char*>(base);
     for_pairs(count, to,
               [=](std::size_t i, std::size_t j, Float8& result) __attribute__((always_inline)) {
                   const BoundTap& a = taps[i];
@@ -130,12 +132,12 @@ template <bool near>
 
 }  // namespace
 
-CUBECAM_CLONES void filter_linear(const Float4* base, std::ptrdiff_t step, const BoundTap* taps,
+CUBECAM_CLONES void filter_linear(const void* base, std::ptrdiff_t step, const BoundTap* taps,
                                   std::size_t count, Float4* to) {
     filter<false>(base, step, taps, count, to);
 }
 
-CUBECAM_CLONES void filter_near(const Float4* base, std::ptrdiff_t step, const BoundTap* taps,
+CUBECAM_CLONES void filter_near(const void* base, std::ptrdiff_t step, const BoundTap* taps,
                                 std::size_t count, Float4* to) {
     filter<true>(base, step, taps, count, to);
 }

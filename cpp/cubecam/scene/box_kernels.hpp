@@ -20,9 +20,9 @@ struct BoundTap {
 
 /// to[i] = the box taps[i] over texels from `base`, the second one `step` bytes after the first,
 /// for taps of two texels (linear) or three at most (near).
-void filter_linear(const Float4* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
+void filter_linear(const void* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
                    Float4* to);
-void filter_near(const Float4* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
+void filter_near(const void* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
                  Float4* to);
 
 /// Boxes in both directions over a rectangle with rows of `stride` bytes: down[i] by across[i].

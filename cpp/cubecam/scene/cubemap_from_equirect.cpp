@@ -74,6 +74,20 @@ struct EquirectTexels {
         }
     }
 
+    /// Where texels begin..end lie one after another with another one behind, else null.
+    const float* in_place(int row, int begin, int end) const {
+        int column = begin;
+        const float* line = row_texels(row, column);
+        column = wrap(column);
+        if (column + (end - begin) >= period) return nullptr;
+        const float* from = line + static_cast<std::ptrdiff_t>(column) * Channels;
+        if (row + 2 < height) {
+            prefetch(from + std::ptrdiff_t{2} * width * Channels,
+                     static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+        }
+        return from;
+    }
+
     /// The average over a box of any size, without a copy.
     Lane<Channels> box(const BoxTap& down, const BoxTap& across) const {
         return apply_tap<Reach::far>(down, [&](int i) {
@@ -176,6 +190,9 @@ private:
         const auto read = [&](int row, int begin, int end, Lane<Channels>* to) {
             source_.read(row, begin, end, to);
         };
+        const auto in_place = [&](int row, int begin, int end) {
+            return source_.in_place(row, begin, end);
+        };
         bool first = true;
         for (const Face face : {Face::pos_x, Face::neg_x, Face::pos_z, Face::neg_z}) {
             const glm::dvec3 major = face_axes(face).major;
@@ -191,9 +208,9 @@ private:
                                BoxWidth(texel_ / (1 + a * a) * source_.period / (2 * pi)));
                 }
                 if (first) {
-                    filtered.fill(down, across, read);
+                    filtered.fill(down, across, read, in_place);
                 } else {
-                    filtered.refill(across, read);
+                    filtered.refill(across, read, in_place);
                 }
                 first = false;
                 const int at_column = mirrored ? size_ - 1 - column_begin : column_begin;
@@ -244,13 +261,18 @@ private:
                 widths.emplace_back(std::min(texel_ / (2 * pi * radius), 1.0) * source_.period);
             }
         }
-        for (const bool positive_x : {false, true}) {
-            for (const bool positive_z : {false, true}) {
-                across.resize(count);
-                for (std::size_t i = 0; i < count; ++i) {
-                    const double azimuth = positive_z ? angles[i] : pi - angles[i];
-                    across.set(i, source_.column_of(longitude(positive_x ? azimuth : -azimuth)),
-                               widths[i]);
+        const bool even = source_.period % 2 == 0;  // half a turn on, the same taps do again
+        for (const bool acute : {false, true}) {
+            for (const bool positive_x : {true, false}) {
+                const bool positive_z = acute == positive_x;
+                const int shift = even && !positive_x ? source_.period / 2 : 0;
+                if (positive_x || !even) {
+                    across.resize(count);
+                    for (std::size_t i = 0; i < count; ++i) {
+                        const double azimuth = positive_z ? angles[i] : pi - angles[i];
+                        across.set(i, source_.column_of(longitude(positive_x ? azimuth : -azimuth)),
+                                   widths[i]);
+                    }
                 }
                 for (const Face face : {Face::pos_y, Face::neg_y}) {
                     TapList& down = face == Face::pos_y ? north : south;
@@ -259,7 +281,7 @@ private:
                     if (copied) {
                         block.fill(down, across,
                                    [&](int row, int begin, int end, Lane<Channels>* to) {
-                                       source_.read(row, begin, end, to);
+                                       source_.read(row, begin + shift, end + shift, to);
                                    });
                     }
                     // x grows with the column; z with the row on +Y, against it on -Y.
@@ -273,7 +295,8 @@ private:
                             filter_runs(block, down, across, widths, begin, end, scratch.line);
                         } else {
                             for (std::size_t k = begin; k < end; ++k) {
-                                scratch.line[k - begin] = source_.box(down[k], across[k]);
+                                scratch.line[k - begin] =
+                                    source_.box(down[k], shifted(across[k], shift));
                             }
                         }
                         scratch.numbers &= store_texels<Channels>(
@@ -283,6 +306,11 @@ private:
                 }
             }
         }
+    }
+
+    static BoxTap shifted(BoxTap tap, int columns) {
+        tap.first += columns;
+        return tap;
     }
 
     /// Boxes grow towards the pole: runs of texels that reach equally far.

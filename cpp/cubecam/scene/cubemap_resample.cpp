@@ -46,16 +46,21 @@ public:
             columns_.push_back(make_column(d));
         }
         for (int row = 0; row < height_; ++row) {
-            latitudes_.push_back(half_turn / 2 - (row + offset) * lat_step_);
+            const double latitude = half_turn / 2 - (row + offset) * lat_step_;
+            latitudes_.push_back(latitude);
+            pole_rows_.push_back(make_pole_row(latitude));
         }
+        // A quarter turn on, another side face is seen just as the one before.
+        if (!borders && width_ % 8 == 0) turns_ = 4;
     }
 
     void run() const {
         constexpr int tile = panorama_tile;
         std::vector<std::pair<int, int>> spans;  // of columns that look at one side face
-        for (int begin = 0; begin < width_;) {
+        const int turn = width_ / turns_;
+        for (int begin = 0; begin < turn;) {
             int end = begin + 1;
-            while (end < std::min(width_, begin + tile) && column(end).face == column(begin).face) {
+            while (end < std::min(turn, begin + tile) && column(end).face == column(begin).face) {
                 ++end;
             }
             spans.emplace_back(begin, end);
@@ -86,6 +91,36 @@ private:
     }
     double latitude(int row) const { return latitudes_[static_cast<std::size_t>(row)]; }
 
+    /// One row of a panorama as +Y or -Y sees it, where the destination's texels are turned against
+    /// the face's: they are sampled there, as often each way as they are texels long.
+    struct PoleRow {
+        struct Sample {
+            float cosine;  ///< of the turn round the pole, times the radius
+            float sine;
+        };
+        std::vector<Sample> samples;
+    };
+
+    PoleRow make_pole_row(double latitude) const {
+        constexpr double half_turn = std::numbers::pi;
+        const double from_pole = half_turn / 2 - std::abs(latitude);
+        PoleRow row;
+        if (from_pole > 1) return row;  // the faces' corners are 0.955 from the poles
+        const double radius = std::tan(from_pole);
+        const double half_size = cube_.size / 2.0;
+        const int along = samples_for((1 + radius * radius) * lat_step_ * half_size);
+        const int around = samples_for(radius * lon_step_ * half_size);
+        for (int i = 0; i < along; ++i) {
+            const double r = std::tan(from_pole + ((i + 0.5) / along - 0.5) * lat_step_);
+            for (int j = 0; j < around; ++j) {
+                const double turn = ((j + 0.5) / around - 0.5) * lon_step_;
+                row.samples.push_back({static_cast<float>(r * std::cos(turn)),
+                                       static_cast<float>(r * std::sin(turn))});
+            }
+        }
+        return row;
+    }
+
     static PanoramaColumn make_column(const glm::dvec3& d) {
         const bool on_x = std::abs(d.x) >= std::abs(d.z);
         const Face face =
@@ -112,7 +147,6 @@ private:
         FilteredRows<Channels>& filtered = scratch.filtered;
         const double half_size = cube_.size / 2.0;
         const auto columns = static_cast<std::size_t>(end - begin);
-        const Face face = column(begin).face;
         down.resize(static_cast<std::size_t>(row_end - row_begin) * columns);
         across.resize(columns);
         for (std::size_t j = 0; j < columns; ++j) {
@@ -136,74 +170,77 @@ private:
                 }
             }
         }
-        filtered.fill(down, across, [&](int row, int from, int to, Lane<Channels>* line) {
-            read_face_row(cube_, face, row, from, to, line);
-        });
-        const Reach reach = reach_of(down.widest());
-        for (int row = row_begin; row < row_end; ++row) {
-            const std::size_t taps = static_cast<std::size_t>(row - row_begin) * columns;
-            for (std::size_t j = 0; j < columns;) {
-                const bool pole = down.absent(taps + j);
-                std::size_t until = j + 1;
-                while (until < columns && down.absent(taps + until) == pole) ++until;
-                const int from = begin + static_cast<int>(j);
-                if (pole) {
-                    fill_pole_run(row, from, begin + static_cast<int>(until));
-                } else {
-                    filtered.filter(reach, down, taps + j, j, until - j, scratch.line);
-                    store_texels<Channels>(scratch.line, until - j, 1, target(row, from));
-                }
-                j = until;
+        for (int turn = 0; turn < turns_; ++turn) {
+            const int first = begin + turn * (width_ / turns_);
+            const Face face = column(first).face;
+            const auto read = [&](int row, int from, int to, Lane<Channels>* line) {
+                read_face_row(cube_, face, row, from, to, line);
+            };
+            const auto in_place = [&](int row, int from, int to) {
+                return face_row_in_place(cube_, face, row, from, to);
+            };
+            if (turn == 0) {
+                filtered.fill(down, across, read, in_place);
+            } else {
+                filtered.refill(across, read, in_place);
+            }
+            for (int row = row_begin; row < row_end; ++row) {
+                const std::size_t taps = static_cast<std::size_t>(row - row_begin) * columns;
+                fill_row(row, first, columns, taps, scratch);
             }
         }
     }
 
-    /// Columns begin..end of a row, which are on +Y or -Y. There the destination's texels are
-    /// turned against the face's, so they are sampled instead: as often each way as they are texels
-    /// long.
-    void fill_pole_run(int row, int begin, int end) const {
-        constexpr double half_turn = std::numbers::pi;
+    /// `columns` texels of a row from column `first` on, whose taps in `down` begin at `taps`.
+    void fill_row(int row, int first, std::size_t columns, std::size_t taps,
+                  Scratch& scratch) const {
+        const TapList& down = scratch.down;
+        const Reach reach = reach_of(down.widest());
+        for (std::size_t j = 0; j < columns;) {
+            const bool pole = down.absent(taps + j);
+            std::size_t until = j + 1;
+            while (until < columns && down.absent(taps + until) == pole) ++until;
+            const int from = first + static_cast<int>(j);
+            if (pole) {
+                sample_pole(row, from, until - j, scratch.line);
+            } else {
+                scratch.filtered.filter(reach, down, taps + j, j, until - j, scratch.line);
+            }
+            store_texels<Channels>(scratch.line, until - j, 1, target(row, from));
+            j = until;
+        }
+    }
+
+    /// `count` texels of a row from column `first` on, which are on +Y or -Y.
+    void sample_pole(int row, int first, std::size_t count, Lane<Channels>* to) const {
+        const auto& samples = pole_rows_[static_cast<std::size_t>(row)].samples;
         const bool up = latitude(row) > 0;
         const float y = up ? 1.0f : -1.0f;
-        const double from_pole = half_turn / 2 - std::abs(latitude(row));
-        const double radius = std::tan(from_pole);
-        const double half_size = cube_.size / 2.0;
-        const int along = samples_for((1 + radius * radius) * lat_step_ * half_size);
-        const int around = samples_for(radius * lon_step_ * half_size);
-        struct Sample {
-            float cosine;  ///< of the turn round the pole, times the radius
-            float sine;
-        };
-        std::vector<Sample> samples;
-        for (int i = 0; i < along; ++i) {
-            const double r = std::tan(from_pole + ((i + 0.5) / along - 0.5) * lat_step_);
-            for (int j = 0; j < around; ++j) {
-                const double turn = ((j + 0.5) / around - 0.5) * lon_step_;
-                samples.push_back({static_cast<float>(r * std::cos(turn)),
-                                   static_cast<float>(r * std::sin(turn))});
-            }
-        }
         const Face face = up ? Face::pos_y : Face::neg_y;
-        const auto half_texels = static_cast<float>(half_size);
+        const float half_texels = static_cast<float>(cube_.size) / 2.0f;
         const float middle = half_texels - 0.5f;
         const float weight = 1.0f / static_cast<float>(samples.size());
-        for (int j = begin; j < end; ++j) {
-            const PanoramaColumn& c = column(j);
-            const auto column_x = static_cast<float>(c.x);
-            const auto column_z = static_cast<float>(c.z);
-            const auto look = [&](const Sample& at) {
+        const PanoramaColumn* c = &column(first);
+        for (std::size_t j = 0; j < count; ++j, ++c) {
+            const auto column_x = static_cast<float>(c->x);
+            const auto column_z = static_cast<float>(c->z);
+            const auto look = [&](const auto& at) {
                 const float x = column_x * at.cosine - column_z * at.sine;
                 const float z = column_z * at.cosine + column_x * at.sine;
-                if (std::abs(x) > 1 || std::abs(z) > 1) {
+                if (std::abs(x) > 1 || std::abs(z) > 1) [[unlikely]] {
                     const FaceUv<float> uv = direction_to_face_uv(glm::vec3(x, y, z));
                     return cube_.bilinear(uv.face, uv.s, uv.t);
                 }
                 return cube_.between(face, x * half_texels + middle, y * z * half_texels + middle);
             };
-            const Lane<Channels> first = look(samples[0]);
+            const Lane<Channels> one = look(samples[0]);
+            if (samples.size() == 1) {
+                to[j] = one;
+                continue;
+            }
             Lane<Channels> sum{};
-            for (std::size_t i = 1; i < samples.size(); ++i) sum += look(samples[i]) - first;
-            store_texel<Channels>(first + sum * weight, target(row, j));
+            for (std::size_t i = 1; i < samples.size(); ++i) sum += look(samples[i]) - one;
+            to[j] = one + sum * weight;
         }
     }
 
@@ -218,6 +255,8 @@ private:
     double lat_step_;
     std::vector<PanoramaColumn> columns_;
     std::vector<double> latitudes_;
+    std::vector<PoleRow> pole_rows_;
+    int turns_ = 1;  ///< round the panorama after which all repeats but the faces: 4, or 1
     float* to_;
 };
 
@@ -302,10 +341,14 @@ PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sam
                 const int first = static_cast<int>(i) % bands * band;
                 const int last = std::min(first + band, size);
                 face_taps(cube.size, from, size, to, first, last, n, down);
-                scratch.filtered.fill(down, scratch.across,
-                                      [&](int row, int at, int until, Lane<channels>* line) {
-                                          read_face_row(texels, face, row, at, until, line);
-                                      });
+                scratch.filtered.fill(
+                    down, scratch.across,
+                    [&](int row, int at, int until, Lane<channels>* line) {
+                        read_face_row(texels, face, row, at, until, line);
+                    },
+                    [&](int row, int at, int until) {
+                        return face_row_in_place(texels, face, row, at, until);
+                    });
                 float* target = floats + (face_index(face) * n + static_cast<std::size_t>(first)) *
                                              n * channels;
                 for (std::size_t tap = 0; tap < down.size(); tap += n, target += n * channels) {

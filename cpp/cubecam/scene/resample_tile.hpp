@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace cubecam {
@@ -57,10 +58,15 @@ public:
     /// For texels that lie `stride` apart, where the list's range begins at 0. `columns`: tap i is
     /// then for column i % columns, which is one texel further on each. Does nothing a second time.
     void bind(std::size_t stride, std::size_t columns = 1) {
+        bind_bytes(stride * sizeof(Float4), columns);
+    }
+
+    /// The same for texels `stride` bytes apart.
+    void bind_bytes(std::size_t stride, std::size_t columns = 1) {
         if (stride == bound_stride_) return;
         bound_stride_ = stride;
         constexpr auto bytes = static_cast<std::int64_t>(sizeof(Float4));
-        const auto step = static_cast<std::int64_t>(stride) * bytes;
+        const auto step = static_cast<std::int64_t>(stride);
         bound_.resize(taps_.size());
         std::size_t column = 0;
         for (std::size_t i = 0; i < taps_.size(); ++i) {
@@ -78,7 +84,7 @@ private:
     Buffer<BoundTap> bound_;
     TapRange range_;
     double widest_ = 0;
-    std::size_t bound_stride_ = 0;  ///< 0: not bound
+    std::size_t bound_stride_ = 0;  ///< in bytes; 0: not bound
 };
 
 /// A rectangle of the source, copied together: read in order of memory, and looked up without a
@@ -152,25 +158,31 @@ public:
 
     /// Source rows that `down` needs, filtered by `across`, one tap a column. `down` has a tap for
     /// each texel of the destination, [row][column], and is bound to the result.
-    template <typename Read>
-    void fill(TapList& down, TapList& across, const Read& read) {
+    /// What `in_place(row, begin, end)` can point to as floats, another texel behind, is not read.
+    template <typename Read, typename InPlace>
+    void fill(TapList& down, TapList& across, const Read& read, const InPlace& in_place) {
         rows_ = down.range();
         columns_ = across.size();
         down.bind(columns_, columns_);
-        refill(across, read);
+        refill(across, read, in_place);
     }
 
     /// The same rows and `down` once more, with other columns.
-    template <typename Read>
-    void refill(TapList& across, const Read& read) {
-        across.bind(1);
-        line_.resize(across.range().size());
+    template <typename Read, typename InPlace>
+    void refill(TapList& across, const Read& read, const InPlace& in_place) {
+        const TapRange range = across.range();
+        line_.resize(range.size());
         texels_.resize(rows_.size() * columns_);
         const Reach reach = reach_of(across.widest());
+        const bool direct = Channels > 1 && reach != Reach::far;
         Texel* to = texels_.data();
         for (int row = rows_.begin; row < rows_.end; ++row, to += columns_) {
-            read(row, across.range().begin, across.range().end, line_.data());
-            filter_line(reach, across, to);
+            if (const float* from = direct ? in_place(row, range.begin, range.end) : nullptr) {
+                filter_near_line(reach, from, Channels * sizeof(float), across, to);
+            } else {
+                read(row, range.begin, range.end, line_.data());
+                filter_line(reach, across, to);
+            }
         }
     }
 
@@ -201,15 +213,20 @@ public:
     }
 
 private:
-    void filter_line(Reach reach, const TapList& across, Texel* to) const {
+    /// Texels `step` bytes apart, for reaches other than far.
+    void filter_near_line([[maybe_unused]] Reach reach, [[maybe_unused]] const void* from,
+                          [[maybe_unused]] std::size_t step, [[maybe_unused]] TapList& across,
+                          [[maybe_unused]] Texel* to) const {
         if constexpr (Channels > 1) {
-            constexpr auto next = static_cast<std::ptrdiff_t>(sizeof(Float4));
-            if (reach == Reach::linear) {
-                return filter_linear(line_.data(), next, across.bound(0), columns_, to);
-            }
-            if (reach == Reach::near) {
-                return filter_near(line_.data(), next, across.bound(0), columns_, to);
-            }
+            across.bind_bytes(step);
+            const auto kernel = reach == Reach::linear ? filter_linear : filter_near;
+            kernel(from, static_cast<std::ptrdiff_t>(step), across.bound(0), columns_, to);
+        }
+    }
+
+    void filter_line(Reach reach, TapList& across, Texel* to) const {
+        if (Channels > 1 && reach != Reach::far) {
+            return filter_near_line(reach, line_.data(), sizeof(Texel), across, to);
         }
         with_reach(reach, [&](auto constant) {
             const Texel* line = line_.data();
@@ -226,15 +243,23 @@ private:
     TapRange rows_;
 };
 
-/// Writes texels one after another, or one before another: step 1 or -1. Whether none of them is
-/// NaN.
+/// Writes texels one after another, or in the opposite order: step 1 or -1. `to` is where the first
+/// of them goes. Whether none of them is NaN or infinite.
 template <int Channels>
 bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float* to) {
     auto bad = from[0] - from[0] != 0.0f;
-    for (std::size_t i = 0; i < count; ++i, to += step * Channels) {
-        bad |= from[i] - from[i] != 0.0f;
-        store_texel<Channels>(from[i], to);
+    // In order of memory, so that each may write over its neighbour's beginning, in one piece.
+    const std::ptrdiff_t last = static_cast<std::ptrdiff_t>(count) - 1;
+    if (step < 0) {
+        from += last;
+        to -= last * Channels;
     }
+    for (std::ptrdiff_t i = 0; i < last; ++i, from += step, to += Channels) {
+        bad |= *from - *from != 0.0f;
+        std::memcpy(to, from, sizeof *from);
+    }
+    bad |= *from - *from != 0.0f;
+    store_texel<Channels>(*from, to);
     if constexpr (Channels == 1) {
         return !bad;
     } else {
@@ -247,6 +272,18 @@ bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float
 inline void prefetch(const void* address, std::size_t bytes) {
     const auto* from = static_cast<const char*>(address);
     for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(from + i);
+}
+
+/// Where texels begin..end of one row of a face lie in it with another one behind, else null.
+template <int Channels>
+const float* face_row_in_place(const CubeTexels<float, Channels>& cube, Face face, int row,
+                               int begin, int end) {
+    if (!cube.contains(row) || begin < 0 || end >= cube.size) return nullptr;
+    if (row + 2 < cube.size) {
+        prefetch(cube.at(face, row + 2, begin),
+                 static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+    }
+    return cube.at(face, row, begin);
 }
 
 /// Texels begin..end of one row of a face, neighbours beyond its edges.
