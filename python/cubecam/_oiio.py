@@ -67,21 +67,25 @@ def read(path: Path) -> Picture:
     file = oiio.ImageInput.open(str(path), config)
     if file is None:
         raise ImageError(
-            f"{path}: expected a picture file (EXR, HDR, PNG, JPEG, ...): {_reason(oiio.geterror())}"
+            f"{path}: expected a picture file (EXR, HDR, PNG, JPEG, ...): {_reason(oiio)}"
         )
     try:
         spec = file.spec()
         stored = _STORED.get(str(spec.format), "float")
         pixels = file.read_image(0, 0, 0, spec.nchannels, stored)
-        problem = _reason(file.geterror())
+        problem = _reason(file)
     finally:
         file.close()
     # A JPEG that ends early is filled with grey and told by a message alone.
     if pixels is None or "remature end" in problem:
         raise ImageError(f"{path}: the picture is broken or ends early: {problem}")
-    attributes: dict[str, Any] = {item.name: item.value for item in spec.extra_attribs}
+    try:
+        attributes: dict[str, Any] = {item.name: item.value for item in spec.extra_attribs}
+        names = list(spec.channelnames)
+    except UnicodeDecodeError as error:
+        raise ImageError(f"{path}: expected names in UTF-8 in the header, got {error}") from error
     pixels = _window(np.atleast_3d(pixels), spec)
-    pixels = _by_name(pixels, list(spec.channelnames), path)
+    pixels = _by_name(pixels, names, path)
     return Picture(_upright(pixels, int(attributes.get("Orientation", 1))), attributes)
 
 
@@ -100,19 +104,19 @@ def encode(
     height, width, channels = pixels.shape
     file = oiio.ImageOutput.create("picture" + extension)
     if file is None:
-        raise ImageError(f"cannot write {extension} files: {_reason(oiio.geterror())}")
+        raise ImageError(f"cannot write {extension} files: {_reason(oiio)}")
     spec = oiio.ImageSpec(width, height, channels, _SAMPLES[pixels.dtype.name])
     for name, value in (attributes or {}).items():
         spec.attribute(name, value)
     with _MemoryFile(extension) as memory:
         done = file.open(memory.name, spec) and file.write_image(np.ascontiguousarray(pixels))
         done = file.close() and done
-        problem = file.geterror()
+        problem = _reason(file)
         # An EXR's last bytes are written when the writer goes, not when it is closed.
         del file
         if not done:
             raise ImageError(
-                f"cannot write {width} x {height} x {channels} pixels as {extension}: {_reason(problem)}"
+                f"cannot write {width} x {height} x {channels} pixels as {extension}: {problem}"
             )
         return memory.read()
 
@@ -142,7 +146,12 @@ class _MemoryFile:
             os.unlink(self.name)
 
 
-def _reason(message: str) -> str:
+def _reason(teller: Any) -> str:
+    """What OpenImageIO, or one of its files, says went wrong."""
+    try:
+        message = str(teller.geterror())
+    except UnicodeDecodeError:  # it quotes a broken file's bytes
+        message = ""
     return " ".join(message.split()) or "no reason given"
 
 

@@ -126,6 +126,9 @@ def _read(path: Path, extension: str) -> list[_Part]:
         matrix, key = scene.graph[name]
         geometry = scene.geometry[key]
         if isinstance(geometry, trimesh.Trimesh) and len(geometry.faces):
+            if geometry.vertices.shape[1] != 3:
+                got = geometry.vertices.shape[1]
+                raise MeshError(f"{path}: expected vertices of three numbers, got {got}")
             parts.append(_placed(geometry, np.asarray(matrix, dtype=np.float64)))
     if not parts:
         kinds = sorted({type(geometry).__name__ for geometry in scene.geometry.values()})

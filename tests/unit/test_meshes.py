@@ -275,6 +275,13 @@ def test_obj_files_as_people_write_them(tmp_path, text):
     assert mesh.indices.tolist() == [[0, 1, 2]]
 
 
+def test_vertices_of_two_numbers_are_refused(tmp_path):
+    path = tmp_path / "a.obj"
+    path.write_text("v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n")
+    with pytest.raises(cc.MeshError, match="three numbers, got 2"):
+        cc.load_mesh(path)
+
+
 def test_obj_indices_start_at_1(tmp_path):
     path = tmp_path / "a.obj"
     path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n")
