@@ -42,7 +42,6 @@ struct Limits {
     int max_viewport_width = 0;
     int max_viewport_height = 0;
     int max_samples = 0;  ///< the least of GL_MAX_SAMPLES and GL_MAX_{COLOR,DEPTH}_TEXTURE_SAMPLES
-    int max_integer_samples = 0;
     int max_color_attachments = 0;
     int max_draw_buffers = 0;
     int max_texture_units = 0;          ///< combined

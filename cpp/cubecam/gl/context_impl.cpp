@@ -105,7 +105,6 @@ void Context::Impl::query_limits() {
     limits.max_viewport_height = viewport[1];
     limits.max_samples = std::min({get(GL_MAX_SAMPLES), get(GL_MAX_COLOR_TEXTURE_SAMPLES),
                                    get(GL_MAX_DEPTH_TEXTURE_SAMPLES)});
-    limits.max_integer_samples = get(GL_MAX_INTEGER_SAMPLES);
     limits.max_color_attachments = get(GL_MAX_COLOR_ATTACHMENTS);
     limits.max_draw_buffers = get(GL_MAX_DRAW_BUFFERS);
     limits.max_texture_units = get(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);

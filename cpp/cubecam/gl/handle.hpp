@@ -83,12 +83,6 @@ struct VertexArrayTraits {
         gl.DeleteVertexArrays(1, &id);
     }
 };
-struct SamplerTraits {
-    static void destroy(const GladGLContext& gl, GLuint id) noexcept { gl.DeleteSamplers(1, &id); }
-};
-struct QueryTraits {
-    static void destroy(const GladGLContext& gl, GLuint id) noexcept { gl.DeleteQueries(1, &id); }
-};
 struct ShaderTraits {
     static void destroy(const GladGLContext& gl, GLuint id) noexcept { gl.DeleteShader(id); }
 };
@@ -100,8 +94,6 @@ using Texture = Handle<TextureTraits>;
 using Buffer = Handle<BufferTraits>;
 using Framebuffer = Handle<FramebufferTraits>;
 using VertexArray = Handle<VertexArrayTraits>;
-using Sampler = Handle<SamplerTraits>;
-using Query = Handle<QueryTraits>;
 using ShaderHandle = Handle<ShaderTraits>;
 using ProgramHandle = Handle<ProgramTraits>;
 

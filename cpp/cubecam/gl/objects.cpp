@@ -146,24 +146,6 @@ VertexArray create_vertex_array(const GladGLContext& gl) {
     return VertexArray(gl, id);
 }
 
-Query create_query(const GladGLContext& gl, GLenum target) {
-    GLuint id = 0;
-    gl.CreateQueries(target, 1, &id);
-    return Query(gl, id);
-}
-
-Sampler create_sampler(const GladGLContext& gl, GLenum min_filter, GLenum mag_filter, GLenum wrap) {
-    GLuint id = 0;
-    gl.CreateSamplers(1, &id);
-    Sampler sampler(gl, id);
-    gl.SamplerParameteri(id, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(min_filter));
-    gl.SamplerParameteri(id, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(mag_filter));
-    for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-        gl.SamplerParameteri(id, direction, static_cast<GLint>(wrap));
-    }
-    return sampler;
-}
-
 void check_framebuffer(const GladGLContext& gl, const Framebuffer& framebuffer,
                        std::string_view what) {
     const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER);
@@ -172,10 +154,6 @@ void check_framebuffer(const GladGLContext& gl, const Framebuffer& framebuffer,
     throw GlError(std::string(what) + ": " + framebuffer_status_name(status) + " (" +
                       hexadecimal(status) + ")",
                   status);
-}
-
-void set_label(const GladGLContext& gl, GLenum kind, GLuint id, std::string_view label) {
-    gl.ObjectLabel(kind, id, static_cast<GLsizei>(label.size()), label.data());
 }
 
 }  // namespace cubecam::gl

@@ -46,17 +46,9 @@ Buffer create_buffer(const GladGLContext& gl, std::span<T, Extent> data, GLbitfi
 
 Framebuffer create_framebuffer(const GladGLContext& gl);
 VertexArray create_vertex_array(const GladGLContext& gl);
-Query create_query(const GladGLContext& gl, GLenum target);
-
-/// A sampler with the given filters, and one wrap mode for all directions.
-Sampler create_sampler(const GladGLContext& gl, GLenum min_filter, GLenum mag_filter,
-                       GLenum wrap = GL_CLAMP_TO_EDGE);
 
 /// Throws GlError naming `what` and the decoded status unless the framebuffer is complete.
 void check_framebuffer(const GladGLContext& gl, const Framebuffer& framebuffer,
                        std::string_view what);
-
-/// Names an object in debuggers and in the debug messages; `kind` is GL_TEXTURE, GL_BUFFER, ...
-void set_label(const GladGLContext& gl, GLenum kind, GLuint id, std::string_view label);
 
 }  // namespace cubecam::gl

@@ -43,7 +43,7 @@ struct RendererOptions {
     /// faster.
     std::optional<bool> layered;
     std::size_t cache_bytes = std::size_t{256} << 20;  ///< kept for targets of frames and captures
-    bool debug = false;                                ///< driver messages become errors
+    bool debug = false;                                ///< errors quote the driver's messages
 };
 
 struct FrameOptions {

@@ -119,11 +119,21 @@ auto Renderer::run(Work&& work) {
     state.cache.sweep();
     state.probes.sweep();
     stats_ = {};
-    auto result = work(state);
-    state.targets.trim();
-    stats_.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return result;
+    gpu_->context.take_debug_messages();  // of earlier calls
+    try {
+        auto result = work(state);
+        state.targets.trim();
+        const std::chrono::duration<double, std::milli> taken =
+            std::chrono::steady_clock::now() - start;
+        stats_.milliseconds = taken.count();
+        return result;
+    } catch (const GlError& error) {
+        std::string text = error.what();
+        for (const std::string& message : gpu_->context.take_debug_messages()) {
+            text += "\n" + message;
+        }
+        throw GlError(text, error.code());
+    }
 }
 
 Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,

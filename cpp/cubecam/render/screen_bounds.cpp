@@ -1,5 +1,7 @@
 #include "cubecam/render/screen_bounds.hpp"
 
+#include "cubecam/math/frustum.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,10 +46,8 @@ Rect screen_bounds(const View& view, const Bounds& world_bounds, const glm::dvec
     glm::dvec2 low(infinity);
     glm::dvec2 high(-infinity);
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 point((corner & 1) != 0 ? world_bounds.high.x : world_bounds.low.x,
-                               (corner & 2) != 0 ? world_bounds.high.y : world_bounds.low.y,
-                               (corner & 4) != 0 ? world_bounds.high.z : world_bounds.low.z, 1.0);
-        const glm::dvec4 clip = view.view_projection * point;
+        const glm::dvec4 clip =
+            view.view_projection * box_corner(world_bounds.low, world_bounds.high, corner);
         // Beside or behind the eye a corner's projection bounds nothing.
         const double size = std::max(std::abs(clip.x), std::abs(clip.y));
         const double w = clip.w - error.w;

@@ -29,8 +29,6 @@ constexpr OutputFormat output_formats[] = {
 
 GLenum attachment(Slot slot) { return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot); }
 
-}  // namespace
-
 GLenum gl_format(Format format) {
     switch (format) {
         case Format::rgba8: return GL_RGBA8;
@@ -39,6 +37,8 @@ GLenum gl_format(Format format) {
     }
     return GL_RGBA32F;
 }
+
+}  // namespace
 
 TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
                                   std::int64_t height, std::int64_t samples, Format format,

@@ -106,6 +106,4 @@ private:
     std::optional<Layers> color_pass_, output_pass_, resolved_, graded_pass_;
 };
 
-GLenum gl_format(Format format);
-
 }  // namespace cubecam
