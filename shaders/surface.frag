@@ -60,6 +60,14 @@ void main() {
 #else
     o_color.a = 1.0;
 #endif
+    // What the blending of blend.cpp wants of its source.
+#if defined(BLEND_ADDITIVE)
+    o_color.rgb *= o_color.a;
+#elif defined(BLEND_MULTIPLY)
+    o_color.rgb = mix(vec3(1.0), o_color.rgb, o_color.a);
+#elif defined(BLEND_PREMULTIPLIED)
+    o_color.rgb *= v_alpha;
+#endif
 #ifdef OUTPUTS
     vec3 from_view = v_position - v_view_position.xyz;
     float z = dot(from_view, v_view_forward);

@@ -15,6 +15,30 @@ inline constexpr const char* material_doc =
 A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
 numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
 opaque is blended over what lies behind it.
+
+Every material takes these by keyword, and has them as attributes:
+
+======================  =========================================================================
+opacity=1               from 0 to 1, times the alpha of the colours
+double_sided=False      True shows both sides; False culls back faces
+blend=None              how its colour S, of alpha a, joins what is there already, D:
+                        "opaque": S, with alpha 1;
+                        "alpha": a S + (1 - a) D, alpha a + (1 - a) D;
+                        "alpha_keep": the same colour, alpha stays D's;
+                        "additive": a S + D, alpha a + D;
+                        "multiply": (1 - a + a S) D, alpha stays D's;
+                        "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
+                        is multiplied by their alpha already; opacity and the colour's alpha
+                        multiply both.
+                        None: "alpha" where anything is translucent, else "opaque"
+depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
+                        "opaque"
+depth_test=True         False is drawn over what is nearer as well
+color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
+======================  =========================================================================
+
+What is blended, or writes no depth, is drawn after the background, far to near; it writes colour
+and none of the other outputs.
 )doc";
 
 inline constexpr const char* basic_doc = R"doc(Unlit: color * map * vertex colour * cubemap.
@@ -30,10 +54,8 @@ cubemap : CubeMap or Probe, optional
     whole of it and turns with it. Its alpha does not count.
 vertex_colors : bool
     Whether the mesh's colours count.
-opacity : float
-    From 0 to 1.
-double_sided : bool
-    False culls back faces.
+opacity, double_sided, blend, depth_write, depth_test, color_write
+    As of every `Material`.
 
 Raises
 ------
@@ -67,10 +89,8 @@ map : Image or array_like (H, W, C), optional
     A picture that multiplies color, placed by the mesh's uvs.
 vertex_colors : bool
     Whether the mesh's colours multiply color.
-opacity : float
-    From 0 to 1.
-double_sided : bool
-    False culls back faces.
+opacity, double_sided, blend, depth_write, depth_test, color_write
+    As of every `Material`.
 
 Raises
 ------
@@ -110,10 +130,8 @@ fresnel : float, optional
     F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
     F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
     Rendering", 1994). None: it is not.
-opacity : float
-    From 0 to 1.
-double_sided : bool
-    False culls back faces.
+opacity, double_sided, blend, depth_write, depth_test, color_write
+    As of every `Material`.
 
 Raises
 ------
@@ -143,10 +161,8 @@ fresnel : bool
     False: T alone.
 tint : array_like (3,) or (4,)
     Linear RGB or RGBA, times what is refracted.
-opacity : float
-    From 0 to 1.
-double_sided : bool
-    False culls back faces.
+opacity, double_sided, blend, depth_write, depth_test, color_write
+    As of every `Material`.
 
 Raises
 ------

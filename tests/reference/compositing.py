@@ -19,3 +19,27 @@ def composite(background, *layers):
     for layer in layers:
         result = over(layer, result)
     return result
+
+
+BLENDS = ("opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied")
+
+
+def blend(mode, source, destination):
+    """One surface over what is there, by the formula of its mode; `source` has straight alpha.
+
+    A premultiplied source is what straight alpha gives once its colour is multiplied: the same picture.
+    """
+    source, destination = np.broadcast_arrays(
+        np.asarray(source, float), np.asarray(destination, float)
+    )
+    s, a, d = source[..., :3], source[..., 3:], destination[..., :3]
+    kept = destination[..., 3:]
+    color, alpha = {
+        "opaque": (s, np.ones_like(a)),
+        "alpha": (a * s + (1 - a) * d, a + (1 - a) * kept),
+        "alpha_keep": (a * s + (1 - a) * d, kept),
+        "additive": (a * s + d, a + kept),
+        "multiply": ((1 - a + a * s) * d, kept),
+        "premultiplied": (a * s + (1 - a) * d, a + (1 - a) * kept),
+    }[mode]
+    return np.concatenate([color, alpha], axis=-1)

@@ -53,7 +53,7 @@ const FrozenSource& Call::source_of(const NodeSnapshot& node) const {
 
 std::vector<std::size_t> Call::probes_of(const DrawPlan& plan) const {
     std::vector<std::size_t> probes;
-    for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
+    for (const auto* nodes : {&plan.opaque, &plan.late}) {
         for (const PlannedNode& planned : *nodes) {
             const auto* probe = std::get_if<std::size_t>(&source_of(scene_.nodes[planned.node]));
             if (probe != nullptr) probes.push_back(*probe);
@@ -88,7 +88,7 @@ std::vector<Call::Lookup> Call::look_up_all(const DrawPlan& plan,
                                             std::optional<std::size_t> in_probe,
                                             const ProbeOrder* order) {
     std::vector<Lookup> lookups(scene_.nodes.size());
-    for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
+    for (const auto* nodes : {&plan.opaque, &plan.late}) {
         for (const PlannedNode& planned : *nodes) {
             lookups[planned.node] = look_up(source_of(scene_.nodes[planned.node]), in_probe, order);
         }
@@ -201,7 +201,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
         key.add(view.eye);
         key.add(view.near);
     }
-    for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
+    for (const auto* nodes : {&plan.opaque, &plan.late}) {
         for (const PlannedNode& planned : *nodes) {
             const NodeSnapshot& node = scene_.nodes[planned.node];
             Key key;

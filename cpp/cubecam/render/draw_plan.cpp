@@ -30,7 +30,7 @@ bool same_order(const View& a, const View& b) {
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
                    const std::function<bool(const NodeSnapshot&)>& wanted) {
     std::vector<Seen> opaque;
-    std::vector<PlannedNode> translucent;
+    std::vector<PlannedNode> late;
     for (std::size_t index = 0; index < scene.nodes.size(); ++index) {
         const NodeSnapshot& node = scene.nodes[index];
         if (!wanted(node)) continue;
@@ -42,8 +42,8 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
             planned.sights.push_back({v, screen_bounds(views[v], bounds, error, width, height)});
         }
         if (planned.sights.empty()) continue;
-        if (node.translucent) {
-            translucent.push_back(std::move(planned));
+        if (node.drawn_late()) {
+            late.push_back(std::move(planned));
             continue;
         }
         // Of all views, also those that do not see it: what one view draws must not hang on which
@@ -60,13 +60,13 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
                      [](const Seen& a, const Seen& b) { return a.distance < b.distance; });
     plan.opaque.reserve(opaque.size());
     for (Seen& seen : opaque) plan.opaque.push_back(std::move(seen.planned));
-    if (translucent.empty()) return plan;
+    if (late.empty()) return plan;
 
     std::vector<bool> done(views.size(), false);
     for (std::size_t first = 0; first < views.size(); ++first) {
         if (done[first]) continue;
         std::vector<Seen> sequence;
-        for (const PlannedNode& planned : translucent) {
+        for (const PlannedNode& planned : late) {
             PlannedNode part{planned.node, {}};
             for (const PlannedNode::Sight& sight : planned.sights) {
                 if (same_order(views[first], views[sight.view])) part.sights.push_back(sight);
@@ -77,7 +77,7 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
         }
         std::stable_sort(sequence.begin(), sequence.end(),
                          [](const Seen& a, const Seen& b) { return a.distance > b.distance; });
-        for (Seen& seen : sequence) plan.translucent.push_back(std::move(seen.planned));
+        for (Seen& seen : sequence) plan.late.push_back(std::move(seen.planned));
         for (std::size_t v = first; v < views.size(); ++v) {
             if (same_order(views[first], views[v])) done[v] = true;
         }

@@ -21,12 +21,13 @@ struct PlannedNode {
     std::vector<Sight> sights;  ///< by view, ascending
 };
 
-/// What is drawn, in order: opaque nodes near to far, then translucent ones far to near.
+/// What is drawn, in order: opaque nodes near to far, then those of NodeSnapshot::drawn_late far to
+/// near.
 struct DrawPlan {
     std::vector<PlannedNode> opaque;
     /// Back to front for the views it lists. Views that stand in one place share one sequence;
     /// others follow each other, sequence by sequence, so a node may come several times.
-    std::vector<PlannedNode> translucent;
+    std::vector<PlannedNode> late;
 };
 
 /// For pictures of `width` x `height`: culls every node that `wanted` lets through against every

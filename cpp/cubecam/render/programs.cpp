@@ -38,7 +38,10 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     define(variant.cube, "HAS_CUBE");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.fresnel, "FRESNEL");
-    define(variant.translucent, "TRANSLUCENT");
+    define(variant.blend != Blend::opaque, "TRANSLUCENT");
+    define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
+    define(variant.blend == Blend::multiply, "BLEND_MULTIPLY");
+    define(variant.blend == Blend::premultiplied, "BLEND_PREMULTIPLIED");
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
     define(variant.dense, "DENSE");

@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/program.hpp"
 #include "cubecam/render/options.hpp"
+#include "cubecam/scene/blend.hpp"
 
 #include <compare>
 #include <cstddef>
@@ -20,7 +21,7 @@ struct SurfaceVariant {
     bool cube = false;  ///< a basic material that shows a cubemap
     bool double_sided = false;
     bool fresnel = false;
-    bool translucent = false;
+    Blend blend = Blend::opaque;
     bool dense = false;  ///< many small triangles: constants stay in their blocks
     bool outputs = false;
     int lights = 0;  ///< unrolled so many times; -1: a loop

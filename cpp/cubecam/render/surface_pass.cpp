@@ -3,6 +3,7 @@
 #include "cubecam/render/clear.hpp"
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/instance.hpp"
+#include "cubecam/render/raster_state.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -70,7 +71,6 @@ SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering l
     gl_->Enable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     gl_->Disable(GL_DITHER);
     gl_->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    gl_->BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 void SurfacePass::upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin) {
@@ -153,7 +153,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
         }
     };
     add(input.plan.opaque, prepared.opaque);
-    add(input.plan.translucent, prepared.translucent);
+    add(input.plan.late, prepared.late);
 
     prepared.first_skybox = static_cast<GLuint>(instances.size());
     if (std::holds_alternative<GLuint>(input.background)) {
@@ -251,26 +251,21 @@ bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
 void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
                            std::optional<std::size_t> region, bool color, bool outputs,
                            Stats& stats) {
-    gl_->Enable(GL_DEPTH_TEST);
-    gl_->DepthFunc(GL_GREATER);
-    gl_->DepthMask(GL_TRUE);
-    gl_->Disable(GL_BLEND);
+    reset_raster_state(*gl_);
     const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
     draw_items(prepared.opaque, region, mirror, outputs, stats);
-    if (!color) return;  // neither the background nor anything translucent writes the outputs
+    reset_raster_state(*gl_);
+    if (!color) return;  // neither the background nor what is drawn late writes the outputs
 
     for (int slot = 1; slot < slot_count; ++slot) {
         gl_->ColorMaski(static_cast<GLuint>(slot), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     }
-    gl_->DepthMask(GL_FALSE);
     if (const auto* cube = std::get_if<GLuint>(&input.background)) {
         draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(region.value_or(0)),
                     region ? 1 : input.regions.size(), stats);
     }
-    gl_->Enablei(GL_BLEND, 0);
-    draw_items(prepared.translucent, region, mirror, false, stats);
-    gl_->Disablei(GL_BLEND, 0);
-    gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    draw_items(prepared.late, region, mirror, false, stats);
+    reset_raster_state(*gl_);
 }
 
 SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) const {
@@ -279,7 +274,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     variant.material = material.parameters.index();
     variant.double_sided = material.surface.double_sided;
     variant.outputs = outputs;
-    variant.translucent = node.translucent;
+    variant.blend = node.blend == Blend::alpha_keep ? Blend::alpha : node.blend;
     variant.dense = node.mesh->triangles()->size() >= dense_triangles;
     const auto textures = [&](const auto& parameters) {
         variant.map = parameters.map != nullptr && node.mesh->uvs() != nullptr;
@@ -312,22 +307,13 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
             first += static_cast<GLuint>(place - item.regions.begin());
             count = 1;
         }
-        const MaterialValue& material = item.node->material.value;
+        const MaterialParameters& material = item.node->material.value.parameters;
         const SurfaceVariant variant = variant_of(*item.node, outputs);
         const gl::Program& program = programs_.surface(variant);
         if (bound != &program) program.use();
         bound = &program;
 
-        if (material.surface.double_sided) {
-            gl_->Disable(GL_CULL_FACE);
-        } else {
-            gl_->Enable(GL_CULL_FACE);
-        }
-        // A node's matrix of negative determinant turns the winding, a mirrored view turns it
-        // again.
-        const bool turned = (glm::determinant(glm::dmat3(item.node->world)) < 0.0) != mirror;
-        gl_->FrontFace(turned ? GL_CW : GL_CCW);
-
+        set_raster_state(*gl_, *item.node, mirror);
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
                              sizeof(DrawBlock));
         if (variant.map) {
@@ -336,7 +322,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
                     if constexpr (requires { p.map; }) return p.map;
                     return nullptr;
                 },
-                material.parameters);
+                material);
             gl_->BindTextureUnit(map_unit, cache_->image(map).texture.id());
         }
         gl_->BindTextureUnit(cube_unit, item.cube != 0 ? item.cube : black_.id());
@@ -354,6 +340,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
 void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats) {
     const GLuint array = cache_->views_only().id();
     gl_->DepthFunc(GL_GEQUAL);  // the quad lies on the far plane, where the buffer was cleared to
+    gl_->DepthMask(GL_FALSE);
     gl_->Disable(GL_CULL_FACE);
     programs_.skybox().use();
     gl_->BindTextureUnit(cube_unit, cube);
@@ -361,7 +348,6 @@ void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t co
     gl_->BindVertexArray(array);
     gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
                                          first_instance);
-    gl_->DepthFunc(GL_GREATER);
     ++stats.draw_calls;
     stats.triangles += static_cast<std::int64_t>(2 * count);
 }

@@ -40,7 +40,7 @@ struct PassInput {
 enum class Layering { never, where_faster, always };
 
 /// The one path that draws a scene, into one view or many: opaque nodes near to far, the
-/// background, translucent nodes far to near. A mesh is drawn once for all the views that see it;
+/// background, what is drawn late far to near. A mesh is drawn once for all the views that see it;
 /// without layered rendering, once for each.
 class SurfacePass {
 public:
@@ -63,7 +63,7 @@ private:
 
     struct Prepared {
         std::vector<Item> opaque;
-        std::vector<Item> translucent;
+        std::vector<Item> late;
         GLuint first_skybox = 0;  ///< record of the skybox in the first region
     };
 

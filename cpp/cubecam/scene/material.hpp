@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/scene/blend.hpp"
 #include "cubecam/scene/image.hpp"
 #include "cubecam/scene/lookup.hpp"
 #include "cubecam/scene/versioned.hpp"
@@ -16,6 +17,10 @@ namespace cubecam {
 struct SurfaceOptions {
     float opacity = 1.0F;  ///< 0..1, times the colour's alpha
     bool double_sided = false;
+    std::optional<Blend> blend;       ///< none: alpha where anything is translucent, else opaque
+    std::optional<bool> depth_write;  ///< none: what is opaque writes depth
+    bool depth_test = true;           ///< hidden by what is nearer
+    glm::bvec4 color_write{true};     ///< channels of the colour that are written
 
     bool operator==(const SurfaceOptions&) const = default;
 };

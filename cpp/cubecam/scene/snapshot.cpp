@@ -23,7 +23,7 @@ Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
     return {centre - reach, centre + reach};
 }
 
-/// Whether anything about a surface lets through what is behind it.
+/// Whether any alpha of a surface is below one.
 bool shows_through(const MaterialValue& material, const Mesh& mesh) {
     if (translucent(material)) return true;
     const auto by_vertices_or_map = [&](const auto& parameters) {
@@ -115,6 +115,9 @@ private:
         const NodeValue& value = node.value_;
         const Material::State& material = state_of(*value.material);
         const auto* basic = std::get_if<BasicParameters>(&material.value.parameters);
+        const SurfaceOptions& surface = material.value.surface;
+        const Blend blend = surface.blend.value_or(
+            shows_through(material.value, *value.mesh) ? Blend::alpha : Blend::opaque);
         NodeSnapshot snapshot{
             node.id(),
             place.world,
@@ -124,7 +127,9 @@ private:
             freeze(value.environment),
             basic ? freeze(basic->cubemap) : FrozenSource(),
             place.in_probes,
-            shows_through(material.value, *value.mesh),
+            blend != Blend::opaque,
+            blend,
+            surface.depth_write.value_or(blend == Blend::opaque),
             {},
         };
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {

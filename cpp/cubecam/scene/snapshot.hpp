@@ -34,8 +34,14 @@ struct NodeSnapshot {
     FrozenSource environment;  ///< the node's own; none: the scene's
     FrozenSource cubemap;      ///< what a BasicMaterial shows
     bool in_probes;            ///< of the node and all above it
-    bool translucent;
+    bool translucent;          ///< blended over what is behind it
+    Blend blend;               ///< as it is drawn
+    bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
+
+    /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
+    /// depth: the background, and all that is farther, would be drawn over it.
+    bool drawn_late() const { return translucent || !depth_write; }
 };
 
 struct ProbeSnapshot {

@@ -1,0 +1,75 @@
+// What every material has, as properties of cubecam.Material.
+#include "surface_options.hpp"
+#include "vectors.hpp"
+
+namespace cubecam::bindings {
+
+namespace {
+
+template <class Get, class Set>
+void surface_property(Class<Material>& material, const char* name, Get get, Set set,
+                      const char* doc) {
+    material.def_property(
+        name, [get](const Material& self) { return get(self.value().surface); }, set, doc);
+}
+
+template <class Change>
+void edit_surface(Material& material, Change change) {
+    material.edit([&](MaterialValue& next) { change(next.surface); });
+}
+
+}  // namespace
+
+void bind_surface_options(Class<Material>& material) {
+    surface_property(
+        material, "opacity", [](const SurfaceOptions& s) { return shortest(s.opacity); },
+        [](Material& self, float value) {
+            edit_surface(self, [&](SurfaceOptions& s) { s.opacity = value; });
+        },
+        "float: from 0 to 1, times the alpha of the colours.");
+    surface_property(
+        material, "double_sided", [](const SurfaceOptions& s) { return s.double_sided; },
+        [](Material& self, bool value) {
+            edit_surface(self, [&](SurfaceOptions& s) { s.double_sided = value; });
+        },
+        "bool: True shows both sides, its normal turned to the viewer; False culls back faces.");
+    surface_property(
+        material, "blend", [](const SurfaceOptions& s) { return from_blend(s.blend); },
+        [](Material& self, const BlendLike& value) {
+            const auto blend = to_blend(value);
+            edit_surface(self, [&](SurfaceOptions& s) { s.blend = blend; });
+        },
+        "str or None: how it joins what is drawn already: \"opaque\", \"alpha\", "
+        "\"alpha_keep\", \"additive\", \"multiply\" or \"premultiplied\"; see `Material`. "
+        "None: \"alpha\" where anything is translucent, else \"opaque\".");
+    surface_property(
+        material, "depth_write",
+        [](const SurfaceOptions& s) -> DepthWriteLike {
+            return s.depth_write ? py::object(py::bool_(*s.depth_write)) : py::none();
+        },
+        [](Material& self, const DepthWriteLike& value) {
+            const auto write = to_depth_write(value);
+            edit_surface(self, [&](SurfaceOptions& s) { s.depth_write = write; });
+        },
+        "bool or None: whether it hides what is drawn after it and is farther. None: if its blend "
+        "is \"opaque\".");
+    surface_property(
+        material, "depth_test", [](const SurfaceOptions& s) { return s.depth_test; },
+        [](Material& self, bool value) {
+            edit_surface(self, [&](SurfaceOptions& s) { s.depth_test = value; });
+        },
+        "bool: False is drawn over what is nearer as well.");
+    surface_property(
+        material, "color_write",
+        [](const SurfaceOptions& s) -> py::typing::Tuple<bool, bool, bool, bool> {
+            return from_color_write(s.color_write);
+        },
+        [](Material& self, const ColorWriteLike& value) {
+            const glm::bvec4 write = to_color_write(value);
+            edit_surface(self, [&](SurfaceOptions& s) { s.color_write = write; });
+        },
+        "tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. "
+        "Depth and the other outputs are written all the same.");
+}
+
+}  // namespace cubecam::bindings

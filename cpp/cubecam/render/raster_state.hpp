@@ -1,0 +1,17 @@
+#pragma once
+
+#include "cubecam/scene/snapshot.hpp"
+
+#include <glad/gl.h>
+
+namespace cubecam {
+
+/// Sets what a node's material says of culling, depth, colour channels and blending for the next
+/// draw call. `mirror`: the view shows the world mirrored.
+void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mirror);
+
+/// What drawing starts from, and clears and full-screen passes count on: every channel and depth
+/// written, no blending.
+void reset_raster_state(const GladGLContext& gl);
+
+}  // namespace cubecam
