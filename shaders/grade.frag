@@ -1,14 +1,18 @@
 // Tone mapping and transfer function, over a finished frame in linear float. Alpha passes through.
 layout(binding = 0) uniform sampler2DArray u_frame;
+uniform int u_layer;
 layout(location = 0) out vec4 o_color;
 
 #if defined(TONEMAP_REINHARD)
+#define TONEMAP
 // E. Reinhard et al., "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002, equation 3, per channel.
 vec3 tonemap(vec3 c) { return c / (1.0 + c); }
 #elif defined(TONEMAP_ACES)
+#define TONEMAP
 // K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit of the reference curve.
 vec3 tonemap(vec3 c) { return clamp(c * (2.51 * c + 0.03) / (c * (2.43 * c + 0.59) + 0.14), 0.0, 1.0); }
 #elif defined(TONEMAP_NEUTRAL)
+#define TONEMAP
 // Khronos PBR Neutral Tone Mapper, specification of 2024.
 vec3 tonemap(vec3 c) {
     const float start = 0.8 - 0.04;
@@ -33,9 +37,11 @@ vec3 encode_srgb(vec3 c) {
 }
 
 void main() {
-    vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, 0), 0);
+    vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, u_layer), 0);
+#if defined(TONEMAP) || defined(ENCODE_SRGB)
     // A lamp may be infinite; its square must not be.
     color.rgb = tonemap(clamp(color.rgb, 0.0, 1e18));
+#endif
 #ifdef ENCODE_SRGB
     color.rgb = encode_srgb(color.rgb);
 #endif

@@ -2,7 +2,7 @@
 // B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975, with white highlights.
 // material[0]: ka * color * ambient light, shininess. material[1]: kd * color, ks.
 vec3 light_answer(Surface surface, vec4 place, vec4 light) {
-    vec3 to_light = place.xyz - surface.position * place.w;
+    vec3 to_light = place.xyz - surface.from_origin * place.w;
     float distance_squared = dot(to_light, to_light);
     to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface shall not be NaN
     float n_dot_l = dot(surface.normal, to_light);

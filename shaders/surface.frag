@@ -5,11 +5,17 @@
 #include "surface.glsl"
 
 struct Surface {
-    vec3 position;         // world, from u_origin
+    vec3 from_origin;      // world, from u_origin
     vec3 position_object;  // with HAS_CUBE
     vec3 normal;           // world, unit length, towards the viewer on double-sided surfaces
     vec3 incident;         // world, unit length, from the eye to the surface
     vec3 tint;             // map times vertex colour
+#ifdef MATERIAL_SHADER
+    vec3 position;       // world
+    vec3 normal_object;  // any length
+    vec2 uv;
+    vec4 color;  // the vertices', white where the mesh has none
+#endif
 };
 
 #include "environment.glsl"
@@ -17,6 +23,7 @@ struct Surface {
 #include "phong.glsl"
 #include "mirror.glsl"
 #include "glass.glsl"
+#include "scene.glsl"
 
 #ifdef HAS_MAP
 layout(binding = 0) uniform sampler2D u_map;
@@ -33,7 +40,7 @@ layout(location = 5) out int o_id;
 
 void main() {
     Surface surface;
-    surface.position = v_position;
+    surface.from_origin = v_position;
     surface.position_object = vec3(0.0);
 #ifdef HAS_CUBE
     surface.position_object = v_position_object;
@@ -54,7 +61,18 @@ void main() {
 #endif
     surface.tint = tint.rgb;
 
+#ifdef MATERIAL_SHADER
+    surface.position_object = v_position_object;
+    surface.position = v_position + u_origin.xyz;
+    surface.normal_object = v_normal_object;
+    surface.uv = v_uv;
+    surface.color = tint;
+    vec4 shaded = with_alpha(shade(surface));
+    o_color.rgb = shaded.rgb;
+    tint.a = shaded.a;
+#else
     o_color.rgb = shade(surface);
+#endif
 #ifdef TRANSLUCENT
     o_color.a = tint.a * v_alpha;
 #else

@@ -25,14 +25,17 @@ flat STAGE vec4 v_light_color[LIGHT_COUNT];
 STAGE vec3 v_position;  // world, from u_origin
 STAGE vec3 v_normal;    // world, any length
 flat STAGE vec4 v_eye;  // see view.glsl
-#ifdef HAS_MAP
+#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
 STAGE vec2 v_uv;
 #endif
 #ifdef HAS_VERTEX_COLORS
 STAGE vec4 v_color;
 #endif
-#ifdef HAS_CUBE
+#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
 STAGE vec3 v_position_object;
+#endif
+#ifdef MATERIAL_SHADER
+STAGE vec3 v_normal_object;
 #endif
 #ifdef TRANSLUCENT
 flat STAGE float v_alpha;

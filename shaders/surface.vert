@@ -1,5 +1,6 @@
 // Every mesh, for every view. One source and an invariant position: layered and one-pass drawing give equal bytes.
 #define STAGE out
+#define VERTEX_STAGE
 #include "view.glsl"
 #include "draw.glsl"
 #include "lights.glsl"
@@ -12,7 +13,23 @@ layout(location = 3) in vec4 a_color;
 
 invariant gl_Position;
 
+#include "scene.glsl"
+
 void main() {
+#ifdef MATERIAL_SHADER
+    vec4 color = vec4(1.0);
+#ifdef HAS_VERTEX_COLORS
+    color = a_color;
+#endif
+    Vertex own = Vertex(a_position, a_normal, a_uv, color);
+#ifdef HAS_USER_VERTEX
+    vertex(own);
+#endif
+#define a_position own.position
+#define a_normal own.normal
+#define a_uv own.uv
+#define a_color own.color
+#endif
     vec4 position_world = u_model * vec4(a_position, 1.0);
     gl_Position = a_view_matrix * position_world;
     route_to_layer();
@@ -22,14 +39,17 @@ void main() {
 #ifndef DENSE
     v_material = u_material;
 #endif
-#ifdef HAS_MAP
+#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
     v_uv = a_uv;
 #endif
 #ifdef HAS_VERTEX_COLORS
     v_color = a_color;
 #endif
-#ifdef HAS_CUBE
+#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
     v_position_object = a_position;
+#endif
+#ifdef MATERIAL_SHADER
+    v_normal_object = a_normal;
 #endif
 #ifdef TRANSLUCENT
     v_alpha = u_alpha;

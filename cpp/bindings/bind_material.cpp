@@ -176,11 +176,9 @@ void bind_glass(py::module_& module) {
 /// Every parameter, by name: what __init__ takes as keywords.
 py::dict material_state(const py::object& self) {
     static constexpr const char* names[] = {
-        "color",      "map",          "cubemap",    "vertex_colors", "ka",
-        "kd",         "ks",           "shininess",  "tint",          "eta",
-        "env_weight", "color_weight", "fresnel",    "opacity",       "double_sided",
-        "blend",      "depth_write",  "depth_test", "color_write"};
-    py::dict state;
+        "color",     "map",  "cubemap", "vertex_colors", "ka",           "kd",     "ks",
+        "shininess", "tint", "eta",     "env_weight",    "color_weight", "fresnel"};
+    py::dict state = surface_state(self);
     for (const char* name : names) {
         if (py::hasattr(self, name)) state[name] = self.attr(name);
     }

@@ -75,6 +75,19 @@ std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
     return ids;
 }
 
+std::vector<EffectSnapshot> to_effects(py::handle effects) {
+    if (!py::isinstance<py::iterable>(effects) || py::isinstance<py::str>(effects)) {
+        throw TypeError("effects: expected a sequence of ImageEffects, got " + text_of(effects));
+    }
+    std::vector<EffectSnapshot> snapshots;
+    for (const py::handle item : py::iter(effects)) {
+        if (!py::isinstance<ImageEffect>(item))
+            throw TypeError("effects: expected ImageEffects, got " + text_of(item));
+        snapshots.push_back(item.cast<const ImageEffect&>().snapshot());
+    }
+    return snapshots;
+}
+
 gl::DeviceChoice to_device(py::handle device) {
     if (device.is_none()) return std::string("auto");
     if (py::isinstance<py::str>(device)) return device.cast<std::string>();
@@ -105,8 +118,8 @@ std::shared_ptr<Renderer> make_renderer(py::handle device, py::handle layered,
 
 PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py::handle size,
                py::handle outputs, const std::string& format, py::handle samples,
-               const std::optional<std::string>& tonemap,
-               const std::optional<std::string>& encode) {
+               const std::optional<std::string>& tonemap, const std::optional<std::string>& encode,
+               py::handle effects) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
@@ -114,6 +127,7 @@ PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py:
     options.samples = to_int(samples, "samples");
     if (tonemap) options.tonemap = parse_tonemap(*tonemap);
     if (encode) options.encode = parse_encode(*encode);
+    options.effects = to_effects(effects);
     const CameraValue seen = camera.value();
     Frame frame;
     const SceneSnapshot snapshot = scene.snapshot();
@@ -220,6 +234,7 @@ Examples
         .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
+             py::arg("effects") = py::tuple(),
              R"(Draw a picture, with every probe its mirrors need brought up to date first.
 
 A picture that would come out as the last one of this size and format did is not drawn again.
@@ -241,6 +256,8 @@ tonemap : str or None
     after resolving. None: values stay as they are.
 encode : str or None
     "srgb" (IEC 61966-2-1) or None: linear.
+effects : sequence of ImageEffect
+    Passes over the colour, one after the other, after resolving and before the tone curve.
 
 Returns
 -------

@@ -76,6 +76,16 @@ void def_init(Class<MaterialOf<P>, Material>& made, P (*make)(Own...), const Nam
              py::arg("depth_test") = true, py::arg("color_write") = true);
 }
 
+/// The same by name, for pickling.
+inline py::dict surface_state(py::handle material) {
+    py::dict state;
+    for (const char* name :
+         {"opacity", "double_sided", "blend", "depth_write", "depth_test", "color_write"}) {
+        state[name] = material.attr(name);
+    }
+    return state;
+}
+
 /// The same as properties, on the base of all materials.
 void bind_surface_options(Class<Material>& material);
 

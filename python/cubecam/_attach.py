@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._core import CubeMap, Frame, Image
+from . import _shader_inputs
+from ._core import CubeMap, Frame, Image, ImageEffect, ShaderMaterial
 from ._cubemap_save import save_cubemap
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ def _image_repr_png(self: Image) -> bytes:
     return image_png(self)
 
 
-def _attach(target: type, name: str, method: Callable[..., Any]) -> None:
+def _attach(target: type, name: str, method: Callable[..., Any] | property) -> None:
     setattr(target, name, method)
 
 
@@ -46,3 +47,10 @@ def attach() -> None:
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
     _attach(Frame, "_repr_png_", _frame_repr_png)
     _attach(Image, "_repr_png_", _image_repr_png)
+    inputs = {
+        "uniforms": property(_shader_inputs.uniforms, _shader_inputs.set_uniforms),
+        "textures": property(_shader_inputs.textures, _shader_inputs.set_textures),
+    }
+    for shader in (ShaderMaterial, ImageEffect):
+        for name, mapping in inputs.items():
+            _attach(shader, name, mapping)

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace cubecam::gl {
@@ -43,7 +44,14 @@ ShaderHandle compile(const GladGLContext& gl, std::string_view name, const Expan
     GLsizei written = 0;
     gl.GetShaderInfoLog(shader.id(), log_length, &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    throw ShaderError(std::string(name) + " does not compile:\n" + explain_shader_log(log, source),
+    const std::string explained = explain_shader_log(log, source);
+    // A source that has a title is somebody's own, and what they look for.
+    const auto own = std::find_if(
+        source.files.begin(), source.files.end(), [&explained](const ShaderSource& file) {
+            return !file.title.empty() && explained.starts_with(std::string(file.title) + ":");
+        });
+    throw ShaderError(std::string(own == source.files.end() ? name : own->title) +
+                          " does not compile:\n" + explained,
                       log);
 }
 

@@ -66,6 +66,7 @@ public:
             std::span<const ShaderSource> sources = embedded_shaders());
 
     GLuint id() const noexcept { return handle_.id(); }
+    const GladGLContext& gl() const noexcept { return handle_.gl(); }
     explicit operator bool() const noexcept { return bool(handle_); }
     void use() const { handle_.gl().UseProgram(id()); }
     void abandon() noexcept { handle_.abandon(); }

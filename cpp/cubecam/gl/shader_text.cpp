@@ -63,7 +63,8 @@ public:
         std::string_view rest = source.text;
         for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
             const std::string_view line = take_line(rest);
-            const std::string place = std::string(source.name) + ":" + std::to_string(line_number);
+            const std::string place =
+                std::string(source.shown()) + ":" + std::to_string(line_number);
             if (directive(line, "version")) {
                 throw ShaderError(place +
                                   ": a #version line; the version is put ahead of every shader");
@@ -137,7 +138,7 @@ void append_excerpt(std::string& text, const ShaderSource& source, std::size_t e
     const std::vector<std::string_view> lines = split_lines(source.text);
     const std::size_t first = error_line > context_lines ? error_line - context_lines : 1;
     const std::size_t last = std::min(error_line + context_lines, lines.size());
-    text.append("\n").append(source.name).append(":\n");
+    text.append("\n").append(source.shown()).append(":\n");
     for (std::size_t number = first; number <= last; ++number) {
         std::string digits = std::to_string(number);
         digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, ' ');
@@ -175,7 +176,7 @@ std::string explain_shader_log(std::string_view log, const ExpandedShader& shade
         }
         const auto [file, number] = shader.lines[place->line - 1];
         const bool ahead = file == ExpandedShader::ahead;
-        text.append(place->head).append(ahead ? "(put ahead)" : shader.files[file].name);
+        text.append(place->head).append(ahead ? "(put ahead)" : shader.files[file].shown());
         text.append(":").append(std::to_string(number)).append(place->rest).push_back('\n');
         if (!ahead) places.emplace(file, number);
     }

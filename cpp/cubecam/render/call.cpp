@@ -16,7 +16,12 @@ bool uses(const NodeSnapshot& node, std::size_t probe) {
         const auto* index = std::get_if<std::size_t>(&source);
         return index != nullptr && *index == probe;
     };
-    return is_probe(node.environment) || is_probe(node.cubemap);
+    return is_probe(node.environment) || is_probe(node.cubemap) ||
+           std::any_of(node.textures.begin(), node.textures.end(),
+                       [&is_probe](const FrozenTexture& texture) {
+                           const auto* source = std::get_if<FrozenSource>(&texture);
+                           return source != nullptr && is_probe(*source);
+                       });
 }
 
 void add_light(Key& key, const LightValue& light) {
@@ -48,15 +53,23 @@ const FrozenSource& Call::source_of(const NodeSnapshot& node) const {
     const MaterialParameters& parameters = node.material.value.parameters;
     if (std::holds_alternative<BasicParameters>(parameters)) return node.cubemap;
     if (std::holds_alternative<PhongParameters>(parameters)) return none;
+    const auto* shader = std::get_if<ShaderParameters>(&parameters);
+    if (shader != nullptr && !shader->looks_up_environment()) return none;
     return node.environment.index() == 0 ? scene_.environment : node.environment;
 }
 
 std::vector<std::size_t> Call::probes_of(const DrawPlan& plan) const {
     std::vector<std::size_t> probes;
+    const auto add = [&probes](const FrozenSource& source) {
+        if (const auto* probe = std::get_if<std::size_t>(&source)) probes.push_back(*probe);
+    };
     for (const auto* nodes : {&plan.opaque, &plan.late}) {
         for (const PlannedNode& planned : *nodes) {
-            const auto* probe = std::get_if<std::size_t>(&source_of(scene_.nodes[planned.node]));
-            if (probe != nullptr) probes.push_back(*probe);
+            const NodeSnapshot& node = scene_.nodes[planned.node];
+            add(source_of(node));
+            for (const FrozenTexture& texture : node.textures) {
+                if (const auto* source = std::get_if<FrozenSource>(&texture)) add(*source);
+            }
         }
     }
     std::sort(probes.begin(), probes.end());
@@ -64,8 +77,8 @@ std::vector<std::size_t> Call::probes_of(const DrawPlan& plan) const {
     return probes;
 }
 
-Call::Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
-                           const ProbeOrder* order) {
+Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
+                     const ProbeOrder* order) {
     if (const auto* cube = std::get_if<FrozenCube>(&source)) {
         return {gpu_.cache.cube(*cube).texture.id(), cube->data->revision};
     }
@@ -84,21 +97,49 @@ Call::Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t
                : Lookup{};
 }
 
-std::vector<Call::Lookup> Call::look_up_all(const DrawPlan& plan,
-                                            std::optional<std::size_t> in_probe,
-                                            const ProbeOrder* order) {
-    std::vector<Lookup> lookups(scene_.nodes.size());
-    for (const auto* nodes : {&plan.opaque, &plan.late}) {
-        for (const PlannedNode& planned : *nodes) {
-            lookups[planned.node] = look_up(source_of(scene_.nodes[planned.node]), in_probe, order);
+NodeLookups Call::look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe,
+                          const ProbeOrder* order) {
+    NodeLookups found{look_up(source_of(node), in_probe, order), {}};
+    for (const FrozenTexture& texture : node.textures) {
+        found.textures.push_back(look_up(texture, in_probe, order));
+    }
+    return found;
+}
+
+Lookup Call::look_up(const FrozenTexture& texture, std::optional<std::size_t> in_probe,
+                     const ProbeOrder* order) {
+    if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&texture)) {
+        return {gpu_.cache.image(*image).texture.id(), (*image)->revision()};
+    }
+    return look_up(std::get<FrozenSource>(texture), in_probe, order);
+}
+
+std::vector<std::vector<Lookup>> Call::look_up_all(const Finish& finish) {
+    std::vector<std::vector<Lookup>> lookups;
+    for (const EffectSnapshot& effect : finish.effects) {
+        std::vector<Lookup>& found = lookups.emplace_back();
+        for (const FrozenTexture& texture : effect.textures) {
+            found.push_back(look_up(texture, std::nullopt, nullptr));
         }
     }
     return lookups;
 }
 
-Call::Lookup Call::background_lookup() {
+std::vector<NodeLookups> Call::look_up_all(const DrawPlan& plan,
+                                           std::optional<std::size_t> in_probe,
+                                           const ProbeOrder* order) {
+    std::vector<NodeLookups> lookups(scene_.nodes.size());
+    for (const auto* nodes : {&plan.opaque, &plan.late}) {
+        for (const PlannedNode& planned : *nodes) {
+            lookups[planned.node] = look_up(scene_.nodes[planned.node], in_probe, order);
+        }
+    }
+    return lookups;
+}
+
+Lookup Call::background_lookup() {
     const auto* cube = std::get_if<FrozenCube>(&scene_.background);
-    return cube == nullptr ? Lookup{} : look_up(*cube, std::nullopt, nullptr);
+    return cube == nullptr ? Lookup{} : look_up(FrozenSource(*cube), std::nullopt, nullptr);
 }
 
 bool Call::count_and_decide(const ProbeSnapshot& probe, ProbeWork& work) {
@@ -165,8 +206,7 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     std::size_t drawn = 0;
     try {
         drawn = draw_changed(work.views, work.plan, *state.target,
-                             look_up_all(work.plan, index, &order), Tonemap::none, Encode::none,
-                             budget);
+                             look_up_all(work.plan, index, &order), {}, budget);
     } catch (...) {
         state.target = nullptr;
         throw;
@@ -179,11 +219,18 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
 }
 
 std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPlan& plan,
-                                      const std::vector<Lookup>& lookups, Tonemap tonemap,
-                                      Encode encode) {
+                                      const std::vector<NodeLookups>& lookups,
+                                      const Finish& finish) {
     Key common;
-    common.add(tonemap);
-    common.add(encode);
+    common.add(finish.tonemap);
+    common.add(finish.encode);
+    common.add(finish.effects.size());
+    for (const EffectSnapshot& effect : finish.effects) {
+        common.add(effect.revision);
+        for (const FrozenTexture& texture : effect.textures) {
+            common.add(look_up(texture, std::nullopt, nullptr).revision);
+        }
+    }
     common.add(scene_.background.index());
     if (const auto* color = std::get_if<glm::vec4>(&scene_.background)) common.add(*color);
     common.add(background_lookup().revision);
@@ -208,7 +255,10 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
             key.add(node.world);
             key.add(node.mesh->revision());
             key.add(node.material.revision);
-            key.add(lookups[planned.node].revision);
+            key.add(lookups[planned.node].cube.revision);
+            for (const Lookup& texture : lookups[planned.node].textures) {
+                key.add(texture.revision);
+            }
             for (const PlannedNode::Sight& sight : planned.sights) {
                 keys[sight.view].nodes.push_back({node.id, key, sight.bounds});
             }
@@ -218,9 +268,9 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
 }
 
 std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
-                               const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode,
+                               const std::vector<NodeLookups>& lookups, const Finish& finish,
                                std::optional<Budget> budget) {
-    std::vector<PictureKey> keys = keys_of(views, plan, lookups, tonemap, encode);
+    std::vector<PictureKey> keys = keys_of(views, plan, lookups, finish);
     const Rect whole{0, 0, target.description().width, target.description().height};
     std::vector<std::vector<Rect>> damaged(views.size());
     std::size_t count = 0;
@@ -251,12 +301,18 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     const auto* color = std::get_if<glm::vec4>(&scene_.background);
     gpu_.surface.draw({scene_, views, plan, std::move(regions),
                        color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
-                       [&lookups](std::size_t node) { return lookups[node].texture; }},
+                       lookups},
                       target, stats);
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!damaged[v].empty() && target.multisampled()) target.resolve(static_cast<int>(v));
     }
-    if (target.description().graded) grade(target, tonemap, encode);
+    if (target.description().graded) {
+        const auto textures = look_up_all(finish);
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            if (damaged[v].empty()) continue;
+            gpu_.finish.draw(finish, textures, target, static_cast<int>(v), stats);
+        }
+    }
     gl::check_gl(gpu_.context.gl(), "finishing a picture");
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
@@ -264,27 +320,12 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     return budget ? last : count;
 }
 
-void Call::grade(Target& target, Tonemap tonemap, Encode encode) {
-    const GladGLContext& gl = gpu_.context.gl();
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.graded_pass().one(0));
-    gl.Disable(GL_DEPTH_TEST);
-    gl.Disable(GL_CULL_FACE);
-    gl.Disable(GL_BLEND);
-    gpu_.surface.programs().grade(tonemap, encode).use();
-    gl.BindTextureUnit(0, target.color().id());
-    gl.BindVertexArray(gpu_.cache.views_only().id());
-    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    ++stats.draw_calls;
-    stats.triangles += 2;
-}
-
 void Call::draw(std::span<const View> views, Target& target,
-                const std::function<bool(const NodeSnapshot&)>& wanted, Tonemap tonemap,
-                Encode encode) {
+                const std::function<bool(const NodeSnapshot&)>& wanted, const Finish& finish) {
     const DrawPlan plan =
         make_plan(scene_, views, target.description().width, target.description().height, wanted);
     update_probes(probes_of(plan));
-    draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), tonemap, encode,
+    draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), finish,
                  std::nullopt);
 }
 

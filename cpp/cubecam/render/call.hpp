@@ -2,6 +2,7 @@
 
 #include "cubecam/render/draw_plan.hpp"
 #include "cubecam/render/gpu_state.hpp"
+#include "cubecam/render/lookup.hpp"
 #include "cubecam/render/probe_order.hpp"
 #include "cubecam/render/surface_pass.hpp"
 
@@ -24,8 +25,7 @@ public:
 
     /// Draws `views` of the nodes that `wanted` lets through into `target`, their probes first.
     void draw(std::span<const View> views, Target& target,
-              const std::function<bool(const NodeSnapshot&)>& wanted,
-              Tonemap tonemap = Tonemap::none, Encode encode = Encode::none);
+              const std::function<bool(const NodeSnapshot&)>& wanted, const Finish& finish = {});
 
     /// Draws these probes (indices into the snapshot's), due or not, and what they need.
     void force(const std::vector<std::size_t>& probes);
@@ -33,12 +33,6 @@ public:
     Stats stats;
 
 private:
-    /// What a node's lookup finds in one picture.
-    struct Lookup {
-        GLuint texture = 0;
-        std::uint64_t revision = 0;  ///< of the contents; 0: none
-    };
-
     /// A probe as this call sees it.
     struct ProbeWork {
         ProbeState* state = nullptr;
@@ -62,20 +56,23 @@ private:
     /// Probes that the nodes of a plan show, each once, in the order of the scene.
     std::vector<std::size_t> probes_of(const DrawPlan& plan) const;
     const FrozenSource& source_of(const NodeSnapshot& node) const;
+    NodeLookups look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe,
+                        const ProbeOrder* order);
     Lookup look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
                    const ProbeOrder* order);
 
     /// Draws the views whose keys changed, at most as many as the budget allows. Returns how many
     /// it drew.
     std::size_t draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
-                             const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode,
+                             const std::vector<NodeLookups>& lookups, const Finish& finish,
                              std::optional<Budget> budget);
-    std::vector<Lookup> look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe,
-                                    const ProbeOrder* order);
+    std::vector<NodeLookups> look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe,
+                                         const ProbeOrder* order);
     std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
-                                    const std::vector<Lookup>& lookups, Tonemap tonemap,
-                                    Encode encode);
-    void grade(Target& target, Tonemap tonemap, Encode encode);
+                                    const std::vector<NodeLookups>& lookups, const Finish& finish);
+    std::vector<std::vector<Lookup>> look_up_all(const Finish& finish);
+    Lookup look_up(const FrozenTexture& texture, std::optional<std::size_t> in_probe,
+                   const ProbeOrder* order);
     Lookup background_lookup();
 
     GpuState& gpu_;

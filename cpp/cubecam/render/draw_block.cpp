@@ -45,6 +45,8 @@ void fill(DrawBlock& block, const GlassParameters& p, const glm::vec3&) {
     block.alpha = p.tint.a;
 }
 
+void fill(DrawBlock& block, const ShaderParameters&, const glm::vec3&) { block.alpha = 1.0F; }
+
 }  // namespace
 
 DrawBlock make_draw_block(const NodeSnapshot& node, const glm::dvec3& origin,

@@ -38,6 +38,10 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
         for (std::size_t v = 0; v < views.size(); ++v) {
             const glm::dvec4 error = clip_error(views[v], node);
             const Bounds& bounds = node.world_bounds;
+            if (node.unbounded) {
+                planned.sights.push_back({v, {0, 0, width, height}});
+                continue;
+            }
             if (!may_show(views[v].view_projection, bounds.low, bounds.high, error)) continue;
             planned.sights.push_back({v, screen_bounds(views[v], bounds, error, width, height)});
         }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/gl/context.hpp"
+#include "cubecam/render/finish_pass.hpp"
 #include "cubecam/render/gpu_cache.hpp"
 #include "cubecam/render/surface_pass.hpp"
 #include "cubecam/render/target_store.hpp"
@@ -24,11 +25,12 @@ struct ProbeState {
 struct GpuState {
     GpuState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
-          targets(cache_bytes) {}
+          finish(its_context.gl(), cache, surface.programs()), targets(cache_bytes) {}
 
     gl::Context& context;
     GpuCache cache;
     SurfacePass surface;
+    FinishPass finish;
     TargetStore targets;
     WeakCache<Probe, ProbeState> probes;
 };

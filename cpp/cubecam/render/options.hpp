@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/scene/format.hpp"
+#include "cubecam/scene/image_effect.hpp"
 
 #include <glm/glm.hpp>
 
@@ -54,6 +55,7 @@ struct FrameOptions {
     std::int64_t samples = 1;
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
+    std::vector<EffectSnapshot> effects;  ///< before tone mapping, in this order
 };
 
 struct CaptureOptions {

@@ -1,7 +1,5 @@
 #include "cubecam/render/programs.hpp"
 
-#include "cubecam/scene/material.hpp"
-
 #include <array>
 #include <string>
 #include <variant>
@@ -11,7 +9,7 @@ namespace {
 
 /// In the order of MaterialParameters.
 constexpr std::array<const char*, std::variant_size_v<MaterialParameters>> material_defines = {
-    "MATERIAL_BASIC", "MATERIAL_PHONG", "MATERIAL_MIRROR", "MATERIAL_GLASS"};
+    "MATERIAL_BASIC", "MATERIAL_PHONG", "MATERIAL_MIRROR", "MATERIAL_GLASS", "MATERIAL_SHADER"};
 
 }  // namespace
 
@@ -24,10 +22,7 @@ gl::ShaderOptions Programs::layer_options() const {
     return options;
 }
 
-const gl::Program& Programs::surface(const SurfaceVariant& variant) {
-    const auto found = surfaces_.find(variant);
-    if (found != surfaces_.end()) return found->second;
-
+gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant) const {
     gl::ShaderOptions options = layer_options();
     const auto define = [&options](bool wanted, const char* name) {
         if (wanted) options.defines.emplace_back(name, "1");
@@ -45,10 +40,30 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
     define(variant.dense, "DENSE");
+    define(variant.moved, "HAS_USER_VERTEX");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
-    return surfaces_.emplace(variant, gl::Program(*gl_, {"surface.vert", "surface.frag"}, options))
+    return options;
+}
+
+const gl::Program& Programs::surface(const SurfaceVariant& variant) {
+    const auto found = surfaces_.find(variant);
+    if (found != surfaces_.end()) return found->second;
+    return surfaces_
+        .emplace(variant,
+                 gl::Program(*gl_, {"surface.vert", "surface.frag"}, surface_options(variant)))
         .first->second;
+}
+
+UserProgram& Programs::surface(const SurfaceVariant& variant, const ShaderParameters& shader) {
+    return users_.get(*gl_, {"surface.vert", "surface.frag"}, surface_options(variant),
+                      {{"user_fragment.glsl", "fragment", &shader.fragment},
+                       {"user_vertex.glsl", "vertex", &shader.vertex}});
+}
+
+UserProgram& Programs::effect(const UserSource& fragment) {
+    return users_.get(*gl_, {"grade.vert", "effect.frag"}, {},
+                      {{"user_fragment.glsl", "fragment", &fragment}});
 }
 
 const gl::Program& Programs::skybox() {

@@ -2,7 +2,8 @@
 
 #include "cubecam/gl/program.hpp"
 #include "cubecam/render/options.hpp"
-#include "cubecam/scene/blend.hpp"
+#include "cubecam/render/user_program.hpp"
+#include "cubecam/scene/material.hpp"
 
 #include <compare>
 #include <cstddef>
@@ -26,6 +27,7 @@ struct SurfaceVariant {
     bool outputs = false;
     int lights = 0;  ///< unrolled so many times; -1: a loop
     bool decay = false;
+    bool moved = false;  ///< by a user's own vertex function
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
@@ -36,16 +38,21 @@ public:
     Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {}
 
     const gl::Program& surface(const SurfaceVariant& variant);
+    /// With a user's source in it. @throws ShaderError that names the user's own lines.
+    UserProgram& surface(const SurfaceVariant& variant, const ShaderParameters& shader);
+    UserProgram& effect(const UserSource& fragment);
     const gl::Program& skybox();
     const gl::Program& grade(Tonemap tonemap, Encode encode);
 
 private:
     gl::ShaderOptions layer_options() const;
+    gl::ShaderOptions surface_options(const SurfaceVariant& variant) const;
 
     const GladGLContext* gl_;
     bool layered_;
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
+    UserPrograms users_;
     gl::Program skybox_;
 };
 

@@ -4,6 +4,7 @@
 #include "cubecam/render/call.hpp"
 #include "cubecam/render/readback.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -142,15 +143,15 @@ Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
         TargetDescription description =
             describe_target(gpu.context, false, options.width, options.height, options.samples,
                             options.format, options.outputs);
-        description.graded = options.tonemap != Tonemap::none || options.encode != Encode::none;
+        const Finish finish{options.effects, options.tonemap, options.encode};
+        description.graded = finish.any();
+        description.effects = static_cast<int>(std::min<std::size_t>(finish.effects.size(), 2));
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
             static_cast<double>(options.width) / static_cast<double>(options.height);
         const View view = camera_view(matrices(camera, aspect));
         Call call(gpu, scene);
-        call.draw(
-            {&view, 1}, target, [](const NodeSnapshot&) { return true; }, options.tonemap,
-            options.encode);
+        call.draw({&view, 1}, target, [](const NodeSnapshot&) { return true; }, finish);
         stats_ = call.stats;
         return read_frame(gpu.context.gl(), target);
     });

@@ -26,8 +26,7 @@ int clamped(double pixel, int size) {
 
 glm::dvec4 clip_error(const View& view, const NodeSnapshot& node) {
     // As the shader works: local to the world seen from the view's position, then to clip space.
-    const glm::dvec3 local =
-        glm::max(glm::abs(node.mesh->bounds().low), glm::abs(node.mesh->bounds().high));
+    const glm::dvec3 local = glm::max(glm::abs(node.bounds.low), glm::abs(node.bounds.high));
     glm::dvec3 size = glm::abs(glm::dvec3(node.world[3]) - view.position);
     for (int axis = 0; axis < 3; ++axis)
         size += glm::abs(glm::dvec3(node.world[axis])) * local[axis];

@@ -55,6 +55,7 @@ struct LightBlock {
 
 struct LightsBlock {
     glm::ivec4 counts{0};
+    glm::vec4 ambient{1.0F};
     LightBlock lights[max_lights];
 };
 
@@ -100,6 +101,7 @@ void SurfacePass::upload_lights(std::span<const LightValue> lights, const glm::d
         }
     }
     block.counts.x = static_cast<int>(light_count_);
+    block.ambient = glm::vec4(ambient_, 1.0F);
     lights_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, lights_binding, lights_.id());
 }
@@ -133,7 +135,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                       {},
                       static_cast<GLuint>(instances.size()),
                       static_cast<GLintptr>(blocks.size()),
-                      0};
+                      &input.lookups[planned.node]};
             auto sight = planned.sights.begin();
             for (std::size_t r = 0; r < input.regions.size(); ++r) {
                 const Region& region = input.regions[r];
@@ -145,7 +147,6 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
             }
             if (item.regions.empty()) continue;
             item.mesh = &cache_->mesh(node.mesh);
-            item.cube = input.cube_of(planned.node);
             const DrawBlock block = make_draw_block(node, origin, ambient_);
             blocks.resize(blocks.size() + stride);
             std::memcpy(blocks.data() + item.block, &block, sizeof(block));
@@ -289,10 +290,25 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
         variant.decay = light_decay_;
     } else if (const auto* mirror = std::get_if<MirrorParameters>(&material.parameters)) {
         variant.fresnel = mirror->fresnel.has_value();
+    } else if (const auto* glass = std::get_if<GlassParameters>(&material.parameters)) {
+        variant.fresnel = glass->fresnel;
     } else {
-        variant.fresnel = std::get<GlassParameters>(material.parameters).fresnel;
+        const auto& shader = std::get<ShaderParameters>(material.parameters);
+        variant.vertex_colors = node.mesh->colors() != nullptr;
+        variant.moved = shader.moves_vertices();
+        variant.lights = -1;
+        variant.decay = true;
+        variant.dense = true;
     }
     return variant;
+}
+
+const gl::Program& SurfacePass::user_program(const SurfaceVariant& variant,
+                                             const ShaderParameters& shader,
+                                             const NodeLookups& lookups) {
+    UserProgram& program = programs_.surface(variant, shader);
+    program.use(shader.inputs, lookups.textures);
+    return program.program();
 }
 
 void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> region,
@@ -309,7 +325,10 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         }
         const MaterialParameters& material = item.node->material.value.parameters;
         const SurfaceVariant variant = variant_of(*item.node, outputs);
-        const gl::Program& program = programs_.surface(variant);
+        const auto* shader = std::get_if<ShaderParameters>(&material);
+        const gl::Program& program = shader != nullptr
+                                         ? user_program(variant, *shader, *item.lookups)
+                                         : programs_.surface(variant);
         if (bound != &program) program.use();
         bound = &program;
 
@@ -325,7 +344,8 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
                 material);
             gl_->BindTextureUnit(map_unit, cache_->image(map).texture.id());
         }
-        gl_->BindTextureUnit(cube_unit, item.cube != 0 ? item.cube : black_.id());
+        const GLuint cube = item.lookups->cube.texture;
+        gl_->BindTextureUnit(cube_unit, cube != 0 ? cube : black_.id());
 
         gl_->VertexArrayVertexBuffer(item.mesh->array.id(), vertex_buffer::views, instances_.id(),
                                      0, sizeof(Instance));

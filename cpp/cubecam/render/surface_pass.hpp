@@ -3,13 +3,13 @@
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/draw_plan.hpp"
 #include "cubecam/render/gpu_cache.hpp"
+#include "cubecam/render/lookup.hpp"
 #include "cubecam/render/options.hpp"
 #include "cubecam/render/programs.hpp"
 #include "cubecam/render/target.hpp"
 #include "cubecam/render/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <variant>
@@ -33,7 +33,7 @@ struct PassInput {
     const DrawPlan& plan;
     std::vector<Region> regions;  ///< by view, ascending; all other pixels stay as they are
     BackgroundSource background;
-    std::function<GLuint(std::size_t node)> cube_of;  ///< the cube texture a node looks up; 0: none
+    std::span<const NodeLookups> lookups;  ///< of each node of the scene
 };
 
 /// Whether all views of a mesh go into one draw call.
@@ -58,7 +58,7 @@ private:
         std::vector<std::size_t> regions;  ///< indices into PassInput::regions, ascending
         GLuint first_instance;             ///< record of the first of them
         GLintptr block;                    ///< offset of its uniform block
-        GLuint cube;
+        const NodeLookups* lookups;
     };
 
     struct Prepared {
@@ -79,6 +79,8 @@ private:
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
     bool use_layers(const PassInput& input, const Prepared& prepared, const Rect& whole) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
+    const gl::Program& user_program(const SurfaceVariant& variant, const ShaderParameters& shader,
+                                    const NodeLookups& lookups);
     void upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin);
 
     const gl::Context* context_;

@@ -77,6 +77,7 @@ std::size_t TargetDescription::bytes() const {
     std::size_t texel = color + 4;
     if (samples > 1) texel += static_cast<std::size_t>(samples) * (color + 4);
     if (graded) texel += 4 * dtype_size(dtype_of(format));
+    texel += static_cast<std::size_t>(effects) * color;
     if (mipmaps) texel += color / 3;
     for (const OutputFormat& output : output_formats) {
         if (outputs.*output.wanted) texel += output.bytes;
@@ -131,10 +132,8 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
     color_ = make_texture(context, color_format, levels);
     depth_ = make_texture(context, depth_format, 1);
-    if (description.cube) {  // a probe is looked up as any other cubemap
-        gl_->TextureParameteri(color_.id(), GL_TEXTURE_MIN_FILTER,
-                               description.mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-        gl_->TextureParameteri(color_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    if (description.mipmaps) {
+        gl_->TextureParameteri(color_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     }
 
     std::vector<Layers::Attachment> color_pass{{attachment(Slot::color), color_.id()}};
@@ -167,15 +166,28 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
             *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), graded_.id()}},
             description.layers());
     }
+    for (int turn = 0; turn < description.effects; ++turn) {
+        scratch_[turn] = make_texture(context, color_format, 1);
+        scratch_pass_[turn].emplace(
+            *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), scratch_[turn].id()}},
+            description.layers());
+    }
     gl::check_gl(*gl_, "making a render target");
 }
 
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
     // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2).
-    if (description_.cube)
-        return gl::create_texture_cube(context.gl(), format, description_.width, levels);
-    return gl::create_texture_2d_array(context.gl(), format, description_.width,
-                                       description_.height, 1, levels);
+    gl::Texture texture =
+        description_.cube
+            ? gl::create_texture_cube(context.gl(), format, description_.width, levels)
+            : gl::create_texture_2d_array(context.gl(), format, description_.width,
+                                          description_.height, 1, levels);
+    // Probes and effects look them up.
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
 }
 
 void Target::resolve(int layer) {

@@ -26,7 +26,8 @@ struct TargetDescription {
     Format format = Format::rgba8;
     Outputs outputs;
     bool mipmaps = false;
-    bool graded = false;  ///< colour is drawn in float, then tone-mapped and encoded into `format`
+    bool graded = false;  ///< colour is drawn in float, then brought into `format` by FinishPass
+    int effects = 0;      ///< passes before that, 2 standing for more
 
     int layers() const { return cube ? 6 : 1; }
     /// GPU memory it takes, padding and driver overhead left out.
@@ -90,6 +91,10 @@ public:
     Layers& resolved() { return *resolved_; }
     Layers& graded_pass() { return *graded_pass_; }
 
+    /// Where effects draw to, by turns.
+    const gl::Texture& scratch(std::size_t turn) const { return scratch_[turn]; }
+    Layers& scratch_pass(std::size_t turn) { return *scratch_pass_[turn]; }
+
     /// Averages the samples of one layer into color().
     void resolve(int layer);
 
@@ -103,6 +108,8 @@ private:
     TargetDescription description_;
     gl::Texture color_, depth_, graded_, sample_color_, sample_depth_;
     gl::Texture outputs_[slot_count];
+    gl::Texture scratch_[2];
+    std::optional<Layers> scratch_pass_[2];
     std::optional<Layers> color_pass_, output_pass_, resolved_, graded_pass_;
 };
 

@@ -34,11 +34,23 @@ void check_parameters(const GlassParameters& p) {
     expect_color(p.tint, "tint");
 }
 
+void check_parameters(const ShaderParameters& p) {
+    expect(mentions(p.fragment.text, "shade"),
+           "a fragment with a function vec3 shade(Surface surface), or vec4 with an alpha",
+           p.fragment.text.empty() ? "an empty one" : "one without the word shade");
+    expect(p.vertex.text.empty() || mentions(p.vertex.text, "vertex"),
+           "a vertex with a function void vertex(inout Vertex vertex)",
+           "one without the word vertex");
+    check(p.inputs);
+    if (p.displacement) expect_not_negative(*p.displacement, "displacement");
+}
+
 /// What the colours' fourth numbers multiply opacity with.
 float alpha(const BasicParameters& p) { return p.color.a; }
 float alpha(const PhongParameters& p) { return p.color.a; }
 float alpha(const MirrorParameters& p) { return p.tint.a * p.color.a; }
 float alpha(const GlassParameters& p) { return p.tint.a; }
+float alpha(const ShaderParameters&) { return 1.0F; }  // what it gives only a driver knows
 
 }  // namespace
 
@@ -51,6 +63,10 @@ void check(const MaterialValue& value) {
 }
 
 Material::Material(MaterialValue value) : value_((cubecam::check(value), std::move(value))) {}
+
+bool ShaderParameters::looks_up_environment() const {
+    return mentions(fragment.text, "environment") || mentions(fragment.text, "environment_lod");
+}
 
 bool translucent(const MaterialValue& value) {
     const float own = std::visit([](const auto& p) { return alpha(p); }, value.parameters);

@@ -3,6 +3,7 @@
 #include "cubecam/scene/blend.hpp"
 #include "cubecam/scene/image.hpp"
 #include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/user_shader.hpp"
 #include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
@@ -71,8 +72,23 @@ struct GlassParameters {
     bool operator==(const GlassParameters&) const = default;
 };
 
-using MaterialParameters =
-    std::variant<BasicParameters, PhongParameters, MirrorParameters, GlassParameters>;
+/// What a user's own GLSL says: `shade(Surface)` for every fragment and, if there is one,
+/// `vertex(inout Vertex)` for every vertex (shaders/scene.glsl).
+struct ShaderParameters {
+    UserSource fragment;
+    UserSource vertex;  ///< empty: vertices stay where they are
+    ShaderInputs inputs;
+    /// How far `vertex` moves a vertex at most, in the mesh's units; none: nobody knows, so nothing
+    /// is culled.
+    std::optional<float> displacement;
+
+    bool moves_vertices() const { return !vertex.text.empty(); }
+    bool looks_up_environment() const;
+    bool operator==(const ShaderParameters&) const = default;
+};
+
+using MaterialParameters = std::variant<BasicParameters, PhongParameters, MirrorParameters,
+                                        GlassParameters, ShaderParameters>;
 
 struct MaterialValue {
     MaterialParameters parameters;
@@ -128,6 +144,7 @@ using BasicMaterial = MaterialOf<BasicParameters>;
 using PhongMaterial = MaterialOf<PhongParameters>;
 using MirrorMaterial = MaterialOf<MirrorParameters>;
 using GlassMaterial = MaterialOf<GlassParameters>;
+using ShaderMaterial = MaterialOf<ShaderParameters>;
 
 /// Whether the material alone makes a surface translucent (its map and the mesh's colours can,
 /// too).

@@ -118,14 +118,25 @@ private:
         const SurfaceOptions& surface = material.value.surface;
         const Blend blend = surface.blend.value_or(
             shows_through(material.value, *value.mesh) ? Blend::alpha : Blend::opaque);
+        const auto* shader = std::get_if<ShaderParameters>(&material.value.parameters);
+        const bool moved = shader && shader->moves_vertices();
+        Bounds bounds = value.mesh->bounds();
+        if (moved) {
+            const double reach = shader->displacement.value_or(0.0F);
+            bounds.low -= reach;
+            bounds.high += reach;
+        }
         NodeSnapshot snapshot{
             node.id(),
             place.world,
-            transformed(value.mesh->bounds(), place.world),
+            bounds,
+            transformed(bounds, place.world),
             value.mesh,
             material,
             freeze(value.environment),
             basic ? freeze(basic->cubemap) : FrozenSource(),
+            shader ? freeze(shader->inputs) : std::vector<FrozenTexture>(),
+            moved && !shader->displacement,
             place.in_probes,
             blend != Blend::opaque,
             blend,
@@ -155,6 +166,20 @@ private:
             return found->second;
         }
         return {};
+    }
+
+    std::vector<FrozenTexture> freeze(const ShaderInputs& inputs) {
+        std::vector<FrozenTexture> frozen;
+        for (const auto& [name, source] : inputs.textures) {
+            if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
+                frozen.emplace_back(*image);
+            } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source)) {
+                frozen.emplace_back(FrozenSource(freeze(*cube)));
+            } else {
+                frozen.emplace_back(freeze(CubeSource(std::get<std::shared_ptr<Probe>>(source))));
+            }
+        }
+        return frozen;
     }
 
     /// A probe goes where its parent goes, and does not turn or grow with it.

@@ -25,17 +25,23 @@ struct FrozenCube {
 /// SceneSnapshot::probes.
 using FrozenSource = std::variant<std::monostate, FrozenCube, std::size_t>;
 
+/// One of the textures of a user's shader.
+using FrozenTexture = std::variant<std::shared_ptr<const Image>, FrozenSource>;
+
 struct NodeSnapshot {
     std::int32_t id;
     glm::dmat4 world;
+    Bounds bounds;  ///< of all that its vertices may reach, in the mesh's own space
     Bounds world_bounds;
     std::shared_ptr<const Mesh> mesh;  ///< never null: groups are left out
     Material::State material;
-    FrozenSource environment;  ///< the node's own; none: the scene's
-    FrozenSource cubemap;      ///< what a BasicMaterial shows
-    bool in_probes;            ///< of the node and all above it
-    bool translucent;          ///< blended over what is behind it
-    Blend blend;               ///< as it is drawn
+    FrozenSource environment;             ///< the node's own; none: the scene's
+    FrozenSource cubemap;                 ///< what a BasicMaterial shows
+    std::vector<FrozenTexture> textures;  ///< of a ShaderMaterial, in the order of its inputs
+    bool unbounded;                       ///< its vertices may go anywhere: it is not culled
+    bool in_probes;                       ///< of the node and all above it
+    bool translucent;                     ///< blended over what is behind it
+    Blend blend;                          ///< as it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
 

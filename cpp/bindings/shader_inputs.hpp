@@ -1,0 +1,89 @@
+/// A user's GLSL and what it gets by name, from Python and back.
+#pragma once
+
+#include "arrays.hpp"
+#include "objects.hpp"
+
+#include "cubecam/scene/user_shader.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <string>
+
+namespace cubecam::bindings {
+
+/// GLSL itself, or a path of a file that holds it.
+using SourceLike = OneOf<py::str, py::typing::Optional<py::object>>;
+
+/// A str is GLSL; a path (os.PathLike) is read. None is no source.
+UserSource to_user_source(py::handle value, const char* name);
+/// The same from its file, as it is now. @throws ValueError if it is from none.
+UserSource read_again(const UserSource& source, const char* name);
+
+UniformValue to_uniform(py::handle value, const std::string& name);
+py::object from_uniform(const UniformValue& value);
+TextureSource to_texture(py::handle value, const std::string& name);
+py::object from_texture(const TextureSource& source);
+
+/// From two dictionaries, or None for empty ones.
+ShaderInputs to_inputs(py::handle uniforms, py::handle textures);
+py::dict uniforms_of(const ShaderInputs& inputs);
+py::dict textures_of(const ShaderInputs& inputs);
+
+/// "uniforms=['time'], textures=[]", for __repr__.
+std::string inputs_text(const ShaderInputs& inputs);
+/// The file's name, or how many lines there are.
+std::string source_text(const UserSource& source);
+
+/// What python/cubecam/_shader_inputs.py makes the mappings `uniforms` and `textures` of. `get`
+/// gives an object's inputs, `edit` changes them.
+template <class Bound, class Get, class Edit>
+void bind_inputs(Bound& made, Get get, Edit edit) {
+    using Owner = typename Bound::type;
+    made.def("_uniforms", [get](const Owner& self) { return uniforms_of(get(self)); });
+    made.def("_textures", [get](const Owner& self) { return textures_of(get(self)); });
+    made.def(
+        "_set_inputs",
+        [edit](Owner& self, const py::object& uniforms, const py::object& textures) {
+            const ShaderInputs given = to_inputs(uniforms, textures);
+            edit(self, [&](ShaderInputs& inputs) {
+                if (!uniforms.is_none()) inputs.uniforms = given.uniforms;
+                if (!textures.is_none()) inputs.textures = given.textures;
+            });
+        },
+        py::arg("uniforms") = py::none(), py::arg("textures") = py::none(),
+        "Replace all uniforms, all textures, or both.");
+    made.def(
+        "_set_uniform",
+        [edit](Owner& self, const std::string& name, const py::object& value) {
+            const UniformValue uniform = to_uniform(value, name);
+            edit(self, [&](ShaderInputs& inputs) { inputs.uniforms[name] = uniform; });
+        },
+        py::arg("name"), py::arg("value"));
+    made.def(
+        "_set_texture",
+        [edit](Owner& self, const std::string& name, const py::object& value) {
+            const TextureSource texture = to_texture(value, name);
+            edit(self, [&](ShaderInputs& inputs) { inputs.textures[name] = texture; });
+        },
+        py::arg("name"), py::arg("value"));
+    made.def(
+        "_remove_uniform",
+        [edit](Owner& self, const std::string& name) {
+            edit(self, [&](ShaderInputs& inputs) {
+                if (inputs.uniforms.erase(name) == 0) throw py::key_error(name);
+            });
+        },
+        py::arg("name"));
+    made.def(
+        "_remove_texture",
+        [edit](Owner& self, const std::string& name) {
+            edit(self, [&](ShaderInputs& inputs) {
+                if (inputs.textures.erase(name) == 0) throw py::key_error(name);
+            });
+        },
+        py::arg("name"));
+}
+
+}  // namespace cubecam::bindings

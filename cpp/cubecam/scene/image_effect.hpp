@@ -1,0 +1,53 @@
+#pragma once
+
+#include "cubecam/scene/snapshot.hpp"
+#include "cubecam/scene/user_shader.hpp"
+#include "cubecam/scene/versioned.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace cubecam {
+
+/// A user's GLSL, `vec4 effect(vec2 uv)`, run for every pixel of a finished picture.
+struct EffectValue {
+    UserSource fragment;
+    ShaderInputs inputs;
+
+    bool operator==(const EffectValue&) const = default;
+};
+
+/// Throws std::invalid_argument for a source without the function, or a probe: a probe belongs to a
+/// scene, and an effect to none.
+void check(const EffectValue& value);
+
+/// An effect as a call sees it.
+struct EffectSnapshot {
+    EffectValue value;
+    std::uint64_t revision;
+    std::vector<FrozenTexture> textures;  ///< in the order of its inputs
+};
+
+/// A pass over a frame. Shared by any number of calls; setters are thread-safe and checked.
+class ImageEffect {
+public:
+    explicit ImageEffect(EffectValue value);
+    ImageEffect(const ImageEffect&) = delete;
+    ImageEffect& operator=(const ImageEffect&) = delete;
+
+    EffectValue value() const { return value_.value(); }
+    EffectSnapshot snapshot() const;
+
+    template <class Change>
+    void edit(Change&& change) {
+        value_.edit([&](EffectValue& value) {
+            change(value);
+            check(value);
+        });
+    }
+
+private:
+    Versioned<EffectValue> value_;
+};
+
+}  // namespace cubecam

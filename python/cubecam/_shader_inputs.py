@@ -1,0 +1,69 @@
+"""The mappings `uniforms` and `textures` of shader materials and image effects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, MutableMapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._core import ImageEffect, ShaderMaterial
+
+__all__ = ["ShaderInputs", "set_textures", "set_uniforms", "textures", "uniforms"]
+
+
+class ShaderInputs(MutableMapping[str, Any]):
+    """A live view of an object's uniforms or textures: what is set here shows in the next picture.
+
+    Values come back as float, read-only float64 array, Image, CubeMap or Probe.
+    """
+
+    def __init__(self, owner: ShaderMaterial | ImageEffect, kind: str) -> None:
+        self._owner = owner
+        self._kind = kind
+
+    def _values(self) -> dict[str, Any]:
+        return dict(getattr(self._owner, f"_{self._kind}s")())
+
+    def __getitem__(self, name: str) -> Any:
+        """Give a value."""
+        return self._values()[name]
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        """Set a value; it is checked and copied."""
+        getattr(self._owner, f"_set_{self._kind}")(name, value)
+
+    def __delitem__(self, name: str) -> None:
+        """Take a value out: the source's own declaration counts again."""
+        getattr(self._owner, f"_remove_{self._kind}")(name)
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names, sorted."""
+        return iter(self._values())
+
+    def __len__(self) -> int:
+        """Count the names."""
+        return len(self._values())
+
+    def __repr__(self) -> str:
+        """Show as a dict."""
+        return repr(self._values())
+
+
+def uniforms(self: ShaderMaterial | ImageEffect) -> MutableMapping[str, Any]:
+    """Mapping of str to numbers: ``uniforms["time"] = 2`` shows in the next picture."""
+    return ShaderInputs(self, "uniform")
+
+
+def set_uniforms(self: ShaderMaterial | ImageEffect, values: Any) -> None:
+    """Replace all uniforms."""
+    self._set_inputs(uniforms=values)
+
+
+def textures(self: ShaderMaterial | ImageEffect) -> MutableMapping[str, Any]:
+    """Mapping of str to Image, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture."""
+    return ShaderInputs(self, "texture")
+
+
+def set_textures(self: ShaderMaterial | ImageEffect, values: Any) -> None:
+    """Replace all textures."""
+    self._set_inputs(textures=values)
