@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._core import CubeMap, Frame, Image
+from . import navigation
+from ._core import CubeMap, Frame, Image, OrthographicCamera, PerspectiveCamera
 from ._cubemap_save import save_cubemap
 
 if TYPE_CHECKING:
@@ -46,3 +47,6 @@ def attach() -> None:
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
     _attach(Frame, "_repr_png_", _frame_repr_png)
     _attach(Image, "_repr_png_", _image_repr_png)
+    for camera in (PerspectiveCamera, OrthographicCamera):
+        for name in ("yaw", "pitch", "walk", "strafe", "orbit", "look"):
+            _attach(camera, name, getattr(navigation, name))
