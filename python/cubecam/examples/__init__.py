@@ -7,7 +7,7 @@ Each module has
   on top. A frame depends on its number alone, so they may be drawn in any order. The options are those of
   `Renderer.render`, such as ``format="rgba32f"``;
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a sensible length of its animation; 1: nothing
-  moves) and ``SIZE`` (width and height in pixels).
+  moves), ``STILL`` (the frame that a single picture shows best) and ``SIZE`` (width and height in pixels).
 
 Colours are the documents': what an 8-bit picture holds is shown as it is, light is added up in those numbers, and
 nothing is tone-mapped or encoded.
@@ -45,6 +45,7 @@ class Example(Protocol):
     TITLE: str
     PROGRAM: str
     FRAMES: int
+    STILL: int
     SIZE: tuple[int, int]
 
     def build(self) -> Any:

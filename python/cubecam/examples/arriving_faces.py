@@ -27,6 +27,7 @@ PROGRAM = "P5"
 TITLE = "A mirror cube while its photographs arrive"
 HALF = 45  # frames without a skybox, and again as many with it
 FRAMES = 2 * HALF
+STILL = HALF + 20
 SIZE = (512, 512)
 
 FOV, NEAR, FAR = 60.0, 1.0, 2000.0  # degrees, world units

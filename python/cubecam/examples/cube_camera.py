@@ -27,6 +27,7 @@ from ._common import LIGHT, Picture, on_circle, picture, surroundings, teapot
 PROGRAM = "P12"
 TITLE = "Cube camera: a mirror for a skybox and for what moves before it"
 FRAMES = 120  # one round of the cubes
+STILL = 0
 SIZE = (512, 512)
 
 PROBE = 512  # texels along an edge of a face

@@ -26,6 +26,7 @@ from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
 PROGRAM = "P13"
 TITLE = "A cubemap drawn on the fly, shown on a turning cube"
 FRAMES = 120
+STILL = 100
 SIZE = (512, 512)  # aspect 1
 
 FOV, NEAR, FAR = 70.0, 1.0, 100.0  # main view: degrees, world units

@@ -37,6 +37,7 @@ from .cubemap_on_a_cube import (
 PROGRAM = "P14"
 TITLE = "Dynamic reflection: a ball mirrors the actors that circle it"
 FRAMES = 63  # one round: 2 pi in tenths of a radian
+STILL = 12
 SIZE = (512, 512)  # aspect 1
 
 BALL, SCALE = 1.0, 0.5  # radius of sphere.obj, and its scale at the origin

@@ -34,6 +34,7 @@ from .dynamic_reflection import (
 PROGRAM = "P17"
 TITLE = "Dynamic refraction: a glass ball beside a mirror"
 FRAMES = 63  # one round: 2 pi in tenths of a radian
+STILL = 12
 SIZE = (512, 512)  # aspect 1
 
 ETA = 1 / 1.52  # air to glass

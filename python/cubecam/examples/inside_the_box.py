@@ -45,6 +45,7 @@ SCRIPT: tuple[Event, ...] = (
     *["w"] * 30,
 )
 FRAMES = len(SCRIPT) + 1
+STILL = 35
 
 
 @dataclass

@@ -29,6 +29,7 @@ PROGRAM = "P15"
 TITLE = "Nothing is drawn again while nothing it sees has changed"
 PHASE = 10  # frames of rest, then as many of movement
 FRAMES = 4 * PHASE
+STILL = 15
 SIZE = (512, 512)  # aspect 1
 
 

@@ -28,6 +28,7 @@ from ._common import Picture, on_circle, picture, surroundings, teapot
 PROGRAM = "P4"
 TITLE = "Reflection and refraction of a still environment"
 FRAMES = 90  # one turn of the camera
+STILL = 67
 SIZE = (512, 512)
 
 FOV = 45.0  # degrees

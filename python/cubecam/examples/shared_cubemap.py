@@ -47,6 +47,7 @@ from .dynamic_reflection import BALL, gold
 PROGRAM = "P16"
 TITLE = "One cubemap shared by neighbouring mirrors, and its error"
 FRAMES = 60
+STILL = 30
 SIZE = (512, 512)  # two pictures of 2:1, one above the other
 
 FOV, EYE = 45.0, (0.0, 0.9, 3.2)  # degrees, world units

@@ -30,6 +30,7 @@ from .inside_the_box import SCRIPT, Event, replay
 PROGRAM = "P3"
 TITLE = "Skybox: a background that walking never reaches"
 FRAMES = len(SCRIPT) + 1
+STILL = 23
 SIZE = (512, 512)  # aspect 1
 
 #: Colour, place and size of the boxes, world units.

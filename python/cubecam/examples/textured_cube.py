@@ -25,6 +25,7 @@ from ._common import GREY, Picture, picture, surroundings
 PROGRAM = "P1"
 TITLE = "A cube textured by a cubemap of six photographs"
 FRAMES = 120  # one turn
+STILL = 0
 SIZE = (512, 512)  # aspect 1
 
 FOV, NEAR, FAR = 60.0, 1.0, 15.0  # degrees, world units

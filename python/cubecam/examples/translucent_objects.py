@@ -26,6 +26,7 @@ from ._common import LIGHT, Picture, bunny, on_circle, picture
 PROGRAM = "P7"
 TITLE = "Translucent things, drawn from far to near after opaque ones"
 FRAMES = 120  # one turn of the ring
+STILL = 60
 SIZE = (512, 512)
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
