@@ -10,9 +10,9 @@ what is behind it, upside down in the middle. The upper two are balls stretched 
 normals go by the inverse transpose of the model matrix; document 002 takes mat3(model), which is
 right for rotations only.
 
-Worth trying: eta 1 makes glass vanish, 1/2.42 is diamond, and above 1 one looks out of the water:
-the rim turns black where all is reflected and nothing refracted. ``GlassMaterial(fresnel=True)``
-shows both in the right proportion.
+Worth trying: eta 1 makes glass vanish, 1/2.42 is diamond, and above 1 one looks out of the water: at
+the rim nothing is refracted, and the glass mirrors. ``GlassMaterial(fresnel=True)`` shows both in the
+right proportion.
 """
 
 from __future__ import annotations

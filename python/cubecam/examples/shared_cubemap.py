@@ -73,7 +73,7 @@ class Program:
 
 @dataclass
 class Errors:
-    """Of the neighbours' pixels, root mean square over colours of 0 to 1: arrays to plot over `distance`."""
+    """Mean absolute errors of the neighbours' pixels, of colours from 0 to 1: arrays to plot over `distance`."""
 
     distance: npt.NDArray[np.float64]
     shared: npt.NDArray[np.float64]
@@ -173,7 +173,7 @@ def error_over_distance(
         for whose, found in errors.items():
             got = _draw(program, renderer, whose, size, {"format": "rgba32f"})
             off = got[inside, :3].astype(np.float64) - exact[inside, :3]
-            found.append(float(np.sqrt((off**2).mean())))
+            found.append(float(np.abs(off).mean()))
     return Errors(np.array(distances, float), np.array(errors["shared"]), np.array(errors["own"]))
 
 
