@@ -15,6 +15,7 @@ import types
 import typing
 from pathlib import Path
 
+import numpy.typing as npt
 import pybind11_stubgen
 
 import cubecam
@@ -22,6 +23,10 @@ from cubecam import _core
 
 ROOT = Path(__file__).resolve().parent.parent
 STUB = ROOT / "python" / "cubecam" / "_core.pyi"
+
+
+#: Stands for numpy's union of many types, and is written by its name.
+ARRAY_LIKE = type("ArrayLike", (), {"__module__": "numpy.typing"})
 
 
 def make_describable() -> None:
@@ -47,6 +52,8 @@ def make_method(function: types.FunctionType) -> None:
     arguments = function.__code__.co_varnames
     annotations = typing.get_type_hints(function)
     annotations.pop(arguments[0], None)
+    for name, kind in annotations.items():
+        annotations[name] = ARRAY_LIKE if kind == npt.ArrayLike else kind
     function.__annotations__ = annotations
     function.__code__ = function.__code__.replace(co_varnames=("self", *arguments[1:]))
     function.__doc__ = inspect.getdoc(function)

@@ -306,4 +306,18 @@ MUTATIONS = [
         "positions = positions * (size / extent)",
         ("tests/unit/test_meshes.py",),
     ),
+    Mutation(
+        "orbit: the scene turns against the drag",
+        "python/cubecam/navigation.py",
+        "-math.radians(turn)",
+        "math.radians(turn)",
+        ("tests/unit/test_navigation.py",),
+    ),
+    Mutation(
+        "pitch: over the pole",
+        "python/cubecam/navigation.py",
+        "limit = max(90.0 - POLE_MARGIN, abs(elevation))",
+        "limit = 180.0",
+        ("tests/unit/test_navigation.py",),
+    ),
 ]

@@ -8,8 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _shader_inputs
-from ._core import CubeMap, Frame, Image, ImageEffect, ShaderMaterial
+from . import _shader_inputs, navigation
+from ._core import (
+    CubeMap,
+    Frame,
+    Image,
+    ImageEffect,
+    OrthographicCamera,
+    PerspectiveCamera,
+    ShaderMaterial,
+)
 from ._cubemap_save import save_cubemap
 
 if TYPE_CHECKING:
@@ -54,3 +62,6 @@ def attach() -> None:
     for shader in (ShaderMaterial, ImageEffect):
         for name, mapping in inputs.items():
             _attach(shader, name, mapping)
+    for camera in (PerspectiveCamera, OrthographicCamera):
+        for name in ("yaw", "pitch", "walk", "strafe", "orbit", "look"):
+            _attach(camera, name, getattr(navigation, name))

@@ -1,4 +1,4 @@
-"""The command `cubecam`: info, demo, convert, capture.
+"""The command `cubecam`: info, demo, convert, capture, example.
 
 Exit codes: 0 done; 1 something failed (a message says what); 2 the command was not understood.
 """
@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from . import ContextError, Renderer, __version__, _cli_capture, _cli_convert, devices
+from . import ContextError, Renderer, __version__, _cli_capture, _cli_convert, _cli_example, devices
 from ._cli_common import DeviceOption, fail, failures_reported, parse_device
 
 __all__ = ["app", "main"]
@@ -102,6 +102,7 @@ def demo(
 
 app.command("convert")(_cli_convert.convert)
 app.command("capture")(_cli_capture.capture)
+app.command("example")(_cli_example.example)
 
 
 def main() -> None:

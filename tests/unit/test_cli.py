@@ -37,7 +37,7 @@ def test_the_command_is_installed(start):
     assert cc.__version__ in done.stdout
 
 
-@pytest.mark.parametrize("command", ["info", "demo", "convert", "capture"])
+@pytest.mark.parametrize("command", ["info", "demo", "convert", "capture", "example"])
 def test_every_command_has_help(command):
     result = cubecam(command, "--help")
     assert result.exit_code == 0

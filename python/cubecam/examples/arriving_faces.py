@@ -1,0 +1,91 @@
+"""P5: a mirror cube while its photographs arrive (document 002, environment maps).
+
+On the web images load one after another. All six faces are therefore made at once, of one colour,
+so that the cubemap can be used from the first frame; each image that arrives replaces a face, and
+the mipmaps are made anew. Frame k shows the state after k arrivals; the cube spins meanwhile. The
+second half of the animation begins again, with the same cubemap as the skybox.
+
+Look for: sides of the cube come alive one by one; those that mirror two faces change in two steps.
+Faces are flat, for a cube's corners have a normal for each side.
+
+Worth trying: hand a picture that is not square, or not of the others' size, to ``build``: it is
+refused when it arrives, with both sizes in the message, and the face keeps its colour.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+import cubecam as cc
+
+from ._common import PHOTOGRAPH, Picture, photographs, picture
+
+PROGRAM = "P5"
+TITLE = "A mirror cube while its photographs arrive"
+HALF = 45  # frames without a skybox, and again as many with it
+FRAMES = 2 * HALF
+STILL = HALF + 20
+SIZE = (512, 512)
+
+FOV, NEAR, FAR = 60.0, 1.0, 2000.0  # degrees, world units
+EYE = (0.0, 0.0, 2.0)
+SPIN = (1.6, 2.8)  # degrees a frame round X and Y
+BLANK = 102  # of 255: the colour of a face whose photograph is not there yet
+#: Photographs do not arrive in the order they were asked for.
+ARRIVALS = (4, 1, 0, 5, 3, 2)
+
+
+@dataclass
+class Program:
+    """`tilt` turns round X and carries `cube`; `cubemap` is what it mirrors."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    tilt: cc.Node
+    cube: cc.Node
+    cubemap: cc.CubeMap
+    photographs: list[Picture]
+
+
+def build(images: Any = None, size: int = PHOTOGRAPH) -> Program:
+    """Make the scene with a cubemap whose faces are still of one colour.
+
+    images : as in P1; they are what arrives. size : texels along an edge of the faces made for them.
+    """
+    cubemap = cc.CubeMap(np.full((6, size, size, 3), BLANK, np.uint8), mipmaps=True)
+    scene = cc.Scene(environment=cubemap, background=(0, 0, 0, 1))
+    tilt = scene.add()
+    cube = scene.add(cc.Mesh.box(1), cc.MirrorMaterial(), parent=tilt)
+    camera = cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0), near=NEAR, far=FAR)
+    return Program(scene, camera, tilt, cube, cubemap, photographs(images))
+
+
+def arrive(program: Program, count: int) -> None:
+    """Let the first `count` photographs have arrived, and no other.
+
+    Raises ValueError for one that is not square or not of the cubemap's size; those before it are there.
+    """
+    cubemap = program.cubemap
+    for number, face in enumerate(ARRIVALS):
+        if number < count:
+            cubemap.set_face(face, program.photographs[face])
+        else:
+            cubemap.set_face(face, np.full((cubemap.size, cubemap.size, 3), BLANK, np.uint8))
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: k photographs have arrived; from frame `HALF` on once more, with the skybox."""
+    arrive(program, frame % HALF)
+    program.scene.background = program.cubemap if frame // HALF % 2 else (0, 0, 0, 1)
+    program.tilt.rotation = cc.axis_angle((1, 0, 0), SPIN[0] * frame)
+    program.cube.rotation = cc.axis_angle((0, 1, 0), SPIN[1] * frame)
+    return picture(renderer, program.scene, program.camera, size, options)

@@ -1,0 +1,99 @@
+"""P12: a cube camera (document 004, section 7.4.4).
+
+A ball, or a teapot, mirrors the skybox and the coloured cubes that move between the two. So its
+cubemap cannot be the skybox; it is drawn anew as the cubes move, by a camera in the middle of the
+ball that looks along the six axes, 90 degrees each, with the ball left out. In cubecam that camera
+is a Probe: assigned to the ball, it keeps itself true.
+
+Look for: cubes pass behind the camera and are seen in the ball. The teapot shows the cubes but
+never its own spout, which it left out.
+
+Worth trying: ``renderer.cubemap(program.probe)`` is what the cube camera took; save it as a cross.
+The document finds by experiment that each picture must be scaled by (-1, -1, 1); document 000 gets
+the same from its up vectors. Both are the face table of docs/conventions.md, seen from two sides: a
+face is stored as seen from without, row 0 at its t = 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import cubecam as cc
+
+from ._common import LIGHT, Picture, on_circle, picture, surroundings, teapot
+
+PROGRAM = "P12"
+TITLE = "Cube camera: a mirror for a skybox and for what moves before it"
+FRAMES = 120  # one round of the cubes
+STILL = 0
+SIZE = (512, 512)
+
+PROBE = 512  # texels along an edge of a face
+NEAR, FAR = 1.0, 100.0  # of the cube camera, world units
+#: Colour, edge and radius of the path in world units, height, start in degrees of each cube.
+CUBES = (
+    ((1.0, 0.2, 0.2), 1.4, 5.0, 0.6, 0.0),
+    ((0.2, 0.9, 0.3), 1.0, 4.0, -1.2, 70.0),
+    ((0.3, 0.4, 1.0), 1.8, 6.5, 1.8, 130.0),
+    ((1.0, 0.9, 0.2), 1.1, 4.5, -0.2, 190.0),
+    ((0.9, 0.3, 0.9), 1.6, 6.0, -1.8, 250.0),
+    ((0.2, 0.9, 0.9), 0.9, 3.6, 1.2, 310.0),
+)
+
+
+@dataclass
+class Program:
+    """`cubes` move; `reflector` shows `probe`."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    reflector: cc.Node
+    cubes: tuple[cc.Node, ...]
+    probe: cc.Probe
+
+
+def build(
+    images: Any = None,
+    reflector: Literal["sphere", "teapot"] = "sphere",
+    probe_size: int = PROBE,
+    probe_format: str = "rgba8",
+) -> Program:
+    """Make the scene; images as in P1, the probe's texels of 8 bits as in the document."""
+    if reflector not in ("sphere", "teapot"):
+        raise ValueError(f'reflector: expected "sphere" or "teapot", got {reflector!r}')
+    scene = cc.Scene(environment=surroundings(images))
+    scene.add(cc.PointLight(position=LIGHT))
+    cubes = tuple(
+        scene.add(cc.Mesh.box(edge), cc.PhongMaterial(color=color, ka=0.4))
+        for color, edge, *_ in CUBES
+    )
+    mesh = cc.Mesh.sphere(1.5) if reflector == "sphere" else teapot(4)
+    mirror = scene.add(mesh, cc.MirrorMaterial())
+    probe = cc.Probe(position=(0, 0, 0), size=probe_size, near=NEAR, far=FAR, format=probe_format)
+    mirror.environment = probe
+    camera = cc.PerspectiveCamera(fov=50, position=(0, 2, 12), target=(0, 0, 0), near=NEAR, far=FAR)
+    return Program(scene, camera, mirror, cubes, probe)
+
+
+def place(program: Program, frame: int) -> None:
+    """Put the cubes where they are in a frame: on circles round +Y, every other backwards, spinning."""
+    for index, (node, (_, _, radius, height, start)) in enumerate(
+        zip(program.cubes, CUBES, strict=True)
+    ):
+        turn = 360 * frame / FRAMES * (1 if index % 2 == 0 else -1)
+        node.position = on_circle(radius, height, math.radians(start + turn))
+        node.rotation = cc.axis_angle((1, index + 1, 2), 2 * turn)
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame; the probe is brought up to date with it."""
+    place(program, frame)
+    return picture(renderer, program.scene, program.camera, size, options)

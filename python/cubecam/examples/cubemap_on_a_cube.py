@@ -1,0 +1,90 @@
+"""P13: a cubemap drawn on the fly, shown on a cube (document 000, Ex12-1).
+
+A camera at the origin draws the hall and its two actors into the six faces of a cubemap, 90 degrees
+each, aspect 1; a cube above the middle then wears it, as P1's wears photographs: no reflection, the
+direction is the object-space position. It turns by 0.45 degrees a frame about (1, 1, 1). A Probe
+used as a material's cubemap is that camera, and leaves the cube out.
+
+Look for: ground, ceiling and actors on the cube's sides, mirrored as on P1's, turning with the
+cube.
+
+Worth trying: ``renderer.capture(program.scene, size=256, near=1, far=100, exclude=[program.cube])``
+gives the six faces as an array. The document draws them with the main camera's position in the
+highlights; here a capture's eye is its own position, and ``capture(..., eye=(0, 1, 5))`` gives the
+document's picture.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import cubecam as cc
+
+from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
+
+PROGRAM = "P13"
+TITLE = "A cubemap drawn on the fly, shown on a turning cube"
+FRAMES = 120
+STILL = 100
+SIZE = (512, 512)  # aspect 1
+
+FOV, NEAR, FAR = 70.0, 1.0, 100.0  # main view: degrees, world units
+EYE = (0.0, 1.0, 5.0)  # the document prints none; it looks at the origin
+PROBE = 256  # texels along an edge of a face; 90 degrees, aspect 1, near 1, far 100
+CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
+PLACE, SCALE = (0.0, 0.8, 0.0), 0.8
+AXIS, TURN = (1.0, 1.0, 1.0), 0.45  # degrees a frame
+#: The document garbles the quads' scale: 10 x 10, centred here.
+QUAD = 10.0
+GROUND, GROUND_COLOR = (0.0, -2.0, 0.0), (0.4, 0.4, 1.0)
+CEILING, CEILING_COLOR = (0.0, 3.0, 0.0), (0.4, 1.0, 1.0)
+#: Place and colour of what stands in for sonic.obj and mario.obj.
+BUNNY = ((-2.0, -0.5, 2.0), (0.4, 1.0, 0.4))
+TEAPOT = ((2.5, -0.5, 1.5), (1.0, 0.4, 0.4))
+
+
+@dataclass
+class Program:
+    """`cube` turns and shows `probe`."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    cube: cc.Node
+    probe: cc.Probe
+
+
+def phong(color: tuple[float, float, float]) -> cc.PhongMaterial:
+    """Make the document's material: Ka 0.2, Kd 0.7, Ks 1, shininess 10, highlights white."""
+    return cc.PhongMaterial(color=color, ka=0.2, kd=0.7, ks=1.0, shininess=10.0)
+
+
+def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
+    """Make the scene; the probe's texels are of 8 bits as in the document."""
+    scene = cc.Scene(background=GREY)
+    scene.add(cc.PointLight(position=LIGHT))
+    quad = cc.Mesh.plane(QUAD, QUAD)
+    scene.add(quad, phong(GROUND_COLOR), position=GROUND)
+    # Turned over: its lit side is the one that is seen.
+    scene.add(quad, phong(CEILING_COLOR), position=CEILING, rotation=cc.axis_angle((1, 0, 0), 180))
+    scene.add(bunny(), phong(BUNNY[1]), position=BUNNY[0])
+    scene.add(teapot(), phong(TEAPOT[1]), position=TEAPOT[0])
+    probe = cc.Probe(position=(0, 0, 0), size=probe_size, near=NEAR, far=FAR, format=probe_format)
+    cube = scene.add(
+        cc.Mesh.box(CUBE), cc.BasicMaterial(cubemap=probe), position=PLACE, scale=SCALE
+    )
+    camera = cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0), near=NEAR, far=FAR)
+    return Program(scene, camera, cube, probe)
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: the cube's matrix is translate * scale * rotate(0.45 k, (1, 1, 1))."""
+    # One scale for all axes, so that translate * rotate * scale, the order of a node's parts, is the same.
+    program.cube.rotation = cc.axis_angle(AXIS, TURN * frame)
+    return picture(renderer, program.scene, program.camera, size, options)

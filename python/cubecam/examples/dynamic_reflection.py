@@ -1,0 +1,105 @@
+"""P14: dynamic reflection (document 000, Ex12-2).
+
+The cube of P13 gives way to a ball at the origin, which mirrors what the camera in its middle has
+drawn: 0.78 times the cubemap in the direction R, plus 0.3 times the ball's own gold. The ceiling is
+gone, and the two actors circle the ball.
+
+Look for: an actor that passes in front of the ball comes up in it, large; one that goes behind it
+slides to the rim and is gone.
+
+Worth trying: ``build(probe_size=16)``: reflections need few texels. P15 asks when they need be
+drawn at all, P16 who else may use them, P17 bends the rays instead.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import cubecam as cc
+
+from ._common import GREY, LIGHT, Picture, bunny, on_circle, picture, teapot
+from .cubemap_on_a_cube import (
+    BUNNY,
+    EYE,
+    FAR,
+    FOV,
+    GROUND,
+    GROUND_COLOR,
+    NEAR,
+    PROBE,
+    QUAD,
+    TEAPOT,
+    phong,
+)
+
+PROGRAM = "P14"
+TITLE = "Dynamic reflection: a ball mirrors the actors that circle it"
+FRAMES = 63  # one round: 2 pi in tenths of a radian
+STILL = 12
+SIZE = (512, 512)  # aspect 1
+
+BALL, SCALE = 1.0, 0.5  # radius of sphere.obj, and its scale at the origin
+GOLD = (0.95, 0.85, 0.4)
+ENV_WEIGHT, COLOR_WEIGHT = 0.78, 0.3
+RADIUS, HEIGHT = 2.5, -0.5  # of the circle round +Y, world units
+TURN = 0.1  # radians a frame
+
+
+@dataclass
+class Program:
+    """`actors` circle; `ball` shows `probe`."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    ball: cc.Node
+    actors: tuple[cc.Node, cc.Node]
+    probe: cc.Probe
+
+
+def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
+    """Make the scene; the probe's texels are of 8 bits as in the document."""
+    scene, actors = stage()
+    ball = scene.add(cc.Mesh.sphere(BALL), gold(), scale=SCALE)
+    probe = cc.Probe(position=(0, 0, 0), size=probe_size, near=NEAR, far=FAR, format=probe_format)
+    ball.environment = probe
+    return Program(scene, main_camera(), ball, actors, probe)
+
+
+def stage() -> tuple[cc.Scene, tuple[cc.Node, cc.Node]]:
+    """Make what is not reflective: lamp, ground and the two actors."""
+    scene = cc.Scene(background=GREY)
+    scene.add(cc.PointLight(position=LIGHT))
+    scene.add(cc.Mesh.plane(QUAD, QUAD), phong(GROUND_COLOR), position=GROUND)
+    actors = scene.add(bunny(), phong(BUNNY[1])), scene.add(teapot(), phong(TEAPOT[1]))
+    return scene, actors
+
+
+def gold() -> cc.MirrorMaterial:
+    """Make the material 0.78 * environment + 0.3 * colour."""
+    return cc.MirrorMaterial(color=GOLD, env_weight=ENV_WEIGHT, color_weight=COLOR_WEIGHT)
+
+
+def main_camera() -> cc.PerspectiveCamera:
+    """Make the main view: 70 degrees, near 1, far 100, from (0, 1, 5) to the origin."""
+    return cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0), near=NEAR, far=FAR)
+
+
+def circle(actor: cc.Node, radians: float) -> None:
+    """Put an actor on the circle round +Y, turned with it."""
+    actor.position = on_circle(RADIUS, HEIGHT, radians)
+    actor.rotation = cc.axis_angle((0, 1, 0), math.degrees(radians))
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: the actors, opposite each other, have gone on by a tenth of a radian a frame."""
+    for index, actor in enumerate(program.actors):
+        circle(actor, TURN * frame + index * math.pi)
+    return picture(renderer, program.scene, program.camera, size, options)

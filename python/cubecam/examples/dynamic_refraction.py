@@ -1,0 +1,88 @@
+"""P17: dynamic refraction (document 000, "try and think").
+
+Can the scheme of P14 refract? It can: the same cubemap, looked up where Snell's law sends the ray,
+with eta = 1 / 1.52 for air to glass. Two balls stand side by side, the left one of glass, the right
+one P14's mirror; each has a cubemap of its own, and the actors circle both.
+
+Look for: the glass shows what is behind it upside down, the mirror what is before it. Both follow
+the actors.
+
+Worth trying: ``build(fresnel=True)``: glass reflects as well, most at its rim. It is one surface
+that bends here: light that leaves a real ball is bent a second time.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import cubecam as cc
+
+from ._common import Picture, picture
+from .cubemap_on_a_cube import FAR, NEAR, PROBE
+from .dynamic_reflection import (
+    BALL,
+    SCALE,
+    TURN,
+    circle,
+    gold,
+    main_camera,
+    stage,
+)
+
+PROGRAM = "P17"
+TITLE = "Dynamic refraction: a glass ball beside a mirror"
+FRAMES = 63  # one round: 2 pi in tenths of a radian
+STILL = 12
+SIZE = (512, 512)  # aspect 1
+
+ETA = 1 / 1.52  # air to glass
+APART = 0.7  # world units from the middle to each ball's centre
+
+
+@dataclass
+class Program:
+    """`actors` circle; `glass` and `mirror` show a probe each."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    glass: cc.Node
+    mirror: cc.Node
+    actors: tuple[cc.Node, cc.Node]
+    probes: tuple[cc.Probe, cc.Probe]
+
+
+def build(
+    eta: float = ETA, fresnel: bool = False, probe_size: int = PROBE, probe_format: str = "rgba8"
+) -> Program:
+    """Make the scene; eta is the refractive index outside divided by that inside."""
+    scene, actors = stage()
+    ball = cc.Mesh.sphere(BALL)
+    materials = cc.GlassMaterial(eta=eta, fresnel=fresnel), gold()
+    # The balls do not see each other: how mirrors show mirrors is another question.
+    glass, mirror = (
+        scene.add(ball, material, position=(x, 0, 0), scale=SCALE, in_probes=False)
+        for x, material in zip((-APART, APART), materials, strict=True)
+    )
+    probes = []
+    for node in (glass, mirror):
+        probe = cc.Probe(
+            position=node.position, size=probe_size, near=NEAR, far=FAR, format=probe_format
+        )
+        node.environment = probe
+        probes.append(probe)
+    return Program(scene, main_camera(), glass, mirror, actors, (probes[0], probes[1]))
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: the actors have gone on by a tenth of a radian a frame."""
+    for index, actor in enumerate(program.actors):
+        circle(actor, TURN * frame + index * math.pi)
+    return picture(renderer, program.scene, program.camera, size, options)

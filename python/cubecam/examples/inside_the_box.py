@@ -1,0 +1,107 @@
+"""P2: standing inside the box (document 001, Ex10-2).
+
+The cube of P1 stands still, and the camera in its middle turns and walks: a drag of the mouse turns
+the view, "w" and "s" take a step of 0.1 along it. Two angles add up the drags; the view direction
+is Rx(angleY) Ry(angleX) (0, 0, 1), both turns about the world's axes. `SCRIPT` stands in for the
+hand: frame k shows what k of its events lead to.
+
+Look for: the walls come nearer as one walks, parts of them vanish behind the near plane, and at
+last one stands outside. That is the document's question, and P3 its answer.
+
+Worth trying: turn by 90 degrees first and then drag up and down: the view rolls round its own axis,
+for the second turn is about the world's X. `camera.yaw` and `camera.pitch` turn as people do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import cubecam as cc
+
+from ._common import GREY, Picture, picture, surroundings
+
+PROGRAM = "P2"
+TITLE = "Inside the box: drags turn the view, w and s walk"
+SIZE = (512, 512)  # aspect 1
+
+FOV, NEAR, FAR = 60.0, 1.0, 15.0  # degrees, world units
+CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
+SCALE = 2.0
+STEP = 0.1  # world units, one press of w or s
+FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
+
+#: "w", "s", or a drag (angleX, angleY) in degrees.
+Event = str | tuple[float, float]
+SCRIPT: tuple[Event, ...] = (
+    *[(6.0, 0.0)] * 15,
+    *[(0.0, 3.0)] * 8,
+    *["w"] * 6,
+    *[(4.0, -4.0)] * 12,
+    *["s"] * 12,
+    *[(-4.0, 2.0)] * 12,
+    *["w"] * 30,
+)
+FRAMES = len(SCRIPT) + 1
+STILL = 35
+
+
+@dataclass
+class Program:
+    """The camera is what moves."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    script: tuple[Event, ...]
+
+
+def build(images: Any = None, script: Sequence[Event] = SCRIPT) -> Program:
+    """Make the scene; see `SCRIPT` for what a script holds, and P1 for the images."""
+    scene = cc.Scene(background=GREY)
+    material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
+    scene.add(cc.Mesh.box(CUBE), material, scale=SCALE)
+    return Program(scene, walker(), tuple(script))
+
+
+def walker() -> cc.PerspectiveCamera:
+    """Make the camera in the middle, looking along (0, 0, 1)."""
+    return cc.PerspectiveCamera(fov=FOV, position=(0, 0, 0), target=FIRST, near=NEAR, far=FAR)
+
+
+def direction(angle_x: float, angle_y: float) -> tuple[float, float, float]:
+    """Give Rx(angle_y) Ry(angle_x) (0, 0, 1), angles in degrees."""
+    x, y = math.radians(angle_x), math.radians(angle_y)
+    return math.sin(x), -math.sin(y) * math.cos(x), math.cos(y) * math.cos(x)
+
+
+def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
+    """Put the camera to its start, and then where the events lead."""
+    camera.target = None
+    camera.position = (0, 0, 0)
+    camera.look(FIRST)
+    angle_x = angle_y = 0.0
+    for event in events:
+        if event in ("w", "s"):
+            camera.walk(STEP if event == "w" else -STEP)
+        elif isinstance(event, str):
+            raise ValueError(f'script: expected "w", "s" or a drag of two angles, got {event!r}')
+        else:
+            angle_x, angle_y = angle_x + event[0], angle_y + event[1]
+            view = direction(angle_x, angle_y)
+            # Straight up and straight down have no picture with +Y up; the last view stays.
+            if math.hypot(view[0], view[2]) > 1e-6:
+                camera.look(view)
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw what the first `frame` events of the script lead to."""
+    replay(program.camera, program.script[: max(frame, 0)])
+    return picture(renderer, program.scene, program.camera, size, options)

@@ -1,0 +1,172 @@
+"""P6: reflection in model space, from a cubemap of one image (document 003).
+
+One picture holds all six faces as a cross; its shape tells the layout. The shader gets the eye in
+model space, inverse(view * model) * (0, 0, 0, 1), reflects there with the mesh's own normal, and
+takes the result to the world by mat3(model). The left teapot is made so; the right one reflects in
+world space, as P4 does. Both have the same matrix but for their place.
+
+Look for: the two agree, for a rotation and one scale for all axes keep angles. Then try
+``build(stretch=(2, 1, 1))``: they part, by up to 73 degrees, because mat3(model) bends a direction
+that was reflected before it. The right one is right.
+
+Worth trying: ``build(per_vertex=True)`` reflects at the vertices and interpolates, as the document
+does. Where a large triangle curves its normals much, straight lines break. ``build(skybox=True)``
+is the document's RENDER_SKYBOX.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+import cubecam as cc
+
+from ._common import Picture, picture, surroundings, teapot
+
+PROGRAM = "P6"
+TITLE = "Reflection in model space, from a cubemap of one image"
+FRAMES = 90  # one turn
+STILL = 20
+SIZE = (512, 512)
+
+FOV, EYE = 45.0, (0.0, 0.8, 4.0)  # degrees, world units
+APART = 0.95  # world units from the middle to each teapot
+TURN = 4.0  # degrees a frame round Y
+
+#: What both stages share: the document's lines, in its own names.
+REFLECT = """
+uniform vec3 camPosModel;
+uniform mat3 matModelToWorld;
+
+vec3 reflection(vec3 position, vec3 normal) {
+    vec3 eyeDir = normalize(position - camPosModel);
+    return matModelToWorld * reflect(eyeDir, normal);
+}
+"""
+FRAGMENT = (
+    REFLECT
+    + """
+vec3 shade(Surface s) {
+    // The mesh's normal, from the world's: those go by the inverse transpose.
+    vec3 normal = normalize(transpose(matModelToWorld) * s.normal);
+    return texture(textureCubeMap, reflection(s.position_object, normal)).rgb;
+}
+"""
+)
+VERTEX = (
+    REFLECT
+    + """
+out vec3 v_reflectionVector;
+
+void vertex(vec3 position, vec3 normal) {
+    v_reflectionVector = reflection(position, normal);
+}
+"""
+)
+FRAGMENT_OF_VERTEX = """
+in vec3 v_reflectionVector;
+
+vec3 shade(Surface s) {
+    return texture(textureCubeMap, v_reflectionVector).rgb;
+}
+"""
+
+
+@dataclass
+class Program:
+    """`model` is reflected in model space, `world` in world space; both turn."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    model: cc.Node
+    world: cc.Node
+    material: Any
+
+
+def cross(images: Any = None) -> Picture:
+    """Make one picture of six photographs, 4 N x 3 N, as a stand-in for the document's cm.jpg."""
+    return surroundings(images).to_layout("cross")
+
+
+def build(
+    image: Any = None,
+    stretch: tuple[float, float, float] = (1.0, 1.0, 1.0),
+    per_vertex: bool = False,
+    skybox: bool = False,
+) -> Program:
+    """Make the scene.
+
+    image : path or array (H, W, C) of one picture that holds six faces; its shape tells the layout.
+    stretch : scale of both teapots along their own axes.
+    """
+    if image is None:
+        image = cross()
+    cubemap = cc.CubeMap.from_layout(image) if hasattr(image, "shape") else cc.load_cubemap(image)
+    scene = cc.Scene(environment=cubemap, background=None if skybox else (0, 0, 0, 1))
+    shader: Any = cc.ShaderMaterial
+    material = shader(
+        fragment=FRAGMENT_OF_VERTEX if per_vertex else FRAGMENT,
+        vertex=VERTEX if per_vertex else None,
+        uniforms={"camPosModel": (0.0, 0.0, 0.0), "matModelToWorld": np.eye(3)},
+        textures={"textureCubeMap": cubemap},
+    )
+    mesh = teapot(1.5)
+    model = scene.add(mesh, material, position=(-APART, 0, 0), scale=stretch)
+    world = scene.add(mesh, cc.MirrorMaterial(), position=(APART, 0, 0), scale=stretch)
+    camera = cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0))
+    return Program(scene, camera, model, world, material)
+
+
+def eye_in_model_space(camera: cc.PerspectiveCamera, node: cc.Node) -> npt.NDArray[np.float64]:
+    """Give inverse(view * model) * (0, 0, 0, 1), three numbers."""
+    inverse = np.asarray(np.linalg.inv(camera.view @ node.world_matrix), np.float64)
+    eye: npt.NDArray[np.float64] = inverse[:3, 3]
+    return eye
+
+
+def degrees_apart(camera: cc.PerspectiveCamera, node: cc.Node) -> npt.NDArray[np.float64]:
+    """Give the angle between the document's direction and the right one at each vertex that faces the eye."""
+    mesh, matrix = node.mesh, np.asarray(node.world_matrix)
+    assert mesh is not None
+    linear = matrix[:3, :3]
+    positions, normals = mesh.positions.astype(np.float64), mesh.normals.astype(np.float64)
+    document = _reflect(positions - eye_in_model_space(camera, node), normals) @ linear.T
+    incident = positions @ linear.T + matrix[:3, 3] - camera.position
+    normals = normals @ np.linalg.inv(linear)
+    normals /= np.linalg.norm(normals, axis=-1, keepdims=True)
+    right = _reflect(incident, normals)
+    seen = (incident * normals).sum(axis=-1) < 0
+    cosine = (document * right).sum(axis=-1) / (
+        np.linalg.norm(document, axis=-1) * np.linalg.norm(right, axis=-1)
+    )
+    angles: npt.NDArray[np.float64] = np.degrees(np.arccos(np.clip(cosine[seen], -1, 1)))
+    return angles
+
+
+def _reflect(
+    incident: npt.NDArray[np.float64], normal: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    bounced: npt.NDArray[np.float64] = (
+        incident - 2 * (incident * normal).sum(axis=-1, keepdims=True) * normal
+    )
+    return bounced
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: both teapots have turned by 4 degrees a frame."""
+    for node in (program.model, program.world):
+        node.rotation = cc.axis_angle((0, 1, 0), TURN * frame)
+    program.material.uniforms = {
+        "camPosModel": eye_in_model_space(program.camera, program.model),
+        "matModelToWorld": program.model.world_matrix[:3, :3],
+    }
+    return picture(renderer, program.scene, program.camera, size, options)

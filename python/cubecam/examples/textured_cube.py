@@ -1,0 +1,73 @@
+"""P1: a cube textured by a cubemap (document 001, Ex10-1).
+
+Six photographs become one cubemap, and every point of a cube shows the colour that lies in the
+direction of its own position, as seen from the cube's middle: ``textureCube(u_envCubeMap,
+a_Position)``. The direction is taken in object space, before the model matrix, so the pictures turn
+with the cube.
+
+Look for: each side shows one photograph whole, and edges are seamless. The photographs appear
+mirrored: they were taken from within and are seen from without.
+
+Worth trying: stand in the middle with ``build(eye=(0, 0, 0.001))``, as the document asks. Far away
+a face is smaller than its 512 texels, and with LINEAR alone it flickers as it turns: give the
+cubemap mipmaps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import cubecam as cc
+
+from ._common import GREY, Picture, picture, surroundings
+
+PROGRAM = "P1"
+TITLE = "A cube textured by a cubemap of six photographs"
+FRAMES = 120  # one turn
+STILL = 0
+SIZE = (512, 512)  # aspect 1
+
+FOV, NEAR, FAR = 60.0, 1.0, 15.0  # degrees, world units
+CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
+SCALE = 2.0
+EYE = (0.0, 0.0, 7.0)  # the document prints none; it looks at the origin
+START, DRAG = 30.0, 3.0  # degrees, and degrees a frame, round both axes: in place of a mouse
+
+
+@dataclass
+class Program:
+    """`tilt` turns round X and carries `cube`, which turns round Y."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    tilt: cc.Node
+    cube: cc.Node
+
+
+def build(images: Any = None, eye: tuple[float, float, float] = EYE) -> Program:
+    """Make the scene.
+
+    images : six arrays or paths in the order +X -X +Y -Y +Z -Z, uploaded as they are; made here by default.
+    """
+    scene = cc.Scene(background=GREY)
+    # WebGL draws back faces unless told otherwise, so that the cube can be entered.
+    material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
+    tilt = scene.add()
+    cube = scene.add(cc.Mesh.box(CUBE), material, scale=SCALE, parent=tilt)
+    camera = cc.PerspectiveCamera(fov=FOV, position=eye, target=(0, 0, 0), near=NEAR, far=FAR)
+    return Program(scene, camera, tilt, cube)
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: the model matrix is Rx(angleY) Ry(angleX) scale(2), as the document writes it."""
+    angle_x = angle_y = START + DRAG * frame
+    program.tilt.rotation = cc.axis_angle((1, 0, 0), angle_y)
+    program.cube.rotation = cc.axis_angle((0, 1, 0), angle_x)
+    return picture(renderer, program.scene, program.camera, size, options)

@@ -1,0 +1,88 @@
+"""P7: translucent things after opaque ones (document 004, section 7.4.1).
+
+Opaque things are drawn first. Translucent ones follow from far to near, with the depth test on, so
+that what is opaque hides them, and depth writes off, so that they do not hide each other; colours
+are blended with SRC_ALPHA, ONE_MINUS_SRC_ALPHA. The renderer does all that for a material whose
+opacity is below 1. Alpha is blended apart, and over an opaque background stays 1, so that a page
+behind the picture does not show through.
+
+Look for: the bunny is seen through every pane in front of it, tinted once by each; behind it the
+panes vanish.
+
+Worth trying: opacity 1 for one of the panes. It is drawn with the opaque things then, and what is
+behind it is gone.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import cubecam as cc
+
+from ._common import LIGHT, Picture, bunny, on_circle, picture
+
+PROGRAM = "P7"
+TITLE = "Translucent things, drawn from far to near after opaque ones"
+FRAMES = 120  # one turn of the ring
+STILL = 60
+SIZE = (512, 512)
+
+WHITE = (1.0, 1.0, 1.0, 1.0)
+TURN = 3.0  # degrees a frame
+RADIUS = 1.5  # of the ring, world units
+#: Colour and opacity of what stands in the ring.
+PANES = (((1.0, 0.2, 0.1), 0.5), ((0.1, 0.8, 0.2), 0.35), ((0.1, 0.3, 1.0), 0.6))
+BALLS = (((1.0, 0.8, 0.1), 0.4), ((0.7, 0.1, 0.9), 0.55))
+
+
+@dataclass
+class Program:
+    """`ring` is what turns, `translucent` stand in it."""
+
+    scene: cc.Scene
+    camera: cc.PerspectiveCamera
+    ring: cc.Node
+    opaque: tuple[cc.Node, ...]
+    translucent: tuple[cc.Node, ...]
+
+
+def build() -> Program:
+    """Make the scene: an opaque bunny on a ground, three panes and two balls round it."""
+    scene = cc.Scene(background=WHITE)
+    scene.add(cc.PointLight(position=LIGHT))
+    ground = scene.add(
+        cc.Mesh.plane(4, 4), cc.PhongMaterial(color=(0.8, 0.8, 0.8), ks=0), position=(0, -0.75, 0)
+    )
+    body = scene.add(bunny(1.5), cc.PhongMaterial(color=(0.8, 0.6, 0.5), ks=0.3))
+    ring = scene.add()
+    pane, ball = cc.Mesh.box((1.1, 1.3, 0.04)), cc.Mesh.sphere(0.4)
+    things = [(pane, *look) for look in PANES] + [(ball, *look) for look in BALLS]
+    order = (0, 3, 1, 4, 2)  # panes and balls in turn
+    translucent = []
+    for index, (mesh, color, opacity) in enumerate(things[i] for i in order):
+        degrees = 360 * index / len(things)
+        translucent.append(
+            scene.add(
+                mesh,
+                cc.PhongMaterial(color=color, ks=0.5, opacity=opacity),
+                position=on_circle(RADIUS, 0, math.radians(degrees)),
+                rotation=cc.axis_angle((0, 1, 0), degrees + 90),
+                parent=ring,
+            )
+        )
+    camera = cc.PerspectiveCamera(fov=45, position=(0, 1.5, 5), target=(0, 0, 0), near=1, far=100)
+    return Program(scene, camera, ring, (ground, body), tuple(translucent))
+
+
+def draw(
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int] = SIZE,
+    **options: Any,
+) -> Picture:
+    """Draw a frame: the ring has turned by 3 degrees a frame."""
+    program.ring.rotation = cc.axis_angle((0, 1, 0), TURN * frame)
+    return picture(renderer, program.scene, program.camera, size, options)

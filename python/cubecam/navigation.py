@@ -1,0 +1,326 @@
+"""Moving a camera as one who stands or flies in the scene does: turn, look, walk, strafe, orbit.
+
+Plain functions on a `PerspectiveCamera` or `OrthographicCamera`, which have them as methods too:
+`camera.yaw(10)` is `yaw(camera, 10)`. They change the camera in place and return None; one that
+raises leaves it as it was. Up is the camera's own `up`; poles are what lies straight along it.
+"""
+
+from __future__ import annotations
+
+import math
+import numbers
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from ._core import OrthographicCamera, PerspectiveCamera
+
+if TYPE_CHECKING:
+    Vector: TypeAlias = npt.NDArray[np.float64]
+
+__all__ = ["POLE_MARGIN", "look", "orbit", "pitch", "strafe", "walk", "yaw"]
+
+#: Degrees that `pitch` and `orbit` stay away from straight up and straight down, where up loses its meaning.
+POLE_MARGIN = 1.0
+
+
+def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
+    """Turn the view to the left, round the camera's `up` through its position.
+
+    Parameters
+    ----------
+    camera : PerspectiveCamera or OrthographicCamera
+    degrees : float
+        Positive turns left: counter-clockwise seen from above.
+
+    Raises
+    ------
+    ValueError
+        For a number that is not finite.
+    TypeError
+        For a camera given by its matrices, or something that is no number.
+
+    Notes
+    -----
+    The position stays, and so does the target's distance; without a target one is set at distance 1.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(position=(0, 1, 0), target=(0, 1, -2))
+    >>> camera.yaw(30)
+    >>> camera.target.round(3).tolist()
+    [-1.0, 1.0, -1.732]
+    """
+    angle = math.radians(_number(degrees, "degrees"))
+    if angle == 0:
+        return
+    standing = _Standing(camera)
+    camera.target = standing.ahead(_turned(standing.direction, standing.up, angle))
+
+
+def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
+    """Turn the view up, round the camera's right.
+
+    Parameters
+    ----------
+    camera : PerspectiveCamera or OrthographicCamera
+    degrees : float
+        Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; one that
+        is nearer already goes no further.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As `yaw`.
+
+    Notes
+    -----
+    The position stays, and so does the target's distance; without a target one is set at distance 1.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(position=(0, 1, 0))
+    >>> camera.pitch(30)
+    >>> camera.target.round(3).tolist()
+    [0.0, 1.5, -0.866]
+    """
+    change = _number(degrees, "degrees")
+    if change == 0:
+        return
+    standing = _Standing(camera)
+    camera.target = standing.ahead(_raised(standing.direction, standing.up, change))
+
+
+def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> None:
+    """Move along the view direction, target and all.
+
+    Parameters
+    ----------
+    camera : PerspectiveCamera or OrthographicCamera
+    distance : float
+        World units; negative walks backwards.
+
+    Raises
+    ------
+    ValueError
+        For a number that is not finite, or a step so long that position and target cannot be told apart.
+    TypeError
+        As `yaw`.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0))
+    >>> camera.walk(2)
+    >>> camera.position.tolist(), camera.target.tolist()
+    ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
+    """
+    standing = _Standing(camera)
+    standing.move(_number(distance, "distance") * standing.direction)
+
+
+def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> None:
+    """Move to the right, target and all.
+
+    Parameters
+    ----------
+    camera : PerspectiveCamera or OrthographicCamera
+    distance : float
+        World units; negative moves left.
+
+    Raises
+    ------
+    ValueError, TypeError
+        As `walk`.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera()
+    >>> camera.strafe(.5)
+    >>> camera.position.tolist()
+    [0.5, 0.0, 0.0]
+    """
+    standing = _Standing(camera)
+    right = _unit(np.cross(standing.direction, standing.up))
+    standing.move(_number(distance, "distance") * right)
+
+
+def orbit(
+    camera: PerspectiveCamera | OrthographicCamera, yaw: float = 0.0, pitch: float = 0.0
+) -> None:
+    """Move round the target, as if the scene were turned in the hand.
+
+    Parameters
+    ----------
+    camera : PerspectiveCamera or OrthographicCamera
+        One that has a target.
+    yaw : float
+        Degrees round `up`. Positive turns what is seen to the right, as a drag to the right does: the camera goes to
+        its left.
+    pitch : float
+        Degrees of elevation. Positive tips what is seen towards the viewer, as a drag downwards does: the camera
+        rises. It stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
+
+    Raises
+    ------
+    ValueError
+        For a camera without a target, or a number that is not finite.
+    TypeError
+        As `yaw`.
+
+    Notes
+    -----
+    Target and distance stay.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
+    >>> camera.orbit(30)
+    >>> camera.position.round(3).tolist()
+    [-2.0, 0.0, 3.464]
+    """
+    turn, rise = _number(yaw, "yaw"), _number(pitch, "pitch")
+    standing = _Standing(camera)
+    if standing.target is None:
+        raise ValueError("target: expected a camera with a target to orbit, got None")
+    # From the target the camera lies opposite to the view.
+    outward = -standing.direction
+    if turn != 0:
+        outward = _turned(outward, standing.up, -math.radians(turn))
+    if rise != 0:
+        outward = _raised(outward, standing.up, rise)
+    if turn != 0 or rise != 0:
+        camera.position = standing.target + standing.distance * outward
+
+
+def look(camera: PerspectiveCamera | OrthographicCamera, direction: npt.ArrayLike) -> None:
+    """Turn the view along a direction of the world.
+
+    Parameters
+    ----------
+    camera : PerspectiveCamera or OrthographicCamera
+    direction : array_like (3,)
+        World space, of any length but 0, not along `up`.
+
+    Raises
+    ------
+    ValueError
+        For a direction that is not three finite numbers, has no length, or lies along `up`.
+    TypeError
+        For a camera given by its matrices, or something that is no vector.
+
+    Notes
+    -----
+    The target goes to the position plus the direction, at the distance it had; at 1 if there was none.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(position=(1, 0, 0))
+    >>> camera.look((0, 0, 2))
+    >>> camera.target.tolist()
+    [1.0, 0.0, 1.0]
+    """
+    camera.target = _Standing(camera).ahead(_direction(direction))
+
+
+class _Standing:
+    """Where a camera is and how it looks, read once."""
+
+    def __init__(self, camera: PerspectiveCamera | OrthographicCamera) -> None:
+        if not isinstance(camera, (PerspectiveCamera, OrthographicCamera)):
+            raise TypeError(
+                "camera: expected a PerspectiveCamera or an OrthographicCamera, "
+                f"got {type(camera).__name__}"
+            )
+        self.camera = camera
+        self.position, self.target = camera.position, camera.target
+        self.up = _unit(camera.up)
+        if self.target is None:
+            self.direction, self.distance = np.array([0.0, 0.0, -1.0]), 1.0
+        else:
+            offset = self.target - self.position
+            self.direction, self.distance = _unit(offset), float(_length(offset))
+
+    def ahead(self, direction: Vector) -> Vector:
+        """Give the target at the present distance in a direction of length 1."""
+        return self.position + self.distance * direction
+
+    def move(self, offset: Vector) -> None:
+        """Move position and target by the same offset, both or neither."""
+        camera = self.camera
+        if not offset.any():
+            return
+        if self.target is None:
+            camera.position = self.position + offset
+            return
+        moved = {"position": self.position + offset, "target": self.target + offset}
+        # The first to go leads, so that the two never meet on the way.
+        forwards = float(offset @ self.direction) > 0
+        first, second = ("target", "position") if forwards else ("position", "target")
+        setattr(camera, first, moved[first])
+        try:
+            setattr(camera, second, moved[second])
+        except ValueError:
+            setattr(camera, first, getattr(self, first))
+            raise
+
+
+def _turned(vector: Vector, axis: Vector, radians: float) -> Vector:
+    """Rotate counter-clockwise seen with the axis, of length 1, pointing at the viewer (Rodrigues)."""
+    cos, sin = math.cos(radians), math.sin(radians)
+    along = axis * float(axis @ vector)
+    turned: Vector = along + cos * (vector - along) + sin * np.cross(axis, vector)
+    return turned
+
+
+def _raised(direction: Vector, up: Vector, degrees: float) -> Vector:
+    """Turn a direction of length 1 towards up, in the plane of both, and keep it off the poles."""
+    sine = float(direction @ up)
+    level = direction - sine * up
+    elevation = math.degrees(math.atan2(sine, float(_length(level))))
+    # One that is nearer to a pole than the margin may stay or come back.
+    limit = max(90.0 - POLE_MARGIN, abs(elevation))
+    wanted = math.radians(min(max(elevation + degrees, -limit), limit))
+    raised: Vector = math.cos(wanted) * _unit(level) + math.sin(wanted) * up
+    return raised
+
+
+def _length(vector: Vector) -> float:
+    """Give the length, of numbers near the limits of double too."""
+    return math.hypot(*vector)
+
+
+def _unit(vector: Vector) -> Vector:
+    # Divided twice: the length of great numbers is beyond the range, that of tiny ones loses digits.
+    scaled = vector / np.abs(vector).max()
+    unit: Vector = scaled / _length(scaled)
+    return unit
+
+
+def _number(value: Any, name: str) -> float:
+    if not isinstance(value, numbers.Real) or isinstance(value, bool):
+        raise TypeError(f"{name}: expected a number, got {type(value).__name__}")
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{name}: expected a finite number, got {number}")
+    return number
+
+
+def _direction(value: Any) -> Vector:
+    given = np.asarray(value)
+    if given.dtype.kind not in "iuf":
+        raise TypeError(f"direction: expected three numbers, got {given.dtype}")
+    vector = given.astype(np.float64)
+    if vector.shape != (3,):
+        raise ValueError(f"direction: expected three numbers, got shape {vector.shape}")
+    if not np.isfinite(vector).all():
+        raise ValueError(f"direction: expected finite numbers, got {tuple(vector.tolist())}")
+    if not vector.any():
+        raise ValueError("direction: expected a vector of some length, got (0, 0, 0)")
+    return _unit(vector)

@@ -1,0 +1,124 @@
+"""What the programs' tests share: matrices as the documents write them, hits of a view, Phong of document 000."""
+
+import numpy as np
+
+import cubecam as cc
+from tests.gl.world import inner_smooth, triangles_of
+from tests.reference import raycast, shading
+from tests.reference import transforms as ref
+from tests.reference.raycast import Box, Quad
+from tests.reference.sampling import sample_faces
+
+GREY = (0.4, 0.4, 0.4)
+LAMP = shading.Point((5, 5, 5))
+
+
+def rx(degrees):
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[1, 0, 0, 0], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1.0]])
+
+
+def ry(degrees):
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[c, 0, s, 0], [0, 1, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1.0]])
+
+
+def scaled(*factors):
+    return np.diag([*np.broadcast_to(factors, 3), 1.0])
+
+
+def turned(axis, degrees):
+    return ref.rotation(ref.axis_angle(axis, degrees))
+
+
+def moved(*offset):
+    return ref.translation(offset)
+
+
+def box(node, size, matrix, double_sided=False):
+    """The oracle's twin of a node that is a box, placed by a matrix of the document."""
+    return Box(node.id, matrix, double_sided, size=size)
+
+
+def quad(node, edge, matrix):
+    return Quad(node.id, matrix, width=edge, depth=edge)
+
+
+def mesh(node, matrix, size=None):
+    """A twin of triangles: the node's own mesh, or a file's at a size."""
+    shape = triangles_of(node.mesh if size is None else model(*size))
+    shape.id, shape.matrix = node.id, matrix
+    return shape
+
+
+def model(name, size):
+    return cc.load_mesh(cc.sample_data(f"{name}.obj"), size=size)
+
+
+class Look:
+    """A view from the numbers of a document: rays, and what they hit."""
+
+    def __init__(self, eye, target, fov, near, far, size):
+        self.eye, self.size, self.near, self.far = np.asarray(eye, float), size, near, far
+        self.view = ref.look_at(eye, target)
+        self.projection = ref.perspective(fov, size[0] / size[1], near, far)
+
+    def hits(self, shapes):
+        return raycast.cast_frame(
+            shapes, self.view, self.projection, self.size, self.near, self.far
+        )
+
+    def directions(self):
+        return ref.normalised(ref.pixel_rays(self.view, self.projection, self.size)[1])
+
+
+def lit(hits, colors, eye, background=GREY, **weights):
+    """Phong of document 000 for every pixel; colours by id, a colour or a picture where nothing is hit."""
+    found = np.broadcast_to(np.asarray(background, float), (*hits.id.shape, 3)).copy()
+    for number, color in colors.items():
+        rows = hits.id == number
+        found[rows] = shading.phong(
+            hits.position[rows], hits.normal[rows], eye, color, [LAMP], **weights
+        )
+    return found
+
+
+def looked_up(cube, directions):
+    """A seamless lookup of directions that may be NaN where nothing is."""
+    return sample_faces(cube, np.where(np.isfinite(directions), directions, 1.0))
+
+
+def unbroken(hits, jump=0.15):
+    """Where silhouettes are at least a pixel away, those of a shape before itself as well: t does not jump."""
+    t = np.where(hits.hit, hits.t, 1e3)
+    padded = np.pad(t, [(0, 0)] * (t.ndim - 2) + [(1, 1)] * 2, mode="edge")
+    height, width = t.shape[-2:]
+    near = np.ones(t.shape, bool)
+    for row in range(3):
+        for column in range(3):
+            shifted = padded[..., row : row + height, column : column + width]
+            near &= np.abs(shifted - t) < jump * np.minimum(shifted, t)
+    return near & inner_smooth(hits)
+
+
+def near_enough(got, want, mask, mean, tenth, name):
+    """For pictures with edges in them: near on the whole, and nine pixels of ten near by themselves."""
+    assert mask.sum() > 30, f"{name}: {mask.sum()} pixels to compare, more than 30 are needed"
+    difference = np.abs(np.asarray(got, float) - want)[mask]
+    assert difference.mean() < mean, (
+        f"{name}: mean difference {difference.mean():g}, allowed {mean:g}"
+    )
+    worst = np.quantile(difference, 0.9)
+    assert worst < tenth, f"{name}: a tenth differ by {worst:g} and more, allowed {tenth:g}"
+
+
+def photographs(size=64):
+    """Six smooth pictures that are all different: of the direction, and of the face."""
+    from tests.gl.world import smooth_environment
+
+    faces = smooth_environment(size)
+    ramp = np.linspace(0, 1, size, dtype=np.float32)
+    for face in range(6):
+        # A slant of its own for each face, which a flip or a turn changes.
+        faces[face, ..., face % 3] += 0.1 * (1 + face) * ramp[None, :] * (0.3 + ramp[:, None])
+    return faces

@@ -1,0 +1,93 @@
+"""P13: faces against ray casting with the document's Phong, and the cube that wears them in the main view."""
+
+import numpy as np
+import pytest
+
+from cubecam.examples import cubemap_on_a_cube as example
+from tests.compare import assert_close
+from tests.gl.world import inner
+from tests.programs.oracle import (
+    GREY,
+    Look,
+    box,
+    lit,
+    looked_up,
+    mesh,
+    moved,
+    near_enough,
+    quad,
+    rx,
+    scaled,
+    turned,
+    unbroken,
+)
+from tests.reference import raycast
+from tests.reference.raycast import interior
+
+SIZE, FACE = (64, 64), 40
+
+
+def hall(program):
+    """The document's numbers: colours and places of ground, ceiling and actors."""
+    ground, ceiling, bunny, teapot = program.scene.nodes[:4]
+    shapes = [
+        quad(ground, 10, moved(0, -2, 0)),
+        quad(ceiling, 10, moved(0, 3, 0) @ rx(180)),
+        mesh(bunny, moved(-2, -0.5, 2), ("bunny", 1.2)),
+        mesh(teapot, moved(2.5, -0.5, 1.5), ("teapot", 1.2)),
+    ]
+    paints = ((0.4, 0.4, 1), (0.4, 1, 1), (0.4, 1, 0.4), (1, 0.4, 0.4))
+    return shapes, {shape.id: paint for shape, paint in zip(shapes, paints, strict=True)}
+
+
+@pytest.fixture(scope="module")
+def drawn(shared_renderers):
+    """The frames, and what the rays of the faces meet."""
+    program = example.build(probe_size=FACE, probe_format="rgba32f")
+    renderer = shared_renderers(None)
+    pictures = {
+        frame: example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
+        for frame in (0, 1, 40, 333)
+    }
+    shapes, colors = hall(program)
+    seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
+    return program, pictures, renderer.cubemap(program.probe).faces, shapes, colors, seen
+
+
+def test_faces(drawn):
+    _, _, held, _, colors, seen = drawn
+    assert set(np.unique(seen.id)) == {0, *colors}
+    want = lit(seen, colors, np.zeros(3))  # the eye of a capture is its own position
+    assert_close(held[..., :3], want, "phong", mask=unbroken(seen, 0.06))
+
+
+@pytest.mark.parametrize("frame", [0, 1, 40, 333])
+def test_main_view(drawn, frame):
+    program, pictures, held, shapes, colors, _ = drawn
+    # translate(0, .8, 0) * scale(.8) * rotate(.45 k about (1, 1, 1)), of a cube with corners at -1 and 1.
+    matrix = moved(0, 0.8, 0) @ scaled(0.8) @ turned((1, 1, 1), 0.45 * frame)
+    cube = box(program.cube, 2, matrix)
+    look = Look((0, 1, 5), (0, 0, 0), 70, 1, 100, SIZE)
+    hits = look.hits([*shapes, cube])
+    want = lit(hits, colors, look.eye)
+    on_cube = hits.id == program.cube.id
+    want[on_cube] = looked_up(held, hits.local)[on_cube][:, :3]
+    others = unbroken(hits, 0.06) & ~on_cube & interior(hits.id)
+    assert_close(pictures[frame], want, "phong", mask=others)
+    near_enough(pictures[frame], want, inner(hits) & on_cube, 2e-3, 5e-3, "cube")
+
+
+def test_numbers_of_the_document():
+    program = example.build()
+    probe, camera = program.probe, program.camera
+    assert (probe.size, probe.near, probe.far, probe.format) == (256, 1, 100, "rgba8")
+    assert (camera.fov, camera.near, camera.far) == (70, 1, 100)
+    np.testing.assert_allclose(program.scene.background[:3], GREY)
+
+
+def test_turning_the_cube_draws_no_face_again(renderer):
+    """It is left out of the cubemap that it shows."""
+    program = example.build(probe_size=16)
+    example.draw(program, renderer, 0, size=(16, 16))
+    example.draw(program, renderer, 10, size=(16, 16))
+    assert renderer.stats.views_drawn == 1

@@ -1,0 +1,77 @@
+"""P14: the probe against ray casting, and each pixel of the ball against a lookup of it."""
+
+import numpy as np
+import pytest
+
+from cubecam.examples import dynamic_reflection as example
+from tests.compare import assert_close
+from tests.programs.oracle import (
+    Look,
+    lit,
+    looked_up,
+    mesh,
+    moved,
+    near_enough,
+    quad,
+    ry,
+    scaled,
+    unbroken,
+)
+from tests.reference import raycast, shading
+
+SIZE, FACE = (72, 72), 40
+GOLD = np.array([0.95, 0.85, 0.4])
+
+
+def stage(program, frame):
+    """Ground and actors: on a circle of 2.5 round +Y, counter-clockwise, a tenth of a radian a frame."""
+    ground = program.scene.nodes[0]
+    shapes = [quad(ground, 10, moved(0, -2, 0))]
+    colors = {ground.id: (0.4, 0.4, 1)}
+    kinds = (("bunny", (0.4, 1, 0.4)), ("teapot", (1, 0.4, 0.4)))
+    for index, (actor, (name, color)) in enumerate(zip(program.actors, kinds, strict=True)):
+        degrees = np.degrees(0.1 * frame) + 180 * index
+        shapes.append(mesh(actor, ry(degrees) @ moved(2.5, -0.5, 0), (name, 1.2)))
+        colors[actor.id] = color
+    return shapes, colors
+
+
+@pytest.mark.parametrize("frame", [0, 17, 40])
+def test_frames(renderer, frame):
+    program = example.build(probe_size=FACE, probe_format="rgba32f")
+    color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
+    held = renderer.cubemap(program.probe).faces
+    shapes, colors = stage(program, frame)
+    seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
+    assert set(np.unique(seen.id)) == {0, *colors}
+    assert_close(held[..., :3], lit(seen, colors, np.zeros(3)), "phong", mask=unbroken(seen, 0.06))
+    look = Look((0, 1, 5), (0, 0, 0), 70, 1, 100, SIZE)
+    hits = look.hits([*shapes, mesh(program.ball, scaled(0.5))])
+    want = lit(hits, colors, look.eye)
+    ball = hits.id == program.ball.id
+    bounced = shading.reflect(look.directions()[ball], hits.normal[ball])
+    want[ball] = 0.78 * looked_up(held, bounced)[:, :3] + 0.3 * GOLD
+    mask = unbroken(hits, 0.06)
+    assert_close(color, want, "phong", mask=mask & ~ball)
+    near_enough(color, want, mask & ball, 2e-3, 6e-3, "ball")
+
+
+def test_numbers_of_the_document():
+    program = example.build()
+    probe = program.probe
+    assert (probe.size, probe.near, probe.far, probe.format) == (256, 1, 100, "rgba8")
+    np.testing.assert_allclose(program.ball.mesh.bounds, [[-1] * 3, [1] * 3], atol=1e-6)
+    assert program.ball.scale.tolist() == [0.5] * 3
+    material = program.ball.material
+    assert (material.env_weight, material.color_weight) == (0.78, 0.3)
+    np.testing.assert_allclose(material.color[:3], GOLD)
+    assert material.fresnel is None
+
+
+def test_one_round(renderer):
+    """63 frames are a round but for a part of a step."""
+    program = example.build(probe_size=8)
+    example.draw(program, renderer, 0, size=(8, 8))
+    start = program.actors[0].position
+    example.draw(program, renderer, example.FRAMES, size=(8, 8))
+    assert 0 < np.linalg.norm(program.actors[0].position - start) < 0.05

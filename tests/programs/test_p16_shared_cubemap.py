@@ -1,0 +1,151 @@
+"""P16: the error of a shared cubemap grows with the distance; one of each ball's own is nearer to the truth."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from cubecam.examples import shared_cubemap as example
+from tests.programs.oracle import GREY, Look, lit, mesh, moved, quad, scaled
+from tests.reference import raycast, shading
+from tests.reference.raycast import interior
+
+SIZE = (128, 64)
+GOLD = np.array([0.95, 0.85, 0.4])
+
+
+def exact(program, distance):
+    """The reference's own truth: a ray off the ball's surface, and Phong where it ends."""
+    ground, bunny, teapot = program.scene.nodes[:3]
+    around = [
+        quad(ground, 10, moved(0, -2, 0)),
+        mesh(bunny, moved(-0.9, -0.5, -2), ("bunny", 1.2)),
+        mesh(teapot, moved(0.7, -1.2, 1.9), ("teapot", 1.2)),
+    ]
+    colors = {ground.id: (0.4, 0.4, 1), bunny.id: (0.4, 1, 0.4), teapot.id: (1, 0.4, 0.4)}
+    balls = [
+        mesh(ball, moved(x, 0, 0) @ scaled(0.3))
+        for ball, x in zip(program.balls, (-distance, 0, distance), strict=True)
+    ]
+    look = Look((0, 0.9, 3.2), (0, 0, 0), 45, 1, 100, SIZE)
+    hits = look.hits([*around, *balls])
+    color = lit(hits, colors, look.eye)
+    on_ball = np.isin(hits.id, [ball.id for ball in balls])
+    start = hits.position[on_ball]
+    bounced = shading.reflect(look.directions()[on_ball], hits.normal[on_ball])
+    ends = raycast.cast(around, start, bounced)
+    light = np.broadcast_to(GREY, start.shape).copy()
+    for number, paint in colors.items():
+        rows = ends.id == number
+        light[rows] = shading.phong(
+            ends.position[rows], ends.normal[rows], start[rows], paint, [shading.Point((5, 5, 5))]
+        )
+    color[on_ball] = 0.78 * light + 0.3 * GOLD
+    return color, hits
+
+
+def error(program, renderer, distance, whose, truth, hits):
+    example.place(program, distance)
+    example.share(program, whose)
+    got = renderer.render(program.scene, program.camera, SIZE, format="rgba32f").color[..., :3]
+    neighbours = np.isin(hits.id, [program.balls[0].id, program.balls[2].id])
+    inside = interior(hits.id) & neighbours
+    assert inside.sum() > 40
+    return np.abs(got - truth)[inside].mean()
+
+
+def test_shared_grows_and_own_is_smaller(renderer):
+    program = example.build(probe_size=64, probe_format="rgba32f")
+    shared, own = [], []
+    for distance in (0.65, 1.2, 2.0):
+        truth, hits = exact(program, distance)
+        shared.append(error(program, renderer, distance, "shared", truth, hits))
+        own.append(error(program, renderer, distance, "own", truth, hits))
+    assert shared[0] < shared[1] < shared[2]
+    assert shared[2] > 1.5 * shared[0]
+    assert all(mine < theirs for mine, theirs in zip(own, shared, strict=True))
+    assert own[2] < 0.4 * shared[2]
+
+
+def test_the_truth_of_the_package_is_that_of_the_reference():
+    pytest.importorskip("embreex")
+    program = example.build(probe_size=8)
+    for distance in (0.65, 1.7):
+        example.place(program, distance)
+        picture, ids = example.truth(program, SIZE)
+        want, hits = exact(program, distance)
+        mask = interior(hits.id)
+        np.testing.assert_array_equal(ids[mask], hits.id[mask])
+        difference = np.abs(picture[..., :3] - want)[mask]
+        assert difference.mean() < 1e-4
+        assert np.quantile(difference, 0.99) < 1e-4
+        assert (picture[..., 3] == 1).all()
+
+
+def test_errors_over_distance(renderer):
+    pytest.importorskip("embreex")
+    program = example.build(probe_size=64, probe_format="rgba32f")
+    found = example.error_over_distance(program, renderer, (0.65, 1.2, 2.0), size=(256, 128))
+    assert found.distance.tolist() == [0.65, 1.2, 2.0]
+    assert (np.diff(found.shared) > 0).all()
+    assert (found.own < found.shared).all()
+    assert found.own[2] < 0.4 * found.shared[2]
+
+
+def test_without_embreex_the_message_says_what_to_install(monkeypatch):
+    for name in ("embreex", "embreex.mesh_construction", "embreex.rtcore_scene"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(ImportError, match=r"embreex.*pip install \"cubecam\[truth\]\""):
+        example.truth(example.build(probe_size=8), (8, 4))
+
+
+def test_one_probe_serves_three_balls(fresh_renderer):
+    program = example.build(probe_size=16)
+    camera = program.camera
+    example.share(program, "shared")
+    fresh_renderer.render(program.scene, camera, (32, 16))
+    assert fresh_renderer.stats.probes_updated == 1
+    example.share(program, "own")
+    fresh_renderer.render(program.scene, camera, (32, 16))
+    assert fresh_renderer.stats.probes_updated == 2  # the middle one's is true already
+
+
+def test_what_is_shown(renderer):
+    program = example.build(probe_size=32)
+    size, frame = (64, 64), 30
+    both = example.draw(program, renderer, frame, size=size)
+    assert both.shape == (64, 64, 4)
+    pictures = {}
+    for whose in ("shared", "own"):
+        example.share(program, whose)
+        pictures[whose] = renderer.render(program.scene, program.camera, (64, 32)).color
+    np.testing.assert_array_equal(both, np.concatenate([pictures["shared"], pictures["own"]]))
+    apart = example.draw(program, renderer, frame, size=size, show="difference")
+    want = np.abs(pictures["shared"].astype(int) - pictures["own"])
+    np.testing.assert_array_equal(apart[32:, :, :3], want[..., :3])
+    assert (apart[..., 3] == 255).all()
+    # The middle ball shows its own probe in both; only the neighbours differ.
+    columns = np.flatnonzero(want[..., :3].any(axis=(0, 2)))
+    assert len(columns)
+    assert not ((columns > 24) & (columns < 40)).any()
+
+
+@pytest.mark.parametrize(("frame", "distance"), [(0, 0.65), (30, 2.0), (60, 0.65), (15, 1.325)])
+def test_the_balls_move_apart_and_together(renderer, frame, distance):
+    program = example.build(probe_size=8)
+    example.draw(program, renderer, frame, size=(8, 8))
+    assert [ball.position.tolist() for ball in program.balls] == [
+        [pytest.approx(x), 0, 0] for x in (-distance, 0, distance)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("call", "text"),
+    [
+        (lambda p, r: example.draw(p, r, 0, show="truth"), "show: expected .*'truth'"),
+        (lambda p, r: example.share(p, "mine"), "whose: expected .*'mine'"),
+    ],
+)
+def test_unknown_words_are_refused(renderer, call, text):
+    with pytest.raises(ValueError, match=text):
+        call(example.build(probe_size=8), renderer)
