@@ -1,6 +1,7 @@
 #include "arrays.hpp"
 #include "frame.hpp"
 #include "info.hpp"
+#include "numbers.hpp"
 #include "objects.hpp"
 
 #include "cubecam/error.hpp"
@@ -20,28 +21,6 @@
 
 namespace cubecam {
 namespace {
-
-std::string text_of(py::handle value) { return py::repr(value).cast<std::string>(); }
-
-/// A whole number of Python or numpy, bool left out. One beyond 64 bits becomes the nearest that is
-/// not: every number here has limits that are told when they are passed.
-std::int64_t to_int(py::handle value, const char* name) {
-    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-        throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
-    }
-    const std::int64_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);
-    if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
-    return number;
-}
-
-std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
-    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) ||
-        py::len(value) != 2) {
-        throw TypeError("size: expected (width, height) in pixels, got " + text_of(value));
-    }
-    const auto pair = py::reinterpret_borrow<py::sequence>(value);
-    return {to_int(py::object(pair[0]), "width"), to_int(py::object(pair[1]), "height")};
-}
 
 Outputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
@@ -332,6 +311,34 @@ ValueError
             },
             py::arg("probe"),
             R"(What a probe holds now, in the probe's format.
+
+Raises
+------
+ValueError
+    If this renderer has not drawn it yet.
+)")
+        .def(
+            "texture",
+            [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
+                Frame held;
+                {
+                    const py::gil_scoped_release release;
+                    held = self.texture(render_texture);
+                }
+                return py::array(PyFrame(std::move(held)).color);
+            },
+            py::arg("render_texture"),
+            R"(What a render texture holds now, in its format.
+
+Parameters
+----------
+render_texture : RenderTexture
+    One that a picture of this renderer has shown.
+
+Returns
+-------
+ndarray (H, W, 4)
+    uint8, float16 or float32, row 0 on top; the caller's own.
 
 Raises
 ------

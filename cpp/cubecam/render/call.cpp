@@ -1,23 +1,13 @@
 #include "cubecam/render/call.hpp"
 
+#include "cubecam/render/needs.hpp"
+#include "cubecam/render/session.hpp"
 #include "cubecam/scene/revision.hpp"
 
 #include <algorithm>
 
 namespace cubecam {
 namespace {
-
-bool contains(const std::vector<std::int32_t>& ids, std::int32_t id) {
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-bool uses(const NodeSnapshot& node, std::size_t probe) {
-    const auto is_probe = [probe](const FrozenSource& source) {
-        const auto* index = std::get_if<std::size_t>(&source);
-        return index != nullptr && *index == probe;
-    };
-    return is_probe(node.environment) || is_probe(node.cubemap);
-}
 
 void add_light(Key& key, const LightValue& light) {
     key.add(light.parameters.index());
@@ -33,72 +23,60 @@ void add_light(Key& key, const LightValue& light) {
 
 }  // namespace
 
-bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded) {
-    if (excluded.empty()) return false;
-    return contains(excluded, node.id) ||
-           std::any_of(node.ancestors.begin(), node.ancestors.end(),
-                       [&excluded](std::int32_t id) { return contains(excluded, id); });
-}
+Call::Call(Session& session, const SceneSnapshot& scene, std::size_t number,
+           std::vector<std::size_t> ranks)
+    : stats(session.stats), session_(session), gpu_(session.gpu), scene_(scene), number_(number),
+      ranks_(std::move(ranks)), work_(scene.probes.size()) {}
 
-Call::Call(GpuState& gpu, const SceneSnapshot& scene)
-    : gpu_(gpu), scene_(scene), work_(scene.probes.size()) {}
-
-const FrozenSource& Call::source_of(const NodeSnapshot& node) const {
-    static const FrozenSource none;
-    const MaterialParameters& parameters = node.material.value.parameters;
-    if (std::holds_alternative<BasicParameters>(parameters)) return node.cubemap;
-    if (std::holds_alternative<PhongParameters>(parameters)) return none;
-    return node.environment.index() == 0 ? scene_.environment : node.environment;
-}
-
-std::vector<std::size_t> Call::probes_of(const DrawPlan& plan) const {
-    std::vector<std::size_t> probes;
+std::vector<std::size_t> Call::needs_of(const DrawPlan& plan) const {
+    std::vector<std::size_t> needs;
     for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
         for (const PlannedNode& planned : *nodes) {
-            const auto* probe = std::get_if<std::size_t>(&source_of(scene_.nodes[planned.node]));
-            if (probe != nullptr) probes.push_back(*probe);
+            session_.numbers.add_needs(scene_, number_, scene_.nodes[planned.node], needs);
         }
     }
-    std::sort(probes.begin(), probes.end());
-    probes.erase(std::unique(probes.begin(), probes.end()), probes.end());
-    return probes;
+    return unique(std::move(needs));
 }
 
-Call::Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
-                           const ProbeOrder* order) {
+ProbeState& Call::state_of(std::size_t index) {
+    const ProbeSnapshot& probe = scene_.probes[index];
+    // One that is drawn by hand alone shows in every scene what it was told to draw.
+    const bool by_hand = probe.value.update == ProbeUpdate::manual;
+    ProbeContents& contents = gpu_.probes.get(probe.object, [] { return ProbeContents(); });
+    return contents.of(by_hand ? 0 : ranks_[index]);
+}
+
+Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t> in_probe) {
     if (const auto* cube = std::get_if<FrozenCube>(&source)) {
         return {gpu_.cache.cube(*cube).texture.id(), cube->data->revision};
     }
     const auto* probe = std::get_if<std::size_t>(&source);
     if (probe == nullptr) return {};
-    const bool back =
-        in_probe && work_[*probe] && work_[*probe]->due && order->is_edge_back(*in_probe, *probe);
-    const ProbeState* state =
-        work_[*probe] ? work_[*probe]->state : gpu_.probes.find(scene_.probes[*probe].object);
-    if (!back && state != nullptr && state->target != nullptr) {
-        return {state->target->color().id(), state->revision};
-    }
+    const auto number = [this](std::size_t p) { return session_.numbers.of_probe(number_, p); };
+    const bool back = in_probe && work_[*probe] && work_[*probe]->due &&
+                      session_.order().is_edge_back(number(*in_probe), number(*probe));
+    const ProbeState& state = work_[*probe] ? *work_[*probe]->state : state_of(*probe);
+    if (!back && state.target != nullptr) return {state.target->color().id(), state.revision};
     // A mirror in a circle of mirrors, or a manual probe before its first update.
     return std::holds_alternative<FrozenCube>(scene_.environment)
-               ? look_up(scene_.environment, in_probe, order)
+               ? look_up(scene_.environment, in_probe)
                : Lookup{};
 }
 
-std::vector<Call::Lookup> Call::look_up_all(const DrawPlan& plan,
-                                            std::optional<std::size_t> in_probe,
-                                            const ProbeOrder* order) {
+std::vector<Lookup> Call::look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe) {
     std::vector<Lookup> lookups(scene_.nodes.size());
     for (const auto* nodes : {&plan.opaque, &plan.translucent}) {
         for (const PlannedNode& planned : *nodes) {
-            lookups[planned.node] = look_up(source_of(scene_.nodes[planned.node]), in_probe, order);
+            lookups[planned.node] =
+                look_up(source_of(scene_, scene_.nodes[planned.node]), in_probe);
         }
     }
     return lookups;
 }
 
-Call::Lookup Call::background_lookup() {
+Lookup Call::background_lookup() {
     const auto* cube = std::get_if<FrozenCube>(&scene_.background);
-    return cube == nullptr ? Lookup{} : look_up(*cube, std::nullopt, nullptr);
+    return cube == nullptr ? Lookup{} : look_up(*cube, std::nullopt);
 }
 
 bool Call::count_and_decide(const ProbeSnapshot& probe, ProbeWork& work) {
@@ -114,41 +92,22 @@ bool Call::count_and_decide(const ProbeSnapshot& probe, ProbeWork& work) {
     return true;
 }
 
-void Call::find_work(std::size_t index, std::vector<std::vector<std::size_t>>& needs) {
+std::vector<std::size_t> Call::find_work(std::size_t index) {
     const ProbeSnapshot& probe = scene_.probes[index];
     ProbeWork& work = work_[index] ? *work_[index] : work_[index].emplace();
-    work.state = &gpu_.probes.get(probe.object, [] { return ProbeState{}; });
+    work.state = &state_of(index);
     work.due = count_and_decide(probe, work);
-    if (!work.due) return;  // it shows what it holds, and needs nothing
+    if (!work.due) return {};  // it shows what it holds, and needs nothing
     work.views = cube_views(probe.position, probe.value.near, probe.value.far);
-    work.plan = make_plan(
-        scene_, work.views, probe.value.size, probe.value.size, [&](const NodeSnapshot& node) {
-            return node.in_probes && !uses(node, index) && !is_excluded(node, probe.excluded);
-        });
-    needs[index] = probes_of(work.plan);
+    work.plan = make_plan(scene_, work.views, probe.value.size, probe.value.size,
+                          [&](const NodeSnapshot& node) { return is_seen(scene_, node, index); });
+    return needs_of(work.plan);
 }
 
-void Call::update_probes(const std::vector<std::size_t>& roots) {
-    std::vector<std::vector<std::size_t>> needs(scene_.probes.size());
-    std::vector<bool> found(scene_.probes.size(), false);
-    std::vector<std::size_t> open = roots;
-    while (!open.empty()) {
-        const std::size_t probe = open.back();
-        open.pop_back();
-        if (found[probe]) continue;
-        found[probe] = true;
-        find_work(probe, needs);
-        open.insert(open.end(), needs[probe].begin(), needs[probe].end());
-    }
-    const ProbeOrder order = order_probes(needs, roots);
-    for (const std::size_t probe : order.order) {
-        if (work_[probe]->due) draw_probe(probe, order);
-    }
-}
-
-void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
+void Call::draw_probe(std::size_t index) {
     const ProbeSnapshot& probe = scene_.probes[index];
     ProbeWork& work = *work_[index];
+    if (!work.due) return;
     ProbeState& state = *work.state;
     TargetDescription description =
         describe_target(gpu_.context, true, probe.value.size, probe.value.size, probe.value.samples,
@@ -164,9 +123,8 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     }
     std::size_t drawn = 0;
     try {
-        drawn = draw_changed(work.views, work.plan, *state.target,
-                             look_up_all(work.plan, index, &order), Tonemap::none, Encode::none,
-                             budget);
+        drawn = draw_changed(work.views, work.plan, *state.target, look_up_all(work.plan, index),
+                             Tonemap::none, Encode::none, budget);
     } catch (...) {
         state.target = nullptr;
         throw;
@@ -209,6 +167,8 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
             key.add(node.mesh->revision());
             key.add(node.material.revision);
             key.add(lookups[planned.node].revision);
+            for_each_map(node,
+                         [&](const FrozenMap& map) { key.add(session_.look_up(map).revision); });
             for (const PlannedNode::Sight& sight : planned.sights) {
                 keys[sight.view].nodes.push_back({node.id, key, sight.bounds});
             }
@@ -251,7 +211,8 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     const auto* color = std::get_if<glm::vec4>(&scene_.background);
     gpu_.surface.draw({scene_, views, plan, std::move(regions),
                        color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
-                       [&lookups](std::size_t node) { return lookups[node].texture; }},
+                       [&lookups](std::size_t node) { return lookups[node].texture; },
+                       [this](const FrozenMap& map) { return session_.look_up(map).texture; }},
                       target, stats);
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!damaged[v].empty() && target.multisampled()) target.resolve(static_cast<int>(v));
@@ -281,16 +242,33 @@ void Call::grade(Target& target, Tonemap tonemap, Encode encode) {
 void Call::draw(std::span<const View> views, Target& target,
                 const std::function<bool(const NodeSnapshot&)>& wanted, Tonemap tonemap,
                 Encode encode) {
+    if (!session_.asked_for.textures.empty()) {
+        std::vector<std::size_t> shown;
+        for (const NodeSnapshot& node : scene_.nodes) {
+            if (wanted(node)) session_.numbers.add_needs(scene_, number_, node, shown);
+        }
+        refuse_circles(session_.asked_for, session_.numbers, unique(std::move(shown)));
+    }
     const DrawPlan plan =
         make_plan(scene_, views, target.description().width, target.description().height, wanted);
-    update_probes(probes_of(plan));
-    draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), tonemap, encode,
-                 std::nullopt);
+    session_.update(needs_of(plan));
+    draw_planned(views, plan, target, tonemap, encode);
+}
+
+std::size_t Call::draw_planned(std::span<const View> views, const DrawPlan& plan, Target& target,
+                               Tonemap tonemap, Encode encode) {
+    return draw_changed(views, plan, target, look_up_all(plan, std::nullopt), tonemap, encode,
+                        std::nullopt);
 }
 
 void Call::force(const std::vector<std::size_t>& probes) {
-    for (const std::size_t probe : probes) work_[probe].emplace().forced = true;
-    update_probes(probes);
+    std::vector<std::size_t> numbers;
+    for (const std::size_t probe : probes) {
+        work_[probe].emplace().forced = true;
+        numbers.push_back(session_.numbers.of_probe(number_, probe));
+    }
+    refuse_circles(session_.asked_for, session_.numbers, numbers);
+    session_.update(numbers);
 }
 
 }  // namespace cubecam

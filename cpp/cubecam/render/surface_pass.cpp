@@ -133,6 +133,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                       {},
                       static_cast<GLuint>(instances.size()),
                       static_cast<GLintptr>(blocks.size()),
+                      0,
                       0};
             auto sight = planned.sights.begin();
             for (std::size_t r = 0; r < input.regions.size(); ++r) {
@@ -146,6 +147,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
             if (item.regions.empty()) continue;
             item.mesh = &cache_->mesh(node.mesh);
             item.cube = input.cube_of(planned.node);
+            item.map = input.map_of(node.map);
             const DrawBlock block = make_draw_block(node, origin, ambient_);
             blocks.resize(blocks.size() + stride);
             std::memcpy(blocks.data() + item.block, &block, sizeof(block));
@@ -282,7 +284,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     variant.translucent = node.translucent;
     variant.dense = node.mesh->triangles()->size() >= dense_triangles;
     const auto textures = [&](const auto& parameters) {
-        variant.map = parameters.map != nullptr && node.mesh->uvs() != nullptr;
+        variant.map = node.map.index() != 0;
         variant.vertex_colors = parameters.vertex_colors && node.mesh->colors() != nullptr;
     };
     if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
@@ -330,15 +332,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
 
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
                              sizeof(DrawBlock));
-        if (variant.map) {
-            const auto map = std::visit(
-                [](const auto& p) -> std::shared_ptr<const Image> {
-                    if constexpr (requires { p.map; }) return p.map;
-                    return nullptr;
-                },
-                material.parameters);
-            gl_->BindTextureUnit(map_unit, cache_->image(map).texture.id());
-        }
+        if (variant.map) gl_->BindTextureUnit(map_unit, item.map);
         gl_->BindTextureUnit(cube_unit, item.cube != 0 ? item.cube : black_.id());
 
         gl_->VertexArrayVertexBuffer(item.mesh->array.id(), vertex_buffer::views, instances_.id(),

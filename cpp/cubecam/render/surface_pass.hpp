@@ -34,6 +34,7 @@ struct PassInput {
     std::vector<Region> regions;  ///< by view, ascending; all other pixels stay as they are
     BackgroundSource background;
     std::function<GLuint(std::size_t node)> cube_of;  ///< the cube texture a node looks up; 0: none
+    std::function<GLuint(const FrozenMap&)> map_of;   ///< the 2D texture that shows a map; 0: none
 };
 
 /// Whether all views of a mesh go into one draw call.
@@ -59,6 +60,7 @@ private:
         GLuint first_instance;             ///< record of the first of them
         GLintptr block;                    ///< offset of its uniform block
         GLuint cube;
+        GLuint map;
     };
 
     struct Prepared {

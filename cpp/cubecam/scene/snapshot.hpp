@@ -1,10 +1,12 @@
 #pragma once
 
+#include "cubecam/scene/camera.hpp"
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/material.hpp"
 #include "cubecam/scene/mesh.hpp"
 #include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/render_texture.hpp"
 
 #include <glm/glm.hpp>
 
@@ -25,6 +27,10 @@ struct FrozenCube {
 /// SceneSnapshot::probes.
 using FrozenSource = std::variant<std::monostate, FrozenCube, std::size_t>;
 
+/// A picture that a surface shows: none, a fixed one, or the index of a render texture in the
+/// `textures` of the scene that was asked for.
+using FrozenMap = std::variant<std::monostate, std::shared_ptr<const Image>, std::size_t>;
+
 struct NodeSnapshot {
     std::int32_t id;
     glm::dmat4 world;
@@ -33,6 +39,7 @@ struct NodeSnapshot {
     Material::State material;
     FrozenSource environment;  ///< the node's own; none: the scene's
     FrozenSource cubemap;      ///< what a BasicMaterial shows
+    FrozenMap map;             ///< none as well if the mesh has no uvs to place it by
     bool in_probes;            ///< of the node and all above it
     bool translucent;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
@@ -45,6 +52,14 @@ struct ProbeSnapshot {
     std::vector<std::int32_t> excluded;  ///< ids; whole subtrees
 };
 
+struct TextureSnapshot {
+    std::shared_ptr<RenderTexture> object;
+    RenderTextureValue value;
+    CameraValue camera;
+    std::size_t scene;                   ///< for SceneSnapshot::scene
+    std::vector<std::int32_t> excluded;  ///< ids; whole subtrees
+};
+
 /// What a call draws: values copied, meshes and images shared. Nothing in it changes any more.
 struct SceneSnapshot {
     FrozenSource environment;
@@ -53,6 +68,18 @@ struct SceneSnapshot {
     std::vector<LightValue> lights;
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
+
+    // Of the scene that was asked for; the others have none of their own.
+
+    /// Render textures that any of the scenes shows, each once, in the order of their first user.
+    std::vector<TextureSnapshot> textures;
+    /// The other scenes that those are drawn from, each once and as it was at one moment.
+    std::vector<SceneSnapshot> others;
+
+    /// By number: 0 is this one, then the others.
+    const SceneSnapshot& scene(std::size_t number) const {
+        return number == 0 ? *this : others[number - 1];
+    }
 };
 
 }  // namespace cubecam
