@@ -327,7 +327,7 @@ ValueError
                 }
                 return py::array(PyFrame(std::move(held)).color);
             },
-            py::arg("render_texture"),
+            py::arg("render_texture").none(false),
             R"(What a render texture holds now, in its format.
 
 Parameters
