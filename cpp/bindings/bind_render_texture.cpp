@@ -6,13 +6,17 @@
 #include "cubecam/scene/camera.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
+#include "cubecam/scene/unreachable.hpp"
 
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace cubecam::bindings {
 
@@ -94,6 +98,23 @@ std::shared_ptr<Camera> to_shown_camera(py::handle value) {
     return to_shared<Camera>(value, "camera", "a Camera");
 }
 
+/// Notes a new texture. Now and then, when there are twice as many as were left the last time,
+/// those are freed that only they themselves keep alive.
+void watch(const std::shared_ptr<RenderTexture>& texture) {
+    static std::vector<std::weak_ptr<RenderTexture>> watched;  // under Python's lock
+    static std::size_t enough = 16;
+    const auto drop_dead = [] {
+        std::erase_if(watched, [](const auto& weak) { return weak.expired(); });
+    };
+    if (watched.size() >= enough) {
+        drop_dead();
+        free_unreachable(watched);
+        drop_dead();
+        enough = std::max<std::size_t>(16, 2 * watched.size());
+    }
+    watched.push_back(texture);
+}
+
 std::shared_ptr<RenderTexture>
 make_render_texture(const OneOf<Scene>& scene, const OneOf<Camera>& camera, const SizeLike& size,
                     const std::string& format, const WholeNumber& samples, bool mipmaps,
@@ -108,7 +129,9 @@ make_render_texture(const OneOf<Scene>& scene, const OneOf<Camera>& camera, cons
     value.wrap = parse_wrap(wrap);
     value.exclude = to_nodes(exclude, "exclude");
     value.name = std::move(name);
-    return std::make_shared<RenderTexture>(std::move(value));
+    auto made = std::make_shared<RenderTexture>(std::move(value));
+    watch(made);
+    return made;
 }
 
 void bind_texture_picture(Class<RenderTexture>& made) {

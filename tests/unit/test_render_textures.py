@@ -6,6 +6,7 @@ import pickle
 import threading
 
 import numpy as np
+import psutil
 import pytest
 
 import cubecam as cc
@@ -213,6 +214,66 @@ def test_it_keeps_its_scene_and_not_what_it_leaves_out():
     assert made.scene.nodes == ()
     made.scene.add()
     assert len(made.scene.nodes) == 1
+
+
+def test_a_monitor_in_its_room_keeps_neither_for_ever():
+    """Room and monitor hold each other. The room's cubemap is 6 MB: a hundred kept would be 600."""
+    me = psutil.Process()
+
+    def one():
+        scene, _, made = room()
+        scene.environment = cc.CubeMap(np.ones((6, 256, 256, 4), np.float32))
+        made.scene.nodes[1].material = cc.BasicMaterial(map=made)
+
+    for _ in range(20):
+        one()
+    before = me.memory_info().rss / 2**20
+    for _ in range(100):
+        one()
+    grown = me.memory_info().rss / 2**20 - before
+    assert grown < 250, f"{grown:.0f} MB more after a hundred rooms"
+
+
+@pytest.mark.parametrize("kept", ["scene", "texture", "node", "material", "another scene"])
+def test_what_leads_to_a_monitor_keeps_its_room(kept):
+    """Whichever part of the circle is held from outside, all of it stays."""
+    scene, _, made = room()
+    node = scene.nodes[1]
+    other = cc.Scene()
+    other.add(cc.Mesh.plane(1, 1), cc.BasicMaterial(map=made))
+    held = {
+        "scene": scene,
+        "texture": made,
+        "node": node,
+        "material": node.material,
+        "another scene": other,
+    }[kept]
+    del scene, node, made, other
+    for _ in range(80):  # enough new ones for a search
+        room()
+    gc.collect()
+    made = {
+        "scene": lambda: held.nodes[1].material.map,
+        "texture": lambda: held,
+        "node": lambda: held.material.map,
+        "material": lambda: held.map,
+        "another scene": lambda: held.nodes[0].material.map,
+    }[kept]()
+    check_room(made.scene, made.scene.nodes[0], made)
+
+
+def test_rooms_that_show_each_other_are_let_go_together():
+    def pair():
+        a, b = texture(name="a"), texture(name="b")
+        for one, other in ((a, b), (b, a)):
+            one.scene.add(cc.Mesh.plane(1, 1), cc.PhongMaterial(map=other))
+        return a
+
+    kept = [pair() for _ in range(30)]
+    for _ in range(100):
+        pair()
+    for a in kept:
+        assert a.scene.nodes[0].material.map.scene.nodes[0].material.map is a
 
 
 def test_setters_on_several_threads():

@@ -28,9 +28,11 @@ void check(const RenderTextureValue& value) {
 RenderTexture::RenderTexture(RenderTextureValue value)
     : value_((cubecam::check(value), std::move(value))) {}
 
-RenderTexture::~RenderTexture() {
+RenderTexture::~RenderTexture() { let_go(); }
+
+void RenderTexture::let_go() {
     // A scene that shows a texture of a scene that shows a texture ...: as with nodes, the first
-    // destructor takes the chain apart in a loop, or a long one would overflow the stack.
+    // one takes the chain apart in a loop, or a long one would overflow the stack.
     static thread_local std::vector<std::shared_ptr<Scene>>* pending = nullptr;
     std::shared_ptr<Scene> scene;
     value_.edit(

@@ -56,6 +56,9 @@ public:
         });
     }
 
+    /// Gives up its scene, to be destroyed next: for free_unreachable.
+    void let_go();
+
 private:
     Versioned<RenderTextureValue> value_;
 };
