@@ -29,9 +29,11 @@ STATS = ("tests/gl/test_stats.py",)
 PROBES = ("tests/gl/test_probes.py",)
 FORMATS = ("tests/gl/test_formats.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
+RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 
 CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
 CALL = "cpp/cubecam/render/call.cpp"
+NEEDS = "cpp/cubecam/render/needs.cpp"
 SURFACE = "cpp/cubecam/render/surface_pass.cpp"
 
 MUTATIONS = [
@@ -258,17 +260,53 @@ MUTATIONS = [
     ),
     Mutation(
         "probe: sees its own user",
-        CALL,
-        "return node.in_probes && !uses(node, index) &&",
+        NEEDS,
+        "return node.in_probes && !uses(node, probe) &&",
         "return node.in_probes &&",
         PROBES,
     ),
     Mutation(
         "probe: a cycle shows old contents",
         CALL,
-        "const bool back = in_probe && work_[*probe] && work_[*probe]->due && order->is_edge_back(*in_probe, *probe);",
-        "const bool back = false; (void)in_probe; (void)order;",
+        "const bool back = in_probe && work_[*probe] && work_[*probe]->due &&"
+        " session_.order().is_edge_back(number(*in_probe), number(*probe));",
+        "const bool back = false; (void)in_probe; (void)number;",
         PROBES + INCREMENTAL,
+    ),
+    Mutation(
+        "key: what a map shows forgotten",
+        CALL,
+        "key.add(session_.look_up(map).revision);",
+        "(void)map;",
+        RENDER_TEXTURES,
+    ),
+    Mutation(
+        "texture: what it shows is not drawn first",
+        "cpp/cubecam/render/session.cpp",
+        "return calls_[texture.scene].needs_of(work.plan);",
+        "return {};",
+        RENDER_TEXTURES,
+    ),
+    Mutation(
+        "texture: sees what it leaves out",
+        NEEDS,
+        "return !is_excluded(node, texture.excluded);",
+        "return true;",
+        RENDER_TEXTURES,
+    ),
+    Mutation(
+        "texture: circles by way of others overlooked",
+        NEEDS,
+        "if (!by_others && !directly) continue;",
+        "if (!directly) continue;",
+        ("tests/gl/test_render_texture_circles.py",),
+    ),
+    Mutation(
+        "texture: a circle that something leads to is freed",
+        "cpp/cubecam/scene/unreachable.cpp",
+        "if (entry.object.use_count() > entry.inside + 1) visit(object);",
+        "if (entry.object.use_count() > entry.inside + 2) visit(object);",
+        ("tests/unit/test_render_textures.py",),
     ),
     # Python.
     Mutation(

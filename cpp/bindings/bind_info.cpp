@@ -14,13 +14,15 @@ namespace py = pybind11;
 void bind_stats(py::module_& m) {
     bindings::declare<Stats>(m, "Stats", "What a renderer's last call drew, skipped and took.")
         .def_readonly("views_drawn", &Stats::views_drawn,
-                      "int: pictures drawn: frames, faces of captures, faces of probes.")
+                      "int: pictures drawn: frames, faces of captures, faces of probes, textures.")
         .def_readonly("views_skipped", &Stats::views_skipped,
                       "int: pictures that were still true and not drawn again.")
         .def_readonly("draw_calls", &Stats::draw_calls, "int")
         .def_readonly("triangles", &Stats::triangles, "int: sent to the GPU, each view counted.")
         .def_readonly("probes_updated", &Stats::probes_updated,
                       "int: probes of which at least one face was drawn.")
+        .def_readonly("textures_updated", &Stats::textures_updated,
+                      "int: render textures that were drawn.")
         .def_readonly("milliseconds", &Stats::milliseconds,
                       "float: the whole call, reading back included.")
         .def("__repr__", [](const Stats& s) {
@@ -29,6 +31,7 @@ void bind_stats(py::module_& m) {
                    " draw_calls=" + std::to_string(s.draw_calls) +
                    " triangles=" + std::to_string(s.triangles) +
                    " probes_updated=" + std::to_string(s.probes_updated) +
+                   " textures_updated=" + std::to_string(s.textures_updated) +
                    " milliseconds=" + std::to_string(s.milliseconds) + ">";
         });
 }

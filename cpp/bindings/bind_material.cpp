@@ -1,6 +1,7 @@
 // cubecam.Material and the materials below it.
 #include "bind_material_docs.hpp"
 #include "cube_source.hpp"
+#include "map_source.hpp"
 #include "objects.hpp"
 #include "surface_options.hpp"
 #include "vectors.hpp"
@@ -8,6 +9,7 @@
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/material.hpp"
 #include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/render_texture.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -18,21 +20,6 @@
 namespace cubecam::bindings {
 
 namespace {
-
-using MapLike = OneOf<Image, ArrayLike, py::none>;
-
-std::shared_ptr<const Image> to_map(py::handle value) {
-    if (value.is_none()) return nullptr;
-    if (py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value)) {
-        refuse(value, "map", "an Image, an array (H, W, C) or None (see cubecam.load_image)");
-    }
-    if (!py::isinstance<Image>(value)) return to_map(py::type::of<Image>()(value));
-    return py::cast<std::shared_ptr<Image>>(value);
-}
-
-OrNone<Image> from_map(const std::shared_ptr<const Image>& map) {
-    return or_none(std::const_pointer_cast<Image>(map));
-}
 
 /// Properties of one kind of material; `P` is its parameters, `M` its class.
 template <class P, class M = MaterialOf<P>>
@@ -67,9 +54,9 @@ struct Properties {
 
     void map(const char* doc) {
         made.def_property(
-            "map", [](const M& self) { return from_map(self.parameters().map); },
+            "map", [](const M& self) { return from_map_source(self.parameters().map); },
             [](M& self, const MapLike& value) {
-                const auto map = to_map(value);
+                const MapSource map = to_map_source(value, "map");
                 self.edit_parameters([&](P& p) { p.map = map; });
             },
             doc);
@@ -78,7 +65,7 @@ struct Properties {
 
 BasicParameters basic_parameters(const ArrayLike& color, const MapLike& map,
                                  const CubeLike& cubemap, bool vertex_colors) {
-    return {to_rgba(color, "color"), to_map(map), to_cube_source(cubemap, "cubemap"),
+    return {to_rgba(color, "color"), to_map_source(map, "map"), to_cube_source(cubemap, "cubemap"),
             vertex_colors};
 }
 
@@ -104,7 +91,8 @@ void bind_basic(py::module_& module) {
 
 PhongParameters phong_parameters(const ArrayLike& color, float ka, float kd, float ks,
                                  float shininess, const MapLike& map, bool vertex_colors) {
-    return {to_rgba(color, "color"), ka, kd, ks, shininess, to_map(map), vertex_colors};
+    return {to_rgba(color, "color"),   ka,           kd, ks, shininess,
+            to_map_source(map, "map"), vertex_colors};
 }
 
 void bind_phong(py::module_& module) {

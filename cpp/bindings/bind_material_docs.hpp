@@ -5,7 +5,8 @@ namespace cubecam::bindings {
 
 inline constexpr const char* color_property_doc = "ndarray (4,) float32: linear RGBA, read-only.";
 inline constexpr const char* map_property_doc =
-    "Image or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.";
+    "Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes"
+    " an Image.";
 inline constexpr const char* vertex_colors_property_doc =
     "bool: whether the colour is multiplied by the mesh's vertex colours.";
 
@@ -47,7 +48,7 @@ Parameters
 ----------
 color : array_like (3,) or (4,)
     Linear RGB or RGBA.
-map : Image or array_like (H, W, C), optional
+map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture, placed by the mesh's uvs.
 cubemap : CubeMap or Probe, optional
     Looked up in the direction of the object-space position, so that a box or sphere shows the
@@ -85,7 +86,7 @@ ka, kd, ks : float
     Ambient, diffuse and specular weights, not negative.
 shininess : float
     Above 0; greater is a smaller highlight.
-map : Image or array_like (H, W, C), optional
+map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture that multiplies color, placed by the mesh's uvs.
 vertex_colors : bool
     Whether the mesh's colours multiply color.

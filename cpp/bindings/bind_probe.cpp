@@ -1,4 +1,5 @@
 // cubecam.Probe
+#include "node_list.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -65,7 +66,6 @@ Examples
 'on_change'
 )doc";
 
-using Nodes = OneOf<py::typing::Iterable<Node>>;
 using UpdateLike = OneOf<py::str, py::int_>;
 
 void set_update(ProbeValue& value, py::handle update) {
@@ -100,25 +100,6 @@ py::object update_of(const ProbeValue& value) {
         case ProbeUpdate::every_n_frames: return py::int_(value.every);
     }
     return py::none();
-}
-
-std::vector<std::weak_ptr<Node>> to_nodes(py::handle nodes, const char* name) {
-    if (py::isinstance<Node>(nodes) || !py::isinstance<py::iterable>(nodes)) {
-        refuse(nodes, name, "a sequence of Nodes");
-    }
-    std::vector<std::weak_ptr<Node>> weak;
-    for (const py::handle node : py::iter(nodes)) {
-        weak.push_back(to_shared<Node>(node, name, "Nodes"));
-    }
-    return weak;
-}
-
-py::tuple from_nodes(const std::vector<std::weak_ptr<Node>>& nodes) {
-    py::list alive;
-    for (const auto& weak : nodes) {
-        if (const auto node = weak.lock()) alive.append(node);
-    }
-    return py::tuple(alive);
 }
 
 std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double near, double far,

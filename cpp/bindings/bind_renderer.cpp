@@ -1,6 +1,8 @@
 #include "arrays.hpp"
+#include "effect_list.hpp"
 #include "frame.hpp"
 #include "info.hpp"
+#include "numbers.hpp"
 #include "objects.hpp"
 
 #include "cubecam/error.hpp"
@@ -20,28 +22,6 @@
 
 namespace cubecam {
 namespace {
-
-std::string text_of(py::handle value) { return py::repr(value).cast<std::string>(); }
-
-/// A whole number of Python or numpy, bool left out. One beyond 64 bits becomes the nearest that is
-/// not: every number here has limits that are told when they are passed.
-std::int64_t to_int(py::handle value, const char* name) {
-    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-        throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
-    }
-    const std::int64_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);
-    if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
-    return number;
-}
-
-std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
-    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) ||
-        py::len(value) != 2) {
-        throw TypeError("size: expected (width, height) in pixels, got " + text_of(value));
-    }
-    const auto pair = py::reinterpret_borrow<py::sequence>(value);
-    return {to_int(py::object(pair[0]), "width"), to_int(py::object(pair[1]), "height")};
-}
 
 Outputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
@@ -73,19 +53,6 @@ std::vector<std::int32_t> to_ids(const Scene& scene, py::handle exclude) {
         ids.push_back(node->id());
     }
     return ids;
-}
-
-std::vector<EffectSnapshot> to_effects(py::handle effects) {
-    if (!py::isinstance<py::iterable>(effects) || py::isinstance<py::str>(effects)) {
-        throw TypeError("effects: expected a sequence of ImageEffects, got " + text_of(effects));
-    }
-    std::vector<EffectSnapshot> snapshots;
-    for (const py::handle item : py::iter(effects)) {
-        if (!py::isinstance<ImageEffect>(item))
-            throw TypeError("effects: expected ImageEffects, got " + text_of(item));
-        snapshots.push_back(item.cast<const ImageEffect&>().snapshot());
-    }
-    return snapshots;
 }
 
 gl::DeviceChoice to_device(py::handle device) {
@@ -127,10 +94,9 @@ PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py:
     options.samples = to_int(samples, "samples");
     if (tonemap) options.tonemap = parse_tonemap(*tonemap);
     if (encode) options.encode = parse_encode(*encode);
-    options.effects = to_effects(effects);
     const CameraValue seen = camera.value();
     Frame frame;
-    const SceneSnapshot snapshot = scene.snapshot();
+    const SceneSnapshot snapshot = scene.snapshot(bindings::to_effects(effects));
     {
         const py::gil_scoped_release release;
         frame = renderer.render(snapshot, seen, options);
@@ -349,6 +315,34 @@ ValueError
             },
             py::arg("probe"),
             R"(What a probe holds now, in the probe's format.
+
+Raises
+------
+ValueError
+    If this renderer has not drawn it yet.
+)")
+        .def(
+            "texture",
+            [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
+                Frame held;
+                {
+                    const py::gil_scoped_release release;
+                    held = self.texture(render_texture);
+                }
+                return py::array(PyFrame(std::move(held)).color);
+            },
+            py::arg("render_texture").none(false),
+            R"(What a render texture holds now, in its format.
+
+Parameters
+----------
+render_texture : RenderTexture
+    One that a picture of this renderer has shown.
+
+Returns
+-------
+ndarray (H, W, 4)
+    uint8, float16 or float32, row 0 on top; the caller's own.
 
 Raises
 ------

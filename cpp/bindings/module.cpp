@@ -3,6 +3,7 @@
 
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <pybind11/pybind11.h>
@@ -18,6 +19,7 @@ void bind_shader(pybind11::module_& module);
 void bind_light(pybind11::module_& module);
 void bind_camera(pybind11::module_& module);
 void bind_probe(pybind11::module_& module);
+void bind_render_texture(pybind11::module_& module);
 void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
@@ -51,6 +53,7 @@ PYBIND11_MODULE(_core, module) {
     // Signatures name the classes that are declared by then, and these lead to each other.
     declare<Node>(module, "Node", nullptr);
     declare<Probe>(module, "Probe", nullptr);
+    declare<RenderTexture>(module, "RenderTexture", nullptr);
     declare<Scene>(module, "Scene", nullptr);
 
     bind_cubemap(module);
@@ -61,6 +64,7 @@ PYBIND11_MODULE(_core, module) {
     bind_light(module);
     bind_camera(module);
     bind_probe(module);
+    bind_render_texture(module);
     bind_node(module);
     bind_scene(module);
     bind_renderer(module);

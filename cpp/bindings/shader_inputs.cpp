@@ -1,8 +1,7 @@
 #include "shader_inputs.hpp"
 
-#include "cubecam/scene/cubemap.hpp"
-#include "cubecam/scene/image.hpp"
-#include "cubecam/scene/probe.hpp"
+#include "cube_source.hpp"
+#include "map_source.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -95,22 +94,20 @@ py::object from_uniform(const UniformValue& value) {
 }
 
 TextureSource to_texture(py::handle value, const std::string& name) {
-    if (py::isinstance<CubeMap>(value)) return py::cast<std::shared_ptr<CubeMap>>(value);
-    if (py::isinstance<Probe>(value)) return py::cast<std::shared_ptr<Probe>>(value);
-    if (value.is_none() || py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value)) {
-        refuse(value, ("texture " + name).c_str(),
-               "an Image, an array (H, W, C), a CubeMap or a Probe");
+    const std::string what = "texture " + name;
+    if (py::isinstance<CubeMap>(value) || py::isinstance<Probe>(value)) {
+        return to_cube_source(value, what.c_str());
     }
-    if (!py::isinstance<Image>(value)) return to_texture(py::type::of<Image>()(value), name);
-    return std::shared_ptr<const Image>(py::cast<std::shared_ptr<Image>>(value));
+    if (value.is_none()) {
+        refuse(value, what.c_str(),
+               "an Image, an array (H, W, C), a RenderTexture, a CubeMap or a Probe");
+    }
+    return to_map_source(value, what.c_str());
 }
 
 py::object from_texture(const TextureSource& source) {
-    if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
-        return py::cast(std::const_pointer_cast<Image>(*image));
-    }
-    if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source)) return py::cast(*cube);
-    return py::cast(std::get<std::shared_ptr<Probe>>(source));
+    if (const auto* map = std::get_if<MapSource>(&source)) return from_map_source(*map);
+    return from_cube_source(std::get<CubeSource>(source));
 }
 
 ShaderInputs to_inputs(py::handle uniforms, py::handle textures) {

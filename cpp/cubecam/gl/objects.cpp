@@ -122,6 +122,18 @@ Texture create_texture_2d_multisample_array(const GladGLContext& gl, GLenum form
     return texture;
 }
 
+Texture create_view_2d(const GladGLContext& gl, const Texture& array, int levels) {
+    GLint format = 0;
+    gl.GetTextureLevelParameteriv(array.id(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+    GLuint id = 0;
+    gl.GenTextures(1, &id);  // a view wants a name that is no texture yet
+    Texture view(gl, id);
+    gl.TextureView(id, GL_TEXTURE_2D, array.id(), static_cast<GLenum>(format), 0,
+                   static_cast<GLuint>(levels), 0, 1);
+    check_gl(gl, "a view of a texture");
+    return view;
+}
+
 Buffer create_buffer(const GladGLContext& gl, std::size_t bytes, const void* data,
                      GLbitfield flags) {
     GLuint id = 0;

@@ -31,6 +31,10 @@ Texture create_texture_cube(const GladGLContext& gl, GLenum format, int size, in
 Texture create_texture_2d_multisample_array(const GladGLContext& gl, GLenum format, int samples,
                                             int width, int height, int layers);
 
+/// The first layer of a 2D array, all levels, as a plain 2D texture: the same memory, under filters
+/// and wrapping of its own.
+Texture create_view_2d(const GladGLContext& gl, const Texture& array, int levels);
+
 /// Number of levels of a full mipmap chain, glTexStorage's floor(log2(max)) + 1.
 int mip_levels(int width, int height);
 

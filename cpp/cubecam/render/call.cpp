@@ -1,28 +1,13 @@
 #include "cubecam/render/call.hpp"
 
+#include "cubecam/render/needs.hpp"
+#include "cubecam/render/session.hpp"
 #include "cubecam/scene/revision.hpp"
 
 #include <algorithm>
 
 namespace cubecam {
 namespace {
-
-bool contains(const std::vector<std::int32_t>& ids, std::int32_t id) {
-    return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-bool uses(const NodeSnapshot& node, std::size_t probe) {
-    const auto is_probe = [probe](const FrozenSource& source) {
-        const auto* index = std::get_if<std::size_t>(&source);
-        return index != nullptr && *index == probe;
-    };
-    return is_probe(node.environment) || is_probe(node.cubemap) ||
-           std::any_of(node.textures.begin(), node.textures.end(),
-                       [&is_probe](const FrozenTexture& texture) {
-                           const auto* source = std::get_if<FrozenSource>(&texture);
-                           return source != nullptr && is_probe(*source);
-                       });
-}
 
 void add_light(Key& key, const LightValue& light) {
     key.add(light.parameters.index());
@@ -38,80 +23,68 @@ void add_light(Key& key, const LightValue& light) {
 
 }  // namespace
 
-bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded) {
-    if (excluded.empty()) return false;
-    return contains(excluded, node.id) ||
-           std::any_of(node.ancestors.begin(), node.ancestors.end(),
-                       [&excluded](std::int32_t id) { return contains(excluded, id); });
-}
+Call::Call(Session& session, const SceneSnapshot& scene, std::size_t number,
+           std::vector<std::size_t> ranks)
+    : stats(session.stats), session_(session), gpu_(session.gpu), scene_(scene), number_(number),
+      ranks_(std::move(ranks)), work_(scene.probes.size()) {}
 
-Call::Call(GpuState& gpu, const SceneSnapshot& scene)
-    : gpu_(gpu), scene_(scene), work_(scene.probes.size()) {}
-
-const FrozenSource& Call::source_of(const NodeSnapshot& node) const {
-    static const FrozenSource none;
-    const MaterialParameters& parameters = node.material.value.parameters;
-    if (std::holds_alternative<BasicParameters>(parameters)) return node.cubemap;
-    if (std::holds_alternative<PhongParameters>(parameters)) return none;
-    const auto* shader = std::get_if<ShaderParameters>(&parameters);
-    if (shader != nullptr && !shader->looks_up_environment()) return none;
-    return node.environment.index() == 0 ? scene_.environment : node.environment;
-}
-
-std::vector<std::size_t> Call::probes_of(const DrawPlan& plan) const {
-    std::vector<std::size_t> probes;
-    const auto add = [&probes](const FrozenSource& source) {
-        if (const auto* probe = std::get_if<std::size_t>(&source)) probes.push_back(*probe);
-    };
+std::vector<std::size_t> Call::needs_of(const DrawPlan& plan) const {
+    std::vector<std::size_t> needs;
     for (const auto* nodes : {&plan.opaque, &plan.late}) {
         for (const PlannedNode& planned : *nodes) {
-            const NodeSnapshot& node = scene_.nodes[planned.node];
-            add(source_of(node));
-            for (const FrozenTexture& texture : node.textures) {
-                if (const auto* source = std::get_if<FrozenSource>(&texture)) add(*source);
-            }
+            session_.numbers.add_needs(scene_, number_, scene_.nodes[planned.node], needs);
         }
     }
-    std::sort(probes.begin(), probes.end());
-    probes.erase(std::unique(probes.begin(), probes.end()), probes.end());
-    return probes;
+    return unique(std::move(needs));
 }
 
-Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
-                     const ProbeOrder* order) {
+ProbeState& Call::state_of(std::size_t index) {
+    const ProbeSnapshot& probe = scene_.probes[index];
+    // One that is drawn by hand alone shows in every scene what it was told to draw.
+    const bool by_hand = probe.value.update == ProbeUpdate::manual;
+    ProbeContents& contents = gpu_.probes.get(probe.object, [] { return ProbeContents(); });
+    return contents.of(by_hand ? 0 : ranks_[index]);
+}
+
+Lookup Call::look_up(const FrozenSource& source, std::optional<std::size_t> in_probe) {
     if (const auto* cube = std::get_if<FrozenCube>(&source)) {
         return {gpu_.cache.cube(*cube).texture.id(), cube->data->revision};
     }
     const auto* probe = std::get_if<std::size_t>(&source);
     if (probe == nullptr) return {};
-    const bool back =
-        in_probe && work_[*probe] && work_[*probe]->due && order->is_edge_back(*in_probe, *probe);
-    const ProbeState* state =
-        work_[*probe] ? work_[*probe]->state : gpu_.probes.find(scene_.probes[*probe].object);
-    if (!back && state != nullptr && state->target != nullptr) {
-        return {state->target->color().id(), state->revision};
-    }
+    const auto number = [this](std::size_t p) { return session_.numbers.of_probe(number_, p); };
+    const bool back = in_probe && work_[*probe] && work_[*probe]->due &&
+                      session_.order().is_edge_back(number(*in_probe), number(*probe));
+    const ProbeState& state = work_[*probe] ? *work_[*probe]->state : state_of(*probe);
+    if (!back && state.target != nullptr) return {state.target->color().id(), state.revision};
     // A mirror in a circle of mirrors, or a manual probe before its first update.
     return std::holds_alternative<FrozenCube>(scene_.environment)
-               ? look_up(scene_.environment, in_probe, order)
+               ? look_up(scene_.environment, in_probe)
                : Lookup{};
 }
 
-NodeLookups Call::look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe,
-                          const ProbeOrder* order) {
-    NodeLookups found{look_up(source_of(node), in_probe, order), {}};
+Lookup Call::look_up(const FrozenTexture& texture, std::optional<std::size_t> in_probe) {
+    if (const auto* map = std::get_if<FrozenMap>(&texture)) return session_.look_up(*map);
+    return look_up(std::get<FrozenSource>(texture), in_probe);
+}
+
+NodeLookups Call::look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe) {
+    NodeLookups found{look_up(source_of(scene_, node), in_probe), session_.look_up(node.map), {}};
     for (const FrozenTexture& texture : node.textures) {
-        found.textures.push_back(look_up(texture, in_probe, order));
+        found.textures.push_back(look_up(texture, in_probe));
     }
     return found;
 }
 
-Lookup Call::look_up(const FrozenTexture& texture, std::optional<std::size_t> in_probe,
-                     const ProbeOrder* order) {
-    if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&texture)) {
-        return {gpu_.cache.image(*image).texture.id(), (*image)->revision()};
+std::vector<NodeLookups> Call::look_up_all(const DrawPlan& plan,
+                                           std::optional<std::size_t> in_probe) {
+    std::vector<NodeLookups> lookups(scene_.nodes.size());
+    for (const auto* nodes : {&plan.opaque, &plan.late}) {
+        for (const PlannedNode& planned : *nodes) {
+            lookups[planned.node] = look_up(scene_.nodes[planned.node], in_probe);
+        }
     }
-    return look_up(std::get<FrozenSource>(texture), in_probe, order);
+    return lookups;
 }
 
 std::vector<std::vector<Lookup>> Call::look_up_all(const Finish& finish) {
@@ -119,19 +92,7 @@ std::vector<std::vector<Lookup>> Call::look_up_all(const Finish& finish) {
     for (const EffectSnapshot& effect : finish.effects) {
         std::vector<Lookup>& found = lookups.emplace_back();
         for (const FrozenTexture& texture : effect.textures) {
-            found.push_back(look_up(texture, std::nullopt, nullptr));
-        }
-    }
-    return lookups;
-}
-
-std::vector<NodeLookups> Call::look_up_all(const DrawPlan& plan,
-                                           std::optional<std::size_t> in_probe,
-                                           const ProbeOrder* order) {
-    std::vector<NodeLookups> lookups(scene_.nodes.size());
-    for (const auto* nodes : {&plan.opaque, &plan.late}) {
-        for (const PlannedNode& planned : *nodes) {
-            lookups[planned.node] = look_up(scene_.nodes[planned.node], in_probe, order);
+            found.push_back(look_up(texture, std::nullopt));
         }
     }
     return lookups;
@@ -139,7 +100,7 @@ std::vector<NodeLookups> Call::look_up_all(const DrawPlan& plan,
 
 Lookup Call::background_lookup() {
     const auto* cube = std::get_if<FrozenCube>(&scene_.background);
-    return cube == nullptr ? Lookup{} : look_up(FrozenSource(*cube), std::nullopt, nullptr);
+    return cube == nullptr ? Lookup{} : look_up(FrozenSource(*cube), std::nullopt);
 }
 
 bool Call::count_and_decide(const ProbeSnapshot& probe, ProbeWork& work) {
@@ -155,41 +116,22 @@ bool Call::count_and_decide(const ProbeSnapshot& probe, ProbeWork& work) {
     return true;
 }
 
-void Call::find_work(std::size_t index, std::vector<std::vector<std::size_t>>& needs) {
+std::vector<std::size_t> Call::find_work(std::size_t index) {
     const ProbeSnapshot& probe = scene_.probes[index];
     ProbeWork& work = work_[index] ? *work_[index] : work_[index].emplace();
-    work.state = &gpu_.probes.get(probe.object, [] { return ProbeState{}; });
+    work.state = &state_of(index);
     work.due = count_and_decide(probe, work);
-    if (!work.due) return;  // it shows what it holds, and needs nothing
+    if (!work.due) return {};  // it shows what it holds, and needs nothing
     work.views = cube_views(probe.position, probe.value.near, probe.value.far);
-    work.plan = make_plan(
-        scene_, work.views, probe.value.size, probe.value.size, [&](const NodeSnapshot& node) {
-            return node.in_probes && !uses(node, index) && !is_excluded(node, probe.excluded);
-        });
-    needs[index] = probes_of(work.plan);
+    work.plan = make_plan(scene_, work.views, probe.value.size, probe.value.size,
+                          [&](const NodeSnapshot& node) { return is_seen(scene_, node, index); });
+    return needs_of(work.plan);
 }
 
-void Call::update_probes(const std::vector<std::size_t>& roots) {
-    std::vector<std::vector<std::size_t>> needs(scene_.probes.size());
-    std::vector<bool> found(scene_.probes.size(), false);
-    std::vector<std::size_t> open = roots;
-    while (!open.empty()) {
-        const std::size_t probe = open.back();
-        open.pop_back();
-        if (found[probe]) continue;
-        found[probe] = true;
-        find_work(probe, needs);
-        open.insert(open.end(), needs[probe].begin(), needs[probe].end());
-    }
-    const ProbeOrder order = order_probes(needs, roots);
-    for (const std::size_t probe : order.order) {
-        if (work_[probe]->due) draw_probe(probe, order);
-    }
-}
-
-void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
+void Call::draw_probe(std::size_t index) {
     const ProbeSnapshot& probe = scene_.probes[index];
     ProbeWork& work = *work_[index];
+    if (!work.due) return;
     ProbeState& state = *work.state;
     TargetDescription description =
         describe_target(gpu_.context, true, probe.value.size, probe.value.size, probe.value.samples,
@@ -205,8 +147,8 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     }
     std::size_t drawn = 0;
     try {
-        drawn = draw_changed(work.views, work.plan, *state.target,
-                             look_up_all(work.plan, index, &order), {}, budget);
+        drawn = draw_changed(work.views, work.plan, *state.target, look_up_all(work.plan, index),
+                             {}, budget);
     } catch (...) {
         state.target = nullptr;
         throw;
@@ -228,7 +170,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
     for (const EffectSnapshot& effect : finish.effects) {
         common.add(effect.revision);
         for (const FrozenTexture& texture : effect.textures) {
-            common.add(look_up(texture, std::nullopt, nullptr).revision);
+            common.add(look_up(texture, std::nullopt).revision);
         }
     }
     common.add(scene_.background.index());
@@ -255,10 +197,10 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
             key.add(node.world);
             key.add(node.mesh->revision());
             key.add(node.material.revision);
-            key.add(lookups[planned.node].cube.revision);
-            for (const Lookup& texture : lookups[planned.node].textures) {
-                key.add(texture.revision);
-            }
+            const NodeLookups& found = lookups[planned.node];
+            key.add(found.cube.revision);
+            key.add(found.map.revision);
+            for (const Lookup& texture : found.textures) key.add(texture.revision);
             for (const PlannedNode::Sight& sight : planned.sights) {
                 keys[sight.view].nodes.push_back({node.id, key, sight.bounds});
             }
@@ -322,16 +264,35 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
 
 void Call::draw(std::span<const View> views, Target& target,
                 const std::function<bool(const NodeSnapshot&)>& wanted, const Finish& finish) {
+    if (!session_.asked_for.textures.empty()) {
+        std::vector<std::size_t> shown;
+        for (const NodeSnapshot& node : scene_.nodes) {
+            if (wanted(node)) session_.numbers.add_needs(scene_, number_, node, shown);
+        }
+        session_.numbers.add_needs(finish.effects, shown);
+        refuse_circles(session_.asked_for, session_.numbers, unique(std::move(shown)));
+    }
     const DrawPlan plan =
         make_plan(scene_, views, target.description().width, target.description().height, wanted);
-    update_probes(probes_of(plan));
-    draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), finish,
-                 std::nullopt);
+    std::vector<std::size_t> needs = needs_of(plan);
+    session_.numbers.add_needs(finish.effects, needs);
+    session_.update(unique(std::move(needs)));
+    draw_planned(views, plan, target, finish);
+}
+
+std::size_t Call::draw_planned(std::span<const View> views, const DrawPlan& plan, Target& target,
+                               const Finish& finish) {
+    return draw_changed(views, plan, target, look_up_all(plan, std::nullopt), finish, std::nullopt);
 }
 
 void Call::force(const std::vector<std::size_t>& probes) {
-    for (const std::size_t probe : probes) work_[probe].emplace().forced = true;
-    update_probes(probes);
+    std::vector<std::size_t> numbers;
+    for (const std::size_t probe : probes) {
+        work_[probe].emplace().forced = true;
+        numbers.push_back(session_.numbers.of_probe(number_, probe));
+    }
+    refuse_circles(session_.asked_for, session_.numbers, numbers);
+    session_.update(numbers);
 }
 
 }  // namespace cubecam

@@ -3,7 +3,6 @@
 #include "cubecam/render/draw_plan.hpp"
 #include "cubecam/render/gpu_state.hpp"
 #include "cubecam/render/lookup.hpp"
-#include "cubecam/render/probe_order.hpp"
 #include "cubecam/render/surface_pass.hpp"
 
 #include <cstdint>
@@ -14,23 +13,37 @@
 
 namespace cubecam {
 
-/// Whether a node, or one above it, is among `excluded`.
-bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded);
+class Session;
 
-/// One call of a renderer: brings the probes that its pictures need up to date, then draws the
-/// pictures whose keys differ from what their target holds.
+/// One scene's part of one call of a renderer: draws the pictures whose keys differ from what their
+/// target holds, once the probes and render textures that they need are up to date.
 class Call {
 public:
-    Call(GpuState& gpu, const SceneSnapshot& scene);
+    /// `number` is the scene's in the session; `ranks[p]` tells how many scenes before it use its
+    /// probe p, too.
+    Call(Session& session, const SceneSnapshot& scene, std::size_t number,
+         std::vector<std::size_t> ranks);
 
-    /// Draws `views` of the nodes that `wanted` lets through into `target`, their probes first.
+    /// Draws `views` of the nodes that `wanted` lets through into `target`, what they need first.
     void draw(std::span<const View> views, Target& target,
               const std::function<bool(const NodeSnapshot&)>& wanted, const Finish& finish = {});
 
     /// Draws these probes (indices into the snapshot's), due or not, and what they need.
     void force(const std::vector<std::size_t>& probes);
 
-    Stats stats;
+    // For the session.
+
+    /// What the nodes of a plan show, each once, by the session's numbers.
+    std::vector<std::size_t> needs_of(const DrawPlan& plan) const;
+    /// Decides whether a probe is drawn, and gives what it needs, if so.
+    std::vector<std::size_t> find_work(std::size_t probe);
+    /// Draws it if it is due.
+    void draw_probe(std::size_t probe);
+    /// Draws the views whose keys changed; what they need is up to date. Returns how many it drew.
+    std::size_t draw_planned(std::span<const View> views, const DrawPlan& plan, Target& target,
+                             const Finish& finish = {});
+
+    Stats& stats;  ///< the session's
 
 private:
     /// A probe as this call sees it.
@@ -48,35 +61,28 @@ private:
         std::size_t first;
     };
 
-    void update_probes(const std::vector<std::size_t>& roots);
-    void find_work(std::size_t probe, std::vector<std::vector<std::size_t>>& needs);
+    ProbeState& state_of(std::size_t probe);
     bool count_and_decide(const ProbeSnapshot& probe, ProbeWork& work);
-    void draw_probe(std::size_t probe, const ProbeOrder& order);
-
-    /// Probes that the nodes of a plan show, each once, in the order of the scene.
-    std::vector<std::size_t> probes_of(const DrawPlan& plan) const;
-    const FrozenSource& source_of(const NodeSnapshot& node) const;
-    NodeLookups look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe,
-                        const ProbeOrder* order);
-    Lookup look_up(const FrozenSource& source, std::optional<std::size_t> in_probe,
-                   const ProbeOrder* order);
+    Lookup look_up(const FrozenSource& source, std::optional<std::size_t> in_probe);
+    Lookup look_up(const FrozenTexture& texture, std::optional<std::size_t> in_probe);
+    NodeLookups look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe);
 
     /// Draws the views whose keys changed, at most as many as the budget allows. Returns how many
     /// it drew.
     std::size_t draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
                              const std::vector<NodeLookups>& lookups, const Finish& finish,
                              std::optional<Budget> budget);
-    std::vector<NodeLookups> look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe,
-                                         const ProbeOrder* order);
+    std::vector<NodeLookups> look_up_all(const DrawPlan& plan, std::optional<std::size_t> in_probe);
+    std::vector<std::vector<Lookup>> look_up_all(const Finish& finish);
     std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
                                     const std::vector<NodeLookups>& lookups, const Finish& finish);
-    std::vector<std::vector<Lookup>> look_up_all(const Finish& finish);
-    Lookup look_up(const FrozenTexture& texture, std::optional<std::size_t> in_probe,
-                   const ProbeOrder* order);
     Lookup background_lookup();
 
+    Session& session_;
     GpuState& gpu_;
     const SceneSnapshot& scene_;
+    std::size_t number_;
+    std::vector<std::size_t> ranks_;
     std::vector<std::optional<ProbeWork>> work_;
 };
 

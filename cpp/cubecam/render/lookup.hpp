@@ -16,6 +16,7 @@ struct Lookup {
 /// All of them.
 struct NodeLookups {
     Lookup cube;                   ///< what a mirror reflects or a basic material shows
+    Lookup map;                    ///< a picture placed by the uvs
     std::vector<Lookup> textures;  ///< of a ShaderMaterial, in the order of its inputs
 };
 

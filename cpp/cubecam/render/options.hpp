@@ -2,7 +2,6 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/scene/format.hpp"
-#include "cubecam/scene/image_effect.hpp"
 
 #include <glm/glm.hpp>
 
@@ -55,7 +54,6 @@ struct FrameOptions {
     std::int64_t samples = 1;
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
-    std::vector<EffectSnapshot> effects;  ///< before tone mapping, in this order
 };
 
 struct CaptureOptions {
@@ -72,12 +70,14 @@ struct CaptureOptions {
 
 /// What the last call did.
 struct Stats {
-    std::int64_t views_drawn = 0;    ///< pictures drawn: frames, faces of captures and of probes
+    std::int64_t views_drawn =
+        0;  ///< pictures drawn: frames, faces of captures and probes, textures
     std::int64_t views_skipped = 0;  ///< pictures that were still true
     std::int64_t draw_calls = 0;
-    std::int64_t triangles = 0;       ///< sent to the GPU, each view counted
-    std::int64_t probes_updated = 0;  ///< probes of which at least one face was drawn
-    double milliseconds = 0.0;        ///< the whole call, reading back included
+    std::int64_t triangles = 0;         ///< sent to the GPU, each view counted
+    std::int64_t probes_updated = 0;    ///< probes of which at least one face was drawn
+    std::int64_t textures_updated = 0;  ///< render textures that were drawn
+    double milliseconds = 0.0;          ///< the whole call, reading back included
 };
 
 }  // namespace cubecam

@@ -1,8 +1,8 @@
 #include "cubecam/render/renderer.hpp"
 
 #include "cubecam/error.hpp"
-#include "cubecam/render/call.hpp"
 #include "cubecam/render/readback.hpp"
+#include "cubecam/render/session.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -119,6 +119,7 @@ auto Renderer::run(Work&& work) {
     GpuState& state = *gpu_->state;
     state.cache.sweep();
     state.probes.sweep();
+    state.textures.sweep();
     stats_ = {};
     gpu_->context.take_debug_messages();  // of earlier calls
     try {
@@ -143,16 +144,15 @@ Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
         TargetDescription description =
             describe_target(gpu.context, false, options.width, options.height, options.samples,
                             options.format, options.outputs);
-        const Finish finish{options.effects, options.tonemap, options.encode};
-        description.graded = finish.any();
-        description.effects = static_cast<int>(std::min<std::size_t>(finish.effects.size(), 2));
+        const Finish finish{scene.effects, options.tonemap, options.encode};
+        set_finish(description, finish.effects.size(), finish.any());
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
             static_cast<double>(options.width) / static_cast<double>(options.height);
         const View view = camera_view(matrices(camera, aspect));
-        Call call(gpu, scene);
-        call.draw({&view, 1}, target, [](const NodeSnapshot&) { return true; }, finish);
-        stats_ = call.stats;
+        Session session(gpu, scene);
+        session.call().draw({&view, 1}, target, [](const NodeSnapshot&) { return true; }, finish);
+        stats_ = session.stats;
         return read_frame(gpu.context.gl(), target);
     });
 }
@@ -167,11 +167,11 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         Target& target = gpu.targets.get(gpu.context, description);
         const std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);
-        Call call(gpu, scene);
-        call.draw(views, target, [&](const NodeSnapshot& node) {
+        Session session(gpu, scene);
+        session.call().draw(views, target, [&](const NodeSnapshot& node) {
             return node.in_probes && !is_excluded(node, options.exclude);
         });
-        stats_ = call.stats;
+        stats_ = session.stats;
         return read_cube(gpu.context.gl(), target);
     });
 }
@@ -192,21 +192,33 @@ void Renderer::update(const SceneSnapshot& scene,
                 "probes: expected probes that a visible node of the scene uses");
     }
     run([&](GpuState& gpu) {
-        Call call(gpu, scene);
-        call.force(indices);
-        stats_ = call.stats;
+        Session session(gpu, scene);
+        session.call().force(indices);
+        stats_ = session.stats;
         return true;
     });
 }
 
 std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) {
     return run([&](GpuState& gpu) {
-        const ProbeState* state = gpu.probes.find(probe);
+        ProbeContents* contents = gpu.probes.find(probe);
+        const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update()");
         }
         return read_cube(gpu.context.gl(), *state->target);
+    });
+}
+
+Frame Renderer::texture(const std::shared_ptr<RenderTexture>& texture) {
+    return run([&](GpuState& gpu) {
+        const TextureState* state = gpu.textures.find(texture);
+        if (state == nullptr || state->target == nullptr) {
+            throw std::invalid_argument("render_texture: expected one that this renderer has "
+                                        "drawn; render a frame that shows it");
+        }
+        return read_frame(gpu.context.gl(), *state->target);
     });
 }
 

@@ -6,6 +6,7 @@
 #include "cubecam/scene/camera.hpp"
 #include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <memory>
@@ -60,6 +61,9 @@ public:
 
     /// What a probe holds now. @throws std::invalid_argument if it was not drawn yet.
     std::shared_ptr<CubeMap> cubemap(const std::shared_ptr<Probe>& probe);
+
+    /// What a render texture holds now. @throws std::invalid_argument if it was not drawn yet.
+    Frame texture(const std::shared_ptr<RenderTexture>& texture);
 
     Stats stats() const;
     const RendererInfo& info() const { return info_; }

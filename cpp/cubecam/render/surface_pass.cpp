@@ -278,7 +278,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     variant.blend = node.blend == Blend::alpha_keep ? Blend::alpha : node.blend;
     variant.dense = node.mesh->triangles()->size() >= dense_triangles;
     const auto textures = [&](const auto& parameters) {
-        variant.map = parameters.map != nullptr && node.mesh->uvs() != nullptr;
+        variant.map = node.map.index() != 0;
         variant.vertex_colors = parameters.vertex_colors && node.mesh->colors() != nullptr;
     };
     if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
@@ -335,15 +335,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         set_raster_state(*gl_, *item.node, mirror);
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
                              sizeof(DrawBlock));
-        if (variant.map) {
-            const auto map = std::visit(
-                [](const auto& p) -> std::shared_ptr<const Image> {
-                    if constexpr (requires { p.map; }) return p.map;
-                    return nullptr;
-                },
-                material);
-            gl_->BindTextureUnit(map_unit, cache_->image(map).texture.id());
-        }
+        if (variant.map) gl_->BindTextureUnit(map_unit, item.lookups->map.texture);
         const GLuint cube = item.lookups->cube.texture;
         gl_->BindTextureUnit(cube_unit, cube != 0 ? cube : black_.id());
 

@@ -72,6 +72,11 @@ TargetDescription describe_target(const gl::Context& context, bool cube, std::in
     return description;
 }
 
+void set_finish(TargetDescription& description, std::size_t effects, bool graded) {
+    description.graded = graded || effects > 0;
+    description.effects = static_cast<int>(std::min<std::size_t>(effects, 2));
+}
+
 std::size_t TargetDescription::bytes() const {
     const std::size_t color = 4 * dtype_size(dtype_of(graded ? Format::rgba32f : format));
     std::size_t texel = color + 4;
@@ -130,9 +135,9 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         gl_format(description.graded ? Format::rgba32f : description.format);
     const int levels =
         description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
-    color_ = make_texture(context, color_format, levels);
+    color_ = make_texture(context, color_format, description.graded ? 1 : levels);
     depth_ = make_texture(context, depth_format, 1);
-    if (description.mipmaps) {
+    if (description.mipmaps && !description.graded) {
         gl_->TextureParameteri(color_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     }
 
@@ -161,7 +166,7 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
     }
     color_pass_.emplace(*gl_, color_pass, description.layers());
     if (description.graded) {
-        graded_ = make_texture(context, gl_format(description.format), 1);
+        graded_ = make_texture(context, gl_format(description.format), levels);
         graded_pass_.emplace(
             *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), graded_.id()}},
             description.layers());

@@ -42,6 +42,9 @@ TargetDescription describe_target(const gl::Context& context, bool cube, std::in
                                   std::int64_t height, std::int64_t samples, Format format,
                                   Outputs outputs = {});
 
+/// Says that a picture is worked on by FinishPass: by effects, by a tone curve or encoding, or not.
+void set_finish(TargetDescription& description, std::size_t effects, bool graded);
+
 /// Framebuffers over the same textures: all layers at once, and each layer alone.
 class Layers {
 public:
@@ -80,6 +83,8 @@ public:
 
     /// Colour as materials write it, resolved.
     const gl::Texture& color() const { return color_; }
+    /// What the picture is read from: color(), or what became of it in FinishPass.
+    const gl::Texture& picture() const { return description_.graded ? graded_ : color_; }
     const gl::Texture& depth() const { return depth_; }
     const gl::Texture& output(Slot slot) const { return outputs_[static_cast<std::size_t>(slot)]; }
 

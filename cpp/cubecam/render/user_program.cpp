@@ -214,7 +214,7 @@ void UserProgram::use(const ShaderInputs& inputs, std::span<const Lookup> textur
             if (found == inputs.textures.end()) {
                 refuse("texture " + uniform.name, std::string("one for the ") + sampler, "none");
             }
-            const bool cube = !std::holds_alternative<std::shared_ptr<const Image>>(found->second);
+            const bool cube = std::holds_alternative<CubeSource>(found->second);
             if (cube != (uniform.type == GL_SAMPLER_CUBE)) {
                 refuse("texture " + uniform.name,
                        cube ? "an Image for the sampler2D"

@@ -1,11 +1,7 @@
 #pragma once
 
-#include "cubecam/scene/snapshot.hpp"
 #include "cubecam/scene/user_shader.hpp"
 #include "cubecam/scene/versioned.hpp"
-
-#include <cstdint>
-#include <vector>
 
 namespace cubecam {
 
@@ -21,22 +17,17 @@ struct EffectValue {
 /// scene, and an effect to none.
 void check(const EffectValue& value);
 
-/// An effect as a call sees it.
-struct EffectSnapshot {
-    EffectValue value;
-    std::uint64_t revision;
-    std::vector<FrozenTexture> textures;  ///< in the order of its inputs
-};
-
 /// A pass over a frame. Shared by any number of calls; setters are thread-safe and checked.
 class ImageEffect {
 public:
+    using State = Versioned<EffectValue>::State;
+
     explicit ImageEffect(EffectValue value);
     ImageEffect(const ImageEffect&) = delete;
     ImageEffect& operator=(const ImageEffect&) = delete;
 
+    State state() const { return value_.state(); }
     EffectValue value() const { return value_.value(); }
-    EffectSnapshot snapshot() const;
 
     template <class Change>
     void edit(Change&& change) {

@@ -73,4 +73,14 @@ bool translucent(const MaterialValue& value) {
     return value.surface.opacity * own < 1.0F;
 }
 
+const MapSource& map_of(const MaterialValue& value) {
+    static const MapSource none;
+    return std::visit(
+        [](const auto& parameters) -> const MapSource& {
+            if constexpr (requires { parameters.map; }) return parameters.map;
+            return none;
+        },
+        value.parameters);
+}
+
 }  // namespace cubecam

@@ -29,7 +29,7 @@ struct SurfaceOptions {
 /// Unlit: color * map * vertex colour * cubemap at the object-space position.
 struct BasicParameters {
     glm::vec4 color{1.0F};
-    std::shared_ptr<const Image> map;
+    MapSource map;
     CubeSource cubemap;
     bool vertex_colors = false;
 
@@ -44,7 +44,7 @@ struct PhongParameters {
     float kd = 0.7F;
     float ks = 1.0F;
     float shininess = 10.0F;
-    std::shared_ptr<const Image> map;
+    MapSource map;
     bool vertex_colors = false;
 
     bool operator==(const PhongParameters&) const = default;
@@ -149,5 +149,8 @@ using ShaderMaterial = MaterialOf<ShaderParameters>;
 /// Whether the material alone makes a surface translucent (its map and the mesh's colours can,
 /// too).
 bool translucent(const MaterialValue& value);
+
+/// The picture that a material shows by a mesh's uvs; none for materials that have none.
+const MapSource& map_of(const MaterialValue& value);
 
 }  // namespace cubecam

@@ -3,27 +3,17 @@
 #include "cubecam/scene/describe.hpp"
 #include "cubecam/scene/revision.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 namespace cubecam {
-
-namespace {
-
-bool same_node(const std::weak_ptr<Node>& a, const std::weak_ptr<Node>& b) {
-    return !a.owner_before(b) && !b.owner_before(a);
-}
-
-}  // namespace
 
 bool ProbeValue::operator==(const ProbeValue& other) const {
     return position == other.position && same_node(parent, other.parent) && size == other.size &&
            near == other.near && far == other.far && format == other.format &&
            mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
            every == other.every && faces_per_frame == other.faces_per_frame &&
-           std::equal(exclude.begin(), exclude.end(), other.exclude.begin(), other.exclude.end(),
-                      same_node);
+           same_nodes(exclude, other.exclude);
 }
 
 void check(const ProbeValue& value) {

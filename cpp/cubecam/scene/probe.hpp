@@ -2,12 +2,12 @@
 
 #include "cubecam/scene/format.hpp"
 #include "cubecam/scene/versioned.hpp"
+#include "cubecam/scene/weak_nodes.hpp"
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace cubecam {
 
@@ -33,7 +33,7 @@ struct ProbeValue {
     ProbeUpdate update = ProbeUpdate::on_change;
     int every = 1;            ///< n of every_n_frames
     int faces_per_frame = 6;  ///< at most so many faces are drawn in one call
-    std::vector<std::weak_ptr<Node>> exclude;
+    WeakNodes exclude;
 
     bool operator==(const ProbeValue& other) const;
 };

@@ -18,6 +18,8 @@ namespace cubecam {
 /// skybox.
 using Background = std::variant<std::monostate, glm::vec4, std::shared_ptr<CubeMap>>;
 
+class SharedReads;
+
 /// Nodes, lights, and what surrounds them. Plain data: it knows nothing of who draws it.
 ///
 /// Every member function may be called from any thread.
@@ -58,10 +60,14 @@ public:
     /// For unpickling: the node of this id, made as an empty group if there is none.
     std::shared_ptr<Node> restore(std::int32_t id);
 
-    /// Everything a picture depends on, as it is now.
-    SceneSnapshot snapshot() const;
+    using Effects = std::vector<std::shared_ptr<ImageEffect>>;
+
+    /// Everything a picture depends on, as it is now: also the scenes of render textures, one
+    /// after the other, and the effects that are to be run over it.
+    SceneSnapshot snapshot(const Effects& effects = {}) const;
 
 private:
+    SceneSnapshot snapshot_alone(SharedReads& shared) const;
     std::shared_ptr<Node> insert(std::vector<std::shared_ptr<Node>>::iterator at, std::int32_t id,
                                  NodeValue value);
 

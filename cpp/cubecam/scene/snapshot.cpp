@@ -23,12 +23,19 @@ Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
     return {centre - reach, centre + reach};
 }
 
+/// A render texture's alpha counts only where something else makes the surface translucent: what it
+/// will hold is not known yet.
+bool shows_through(const MapSource& map) {
+    const auto* image = std::get_if<std::shared_ptr<const Image>>(&map);
+    return image && *image && (*image)->translucent();
+}
+
 /// Whether any alpha of a surface is below one.
 bool shows_through(const MaterialValue& material, const Mesh& mesh) {
     if (translucent(material)) return true;
     const auto by_vertices_or_map = [&](const auto& parameters) {
         return (parameters.vertex_colors && mesh.translucent_colors()) ||
-               (parameters.map && parameters.map->translucent());
+               shows_through(parameters.map);
     };
     if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
         return by_vertices_or_map(*basic);
@@ -41,12 +48,87 @@ bool shows_through(const MaterialValue& material, const Mesh& mesh) {
 
 }  // namespace
 
+/// What the scenes of one snapshot share. Each object is read once, so that all that show it see it
+/// as it was at one moment; and kept alive, so that none takes another's address.
+class SharedReads {
+public:
+    explicit SharedReads(const Scene* first) { numbers_.emplace(first, 0); }
+
+    const Material::State& state_of(const std::shared_ptr<Material>& material) {
+        const auto found = materials_.find(material);
+        if (found != materials_.end()) return found->second;
+        return materials_.emplace(material, material->state()).first->second;
+    }
+
+    FrozenCube freeze(const std::shared_ptr<CubeMap>& cube) {
+        auto& data = cubes_[cube];
+        if (!data) data = cube->data();
+        return {cube, data};
+    }
+
+    FrozenMap freeze(const MapSource& source) {
+        if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
+            return *image ? FrozenMap(*image) : FrozenMap();
+        }
+        const auto* texture = std::get_if<std::shared_ptr<RenderTexture>>(&source);
+        if (!texture || !*texture) return {};
+        const auto [found, added] = indices_.try_emplace(texture->get(), textures.size());
+        if (!added) return found->second;
+        const std::size_t index = found->second;
+        textures.push_back(read(*texture));
+        // These may show further textures, so the list grows.
+        std::vector<EffectSnapshot> effects;
+        for (const auto& effect : textures[index].value.effects) effects.push_back(freeze(*effect));
+        textures[index].effects = std::move(effects);
+        return index;
+    }
+
+    /// An effect belongs to no scene, and so shows no probe.
+    EffectSnapshot freeze(const ImageEffect& effect) {
+        auto [value, revision] = effect.state();
+        std::vector<FrozenTexture> frozen;
+        for (const auto& [name, source] : value.inputs.textures) {
+            if (const auto* map = std::get_if<MapSource>(&source)) {
+                frozen.emplace_back(freeze(*map));
+            } else {
+                const auto& cube = std::get<std::shared_ptr<CubeMap>>(std::get<CubeSource>(source));
+                frozen.emplace_back(FrozenSource(freeze(cube)));
+            }
+        }
+        return {std::move(value), revision, std::move(frozen)};
+    }
+
+    std::vector<TextureSnapshot> textures;
+    std::vector<std::shared_ptr<Scene>> others;  ///< scenes of textures, but for the first
+
+private:
+    TextureSnapshot read(const std::shared_ptr<RenderTexture>& texture) {
+        RenderTextureValue value = texture->value();
+        const auto [found, added] = numbers_.try_emplace(value.scene.get(), numbers_.size());
+        if (added) others.push_back(value.scene);
+        TextureSnapshot snapshot{texture, std::move(value), {}, found->second, {}, {}};
+        snapshot.camera = snapshot.value.camera->value();
+        for (const auto& excluded : snapshot.value.exclude) {
+            const auto node = excluded.lock();
+            if (node && snapshot.value.scene->contains(*node)) {
+                snapshot.excluded.push_back(node->id());
+            }
+        }
+        return snapshot;
+    }
+
+    std::unordered_map<std::shared_ptr<Material>, Material::State> materials_;
+    std::unordered_map<std::shared_ptr<CubeMap>, std::shared_ptr<const CubeMapData>> cubes_;
+    std::unordered_map<const RenderTexture*, std::size_t> indices_;  // into `textures`
+    std::unordered_map<const Scene*, std::size_t> numbers_;
+};
+
 /// Reads the nodes of one scene, whose graph is locked meanwhile.
 class SnapshotBuilder {
 public:
     SnapshotBuilder(const std::vector<std::shared_ptr<Node>>& nodes, const NodeGraph* graph,
-                    SceneSnapshot& to)
-        : nodes_(nodes), graph_(graph), to_(to), places_(nodes.size()) {}
+                    SharedReads& shared, SceneSnapshot& to)
+        : nodes_(nodes), graph_(graph), shared_(shared), to_(to), places_(nodes.size()) {}
 
     void build() {
         to_.nodes.reserve(nodes_.size());
@@ -60,12 +142,6 @@ public:
     /// Probes whose parents are not in this scene, so that their own graphs must be locked.
     using Elsewhere = std::vector<std::pair<std::size_t, std::shared_ptr<Node>>>;
     Elsewhere take_elsewhere() { return std::move(elsewhere_); }
-
-    FrozenCube freeze(const std::shared_ptr<CubeMap>& cube) {
-        auto& data = cubes_[cube.get()];
-        if (!data) data = cube->data();
-        return {cube, data};
-    }
 
 private:
     struct Place {
@@ -113,7 +189,7 @@ private:
 
     void add(const Node& node, const Place& place) {
         const NodeValue& value = node.value_;
-        const Material::State& material = state_of(*value.material);
+        const Material::State& material = shared_.state_of(value.material);
         const auto* basic = std::get_if<BasicParameters>(&material.value.parameters);
         const SurfaceOptions& surface = material.value.surface;
         const Blend blend = surface.blend.value_or(
@@ -135,6 +211,7 @@ private:
             material,
             freeze(value.environment),
             basic ? freeze(basic->cubemap) : FrozenSource(),
+            value.mesh->uvs() ? shared_.freeze(map_of(material.value)) : FrozenMap(),
             shader ? freeze(shader->inputs) : std::vector<FrozenTexture>(),
             moved && !shader->displacement,
             place.in_probes,
@@ -149,16 +226,9 @@ private:
         to_.nodes.push_back(std::move(snapshot));
     }
 
-    /// Read once, so that all nodes of a material see it as it was at one moment.
-    const Material::State& state_of(const Material& material) {
-        const auto found = materials_.find(&material);
-        if (found != materials_.end()) return found->second;
-        return materials_.emplace(&material, material.state()).first->second;
-    }
-
     FrozenSource freeze(const CubeSource& source) {
         if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source); cube && *cube) {
-            return freeze(*cube);
+            return shared_.freeze(*cube);
         }
         if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source); probe && *probe) {
             const auto [found, added] = probes_.try_emplace(probe->get(), to_.probes.size());
@@ -171,12 +241,10 @@ private:
     std::vector<FrozenTexture> freeze(const ShaderInputs& inputs) {
         std::vector<FrozenTexture> frozen;
         for (const auto& [name, source] : inputs.textures) {
-            if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
-                frozen.emplace_back(*image);
-            } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source)) {
-                frozen.emplace_back(FrozenSource(freeze(*cube)));
+            if (const auto* map = std::get_if<MapSource>(&source)) {
+                frozen.emplace_back(shared_.freeze(*map));
             } else {
-                frozen.emplace_back(freeze(CubeSource(std::get<std::shared_ptr<Probe>>(source))));
+                frozen.emplace_back(freeze(std::get<CubeSource>(source)));
             }
         }
         return frozen;
@@ -202,28 +270,40 @@ private:
 
     const std::vector<std::shared_ptr<Node>>& nodes_;
     const NodeGraph* graph_;
+    SharedReads& shared_;
     SceneSnapshot& to_;
     std::vector<Place> places_;
     std::vector<std::size_t> waiting_;
-    std::unordered_map<const Material*, Material::State> materials_;
-    std::unordered_map<const CubeMap*, std::shared_ptr<const CubeMapData>> cubes_;
     std::unordered_map<const Probe*, std::size_t> probes_;
     Elsewhere elsewhere_;
 };
 
-SceneSnapshot Scene::snapshot() const {
+SceneSnapshot Scene::snapshot(const Effects& effects) const {
+    SharedReads shared(this);
+    SceneSnapshot snapshot = snapshot_alone(shared);
+    for (const auto& effect : effects) snapshot.effects.push_back(shared.freeze(*effect));
+    // Each under its own mutex alone: two scenes that show each other would wait for each other.
+    for (std::size_t i = 0; i < shared.others.size(); ++i) {
+        const std::shared_ptr<const Scene> next = shared.others[i];  // the vector may grow
+        snapshot.others.push_back(next->snapshot_alone(shared));
+    }
+    snapshot.textures = std::move(shared.textures);
+    return snapshot;
+}
+
+SceneSnapshot Scene::snapshot_alone(SharedReads& shared) const {
     SceneSnapshot snapshot;
     SnapshotBuilder::Elsewhere elsewhere;
     {
         const std::lock_guard lock(graph_->mutex);
-        SnapshotBuilder builder(nodes_, graph_.get(), snapshot);
-        if (environment_) snapshot.environment = builder.freeze(environment_);
+        SnapshotBuilder builder(nodes_, graph_.get(), shared, snapshot);
+        if (environment_) snapshot.environment = shared.freeze(environment_);
         if (const auto* color = std::get_if<glm::vec4>(&background_)) {
             snapshot.background = *color;
         } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background_)) {
-            snapshot.background = builder.freeze(*cube);
+            snapshot.background = shared.freeze(*cube);
         } else if (environment_) {
-            snapshot.background = builder.freeze(environment_);
+            snapshot.background = shared.freeze(environment_);
         } else {
             snapshot.background = glm::vec4(0.0F);
         }

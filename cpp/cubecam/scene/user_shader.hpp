@@ -1,6 +1,5 @@
 #pragma once
 
-#include "cubecam/scene/image.hpp"
 #include "cubecam/scene/lookup.hpp"
 
 #include <map>
@@ -29,9 +28,8 @@ struct UniformValue {
     bool operator==(const UniformValue&) const = default;
 };
 
-/// A picture that a user's shader looks up: a sampler2D or a samplerCube.
-using TextureSource =
-    std::variant<std::shared_ptr<const Image>, std::shared_ptr<CubeMap>, std::shared_ptr<Probe>>;
+/// What a user's shader looks up: by a sampler2D or a samplerCube.
+using TextureSource = std::variant<MapSource, CubeSource>;
 
 /// What a user's shader gets by name. Which of them it declares, and as what, only a driver knows:
 /// that is checked when it is drawn.

@@ -1,0 +1,69 @@
+"""Flat scenes whose picture is known texel by texel, and quads that show one."""
+
+import numpy as np
+
+import cubecam as cc
+
+CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
+
+
+def random_picture(seed, height=6, width=9):
+    """RGB in steps of 1/255, other in each pixel: no flip or swap goes unseen."""
+    return np.random.default_rng(seed).integers(0, 256, (height, width, 3)) / 255
+
+
+def tiles(picture):
+    """A mesh of one unlit square a pixel: in x 0..W and y 0..H, row 0 of the picture on top."""
+    height, width = picture.shape[:2]
+    positions, colors, indices = [], [], []
+    for row in range(height):
+        for column in range(width):
+            x, y, first = column, height - 1 - row, len(positions)
+            positions += [(x, y, 0), (x + 1, y, 0), (x + 1, y + 1, 0), (x, y + 1, 0)]
+            colors += [picture[row, column]] * 4
+            indices += [(first, first + 1, first + 2), (first, first + 2, first + 3)]
+    return cc.Mesh(positions, indices, colors=np.array(colors))
+
+
+def flat_camera(width, height):
+    """Sees x 0..W, y 0..H in a picture of that shape."""
+    middle = (width / 2, height / 2)
+    return cc.OrthographicCamera(height=height, position=(*middle, 5), target=(*middle, 0))
+
+
+def flat_scene(picture):
+    """(scene, node): the scene looks like `picture` through flat_camera."""
+    scene = cc.Scene()
+    node = scene.add(tiles(picture), cc.BasicMaterial(vertex_colors=True))
+    return scene, node
+
+
+def flat_texture(picture, **options):
+    """A RenderTexture that holds `picture`."""
+    height, width = picture.shape[:2]
+    scene, _ = flat_scene(picture)
+    return cc.RenderTexture(
+        scene,
+        flat_camera(width, height),
+        **{"size": (width, height), "format": "rgba32f", **options},
+    )
+
+
+def quad(width=1.0, height=1.0, uvs=CORNERS):
+    """In x 0..W, y 0..H, facing +Z."""
+    positions = [[0, 0, 0], [width, 0, 0], [width, height, 0], [0, height, 0]]
+    return cc.Mesh(positions, [[0, 1, 2], [0, 2, 3]], uvs=uvs)
+
+
+def screen_scene(texture, size=None):
+    """(scene, node): shows a texture texel by pixel through flat_camera."""
+    width, height = size or texture.size
+    scene = cc.Scene()
+    node = scene.add(quad(width, height), cc.BasicMaterial(map=texture), name="screen")
+    return scene, node
+
+
+def look(renderer, scene, width=9, height=6, **options):
+    """The frame of a flat scene."""
+    camera = flat_camera(width, height)
+    return renderer.render(scene, camera, (width, height), **{"format": "rgba32f", **options}).color
