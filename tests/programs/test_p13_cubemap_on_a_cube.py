@@ -54,11 +54,17 @@ def drawn(shared_renderers):
     return program, pictures, renderer.cubemap(program.probe).faces, shapes, colors, seen
 
 
-def test_faces(drawn):
-    _, _, held, _, colors, seen = drawn
+def test_faces(drawn, renderer):
+    program, _, held, _, colors, seen = drawn
     assert set(np.unique(seen.id)) == {0, *colors}
     want = lit(seen, colors, np.zeros(3))  # the eye of a capture is its own position
-    assert_close(held[..., :3], want, "phong", mask=unbroken(seen, 0.06))
+    mask = unbroken(seen, 0.06)
+    assert_close(held[..., :3], want, "phong", mask=mask)
+    # The ceiling is of one colour throughout: its height shows in distances.
+    cube = renderer.capture(
+        program.scene, size=FACE, near=1, far=100, exclude=[program.cube], outputs=("distance",)
+    )
+    assert_close(cube.distance, seen.distance, "distance", mask=mask)
 
 
 @pytest.mark.parametrize("frame", [0, 1, 40, 333])

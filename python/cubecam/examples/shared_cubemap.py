@@ -10,11 +10,11 @@ in wrong places, and the more so the farther they are. ``draw(..., show="differe
 
 How wrong is it? `truth` casts rays off the balls' actual surfaces, and `error_over_distance`
 compares: a probe of its own is wrong too, because rays start on the ball and not in its middle, but
-by less, and by the same at any distance. The document puts it so: the approximation looks right as
+by less, and by the same at any distance. Document 004 puts it so: the approximation looks right as
 long as other things are not too close. Both need embreex: ``pip install "cubecam[truth]"``.
 
-Worth trying: the same with the ground taken away, ``program.ground.visible = False``. Of a far
-environment alone one cubemap serves all.
+Worth trying: give the scene a skybox, and hide the ground and the actors, ``node.visible = False``.
+Of what is infinitely far one cubemap serves all, and the error is gone.
 """
 
 from __future__ import annotations
