@@ -1,5 +1,6 @@
 // Tone mapping and transfer function, over a finished frame in linear float. Alpha passes through.
 layout(binding = 0) uniform sampler2DArray u_frame;
+layout(location = 0) uniform int u_layer;
 layout(location = 0) out vec4 o_color;
 
 #if defined(TONEMAP_REINHARD)
@@ -33,7 +34,7 @@ vec3 encode_srgb(vec3 c) {
 }
 
 void main() {
-    vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, 0), 0);
+    vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, u_layer), 0);
     // A lamp may be infinite; its square must not be.
     color.rgb = tonemap(clamp(color.rgb, 0.0, 1e18));
 #ifdef ENCODE_SRGB

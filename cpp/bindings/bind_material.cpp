@@ -2,6 +2,7 @@
 #include "bind_material_docs.hpp"
 #include "cube_source.hpp"
 #include "objects.hpp"
+#include "stencil.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/scene/cubemap.hpp"
@@ -33,7 +34,9 @@ OrNone<Image> from_map(const std::shared_ptr<const Image>& map) {
     return or_none(std::const_pointer_cast<Image>(map));
 }
 
-SurfaceOptions surface(float opacity, bool double_sided) { return {opacity, double_sided}; }
+SurfaceOptions surface(float opacity, bool double_sided, const OrNone<Stencil>& stencil) {
+    return {opacity, double_sided, to_stencil(stencil)};
+}
 
 /// Properties of one kind of material; `P` is its parameters, `M` its class.
 template <class P, class M = MaterialOf<P>>
@@ -81,15 +84,17 @@ void bind_basic(py::module_& module) {
     using M = BasicMaterial;
     auto made = declare<M, Material>(module, "BasicMaterial", basic_doc);
     made.def(py::init([](const ArrayLike& color, const MapLike& map, const CubeLike& cubemap,
-                         bool vertex_colors, float opacity, bool double_sided) {
+                         bool vertex_colors, float opacity, bool double_sided,
+                         const OrNone<Stencil>& stencil) {
                  return std::make_shared<M>(BasicParameters{to_rgba(color, "color"), to_map(map),
                                                             to_cube_source(cubemap, "cubemap"),
                                                             vertex_colors},
-                                            surface(opacity, double_sided));
+                                            surface(opacity, double_sided, stencil));
              }),
              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("map") = py::none(),
              py::arg("cubemap") = py::none(), py::arg("vertex_colors") = false, py::kw_only(),
-             py::arg("opacity") = 1.0F, py::arg("double_sided") = false);
+             py::arg("opacity") = 1.0F, py::arg("double_sided") = false,
+             py::arg("stencil") = py::none());
     Properties<BasicParameters> properties{made};
     properties.color("color", &BasicParameters::color, color_property_doc);
     properties.map(map_property_doc);
@@ -108,15 +113,16 @@ void bind_phong(py::module_& module) {
     using M = PhongMaterial;
     auto made = declare<M, Material>(module, "PhongMaterial", phong_doc);
     made.def(py::init([](const ArrayLike& color, float ka, float kd, float ks, float shininess,
-                         const MapLike& map, bool vertex_colors, float opacity, bool double_sided) {
+                         const MapLike& map, bool vertex_colors, float opacity, bool double_sided,
+                         const OrNone<Stencil>& stencil) {
                  return std::make_shared<M>(PhongParameters{to_rgba(color, "color"), ka, kd, ks,
                                                             shininess, to_map(map), vertex_colors},
-                                            surface(opacity, double_sided));
+                                            surface(opacity, double_sided, stencil));
              }),
              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("ka") = 0.2, py::arg("kd") = 0.7,
              py::arg("ks") = 1.0, py::arg("shininess") = 10.0, py::arg("map") = py::none(),
              py::arg("vertex_colors") = false, py::kw_only(), py::arg("opacity") = 1.0,
-             py::arg("double_sided") = false);
+             py::arg("double_sided") = false, py::arg("stencil") = py::none());
     Properties<PhongParameters> properties{made};
     properties.color("color", &PhongParameters::color, color_property_doc);
     properties.number("ka", &PhongParameters::ka, "float: ambient weight.");
@@ -132,16 +138,16 @@ void bind_mirror(py::module_& module) {
     auto made = declare<M, Material>(module, "MirrorMaterial", mirror_doc);
     made.def(py::init([](const ArrayLike& tint, float env_weight, const ArrayLike& color,
                          float color_weight, std::optional<float> fresnel, float opacity,
-                         bool double_sided) {
+                         bool double_sided, const OrNone<Stencil>& stencil) {
                  return std::make_shared<M>(MirrorParameters{to_rgba(tint, "tint"), env_weight,
                                                              to_rgba(color, "color"), color_weight,
                                                              fresnel},
-                                            surface(opacity, double_sided));
+                                            surface(opacity, double_sided, stencil));
              }),
              py::arg("tint") = py::make_tuple(1, 1, 1), py::arg("env_weight") = 1.0,
              py::arg("color") = py::make_tuple(0, 0, 0), py::arg("color_weight") = 0.0,
              py::arg("fresnel") = py::none(), py::kw_only(), py::arg("opacity") = 1.0,
-             py::arg("double_sided") = false);
+             py::arg("double_sided") = false, py::arg("stencil") = py::none());
     Properties<MirrorParameters> properties{made};
     properties.color("tint", &MirrorParameters::tint,
                      "ndarray (4,) float32: linear RGBA, times what is reflected.");
@@ -166,13 +172,13 @@ void bind_glass(py::module_& module) {
     using M = GlassMaterial;
     auto made = declare<M, Material>(module, "GlassMaterial", glass_doc);
     made.def(py::init([](float eta, bool fresnel, const ArrayLike& tint, float opacity,
-                         bool double_sided) {
+                         bool double_sided, const OrNone<Stencil>& stencil) {
                  return std::make_shared<M>(GlassParameters{eta, fresnel, to_rgba(tint, "tint")},
-                                            surface(opacity, double_sided));
+                                            surface(opacity, double_sided, stencil));
              }),
              py::arg("eta") = 1.0 / 1.52, py::arg("fresnel") = true,
              py::arg("tint") = py::make_tuple(1, 1, 1), py::kw_only(), py::arg("opacity") = 1.0,
-             py::arg("double_sided") = false);
+             py::arg("double_sided") = false, py::arg("stencil") = py::none());
     Properties<GlassParameters> properties{made};
     properties.number("eta", &GlassParameters::eta,
                       "float: refractive index outside divided by the one inside.");
@@ -184,10 +190,10 @@ void bind_glass(py::module_& module) {
 
 /// Every parameter, by name: what __init__ takes as keywords.
 py::dict material_state(const py::object& self) {
-    static constexpr const char* names[] = {"color",   "map",     "cubemap",     "vertex_colors",
-                                            "ka",      "kd",      "ks",          "shininess",
-                                            "tint",    "eta",     "env_weight",  "color_weight",
-                                            "fresnel", "opacity", "double_sided"};
+    static constexpr const char* names[] = {"color",   "map",     "cubemap",      "vertex_colors",
+                                            "ka",      "kd",      "ks",           "shininess",
+                                            "tint",    "eta",     "env_weight",   "color_weight",
+                                            "fresnel", "opacity", "double_sided", "stencil"};
     py::dict state;
     for (const char* name : names) {
         if (py::hasattr(self, name)) state[name] = self.attr(name);
@@ -234,6 +240,14 @@ void bind_material(pybind11::module_& module) {
             self.edit([&](MaterialValue& next) { next.surface.double_sided = value; });
         },
         "bool: True shows both sides, its normal turned to the viewer; False culls back faces.");
+    material.def_property(
+        "stencil", [](const Material& self) { return from_stencil(self.value().surface.stencil); },
+        [](Material& self, const OrNone<Stencil>& value) {
+            const auto stencil = to_stencil(value);
+            self.edit([&](MaterialValue& next) { next.surface.stencil = stencil; });
+        },
+        "Stencil or None: how it tests and changes the stencil buffer, where ``depth_format`` has"
+        " one; None leaves it alone.");
     material.def("__repr__", &represent_material);
     material.def("__reduce__", [](const py::object& self) {
         return reduced(self, py::tuple(), material_state(self));

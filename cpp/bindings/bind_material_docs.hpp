@@ -34,6 +34,8 @@ opacity : float
     From 0 to 1.
 double_sided : bool
     False culls back faces.
+stencil : Stencil, optional
+    How it tests and changes the stencil buffer.
 
 Raises
 ------
@@ -71,6 +73,8 @@ opacity : float
     From 0 to 1.
 double_sided : bool
     False culls back faces.
+stencil : Stencil, optional
+    How it tests and changes the stencil buffer.
 
 Raises
 ------
@@ -114,6 +118,8 @@ opacity : float
     From 0 to 1.
 double_sided : bool
     False culls back faces.
+stencil : Stencil, optional
+    How it tests and changes the stencil buffer.
 
 Raises
 ------
@@ -147,6 +153,8 @@ opacity : float
     From 0 to 1.
 double_sided : bool
     False culls back faces.
+stencil : Stencil, optional
+    How it tests and changes the stencil buffer.
 
 Raises
 ------

@@ -58,7 +58,7 @@ def test_unknown_formats_are_refused_naming_those_there_are(renderer, fmt):
         assert "rgba16f" in str(raised.value)
 
 
-@pytest.mark.parametrize("outputs", [("depth",), ("colour",), "distance", (3,), ("id", "depth")])
+@pytest.mark.parametrize("outputs", [("depths",), ("colour",), "distance", (3,), ("id", "deep")])
 def test_unknown_outputs_are_refused(renderer, outputs):
     if (
         outputs == "distance"

@@ -7,6 +7,8 @@
 namespace cubecam {
 namespace {
 
+constexpr GLint grade_layer_location = 0;
+
 bool contains(const std::vector<std::int32_t>& ids, std::int32_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
@@ -17,6 +19,10 @@ bool uses(const NodeSnapshot& node, std::size_t probe) {
         return index != nullptr && *index == probe;
     };
     return is_probe(node.environment) || is_probe(node.cubemap);
+}
+
+Hiding hiding(DepthFormat format) {
+    return has_depth(format) ? Hiding::by_depth : Hiding::by_order;
 }
 
 void add_light(Key& key, const LightValue& light) {
@@ -122,9 +128,11 @@ void Call::find_work(std::size_t index, std::vector<std::vector<std::size_t>>& n
     if (!work.due) return;  // it shows what it holds, and needs nothing
     work.views = cube_views(probe.position, probe.value.near, probe.value.far);
     work.plan = make_plan(
-        scene_, work.views, probe.value.size, probe.value.size, [&](const NodeSnapshot& node) {
+        scene_, work.views, probe.value.size, probe.value.size,
+        [&](const NodeSnapshot& node) {
             return node.in_probes && !uses(node, index) && !is_excluded(node, probe.excluded);
-        });
+        },
+        hiding(probe.value.depth_format));
     needs[index] = probes_of(work.plan);
 }
 
@@ -152,7 +160,7 @@ void Call::draw_probe(std::size_t index, const ProbeOrder& order) {
     ProbeState& state = *work.state;
     TargetDescription description =
         describe_target(gpu_.context, true, probe.value.size, probe.value.size, probe.value.samples,
-                        probe.value.format);
+                        probe.value.format, {}, probe.value.depth_format);
     description.mipmaps = probe.value.mipmaps;
     std::optional<Budget> budget;
     if (state.target == nullptr || state.target->description() != description) {
@@ -249,14 +257,28 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     }
     const Lookup sky = background_lookup();
     const auto* color = std::get_if<glm::vec4>(&scene_.background);
-    gpu_.surface.draw({scene_, views, plan, std::move(regions),
-                       color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
-                       [&lookups](std::size_t node) { return lookups[node].texture; }},
-                      target, stats);
-    for (std::size_t v = 0; v < views.size(); ++v) {
-        if (!damaged[v].empty() && target.multisampled()) target.resolve(static_cast<int>(v));
+    // Place by place: positions in the shaders count from where a view stands, so its picture is
+    // the same bit for bit whether others are drawn along or not.
+    while (!regions.empty()) {
+        const View& here = views[regions.front().view];
+        const auto elsewhere =
+            std::stable_partition(regions.begin(), regions.end(), [&](const Region& region) {
+                return same_place(here, views[region.view]);
+            });
+        std::vector<Region> rest(elsewhere, regions.end());
+        regions.erase(elsewhere, regions.end());
+        gpu_.surface.draw(
+            {scene_, views, plan, std::move(regions),
+             color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
+             [&lookups](std::size_t node) { return lookups[node].texture; }},
+            target, stats);
+        regions = std::move(rest);
     }
-    if (target.description().graded) grade(target, tonemap, encode);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (damaged[v].empty()) continue;
+        if (target.multisampled()) target.resolve(static_cast<int>(v));
+        if (target.description().graded) grade(target, static_cast<int>(v), tonemap, encode);
+    }
     gl::check_gl(gpu_.context.gl(), "finishing a picture");
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
@@ -264,13 +286,15 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     return budget ? last : count;
 }
 
-void Call::grade(Target& target, Tonemap tonemap, Encode encode) {
+void Call::grade(Target& target, int layer, Tonemap tonemap, Encode encode) {
     const GladGLContext& gl = gpu_.context.gl();
-    gl.BindFramebuffer(GL_FRAMEBUFFER, target.graded_pass().one(0));
+    gl.BindFramebuffer(GL_FRAMEBUFFER, target.graded_pass().one(layer));
     gl.Disable(GL_DEPTH_TEST);
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_BLEND);
-    gpu_.surface.programs().grade(tonemap, encode).use();
+    const gl::Program& program = gpu_.surface.programs().grade(tonemap, encode);
+    program.use();
+    gl.ProgramUniform1i(program.id(), grade_layer_location, layer);
     gl.BindTextureUnit(0, target.color().id());
     gl.BindVertexArray(gpu_.cache.views_only().id());
     gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
@@ -281,8 +305,9 @@ void Call::grade(Target& target, Tonemap tonemap, Encode encode) {
 void Call::draw(std::span<const View> views, Target& target,
                 const std::function<bool(const NodeSnapshot&)>& wanted, Tonemap tonemap,
                 Encode encode) {
-    const DrawPlan plan =
-        make_plan(scene_, views, target.description().width, target.description().height, wanted);
+    const TargetDescription& description = target.description();
+    const DrawPlan plan = make_plan(scene_, views, description.width, description.height, wanted,
+                                    hiding(description.depth_format));
     update_probes(probes_of(plan));
     draw_changed(views, plan, target, look_up_all(plan, std::nullopt, nullptr), tonemap, encode,
                  std::nullopt);

@@ -75,7 +75,7 @@ private:
     std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
                                     const std::vector<Lookup>& lookups, Tonemap tonemap,
                                     Encode encode);
-    void grade(Target& target, Tonemap tonemap, Encode encode);
+    void grade(Target& target, int layer, Tonemap tonemap, Encode encode);
     Lookup background_lookup();
 
     GpuState& gpu_;

@@ -3,6 +3,7 @@
 #include "cubecam/render/clear.hpp"
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/instance.hpp"
+#include "cubecam/render/stencil_state.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -110,9 +111,9 @@ void SurfacePass::set_scissor(const Rect& rect) {
 
 SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
     Prepared prepared;
-    // The shaders' positions count from where the first view stands: far from the world's origin a
+    // The shaders' positions count from where the views stand: far from the world's origin a
     // float would have no digits left for what is near.
-    const glm::dvec3 origin = input.views.front().position;
+    const glm::dvec3 origin = input.views[input.regions.front().view].position;
     std::vector<Instance> views;  // of each region
     for (const Region& region : input.regions) {
         const View& view = input.views[region.view];
@@ -171,17 +172,17 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
     const TargetDescription& description = target.description();
     const Rect whole{0, 0, description.width, description.height};
-    upload_lights(input.scene.lights, input.views.front().position);
+    upload_lights(input.scene.lights, input.views[input.regions.front().view].position);
     const Prepared prepared = prepare(input);
     gl_->Viewport(0, 0, description.width, description.height);
     // Never off: how pixels come out may not hang on the rectangle, but may on the test itself
     // (GL 4.6 appendix A.3, rule 2).
     gl_->Enable(GL_SCISSOR_TEST);
-    const bool outputs = description.outputs.any();
-    draw_layers(input, prepared, target, target.color_pass(), true,
-                outputs && !target.multisampled(), stats);
-    if (outputs && target.multisampled()) {
-        draw_layers(input, prepared, target, target.output_pass(), false, true, stats);
+    const bool shaded = description.outputs.shaded();
+    draw_layers(input, prepared, target, target.color_pass(), description.color,
+                shaded && !target.multisampled(), stats);
+    if (description.outputs.any() && target.multisampled()) {
+        draw_layers(input, prepared, target, target.output_pass(), false, shaded, stats);
     }
     set_scissor(whole);  // resolving and grading obey it, too
     gl::check_gl(*gl_, "drawing a scene");
@@ -192,6 +193,8 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     const auto* plain = std::get_if<glm::vec4>(&input.background);
     const ClearValues values{plain != nullptr ? *plain : glm::vec4(0.0F), color, outputs};
     const bool by_texture = target.description().cube && !(color && target.multisampled());
+    // Translucent nodes write no shaded outputs, but may write what is read of the buffers.
+    const bool translucent = color || target.description().outputs.buffered();
     if (by_texture) {
         for (const Region& region : input.regions) {
             clear_layer(*gl_, target, static_cast<int>(region.view), region.rect, values);
@@ -207,7 +210,7 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     if (!use_layers(input, prepared, whole)) {
         for (std::size_t r = 0; r < input.regions.size(); ++r) {
             bind(input.regions[r]);
-            draw_all(input, prepared, r, color, outputs, stats);
+            draw_all(input, prepared, r, color, outputs, translucent, stats);
         }
         return;
     }
@@ -218,12 +221,12 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
     set_scissor(whole);
     if (all && !by_texture) clear_bound(*gl_, target, values);
-    draw_all(input, prepared, std::nullopt, color, outputs, stats);
+    draw_all(input, prepared, std::nullopt, color, outputs, translucent, stats);
 }
 
 bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
                              const Rect& whole) const {
-    if (layering_ == Layering::never) return false;
+    if (layering_ == Layering::never || input.regions.size() == 1) return false;
     // One scissor serves all layers, and one winding: other pictures are drawn one by one. (A
     // viewport for each region would do, but llvmpipe then transforms vertices by slower code that
     // rounds otherwise.)
@@ -250,27 +253,41 @@ bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
 
 void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
                            std::optional<std::size_t> region, bool color, bool outputs,
-                           Stats& stats) {
+                           bool translucent, Stats& stats) {
+    const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
     gl_->Enable(GL_DEPTH_TEST);
     gl_->DepthFunc(GL_GREATER);
-    gl_->DepthMask(GL_TRUE);
     gl_->Disable(GL_BLEND);
-    const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
+    if (input.plan.hiding == Hiding::by_order) {  // no depth buffer: the test always passes
+        if (color) draw_background(input, prepared, region, stats);
+        for (const Item& item : prepared.opaque) {
+            if (item.node->translucent) gl_->Enablei(GL_BLEND, 0);
+            draw_items({&item, 1}, region, mirror, outputs, stats);
+            gl_->Disablei(GL_BLEND, 0);
+        }
+        return;
+    }
+    gl_->DepthMask(GL_TRUE);
     draw_items(prepared.opaque, region, mirror, outputs, stats);
-    if (!color) return;  // neither the background nor anything translucent writes the outputs
+    if (!translucent) return;
 
     for (int slot = 1; slot < slot_count; ++slot) {
         gl_->ColorMaski(static_cast<GLuint>(slot), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     }
     gl_->DepthMask(GL_FALSE);
-    if (const auto* cube = std::get_if<GLuint>(&input.background)) {
-        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(region.value_or(0)),
-                    region ? 1 : input.regions.size(), stats);
-    }
+    if (color) draw_background(input, prepared, region, stats);
     gl_->Enablei(GL_BLEND, 0);
     draw_items(prepared.translucent, region, mirror, false, stats);
     gl_->Disablei(GL_BLEND, 0);
     gl_->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+void SurfacePass::draw_background(const PassInput& input, const Prepared& prepared,
+                                  std::optional<std::size_t> region, Stats& stats) {
+    const auto* cube = std::get_if<GLuint>(&input.background);
+    if (cube == nullptr) return;  // cleared to
+    draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(region.value_or(0)),
+                region ? 1 : input.regions.size(), stats);
 }
 
 SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) const {
@@ -327,6 +344,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         // again.
         const bool turned = (glm::determinant(glm::dmat3(item.node->world)) < 0.0) != mirror;
         gl_->FrontFace(turned ? GL_CW : GL_CCW);
+        set_stencil(*gl_, material.surface.stencil);
 
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
                              sizeof(DrawBlock));
@@ -349,6 +367,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         ++stats.draw_calls;
         stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
     }
+    set_stencil(*gl_, std::nullopt);
 }
 
 void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats) {

@@ -2,6 +2,7 @@
 
 #include "cubecam/scene/image.hpp"
 #include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/stencil.hpp"
 #include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
@@ -16,6 +17,7 @@ namespace cubecam {
 struct SurfaceOptions {
     float opacity = 1.0F;  ///< 0..1, times the colour's alpha
     bool double_sided = false;
+    std::optional<Stencil> stencil;  ///< none: neither tested nor written
 
     bool operator==(const SurfaceOptions&) const = default;
 };

@@ -22,6 +22,7 @@ bool ProbeValue::operator==(const ProbeValue& other) const {
            near == other.near && far == other.far && format == other.format &&
            mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
            every == other.every && faces_per_frame == other.faces_per_frame &&
+           depth_format == other.depth_format &&
            std::equal(exclude.begin(), exclude.end(), other.exclude.begin(), other.exclude.end(),
                       same_node);
 }

@@ -36,6 +36,7 @@ struct NodeSnapshot {
     bool in_probes;            ///< of the node and all above it
     bool translucent;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
+    std::int32_t render_order = 0;
 };
 
 struct ProbeSnapshot {
