@@ -34,6 +34,14 @@ TOLERANCES = {
     "unorm8_counts": Tolerance(
         1.0, "one count of 255: the value may lie on a rounding boundary", mean=0.05
     ),
+    "unorm8_steps": Tolerance(
+        2.6 / 255,
+        "four translucent layers in 8 bits, each rounded, and once more to read",
+        mean=0.004,
+    ),
+    "texture8": Tolerance(
+        0.02, "a lookup in 8 bits of what was blended in 8 bits, times Phong's light", mean=6e-3
+    ),
     "unorm8_filter": Tolerance(
         7e-3,
         "llvmpipe filters 8-bit textures in 8-bit arithmetic: weights of 1/256, rounded twice",
