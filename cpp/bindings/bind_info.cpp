@@ -21,6 +21,9 @@ void bind_stats(py::module_& m) {
         .def_readonly("triangles", &Stats::triangles, "int: sent to the GPU, each view counted.")
         .def_readonly("probes_updated", &Stats::probes_updated,
                       "int: probes of which at least one face was drawn.")
+        .def_readonly("shadow_views_drawn", &Stats::shadow_views_drawn,
+                      "int: layers of shadow maps drawn: one for each directional and spot light, "
+                      "six for a point light.")
         .def_readonly("milliseconds", &Stats::milliseconds,
                       "float: the whole call, reading back included.")
         .def("__repr__", [](const Stats& s) {
@@ -29,6 +32,7 @@ void bind_stats(py::module_& m) {
                    " draw_calls=" + std::to_string(s.draw_calls) +
                    " triangles=" + std::to_string(s.triangles) +
                    " probes_updated=" + std::to_string(s.probes_updated) +
+                   " shadow_views_drawn=" + std::to_string(s.shadow_views_drawn) +
                    " milliseconds=" + std::to_string(s.milliseconds) + ">";
         });
 }

@@ -189,6 +189,18 @@ void bind_contents(Class<Node>& node) {
         [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.in_probes = value; }); },
         "bool: False is absent from captures and probes, as is all below it; still drawn in"
         " frames, and still showing probes.");
+    node.def_property(
+        "casts_shadows", [](const Node& self) { return self.value().casts_shadows; },
+        [](Node& self, bool value) {
+            self.edit([&](NodeValue& next) { next.casts_shadows = value; });
+        },
+        "bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.");
+    node.def_property(
+        "receives_shadows", [](const Node& self) { return self.value().receives_shadows; },
+        [](Node& self, bool value) {
+            self.edit([&](NodeValue& next) { next.receives_shadows = value; });
+        },
+        "bool: whether shadows show on its own surface.");
 }
 
 }  // namespace

@@ -78,6 +78,10 @@ in_probes : bool
     False is absent from captures and probes, as is all below it; still drawn in frames.
 name : str
     For people.
+casts_shadows : bool
+    False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
+receives_shadows : bool
+    Whether shadows show on its own surface.
 
 Returns
 -------

@@ -14,6 +14,7 @@ void bind_cubemap(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_material(pybind11::module_& module);
+void bind_shadow(pybind11::module_& module);
 void bind_light(pybind11::module_& module);
 void bind_camera(pybind11::module_& module);
 void bind_probe(pybind11::module_& module);
@@ -56,6 +57,7 @@ PYBIND11_MODULE(_core, module) {
     bind_image(module);
     bind_mesh(module);
     bind_material(module);
+    bind_shadow(module);
     bind_light(module);
     bind_camera(module);
     bind_probe(module);

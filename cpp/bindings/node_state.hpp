@@ -41,16 +41,18 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
     return transform;
 }
 
-/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name)
+/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name,
+/// casts_shadows, receives_shadows); pickles of before there were shadows end with the name.
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
-    return py::make_tuple(
-        std::const_pointer_cast<Mesh>(value.mesh), value.material,
-        parts ? py::object(point_array(parts->position)) : py::none(),
-        parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
-        parts ? py::object(point_array(parts->scale)) : py::none(),
-        parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
-        from_cube_source(value.environment), value.visible, value.in_probes, value.name);
+    return py::make_tuple(std::const_pointer_cast<Mesh>(value.mesh), value.material,
+                          parts ? py::object(point_array(parts->position)) : py::none(),
+                          parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
+                          parts ? py::object(point_array(parts->scale)) : py::none(),
+                          parts ? py::none()
+                                : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
+                          from_cube_source(value.environment), value.visible, value.in_probes,
+                          value.name, value.casts_shadows, value.receives_shadows);
 }
 
 inline NodeValue node_from_state(const py::tuple& state) {
@@ -60,7 +62,9 @@ inline NodeValue node_from_state(const py::tuple& state) {
             to_cube_source(state[6], "environment"),
             state[7].cast<bool>(),
             state[8].cast<bool>(),
-            state[9].cast<std::string>()};
+            state[9].cast<std::string>(),
+            state.size() <= 10 || state[10].cast<bool>(),
+            state.size() <= 11 || state[11].cast<bool>()};
 }
 
 }  // namespace cubecam::bindings

@@ -28,7 +28,25 @@ void add_light(Key& key, const LightValue& light) {
         key.add(point->decay);
     } else if (const auto* sun = std::get_if<DirectionalParameters>(&light.parameters)) {
         key.add(sun->direction);
+    } else if (const auto* spot = std::get_if<SpotParameters>(&light.parameters)) {
+        key.add(spot->position);
+        key.add(spot->direction);
+        key.add(spot->angle);
+        key.add(spot->penumbra);
+        key.add(spot->decay);
     }
+    key.add(light.shadow.has_value());
+}
+
+/// What a node that receives shadows hangs on besides.
+Key key_of(const std::vector<ShadowUse>& shadows) {
+    Key key;
+    for (const ShadowUse& use : shadows) {
+        key.add(use.revision);
+        key.add(use.shadow.radius);
+        key.add(use.shadow.bias);
+    }
+    return key;
 }
 
 }  // namespace
@@ -41,7 +59,9 @@ bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excl
 }
 
 Call::Call(GpuState& gpu, const SceneSnapshot& scene)
-    : gpu_(gpu), scene_(scene), work_(scene.probes.size()) {}
+    : gpu_(gpu), scene_(scene), work_(scene.probes.size()) {
+    gpu_.shadows.check(scene);
+}
 
 const FrozenSource& Call::source_of(const NodeSnapshot& node) const {
     static const FrozenSource none;
@@ -188,7 +208,8 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
     if (const auto* color = std::get_if<glm::vec4>(&scene_.background)) common.add(*color);
     common.add(background_lookup().revision);
     common.add(scene_.lights.size());
-    for (const LightValue& light : scene_.lights) add_light(common, light);
+    for (const LightSnapshot& light : scene_.lights) add_light(common, light.value);
+    const Key shadows = shadows_ ? key_of(*shadows_) : Key();
 
     std::vector<PictureKey> keys(views.size());
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -209,6 +230,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
             key.add(node.mesh->revision());
             key.add(node.material.revision);
             key.add(lookups[planned.node].revision);
+            if (receives_shadows(node)) key.add(shadows);
             for (const PlannedNode::Sight& sight : planned.sights) {
                 keys[sight.view].nodes.push_back({node.id, key, sight.bounds});
             }
@@ -220,6 +242,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
 std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
                                const std::vector<Lookup>& lookups, Tonemap tonemap, Encode encode,
                                std::optional<Budget> budget) {
+    need_shadows(plan);
     std::vector<PictureKey> keys = keys_of(views, plan, lookups, tonemap, encode);
     const Rect whole{0, 0, target.description().width, target.description().height};
     std::vector<std::vector<Rect>> damaged(views.size());
@@ -249,10 +272,12 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     }
     const Lookup sky = background_lookup();
     const auto* color = std::get_if<glm::vec4>(&scene_.background);
-    gpu_.surface.draw({scene_, views, plan, std::move(regions),
-                       color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
-                       [&lookups](std::size_t node) { return lookups[node].texture; }},
-                      target, stats);
+    gpu_.surface.draw(
+        {scene_, views, plan, std::move(regions),
+         color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
+         [&lookups](std::size_t node) { return lookups[node].texture; },
+         shadows_ ? std::span<const ShadowUse>(*shadows_) : std::span<const ShadowUse>()},
+        target, stats);
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (!damaged[v].empty() && target.multisampled()) target.resolve(static_cast<int>(v));
     }
@@ -262,6 +287,25 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
         if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
     }
     return budget ? last : count;
+}
+
+void Call::need_shadows(const DrawPlan& plan) {
+    if (shadows_) return;
+    const auto receives = [this](const PlannedNode& planned) {
+        return receives_shadows(scene_.nodes[planned.node]);
+    };
+    if (std::any_of(plan.opaque.begin(), plan.opaque.end(), receives) ||
+        std::any_of(plan.translucent.begin(), plan.translucent.end(), receives)) {
+        shadows_ = gpu_.shadows.update(scene_, stats);
+    }
+}
+
+Buffer<float> Call::shadow_map(std::size_t light) {
+    shadows_ = gpu_.shadows.update(scene_, stats);
+    const auto before = std::count_if(
+        scene_.lights.begin(), scene_.lights.begin() + static_cast<std::ptrdiff_t>(light),
+        [](const LightSnapshot& other) { return other.value.shadow.has_value(); });
+    return gpu_.shadows.read((*shadows_)[static_cast<std::size_t>(before)]);
 }
 
 void Call::grade(Target& target, Tonemap tonemap, Encode encode) {

@@ -30,6 +30,9 @@ public:
     /// Draws these probes (indices into the snapshot's), due or not, and what they need.
     void force(const std::vector<std::size_t>& probes);
 
+    /// The map of one light (index into the snapshot's), which has a shadow.
+    Buffer<float> shadow_map(std::size_t light);
+
     Stats stats;
 
 private:
@@ -75,12 +78,15 @@ private:
     std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
                                     const std::vector<Lookup>& lookups, Tonemap tonemap,
                                     Encode encode);
+    /// Brings the maps up to date the first time that a node of some plan receives shadows.
+    void need_shadows(const DrawPlan& plan);
     void grade(Target& target, Tonemap tonemap, Encode encode);
     Lookup background_lookup();
 
     GpuState& gpu_;
     const SceneSnapshot& scene_;
     std::vector<std::optional<ProbeWork>> work_;
+    std::optional<std::vector<ShadowUse>> shadows_;  ///< none: not needed so far
 };
 
 }  // namespace cubecam

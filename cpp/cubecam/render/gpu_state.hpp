@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/gpu_cache.hpp"
+#include "cubecam/render/shadow_pass.hpp"
 #include "cubecam/render/surface_pass.hpp"
 #include "cubecam/render/target_store.hpp"
 #include "cubecam/render/weak_cache.hpp"
@@ -24,11 +25,12 @@ struct ProbeState {
 struct GpuState {
     GpuState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
-          targets(cache_bytes) {}
+          shadows(its_context, cache, surface.programs()), targets(cache_bytes) {}
 
     gl::Context& context;
     GpuCache cache;
     SurfacePass surface;
+    ShadowPass shadows;
     TargetStore targets;
     WeakCache<Probe, ProbeState> probes;
 };

@@ -1,5 +1,6 @@
 #include "cubecam/render/programs.hpp"
 
+#include "cubecam/render/shadow_block.hpp"
 #include "cubecam/scene/material.hpp"
 
 #include <array>
@@ -41,9 +42,15 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     define(variant.translucent, "TRANSLUCENT");
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
+    define(variant.cone, "LIGHT_CONE");
     define(variant.dense, "DENSE");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
+    if (variant.shadows > 0) {
+        options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
+        options.defines.emplace_back("SHADOW_UNIT", std::to_string(shadow_unit));
+        options.defines.emplace_back("MAX_SHADOWS", std::to_string(max_shadows));
+    }
     return surfaces_.emplace(variant, gl::Program(*gl_, {"surface.vert", "surface.frag"}, options))
         .first->second;
 }
@@ -51,6 +58,11 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
 const gl::Program& Programs::skybox() {
     if (!skybox_) skybox_ = gl::Program(*gl_, {"skybox.vert", "skybox.frag"}, layer_options());
     return skybox_;
+}
+
+const gl::Program& Programs::shadow() {
+    if (!shadow_) shadow_ = gl::Program(*gl_, {"shadow.vert", "shadow.frag"});
+    return shadow_;
 }
 
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {

@@ -25,6 +25,8 @@ struct SurfaceVariant {
     bool outputs = false;
     int lights = 0;  ///< unrolled so many times; -1: a loop
     bool decay = false;
+    bool cone = false;  ///< some light is a spot light
+    int shadows = 0;    ///< so many lights, the first ones, have shadows that it shows
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
@@ -36,6 +38,7 @@ public:
 
     const gl::Program& surface(const SurfaceVariant& variant);
     const gl::Program& skybox();
+    const gl::Program& shadow();
     const gl::Program& grade(Tonemap tonemap, Encode encode);
 
 private:
@@ -45,7 +48,7 @@ private:
     bool layered_;
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
-    gl::Program skybox_;
+    gl::Program skybox_, shadow_;
 };
 
 }  // namespace cubecam

@@ -5,6 +5,7 @@
 #include "cubecam/render/gpu_cache.hpp"
 #include "cubecam/render/options.hpp"
 #include "cubecam/render/programs.hpp"
+#include "cubecam/render/shadow_block.hpp"
 #include "cubecam/render/target.hpp"
 #include "cubecam/render/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
@@ -34,7 +35,12 @@ struct PassInput {
     std::vector<Region> regions;  ///< by view, ascending; all other pixels stay as they are
     BackgroundSource background;
     std::function<GLuint(std::size_t node)> cube_of;  ///< the cube texture a node looks up; 0: none
+    /// Of the lights that have one, in the scene's order; empty: no node of the plan receives any.
+    std::span<const ShadowUse> shadows;
 };
+
+/// Whether shadows show on a node: its material asks the lights.
+bool receives_shadows(const NodeSnapshot& node);
 
 /// Whether all views of a mesh go into one draw call.
 enum class Layering { never, where_faster, always };
@@ -79,7 +85,8 @@ private:
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
     bool use_layers(const PassInput& input, const Prepared& prepared, const Rect& whole) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
-    void upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin);
+    void upload_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin);
+    void upload_shadows(std::span<const ShadowUse> shadows, const glm::dvec3& origin);
 
     const gl::Context* context_;
     const GladGLContext* gl_;
@@ -87,10 +94,12 @@ private:
     Programs programs_;
     Layering layering_;
     gl::Texture black_;  ///< a cube of one texel: what is reflected where there is no environment
-    gl::Buffer instances_, blocks_, lights_;
+    gl::Buffer instances_, blocks_, lights_, shadows_;
     glm::vec3 ambient_{1.0F};
     std::size_t light_count_ = 0;
+    std::size_t shadow_count_ = 0;  ///< of the lights, which come first
     bool light_decay_ = false;
+    bool light_cone_ = false;
 };
 
 }  // namespace cubecam

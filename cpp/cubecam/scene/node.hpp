@@ -40,6 +40,8 @@ struct NodeValue {
     bool visible = true;
     bool in_probes = true;
     std::string name;
+    bool casts_shadows = true;     ///< false: nor does anything below it
+    bool receives_shadows = true;  ///< of its own surface
 };
 
 /// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the

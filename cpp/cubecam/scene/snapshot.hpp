@@ -36,6 +36,14 @@ struct NodeSnapshot {
     bool in_probes;            ///< of the node and all above it
     bool translucent;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
+    bool casts_shadows;                   ///< opaque, and so are it and all above it set
+    bool receives_shadows;
+};
+
+/// A light as it was at the moment of the snapshot; `object` names its shadow map.
+struct LightSnapshot {
+    std::shared_ptr<Light> object;
+    LightValue value;
 };
 
 struct ProbeSnapshot {
@@ -50,7 +58,7 @@ struct SceneSnapshot {
     FrozenSource environment;
     std::variant<glm::vec4, FrozenCube> background;
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in order of id
-    std::vector<LightValue> lights;
+    std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
 };

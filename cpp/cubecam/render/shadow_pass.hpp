@@ -1,0 +1,68 @@
+#pragma once
+
+#include "cubecam/gl/context.hpp"
+#include "cubecam/render/draw_plan.hpp"
+#include "cubecam/render/gpu_cache.hpp"
+#include "cubecam/render/key.hpp"
+#include "cubecam/render/options.hpp"
+#include "cubecam/render/programs.hpp"
+#include "cubecam/render/shadow_block.hpp"
+#include "cubecam/render/target.hpp"
+#include "cubecam/render/weak_cache.hpp"
+#include "cubecam/scene/light.hpp"
+#include "cubecam/scene/pixels.hpp"
+#include "cubecam/scene/snapshot.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace cubecam {
+
+/// Depth alone, of all that casts shadows, as each light sees it.
+///
+/// A map belongs to the light and to the scene, not to a picture: the same serves frames, captures
+/// and probes. A layer is drawn again only when its key differs.
+class ShadowPass {
+public:
+    ShadowPass(const gl::Context& context, GpuCache& cache, Programs& programs);
+
+    /// Whether the lights' shadows are within the driver's limits.
+    /// @throws std::invalid_argument naming the limit.
+    void check(const SceneSnapshot& scene) const;
+
+    /// Brings the maps of all lights that have one up to date, in the scene's order.
+    std::vector<ShadowUse> update(const SceneSnapshot& scene, Stats& stats);
+
+    /// See Renderer::shadow_map.
+    Buffer<float> read(const ShadowUse& use);
+
+    void sweep() { maps_.sweep(); }
+
+private:
+    struct Map {
+        int size = 0;
+        gl::Texture depth;
+        std::optional<Layers> layers;
+        std::vector<std::optional<Key>>
+            keys;  ///< of what each layer holds; none: not to be trusted
+        std::uint64_t revision = 0;
+    };
+
+    ShadowUse update(const SceneSnapshot& scene, const LightSnapshot& light, Stats& stats);
+    Map make_map(int size, std::size_t layers) const;
+    void draw_layer(const SceneSnapshot& scene, const ShadowView& view, const DrawPlan& plan,
+                    std::size_t layer, Map& map, Stats& stats);
+
+    const gl::Context* context_;
+    const GladGLContext* gl_;
+    GpuCache* cache_;
+    Programs* programs_;
+    int largest_;
+    std::size_t most_;
+    gl::Buffer instances_;
+    WeakCache<Light, Map> maps_;
+};
+
+}  // namespace cubecam
