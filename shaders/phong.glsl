@@ -1,6 +1,7 @@
 #ifdef MATERIAL_PHONG
 // B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975, with white highlights.
 // material[0]: ka * color * ambient light, shininess. material[1]: kd * color, ks.
+#if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
 vec3 light_answer(Surface surface, int index) {
     vec4 place = light_position(index);
     vec4 light = light_color(index);
@@ -22,6 +23,7 @@ vec3 light_answer(Surface surface, int index) {
     answer *= light_visibility(index, surface.position, surface.normal);
     return answer * light.rgb;
 }
+#endif
 
 vec3 shade(Surface surface) {
     vec3 result = material[0].rgb * surface.tint;

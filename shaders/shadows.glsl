@@ -83,38 +83,36 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     float towards = min(dot(plane, ray), -0.02 * length(ray));
     vec2 slope = scale * plane.xy / (towards * map.lens.z);
 
-    // What float arithmetic and vertices snapped to 1/256 texel may be off; and some of a texel's width, since the
-    // surface beside this triangle is another.
+    // Some of a texel's width off the surface, since what lies beside this triangle is another; and what float
+    // arithmetic and vertices snapped to 1/256 texel may be off.
     float width = 1.0 / (map.lens.z * inverse_z);
     float half_width = map.filter_.x + 0.5;
-    float bias = map.filter_.y + 0.15 * half_width * width;
-    bias += 1e-6 * (length(ray) + length(position) + abs(z));
+    float bias = (0.25 + 0.25 * half_width) * width / (abs(towards) * inverse_z);
+    bias += map.filter_.y + 1e-6 * (length(ray) + length(position) + abs(z));
     float bias_depth = scale * bias * (parallel ? 1.0 : inverse_z / max(z - bias, 0.1 * z));
     bias_depth += (abs(slope.x) + abs(slope.y)) / 128.0;
 
-    // A box, 2 * radius + 1 texels wide, so the share is continuous in where the point lies.
-    int most = int(map.lens.w) - 1;
+    // A box, 2 * radius + 1 texels wide, so the share is continuous in where the point lies. Counted from its first
+    // texel: numbers stay small, and their digits go into the weights.
     vec2 low = texel - half_width;
-    vec2 high = texel + half_width;
-    ivec2 first = ivec2(floor(low));
+    vec2 first = floor(low);
+    vec2 start = low - first;
+    vec2 end = start + 2.0 * half_width;
     int count = int(ceil(2.0 * map.filter_.x)) + 2;
     float lit = 0.0;
     for (int j = 0; j < count; ++j) {
-        float y = float(first.y + j);
         float row = 0.0;
         for (int i = 0; i < count; ++i) {
-            float x = float(first.x + i);
-            float there = dot(vec2(x, y) + 0.5 - texel, slope);
+            vec2 offset = vec2(i, j) + 0.5 - start - half_width;
             // Where the plane falls away no more is asked for than here: a wall that meets the surface there
             // would shadow it.
-            float limit = max(depth + max(there, 0.0) + bias_depth, 0.0);
-            ivec2 at = clamp(ivec2(first.x + i, first.y + j), ivec2(0), ivec2(most));
+            float limit = max(depth + max(dot(offset, slope), 0.0) + bias_depth, 0.0);
+            ivec2 at = ivec2(clamp(first + vec2(i, j), 0.0, map.lens.w - 1.0));
             float held = texelFetch(u_shadow_maps[index], ivec3(at, layer), 0).r;
-            float share = clamp(min(x + 1.0, high.x) - max(x, low.x), 0.0, 1.0);
-            row += held <= limit ? share : 0.0;
+            row += held <= limit ? max(min(float(i) + 1.0, end.x) - max(float(i), start.x), 0.0) : 0.0;
         }
-        lit += row * clamp(min(y + 1.0, high.y) - max(y, low.y), 0.0, 1.0);
+        lit += row * max(min(float(j) + 1.0, end.y) - max(float(j), start.y), 0.0);
     }
-    return lit / (4.0 * half_width * half_width);
+    return min(lit / (4.0 * half_width * half_width), 1.0);
 #endif
 }
