@@ -189,6 +189,30 @@ def test_a_ball_has_no_stripes(renderer, kind, mesh, size):
     np.testing.assert_allclose(got, picture(renderer, scene, view), atol=4e-3)
 
 
+@kinds
+def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
+    """As leaves and grass have them: where light comes from behind, they are lit as their normals say."""
+    corners = np.array([(-1, 0, 0), (1, 0, 0), (1, 2, 0), (-1, 2, 0)], float)
+    card = cc.Mesh(corners, [(0, 1, 2), (0, 2, 3)], normals=np.tile([0, 1.0, 0.2], (4, 1)))
+    scene = cc.Scene()
+    scene.add(card, cc.PhongMaterial())
+    way = np.array([0.3, 2, -0.6])
+    shadow = cc.Shadow(256)
+    light = scene.add(
+        {
+            "directional": cc.DirectionalLight(-way, shadow=shadow),
+            "spot": cc.SpotLight(way + (0, 1, 0), -way, angle=40, shadow=shadow),
+            "point": cc.PointLight(way + (0, 1, 0), shadow=shadow),
+        }[kind]
+    )
+    view = perspective((0.5, 1.5, 4), (0, 1, 0), size=(48, 36))
+    got = picture(renderer, scene, view)
+    light.shadow = None
+    plain = picture(renderer, scene, view)
+    assert (plain[..., 0] > 0.3).any()
+    np.testing.assert_allclose(got, plain, atol=1e-5)
+
+
 # A shadow begins where its caster stands.
 
 

@@ -48,6 +48,7 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant) {
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
     if (variant.shadows > 0) {
         options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
+        options.defines.emplace_back("SHADOW_KINDS", std::to_string(variant.shadow_kinds) + "u");
         options.defines.emplace_back("SHADOW_UNIT", std::to_string(shadow_unit));
         options.defines.emplace_back("MAX_SHADOWS", std::to_string(max_shadows));
     }

@@ -5,6 +5,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 
 namespace cubecam {
@@ -27,6 +28,7 @@ struct SurfaceVariant {
     bool decay = false;
     bool cone = false;  ///< some light is a spot light
     int shadows = 0;    ///< so many lights, the first ones, have shadows that it shows
+    std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each, two bits from the lowest on
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };

@@ -13,8 +13,7 @@ ShadowBlock make_shadow_block(const ShadowUse& use, const glm::dvec3& origin) {
         block.rows[row] = glm::vec4(axis, glm::dot(axis, origin - place));
     }
     block.lens = glm::vec4(view.offset, view.scale, view.texels, use.shadow.size);
-    block.filter =
-        glm::vec4(use.shadow.radius, use.shadow.bias, static_cast<float>(view.kind), 0.0F);
+    block.filter = glm::vec4(use.shadow.radius, use.shadow.bias, 0.0F, 0.0F);
     return block;
 }
 

@@ -17,6 +17,22 @@ namespace {
 constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
 constexpr float nothing = 0.0F;  // depth is reversed
 
+void add_caster(Key& key, const NodeSnapshot& node) {
+    key.add(node.world);
+    key.add(node.mesh->revision());
+}
+
+/// Cheaper than the layers' keys, which want every caster culled against every view.
+Key whole_key(const SceneSnapshot& scene, const ShadowView& view) {
+    Key key;
+    key.add(view.views.front().view_projection);
+    key.add(view.views.front().position);
+    for (const NodeSnapshot& node : scene.nodes) {
+        if (node.casts_shadows) add_caster(key, node);
+    }
+    return key;
+}
+
 std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
                             const DrawPlan& plan) {
     std::vector<Key> keys(view.views.size());
@@ -27,8 +43,7 @@ std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
     for (const PlannedNode& planned : plan.opaque) {
         const NodeSnapshot& node = scene.nodes[planned.node];
         for (const PlannedNode::Sight& sight : planned.sights) {
-            keys[sight.view].add(node.world);
-            keys[sight.view].add(node.mesh->revision());
+            add_caster(keys[sight.view], node);
         }
     }
     return keys;
@@ -85,23 +100,30 @@ ShadowUse ShadowPass::update(const SceneSnapshot& scene, const LightSnapshot& li
         map = {};  // its memory first
         map = make_map(size, layers);
     }
+    Key whole = whole_key(scene, view);
+    if (map.whole != whole) draw(scene, view, map, stats);
+    map.whole = std::move(whole);
+    return {std::move(view), *light.value.shadow, map.depth.id(), map.revision};
+}
+
+void ShadowPass::draw(const SceneSnapshot& scene, const ShadowView& view, Map& map, Stats& stats) {
+    map.whole.reset();
+    const int size = map.size;
     const DrawPlan plan = make_plan(scene, view.views, size, size,
                                     [](const NodeSnapshot& node) { return node.casts_shadows; });
     std::vector<Key> keys = layer_keys(scene, view, plan);
-    bool drawn = false;
-    for (std::size_t layer = 0; layer < layers; ++layer) {
+    std::size_t drawn = 0;
+    for (std::size_t layer = 0; layer < keys.size(); ++layer) {
         if (map.keys[layer] == keys[layer]) continue;
         map.keys[layer].reset();
         draw_layer(scene, view, plan, layer, map, stats);
-        map.keys[layer] = std::move(keys[layer]);
-        ++stats.shadow_views_drawn;
-        drawn = true;
+        ++drawn;
     }
-    if (drawn) {
-        gl::check_gl(*gl_, "drawing a shadow map");
-        map.revision = next_revision();
-    }
-    return {std::move(view), *light.value.shadow, map.depth.id(), map.revision};
+    if (drawn == 0) return;
+    gl::check_gl(*gl_, "drawing a shadow map");
+    for (std::size_t layer = 0; layer < keys.size(); ++layer) map.keys[layer] = keys[layer];
+    map.revision = next_revision();
+    stats.shadow_views_drawn += static_cast<std::int64_t>(drawn);
 }
 
 ShadowPass::Map ShadowPass::make_map(int size, std::size_t layers) const {

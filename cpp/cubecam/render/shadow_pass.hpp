@@ -46,12 +46,15 @@ private:
         gl::Texture depth;
         std::optional<Layers> layers;
         std::vector<std::optional<Key>>
-            keys;  ///< of what each layer holds; none: not to be trusted
+            keys;                  ///< of what each layer holds; none: not to be trusted
+        std::optional<Key> whole;  ///< of the lens and all casters: where it is equal, so are all
         std::uint64_t revision = 0;
     };
 
     ShadowUse update(const SceneSnapshot& scene, const LightSnapshot& light, Stats& stats);
     Map make_map(int size, std::size_t layers) const;
+    /// Draws the layers that differ.
+    void draw(const SceneSnapshot& scene, const ShadowView& view, Map& map, Stats& stats);
     void draw_layer(const SceneSnapshot& scene, const ShadowView& view, const DrawPlan& plan,
                     std::size_t layer, Map& map, Stats& stats);
 

@@ -12,7 +12,7 @@ namespace cubecam {
 /// How a light sees what casts shadows: the views of its map's layers, and what a lookup needs to
 /// find a point in them.
 struct ShadowView {
-    enum class Kind { parallel, single, cube };
+    enum class Kind { parallel = 0, single = 1, cube = 2 };  ///< as in shaders/shadows.glsl
 
     Kind kind = Kind::single;
     std::vector<View> views;  ///< one, or six in the order of a cube's faces

@@ -120,9 +120,11 @@ void SurfacePass::upload_lights(std::span<const LightSnapshot> lights, const glm
 }
 
 void SurfacePass::upload_shadows(std::span<const ShadowUse> shadows, const glm::dvec3& origin) {
+    shadow_kinds_ = 0;
     if (shadows.empty()) return;
     std::vector<ShadowBlock> blocks;
     for (const ShadowUse& shadow : shadows) {
+        shadow_kinds_ |= static_cast<std::uint32_t>(shadow.view.kind) << (2 * blocks.size());
         gl_->BindTextureUnit(shadow_unit + static_cast<GLuint>(blocks.size()), shadow.texture);
         blocks.push_back(make_shadow_block(shadow, origin));
     }
@@ -321,7 +323,10 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
         variant.lights = light_count_ <= flat_lights ? static_cast<int>(light_count_) : -1;
         variant.decay = light_decay_;
         variant.cone = light_cone_;
-        if (receives_shadows(node)) variant.shadows = static_cast<int>(shadow_count_);
+        if (receives_shadows(node)) {
+            variant.shadows = static_cast<int>(shadow_count_);
+            variant.shadow_kinds = shadow_kinds_;
+        }
     } else if (const auto* mirror = std::get_if<MirrorParameters>(&material.parameters)) {
         variant.fresnel = mirror->fresnel.has_value();
     } else {

@@ -10,6 +10,7 @@
 #include "cubecam/render/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -97,7 +98,8 @@ private:
     gl::Buffer instances_, blocks_, lights_, shadows_;
     glm::vec3 ambient_{1.0F};
     std::size_t light_count_ = 0;
-    std::size_t shadow_count_ = 0;  ///< of the lights, which come first
+    std::size_t shadow_count_ = 0;    ///< of the lights, which come first
+    std::uint32_t shadow_kinds_ = 0;  ///< see SurfaceVariant
     bool light_decay_ = false;
     bool light_cone_ = false;
 };
