@@ -1,9 +1,10 @@
-// Lights that have a direction; ambient ones are in the material's own term already.
+// Lights that have a direction; ambient ones are in the material's own term already. Those with a shadow come first.
 const int MAX_LIGHTS = 256;
 
 struct Light {
     vec4 position;  // xyz: where it is, from u_origin (w = 1), or the direction towards it (w = 0); world
     vec4 color;     // rgb: linear colour times intensity; a: decay
+    vec4 cone;      // spot lights: xyz: the way they point, stretched; w: see cone_share. Others: all 0, but w of 1
 };
 
 layout(std140, binding = 1) uniform Lights {
@@ -11,3 +12,9 @@ layout(std140, binding = 1) uniform Lights {
     vec4 u_ambient;   // rgb: 1, the models' own ambient light, plus the scene's
     Light u_lights[MAX_LIGHTS];
 };
+
+// How much of a spot light goes a way (unit length, from the light): 0 outside its cone, 1 where the penumbra ends.
+float cone_share(vec4 cone, vec3 way) {
+    float t = clamp(dot(cone.xyz, way) + cone.w, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}

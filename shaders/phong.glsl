@@ -1,7 +1,10 @@
 #ifdef MATERIAL_PHONG
 // B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975, with white highlights.
 // material[0]: ka * color * ambient light, shininess. material[1]: kd * color, ks.
-vec3 light_answer(Surface surface, vec4 place, vec4 light) {
+#if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
+vec3 light_answer(Surface surface, int index) {
+    vec4 place = light_position(index);
+    vec4 light = light_color(index);
     vec3 to_light = place.xyz - surface.from_origin * place.w;
     float distance_squared = dot(to_light, to_light);
     to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface shall not be NaN
@@ -14,8 +17,13 @@ vec3 light_answer(Surface surface, vec4 place, vec4 light) {
 #ifdef LIGHT_DECAY
     answer *= place.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.a);
 #endif
+#ifdef LIGHT_CONE
+    answer *= cone_share(light_cone(index), -to_light);
+#endif
+    answer *= light_visibility(index, surface.from_origin, surface.normal);
     return answer * light.rgb;
 }
+#endif
 
 vec3 shade(Surface surface) {
     vec3 result = material[0].rgb * surface.tint;
@@ -25,7 +33,7 @@ vec3 shade(Surface surface) {
     int count = u_counts.x;
 #endif
 #if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
-    for (int i = 0; i < count; ++i) result += light_answer(surface, light_position(i), light_color(i));
+    for (int i = 0; i < count; ++i) result += light_answer(surface, i);
 #endif
     return result;
 }

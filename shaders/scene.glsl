@@ -34,7 +34,7 @@ int light_count() { return u_counts.x; }
 
 struct LightSample {
     vec3 direction;  // world, unit length, from the surface to the light
-    vec3 radiance;   // linear: colour, intensity and falloff
+    vec3 radiance;   // linear: colour, intensity, falloff, the cone of a spot light, what shadows leave of it
 };
 
 // What light number `index` sends to a surface; the surface's angle to it does not count yet.
@@ -43,8 +43,9 @@ LightSample sample_light(int index, Surface surface) {
     vec3 to_light = light.position.xyz - surface.from_origin * light.position.w;
     float distance_squared = dot(to_light, to_light);
     vec3 direction = to_light * inversesqrt(max(distance_squared, 1e-36));
-    float falloff = light.position.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.color.a);
-    return LightSample(direction, light.color.rgb * falloff);
+    float share = light.position.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.color.a);
+    share *= cone_share(light.cone, -direction) * light_visibility(index, surface.from_origin, surface.normal);
+    return LightSample(direction, light.color.rgb * share);
 }
 
 // As PhongMaterial has it.

@@ -19,6 +19,7 @@ struct Surface {
 };
 
 #include "environment.glsl"
+#include "shadows.glsl"
 #include "basic.glsl"
 #include "phong.glsl"
 #include "mirror.glsl"
@@ -50,6 +51,10 @@ void main() {
     surface.normal = length_squared > 0.0 ? v_normal * inversesqrt(length_squared) : vec3(0.0);
 #ifdef DOUBLE_SIDED
     if (!gl_FrontFacing) surface.normal = -surface.normal;
+#endif
+#ifdef SHADOW_COUNT
+    float side = dot(surface.normal, v_normal) < 0.0 ? -1.0 : 1.0;
+    find_facet(v_position, side * v_normal, side * v_height);
 #endif
     surface.incident = v_eye.w == 0.0 ? normalize(v_position - v_eye.xyz) : v_eye.xyz;
     vec4 tint = vec4(1.0);

@@ -6,6 +6,7 @@
 #define material u_material
 #define light_position(i) u_lights[i].position
 #define light_color(i) u_lights[i].color
+#define light_cone(i) u_lights[i].cone
 #else
 flat STAGE vec4 v_material[2];
 #define material v_material
@@ -13,17 +14,25 @@ flat STAGE vec4 v_material[2];
 #if LIGHT_COUNT > 0
 flat STAGE vec4 v_light_position[LIGHT_COUNT];
 flat STAGE vec4 v_light_color[LIGHT_COUNT];
+#ifdef LIGHT_CONE
+flat STAGE vec4 v_light_cone[LIGHT_COUNT];
+#endif
 #endif
 #define light_position(i) v_light_position[i]
 #define light_color(i) v_light_color[i]
+#define light_cone(i) v_light_cone[i]
 #else
 #define light_position(i) u_lights[i].position
 #define light_color(i) u_lights[i].color
+#define light_cone(i) u_lights[i].cone
 #endif
 #endif
 
 STAGE vec3 v_position;  // world, from u_origin
 STAGE vec3 v_normal;    // world, any length
+#ifdef SHADOW_COUNT
+STAGE float v_height;  // dot(v_position, v_normal) at the corners
+#endif
 flat STAGE vec4 v_eye;  // see view.glsl
 #if defined(HAS_MAP) || defined(MATERIAL_SHADER)
 STAGE vec2 v_uv;

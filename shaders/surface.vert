@@ -35,6 +35,9 @@ void main() {
     route_to_layer();
     v_position = position_world.xyz;
     v_normal = mat3(u_normal_matrix) * a_normal;
+#ifdef SHADOW_COUNT
+    v_height = dot(v_position, v_normal);
+#endif
     v_eye = a_view_eye;
 #ifndef DENSE
     v_material = u_material;
@@ -59,6 +62,9 @@ void main() {
     for (int i = 0; i < LIGHT_COUNT; ++i) {
         v_light_position[i] = u_lights[i].position;
         v_light_color[i] = u_lights[i].color;
+#ifdef LIGHT_CONE
+        v_light_cone[i] = u_lights[i].cone;
+#endif
     }
 #endif
 #endif

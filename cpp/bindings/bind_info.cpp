@@ -23,6 +23,9 @@ void bind_stats(py::module_& m) {
                       "int: probes of which at least one face was drawn.")
         .def_readonly("textures_updated", &Stats::textures_updated,
                       "int: render textures that were drawn.")
+        .def_readonly("shadow_views_drawn", &Stats::shadow_views_drawn,
+                      "int: layers of shadow maps drawn: one for each directional and spot light, "
+                      "six for a point light.")
         .def_readonly("milliseconds", &Stats::milliseconds,
                       "float: the whole call, reading back included.")
         .def("__repr__", [](const Stats& s) {
@@ -32,6 +35,7 @@ void bind_stats(py::module_& m) {
                    " triangles=" + std::to_string(s.triangles) +
                    " probes_updated=" + std::to_string(s.probes_updated) +
                    " textures_updated=" + std::to_string(s.textures_updated) +
+                   " shadow_views_drawn=" + std::to_string(s.shadow_views_drawn) +
                    " milliseconds=" + std::to_string(s.milliseconds) + ">";
         });
 }

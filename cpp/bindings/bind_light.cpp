@@ -1,11 +1,14 @@
 // cubecam.Light and the lights below it.
 #include "objects.hpp"
+#include "shadow_like.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/scene/light.hpp"
 
 #include <pybind11/pybind11.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace cubecam::bindings {
@@ -29,6 +32,8 @@ intensity : float
     Times color, not negative.
 decay : float
     The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+shadow : Shadow, bool or None
+    None: it shines through everything. True: ``Shadow()``.
 
 Raises
 ------
@@ -44,6 +49,42 @@ Examples
 PointLight(position=(3, 4, 3), color=(1, 1, 1), intensity=2, decay=0)
 )doc";
 
+constexpr const char* spot_doc =
+    R"doc(Light from one point into a cone, as three.js and glTF have it.
+
+Parameters
+----------
+position : array_like (3,)
+    World space.
+direction : array_like (3,)
+    Of the cone's axis, the way the light travels, in world space, of any length but 0; kept
+    normalised. Straight down by default.
+angle : float
+    From the axis to the cone's edge, degrees: above 0, below 90. Beyond it there is no light.
+penumbra : float
+    Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
+    it fades from the axis on. Between the cosines of the two angles it is smoothstep.
+color : array_like (3,)
+    Linear RGB, not negative.
+intensity : float
+    Times color, not negative.
+decay : float
+    The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+shadow : Shadow, bool or None
+    None: it shines through everything. True: ``Shadow()``.
+
+Raises
+------
+ValueError
+    For a direction of no length, or a value out of its range or not finite.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.SpotLight(position=(0, 3, 0), angle=20, penumbra=.5)
+SpotLight(position=(0, 3, 0), direction=(0, -1, 0), angle=20, penumbra=0.5, color=(1, 1, 1), intensity=1, decay=0)
+)doc";
+
 constexpr const char* directional_doc = R"doc(Light from far away, such as the sun's.
 
 Parameters
@@ -55,6 +96,8 @@ color : array_like (3,)
     Linear RGB, not negative.
 intensity : float
     Times color, not negative.
+shadow : Shadow, bool or None
+    None: it shines through everything. True: ``Shadow()``.
 
 Raises
 ------
@@ -90,74 +133,145 @@ AmbientLight(color=(1, 1, 1), intensity=0.5)
 )doc";
 
 std::string light_text(const LightValue& value) {
-    return "color=" + tuple_text(value.color) + ", intensity=" + describe(value.intensity) + ")";
+    return "color=" + tuple_text(value.color) + ", intensity=" + describe(value.intensity);
 }
 
+/// Its end, and a shadow where there is one.
+std::string shadow_text(const LightValue& value) {
+    if (!value.shadow) return ")";
+    return ", shadow=" + py::repr(from_shadow(value.shadow)).cast<std::string>() + ")";
+}
+
+template <class Bound>
+void bind_shadow_of(Bound& light) {
+    light.def_property(
+        "shadow", [](const Light& self) { return from_shadow(self.value().shadow); },
+        [](Light& self, const ShadowLike& value) {
+            const std::optional<Shadow> shadow = to_shadow(value);
+            self.edit([&](LightValue& next) { next.shadow = shadow; });
+        },
+        "Shadow or None: None shines through everything; True sets ``Shadow()``.");
+}
+
+template <class Parameters, class Field>
+void bind_number(Class<LightOf<Parameters>, Light>& light, const char* name,
+                 Field Parameters::* member, const char* doc) {
+    light.def_property(
+        name, [member](const LightOf<Parameters>& self) { return self.parameters().*member; },
+        [member](LightOf<Parameters>& self, Field value) {
+            self.edit_parameters([&](Parameters& p) { p.*member = value; });
+        },
+        doc);
+}
+
+template <class Parameters>
+void bind_vector(Class<LightOf<Parameters>, Light>& light, const char* name,
+                 glm::dvec3 Parameters::* member, const char* doc) {
+    light.def_property(
+        name,
+        [member](const LightOf<Parameters>& self) {
+            return point_array(self.parameters().*member);
+        },
+        [member, name](LightOf<Parameters>& self, const ArrayLike& value) {
+            const glm::dvec3 vector = to_point(value, name);
+            self.edit_parameters([&](Parameters& p) { p.*member = vector; });
+        },
+        doc);
+}
+
+constexpr const char* position_text = "ndarray (3,) float64: world space, read-only.";
+constexpr const char* direction_text =
+    "ndarray (3,) float64: the way the light travels, unit length, read-only.";
+constexpr const char* decay_text = "float: the light falls with distance**-decay.";
+
 void bind_point(py::module_& module) {
-    declare<PointLight, Light>(module, "PointLight", point_doc)
-        .def(py::init([](const ArrayLike& position, const ArrayLike& color, float intensity,
-                         double decay) {
-                 return std::make_shared<PointLight>(
-                     PointParameters{to_point(position, "position"), decay}, to_rgb(color, "color"),
-                     intensity);
-             }),
-             py::arg("position") = py::make_tuple(0, 0, 0),
-             py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
-             py::arg("decay") = 0.0)
-        .def_property(
-            "position",
-            [](const PointLight& self) { return point_array(self.parameters().position); },
-            [](PointLight& self, const ArrayLike& value) {
-                const glm::dvec3 position = to_point(value, "position");
-                self.edit_parameters([&](PointParameters& p) { p.position = position; });
-            },
-            "ndarray (3,) float64: world space, read-only.")
-        .def_property(
-            "decay", [](const PointLight& self) { return self.parameters().decay; },
-            [](PointLight& self, double value) {
-                self.edit_parameters([&](PointParameters& p) { p.decay = value; });
-            },
-            "float: the light falls with distance**-decay.")
-        .def("__repr__",
-             [](const PointLight& self) {
-                 const auto p = self.parameters();
-                 std::string text = light_text(self.value());
-                 text.pop_back();
-                 return "PointLight(position=" + tuple_text(p.position) + ", " + text +
-                        ", decay=" + describe(p.decay) + ")";
-             })
-        .def("__reduce__", [](const py::object& self) {
-            return reduced(self, py::make_tuple(self.attr("position"), self.attr("color"),
-                                                self.attr("intensity"), self.attr("decay")));
-        });
+    auto light = declare<PointLight, Light>(module, "PointLight", point_doc);
+    light.def(py::init([](const ArrayLike& position, const ArrayLike& color, float intensity,
+                          double decay, const ShadowLike& shadow) {
+                  return std::make_shared<PointLight>(
+                      PointParameters{to_point(position, "position"), decay},
+                      to_rgb(color, "color"), intensity, to_shadow(shadow));
+              }),
+              py::arg("position") = py::make_tuple(0, 0, 0),
+              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
+              py::arg("decay") = 0.0, py::arg("shadow") = py::none());
+    bind_vector(light, "position", &PointParameters::position, position_text);
+    bind_number(light, "decay", &PointParameters::decay, decay_text);
+    bind_shadow_of(light);
+    light.def("__repr__", [](const PointLight& self) {
+        const LightValue value = self.value();
+        const auto& p = std::get<PointParameters>(value.parameters);
+        return "PointLight(position=" + tuple_text(p.position) + ", " + light_text(value) +
+               ", decay=" + describe(p.decay) + shadow_text(value);
+    });
+    light.def("__reduce__", [](const py::object& self) {
+        return reduced(self, py::make_tuple(self.attr("position"), self.attr("color"),
+                                            self.attr("intensity"), self.attr("decay"),
+                                            self.attr("shadow")));
+    });
+}
+
+void bind_spot(py::module_& module) {
+    auto light = declare<SpotLight, Light>(module, "SpotLight", spot_doc);
+    light.def(py::init([](const ArrayLike& position, const ArrayLike& direction, double angle,
+                          double penumbra, const ArrayLike& color, float intensity, double decay,
+                          const ShadowLike& shadow) {
+                  return std::make_shared<SpotLight>(
+                      SpotParameters{to_point(position, "position"),
+                                     to_point(direction, "direction"), angle, penumbra, decay},
+                      to_rgb(color, "color"), intensity, to_shadow(shadow));
+              }),
+              py::arg("position") = py::make_tuple(0, 0, 0),
+              py::arg("direction") = py::make_tuple(0, -1, 0), py::arg("angle") = 30.0,
+              py::arg("penumbra") = 0.0, py::arg("color") = py::make_tuple(1, 1, 1),
+              py::arg("intensity") = 1.0, py::arg("decay") = 0.0, py::arg("shadow") = py::none());
+    bind_vector(light, "position", &SpotParameters::position, position_text);
+    bind_vector(light, "direction", &SpotParameters::direction, direction_text);
+    bind_number(light, "angle", &SpotParameters::angle,
+                "float: from the axis to the cone's edge, degrees.");
+    bind_number(light, "penumbra", &SpotParameters::penumbra,
+                "float: share of the angle over which the light fades.");
+    bind_number(light, "decay", &SpotParameters::decay, decay_text);
+    bind_shadow_of(light);
+    light.def("__repr__", [](const SpotLight& self) {
+        const LightValue value = self.value();
+        const auto& p = std::get<SpotParameters>(value.parameters);
+        return "SpotLight(position=" + tuple_text(p.position) +
+               ", direction=" + tuple_text(p.direction) + ", angle=" + describe(p.angle) +
+               ", penumbra=" + describe(p.penumbra) + ", " + light_text(value) +
+               ", decay=" + describe(p.decay) + shadow_text(value);
+    });
+    light.def("__reduce__", [](const py::object& self) {
+        return reduced(self, py::make_tuple(self.attr("position"), self.attr("direction"),
+                                            self.attr("angle"), self.attr("penumbra"),
+                                            self.attr("color"), self.attr("intensity"),
+                                            self.attr("decay"), self.attr("shadow")));
+    });
 }
 
 void bind_directional(py::module_& module) {
-    declare<DirectionalLight, Light>(module, "DirectionalLight", directional_doc)
-        .def(py::init([](const ArrayLike& direction, const ArrayLike& color, float intensity) {
-                 return std::make_shared<DirectionalLight>(
-                     DirectionalParameters{to_point(direction, "direction")},
-                     to_rgb(color, "color"), intensity);
-             }),
-             py::arg("direction") = py::make_tuple(0, -1, 0),
-             py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0)
-        .def_property(
-            "direction",
-            [](const DirectionalLight& self) { return point_array(self.parameters().direction); },
-            [](DirectionalLight& self, const ArrayLike& value) {
-                const glm::dvec3 direction = to_point(value, "direction");
-                self.edit_parameters([&](DirectionalParameters& p) { p.direction = direction; });
-            },
-            "ndarray (3,) float64: the way the light travels, unit length, read-only.")
-        .def("__repr__",
-             [](const DirectionalLight& self) {
-                 return "DirectionalLight(direction=" + tuple_text(self.parameters().direction) +
-                        ", " + light_text(self.value());
-             })
-        .def("__reduce__", [](const py::object& self) {
-            return reduced(self, py::make_tuple(self.attr("direction"), self.attr("color"),
-                                                self.attr("intensity")));
-        });
+    auto light = declare<DirectionalLight, Light>(module, "DirectionalLight", directional_doc);
+    light.def(py::init([](const ArrayLike& direction, const ArrayLike& color, float intensity,
+                          const ShadowLike& shadow) {
+                  return std::make_shared<DirectionalLight>(
+                      DirectionalParameters{to_point(direction, "direction")},
+                      to_rgb(color, "color"), intensity, to_shadow(shadow));
+              }),
+              py::arg("direction") = py::make_tuple(0, -1, 0),
+              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
+              py::arg("shadow") = py::none());
+    bind_vector(light, "direction", &DirectionalParameters::direction, direction_text);
+    bind_shadow_of(light);
+    light.def("__repr__", [](const DirectionalLight& self) {
+        const LightValue value = self.value();
+        const auto& p = std::get<DirectionalParameters>(value.parameters);
+        return "DirectionalLight(direction=" + tuple_text(p.direction) + ", " + light_text(value) +
+               shadow_text(value);
+    });
+    light.def("__reduce__", [](const py::object& self) {
+        return reduced(self, py::make_tuple(self.attr("direction"), self.attr("color"),
+                                            self.attr("intensity"), self.attr("shadow")));
+    });
 }
 
 void bind_ambient(py::module_& module) {
@@ -168,7 +282,9 @@ void bind_ambient(py::module_& module) {
              }),
              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0)
         .def("__repr__",
-             [](const AmbientLight& self) { return "AmbientLight(" + light_text(self.value()); })
+             [](const AmbientLight& self) {
+                 return "AmbientLight(" + light_text(self.value()) + ")";
+             })
         .def("__reduce__", [](const py::object& self) {
             return reduced(self, py::make_tuple(self.attr("color"), self.attr("intensity")));
         });
@@ -197,6 +313,7 @@ void bind_light(pybind11::module_& module) {
             },
             "float: times color.");
     bind_point(module);
+    bind_spot(module);
     bind_directional(module);
     bind_ambient(module);
 }

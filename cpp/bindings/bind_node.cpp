@@ -197,6 +197,18 @@ void bind_contents(Class<Node>& node) {
         },
         "int: among opaque and among translucent nodes, lower is drawn first, before distance; 0."
         " It is the node's own: what is below it has its own, too.");
+    node.def_property(
+        "casts_shadows", [](const Node& self) { return self.value().casts_shadows; },
+        [](Node& self, bool value) {
+            self.edit([&](NodeValue& next) { next.casts_shadows = value; });
+        },
+        "bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.");
+    node.def_property(
+        "receives_shadows", [](const Node& self) { return self.value().receives_shadows; },
+        [](Node& self, bool value) {
+            self.edit([&](NodeValue& next) { next.receives_shadows = value; });
+        },
+        "bool: whether shadows show on its own surface.");
 }
 
 }  // namespace

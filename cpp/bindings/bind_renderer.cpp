@@ -379,6 +379,54 @@ Raises
 ValueError
     If this renderer has not drawn it yet.
 )")
+        .def(
+            "shadow_map",
+            [](Renderer& self, const Scene& scene, const std::shared_ptr<Light>& light) {
+                const SceneSnapshot snapshot = scene.snapshot();
+                ShadowPicture picture;
+                {
+                    const py::gil_scoped_release release;
+                    picture = self.shadow_map(snapshot, light);
+                }
+                return owned_array(std::move(picture.distances),
+                                   {picture.layers, picture.size, picture.size});
+            },
+            py::arg("scene"), py::arg("light"),
+            R"(What a light sees of what casts shadows, to look at. It is drawn if it is not up to date.
+
+Parameters
+----------
+scene : Scene
+light : Light
+    One of the scene's, with a shadow.
+
+Returns
+-------
+ndarray (L, size, size) float32
+    Distances in world units along the axis of each view, +inf where nothing casts. A spot light has one view, from the
+    light along its direction. A point light has six, +X -X +Y -Y +Z -Z, laid out as the faces of a capture; they, and
+    a spot light's, are a little wider than 90 degrees or the cone: the filter reaches into ``ceil(radius) + 2``
+    texels more on each side. A directional light has one view of parallel rays, and distances count from the plane at
+    which the bounds of all that casts begin; its outermost texels stay empty. Row 0 of a single view is on top: +Y is
+    up there, -Z for light from straight above or below.
+
+Raises
+------
+ValueError
+    For a light that is not in the scene or has no shadow, or a size beyond the driver's limits.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> sun = scene.add(cc.DirectionalLight(direction=(0, -1, 0), shadow=cc.Shadow(size=32)))
+>>> box = scene.add(cc.Mesh.box(1), position=(0, 3, 0))
+>>> floor = scene.add(cc.Mesh.plane(4, 4))
+>>> with cc.Renderer() as renderer:
+...     depth = renderer.shadow_map(scene, sun)
+>>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
+((1, 32, 32), 0.0, 3.5)
+)")
         .def("close", &Renderer::close, py::call_guard<py::gil_scoped_release>(),
              "Free the context and all it holds. Calls after that raise ContextError; closing "
              "twice does nothing.")

@@ -80,6 +80,10 @@ name : str
     For people.
 render_order : int
     Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
+casts_shadows : bool
+    False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
+receives_shadows : bool
+    Whether shadows show on its own surface.
 
 Returns
 -------

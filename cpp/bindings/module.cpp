@@ -17,6 +17,7 @@ void bind_mesh(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
 void bind_material(pybind11::module_& module);
 void bind_shader(pybind11::module_& module);
+void bind_shadow(pybind11::module_& module);
 void bind_light(pybind11::module_& module);
 void bind_camera(pybind11::module_& module);
 void bind_stereo(pybind11::module_& module);
@@ -64,6 +65,7 @@ PYBIND11_MODULE(_core, module) {
     bind_stencil(module);
     bind_material(module);
     bind_shader(module);
+    bind_shadow(module);
     bind_light(module);
     bind_camera(module);
     bind_stereo(module);

@@ -50,17 +50,17 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
 }
 
 /// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name,
-/// render_order)
+/// render_order, casts_shadows, receives_shadows)
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
-    return py::make_tuple(std::const_pointer_cast<Mesh>(value.mesh), value.material,
-                          parts ? py::object(point_array(parts->position)) : py::none(),
-                          parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
-                          parts ? py::object(point_array(parts->scale)) : py::none(),
-                          parts ? py::none()
-                                : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
-                          from_cube_source(value.environment), value.visible, value.in_probes,
-                          value.name, value.render_order);
+    return py::make_tuple(
+        std::const_pointer_cast<Mesh>(value.mesh), value.material,
+        parts ? py::object(point_array(parts->position)) : py::none(),
+        parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
+        parts ? py::object(point_array(parts->scale)) : py::none(),
+        parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
+        from_cube_source(value.environment), value.visible, value.in_probes, value.name,
+        value.render_order, value.casts_shadows, value.receives_shadows);
 }
 
 inline NodeValue node_from_state(const py::tuple& state) {
@@ -71,7 +71,9 @@ inline NodeValue node_from_state(const py::tuple& state) {
             state[7].cast<bool>(),
             state[8].cast<bool>(),
             state[9].cast<std::string>(),
-            to_render_order(state[10])};
+            to_render_order(state[10]),
+            state[11].cast<bool>(),
+            state[12].cast<bool>()};
 }
 
 }  // namespace cubecam::bindings

@@ -42,6 +42,19 @@ def probed_scene(rng):
     return scene
 
 
+def shadowed_scene(rng):
+    """The same under lights with shadows, so that what moves changes what it does not touch."""
+    scene = probed_scene(rng)
+    scene.add(cc.Mesh.plane(6, 5), cc.PhongMaterial(), position=(0, -1.5, 0), name="floor")
+    scene.lights[0].shadow = cc.Shadow(24)
+    scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(32)))
+    scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(32, radius=0)))
+    return scene
+
+
+SCENES = {"probed": probed_scene, "shadowed": shadowed_scene}
+
+
 def edit_move(scene, rng):
     node = scene.nodes[rng.integers(len(scene.nodes))]
     node.position = np.array(node.position) + rng.uniform(-0.5, 0.5, 3)
@@ -95,6 +108,18 @@ def edit_light(scene, rng):
     scene.lights[0].position = rng.uniform(-4, 4, 3)
 
 
+def edit_shadow(scene, rng):
+    light = scene.lights[rng.integers(len(scene.lights))]
+    size, radius = int(rng.choice([16, 24, 32])), rng.choice([0, 1, 1.5])
+    light.shadow = cc.Shadow(size, radius) if rng.random() < 0.8 else None
+
+
+def edit_casting(scene, rng):
+    node = scene.nodes[rng.integers(len(scene.nodes))]
+    name = ("casts_shadows", "receives_shadows")[rng.integers(2)]
+    setattr(node, name, not getattr(node, name))
+
+
 def edit_probe(scene, rng):
     balls = [node for node in scene.nodes if node.name.startswith("ball")]
     probe = balls[rng.integers(len(balls))].environment
@@ -139,9 +164,10 @@ def pictures(renderer, scene, view):
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_random_edits(new_renderer, seed):
+@pytest.mark.parametrize("make", SCENES.values(), ids=SCENES)
+def test_random_edits(new_renderer, make, seed):
     rng = np.random.default_rng(seed)
-    scene = probed_scene(rng)
+    scene = make(rng)
     live = new_renderer()
     script = []
     for step in range(STEPS):
@@ -160,10 +186,11 @@ def test_random_edits(new_renderer, seed):
 
 
 @pytest.mark.parametrize("edit", EDITS, ids=[edit.__name__[5:] for edit in EDITS])
-def test_each_edit_alone(new_renderer, edit):
+@pytest.mark.parametrize("make", SCENES.values(), ids=SCENES)
+def test_each_edit_alone(new_renderer, make, edit):
     """Probe by probe: what the live renderer holds is what a new one draws."""
     rng = np.random.default_rng(11)
-    scene = probed_scene(rng)
+    scene = make(rng)
     live = new_renderer()
     pictures(live, scene, (3, 1, 2))
     edit(scene, rng)
@@ -176,7 +203,7 @@ def test_each_edit_alone(new_renderer, edit):
 def test_unused_frames_between_do_not_matter(new_renderer):
     """One renderer sees every step, the other only the last."""
     rng = np.random.default_rng(12)
-    scene = probed_scene(rng)
+    scene = shadowed_scene(rng)
     busy, lazy = new_renderer(), new_renderer()
     pictures(lazy, scene, (3, 1, 2))
     for _ in range(10):

@@ -4,7 +4,7 @@ A ray is origin + t * direction with t > 0; give directions of length 1 along th
 Every shape stands in its own space and is placed by a matrix, so that boxes and planes can be turned and scaled.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -246,6 +246,20 @@ def cast_frame(shapes, view, projection, size, near, far):
 
     origins, directions = pixel_rays(view, projection, size)
     return cast(shapes, origins, directions, near, far)
+
+
+def visible(shapes, points, to_light, reach=np.inf, start=1e-4):
+    """1.0 where no shape lies between start and reach, world units, on the way to a light; else 0.0.
+
+    to_light: (..., 3) of any length. Surfaces stop light from either side. NaN points give 1.
+    """
+    solid = [replace(shape, double_sided=True) for shape in shapes]
+    lost = ~np.isfinite(points).all(-1)
+    origins = np.where(lost[..., None], 0.0, points)
+    directions = np.where(lost[..., None], [0.0, 0.0, 1.0], to_light)
+    directions = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
+    hits = cast(solid, origins, directions, start, reach)
+    return np.where(lost | ~hits.hit, 1.0, 0.0)
 
 
 def interior(*label_maps, radius=1):

@@ -60,28 +60,67 @@ class Directional:
 
 
 @dataclass
+class Spot:
+    """Half the cone's opening in degrees, and the share of it over which light fades (three.js' SpotLight)."""
+
+    position: tuple
+    travels: tuple = (0, -1, 0)
+    angle: float = 30.0
+    penumbra: float = 0.0
+    color: tuple = (1, 1, 1)
+    intensity: float = 1.0
+    decay: float = 0.0
+
+    def share(self, to_light):
+        """Of unit vectors from the surface to the lamp: smoothstep between the cosines of edge and inner cone."""
+        cosine = dot(-to_light, normalised(self.travels))
+        edge = np.cos(np.radians(self.angle))
+        full = np.cos(np.radians(self.angle * (1 - self.penumbra)))
+        if full == edge:
+            return np.where(cosine > edge, 1.0, 0.0)
+        t = np.clip((cosine - edge) / (full - edge), 0, 1)
+        return t * t * (3 - 2 * t)
+
+
+@dataclass
 class Ambient:
     color: tuple = (1, 1, 1)
     intensity: float = 1.0
 
 
-def phong(position, normal, eye, color, lights, ka=0.2, kd=0.7, ks=1.0, shininess=10.0):
-    """ka color once; per light kd color max(N.L, 0) light, and where N.L > 0 ks max(R.V, 0)^shininess light."""
+def way_to(light, position):
+    """Unit vectors from points to a light, and their distance from it: infinite for one that is far away."""
+    if isinstance(light, Directional):
+        return np.broadcast_to(-normalised(light.travels), position.shape), np.full(
+            (*position.shape[:-1], 1), np.inf
+        )
+    offset = np.asarray(light.position, float) - position
+    distance = np.linalg.norm(offset, axis=-1, keepdims=True)
+    return offset / distance, distance
+
+
+def phong(
+    position, normal, eye, color, lights, ka=0.2, kd=0.7, ks=1.0, shininess=10.0, visibility=None
+):
+    """ka color once; per light kd color max(N.L, 0) light, and where N.L > 0 ks max(R.V, 0)^shininess light.
+
+    visibility: for each light the share (...) of it that arrives, or None for all of it.
+    """
     color = np.asarray(color, float)
     view = normalised(np.asarray(eye, float) - position)
     total = np.broadcast_to(ka * color, position.shape).copy()
-    for light in lights:
+    for index, light in enumerate(lights):
         radiance = np.asarray(light.color, float) * light.intensity
         if isinstance(light, Ambient):
             total = total + ka * color * radiance
             continue
-        if isinstance(light, Point):
-            offset = np.asarray(light.position, float) - position
-            distance = np.linalg.norm(offset, axis=-1, keepdims=True)
-            to_light = offset / distance
+        to_light, distance = way_to(light, position)
+        if isinstance(light, (Point, Spot)):
             radiance = radiance / distance**light.decay
-        else:
-            to_light = np.broadcast_to(-normalised(light.travels), position.shape)
+        if isinstance(light, Spot):
+            radiance = radiance * light.share(to_light)
+        if visibility is not None and visibility[index] is not None:
+            radiance = radiance * visibility[index][..., None]
         n_dot_l = dot(normal, to_light)
         diffuse = kd * color * np.maximum(n_dot_l, 0)
         r_dot_v = np.clip(dot(reflect(-to_light, normal), view), 0, 1)

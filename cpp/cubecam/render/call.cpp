@@ -18,15 +18,35 @@ void add_light(Key& key, const LightValue& light) {
         key.add(point->decay);
     } else if (const auto* sun = std::get_if<DirectionalParameters>(&light.parameters)) {
         key.add(sun->direction);
+    } else if (const auto* spot = std::get_if<SpotParameters>(&light.parameters)) {
+        key.add(spot->position);
+        key.add(spot->direction);
+        key.add(spot->angle);
+        key.add(spot->penumbra);
+        key.add(spot->decay);
     }
+    key.add(light.shadow.has_value());
+}
+
+/// What a node that receives shadows hangs on besides.
+Key key_of(const std::vector<ShadowUse>& shadows) {
+    Key key;
+    for (const ShadowUse& use : shadows) {
+        key.add(use.revision);
+        key.add(use.shadow.radius);
+        key.add(use.shadow.bias);
+    }
+    return key;
 }
 
 }  // namespace
 
 Call::Call(Session& session, const SceneSnapshot& scene, std::size_t number,
-           std::vector<std::size_t> ranks)
+           std::vector<std::size_t> ranks, std::vector<std::size_t> light_ranks)
     : stats(session.stats), session_(session), gpu_(session.gpu), scene_(scene), number_(number),
-      ranks_(std::move(ranks)), work_(scene.probes.size()) {}
+      ranks_(std::move(ranks)), light_ranks_(std::move(light_ranks)), work_(scene.probes.size()) {
+    gpu_.shadows.check(scene);
+}
 
 std::vector<std::size_t> Call::needs_of(const DrawPlan& plan) const {
     std::vector<std::size_t> needs;
@@ -179,7 +199,8 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
     if (const auto* color = std::get_if<glm::vec4>(&scene_.background)) common.add(*color);
     common.add(background_lookup().revision);
     common.add(scene_.lights.size());
-    for (const LightValue& light : scene_.lights) add_light(common, light);
+    for (const LightSnapshot& light : scene_.lights) add_light(common, light.value);
+    const Key shadows = shadows_ ? key_of(*shadows_) : Key();
 
     std::vector<PictureKey> keys(views.size());
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -203,6 +224,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
             key.add(found.cube.revision);
             key.add(found.map.revision);
             for (const Lookup& texture : found.textures) key.add(texture.revision);
+            if (receives_shadows(node)) key.add(shadows);
             for (const PlannedNode::Sight& sight : planned.sights) {
                 keys[sight.view].nodes.push_back({node.id, key, sight.bounds});
             }
@@ -214,6 +236,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
 std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan, Target& target,
                                const std::vector<NodeLookups>& lookups, const Finish& finish,
                                std::optional<Budget> budget) {
+    need_shadows(plan);
     std::vector<PictureKey> keys = keys_of(views, plan, lookups, finish);
     const Rect whole{0, 0, target.description().width, target.description().height};
     std::vector<std::vector<Rect>> damaged(views.size());
@@ -255,7 +278,8 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
         regions.erase(elsewhere, regions.end());
         gpu_.surface.draw(
             {scene_, views, plan, std::move(regions),
-             color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture), lookups},
+             color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture), lookups,
+             shadows_ ? std::span<const ShadowUse>(*shadows_) : std::span<const ShadowUse>()},
             target, stats);
         regions = std::move(rest);
     }
@@ -272,6 +296,32 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
         if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
     }
     return budget ? last : count;
+}
+
+void Call::need_shadows(const DrawPlan& plan) {
+    if (shadows_) return;
+    const auto receives = [this](const PlannedNode& planned) {
+        return receives_shadows(scene_.nodes[planned.node]);
+    };
+    if (std::any_of(plan.opaque.begin(), plan.opaque.end(), receives) ||
+        std::any_of(plan.late.begin(), plan.late.end(), receives)) {
+        update_shadows();
+    }
+}
+
+void Call::update_shadows() {
+    const auto look_up_in = [this](const NodeSnapshot& node) {
+        return look_up(node, std::nullopt).textures;
+    };
+    shadows_ = gpu_.shadows.update(scene_, light_ranks_, look_up_in, stats);
+}
+
+Buffer<float> Call::shadow_map(std::size_t light) {
+    update_shadows();
+    const auto before = std::count_if(
+        scene_.lights.begin(), scene_.lights.begin() + static_cast<std::ptrdiff_t>(light),
+        [](const LightSnapshot& other) { return other.value.shadow.has_value(); });
+    return gpu_.shadows.read((*shadows_)[static_cast<std::size_t>(before)]);
 }
 
 void Call::draw(std::span<const View> views, Target& target,

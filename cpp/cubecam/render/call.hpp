@@ -20,9 +20,9 @@ class Session;
 class Call {
 public:
     /// `number` is the scene's in the session; `ranks[p]` tells how many scenes before it use its
-    /// probe p, too.
+    /// probe p, too; `light_ranks` the same of lights.
     Call(Session& session, const SceneSnapshot& scene, std::size_t number,
-         std::vector<std::size_t> ranks);
+         std::vector<std::size_t> ranks, std::vector<std::size_t> light_ranks);
 
     /// Draws `views` of the nodes that `wanted` lets through into `target`, what they need first.
     void draw(std::span<const View> views, Target& target,
@@ -30,6 +30,9 @@ public:
 
     /// Draws these probes (indices into the snapshot's), due or not, and what they need.
     void force(const std::vector<std::size_t>& probes);
+
+    /// The map of one light (index into the snapshot's), which has a shadow.
+    Buffer<float> shadow_map(std::size_t light);
 
     // For the session.
 
@@ -76,14 +79,18 @@ private:
     std::vector<std::vector<Lookup>> look_up_all(const Finish& finish);
     std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
                                     const std::vector<NodeLookups>& lookups, const Finish& finish);
+    /// Brings the maps up to date the first time that a node of some plan receives shadows.
+    void need_shadows(const DrawPlan& plan);
+    void update_shadows();
     Lookup background_lookup();
 
     Session& session_;
     GpuState& gpu_;
     const SceneSnapshot& scene_;
     std::size_t number_;
-    std::vector<std::size_t> ranks_;
+    std::vector<std::size_t> ranks_, light_ranks_;
     std::vector<std::optional<ProbeWork>> work_;
+    std::optional<std::vector<ShadowUse>> shadows_;  ///< none: not needed so far
 };
 
 }  // namespace cubecam

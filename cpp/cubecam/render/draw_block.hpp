@@ -8,6 +8,9 @@
 
 namespace cubecam {
 
+/// Where that block is bound.
+inline constexpr unsigned draw_binding = 0;
+
 /// The uniform block `Draw` of shaders/draw.glsl, std140.
 struct DrawBlock {
     glm::mat4 model;

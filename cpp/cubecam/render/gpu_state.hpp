@@ -3,6 +3,7 @@
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/finish_pass.hpp"
 #include "cubecam/render/gpu_cache.hpp"
+#include "cubecam/render/shadow_pass.hpp"
 #include "cubecam/render/surface_pass.hpp"
 #include "cubecam/render/target_store.hpp"
 #include "cubecam/render/weak_cache.hpp"
@@ -48,12 +49,14 @@ struct TextureState {
 struct GpuState {
     GpuState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
-          finish(its_context.gl(), cache, surface.programs()), targets(cache_bytes) {}
+          finish(its_context.gl(), cache, surface.programs()),
+          shadows(its_context, cache, surface.programs()), targets(cache_bytes) {}
 
     gl::Context& context;
     GpuCache cache;
     SurfacePass surface;
     FinishPass finish;
+    ShadowPass shadows;
     TargetStore targets;
     WeakCache<Probe, ProbeContents> probes;
     WeakCache<RenderTexture, TextureState> textures;

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "cubecam/render/view.hpp"
+
 #include <glm/glm.hpp>
+
+#include <cstddef>
 
 namespace cubecam {
 
@@ -12,5 +16,13 @@ struct Instance {
     glm::vec4 position;  ///< xyz: where distance counts from; w: parallel views' near plane
     glm::vec4 forward;   ///< xyz: the camera's axis; w: the layer
 };
+
+/// `matrix` is what the record holds of it; positions count from `origin`.
+Instance make_instance(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
+                       std::size_t layer);
+
+/// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
+/// lost.
+glm::dmat4 reverse_depth(glm::dmat4 to_clip);
 
 }  // namespace cubecam

@@ -10,6 +10,9 @@ namespace {
 /// Beyond this share of the picture, drawing all of it costs no more.
 constexpr double most_of_it = 0.7;
 
+/// merge() weighs all pairs again and again: of many rectangles it gets so many at a time.
+constexpr std::size_t at_once = 32;
+
 /// Unites rectangles until none overlap and no more than max_damage are left, always the two whose
 /// union wastes least.
 void merge(std::vector<Rect>& rects) {
@@ -45,7 +48,9 @@ std::vector<Rect> damage(const std::optional<PictureKey>& before, const PictureK
     for (const NodeKey& node : before->nodes) old.emplace(node.id, &node);
     std::vector<Rect> rects;
     const auto add = [&rects](const Rect& rect) {
-        if (!rect.empty()) rects.push_back(rect);
+        if (rect.empty()) return;
+        rects.push_back(rect);
+        if (rects.size() == at_once) merge(rects);
     };
     std::vector<std::int32_t> same;
     for (const NodeKey& node : now.nodes) {

@@ -1,5 +1,7 @@
 #include "cubecam/render/programs.hpp"
 
+#include "cubecam/render/shadow_block.hpp"
+
 #include <array>
 #include <string>
 #include <variant>
@@ -39,10 +41,17 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant) const
     define(variant.blend == Blend::premultiplied, "BLEND_PREMULTIPLIED");
     define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
+    define(variant.cone, "LIGHT_CONE");
     define(variant.dense, "DENSE");
     define(variant.moved, "HAS_USER_VERTEX");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
+    if (variant.shadows > 0) {
+        options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
+        options.defines.emplace_back("SHADOW_KINDS", std::to_string(variant.shadow_kinds) + "u");
+        options.defines.emplace_back("SHADOW_UNIT", std::to_string(shadow_unit));
+        options.defines.emplace_back("MAX_SHADOWS", std::to_string(max_shadows));
+    }
     return options;
 }
 
@@ -69,6 +78,24 @@ UserProgram& Programs::effect(const UserSource& fragment) {
 const gl::Program& Programs::skybox() {
     if (!skybox_) skybox_ = gl::Program(*gl_, {"skybox.vert", "skybox.frag"}, layer_options());
     return skybox_;
+}
+
+UserProgram& Programs::shadow(const ShaderParameters& shader, bool vertex_colors) {
+    SurfaceVariant variant;
+    variant.material = std::variant_size_v<MaterialParameters> - 1;
+    variant.vertex_colors = vertex_colors;
+    variant.moved = true;
+    variant.dense = true;
+    gl::ShaderOptions options = surface_options(variant);
+    std::erase_if(options.defines, [](const auto& define) { return define.first == "LAYERED"; });
+    return users_.get(*gl_, {"surface.vert", "shadow.frag"}, options,
+                      {{"user_fragment.glsl", "fragment", &shader.fragment},
+                       {"user_vertex.glsl", "vertex", &shader.vertex}});
+}
+
+const gl::Program& Programs::shadow() {
+    if (!shadow_) shadow_ = gl::Program(*gl_, {"shadow.vert", "shadow.frag"});
+    return shadow_;
 }
 
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {

@@ -7,6 +7,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 
 namespace cubecam {
@@ -27,7 +28,10 @@ struct SurfaceVariant {
     bool outputs = false;
     int lights = 0;  ///< unrolled so many times; -1: a loop
     bool decay = false;
-    bool moved = false;  ///< by a user's own vertex function
+    bool moved = false;              ///< by a user's own vertex function
+    bool cone = false;               ///< some light is a spot light
+    int shadows = 0;                 ///< so many lights, the first ones, have shadows that it shows
+    std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each, two bits from the lowest on
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
@@ -42,6 +46,8 @@ public:
     UserProgram& surface(const SurfaceVariant& variant, const ShaderParameters& shader);
     UserProgram& effect(const UserSource& fragment);
     const gl::Program& skybox();
+    const gl::Program& shadow();
+    UserProgram& shadow(const ShaderParameters& shader, bool vertex_colors);
     const gl::Program& grade(Tonemap tonemap, Encode encode);
 
 private:
@@ -53,7 +59,7 @@ private:
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
     UserPrograms users_;
-    gl::Program skybox_;
+    gl::Program skybox_, shadow_;
 };
 
 }  // namespace cubecam

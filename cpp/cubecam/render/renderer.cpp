@@ -121,6 +121,7 @@ auto Renderer::run(Work&& work) {
     state.cache.sweep();
     state.probes.sweep();
     state.textures.sweep();
+    state.shadows.sweep();
     stats_ = {};
     gpu_->context.take_debug_messages();  // of earlier calls
     try {
@@ -214,6 +215,31 @@ void Renderer::update(const SceneSnapshot& scene,
         session.call().force(indices);
         stats_ = session.stats;
         return true;
+    });
+}
+
+ShadowPicture Renderer::shadow_map(const SceneSnapshot& scene,
+                                   const std::shared_ptr<Light>& light) {
+    const auto found =
+        std::find_if(scene.lights.begin(), scene.lights.end(),
+                     [&light](const LightSnapshot& other) { return other.object == light; });
+    if (found == scene.lights.end()) {
+        throw std::invalid_argument(
+            "light: expected a light of this scene, got one that is not in it");
+    }
+    if (!found->value.shadow) {
+        throw std::invalid_argument("light: expected one with a shadow, got one without");
+    }
+    return run([&](GpuState& gpu) {
+        Session session(gpu, scene);
+        ShadowPicture picture;
+        picture.size = found->value.shadow->size;
+        picture.distances =
+            session.call().shadow_map(static_cast<std::size_t>(found - scene.lights.begin()));
+        const auto size = static_cast<std::size_t>(picture.size);
+        picture.layers = static_cast<int>(picture.distances.size() / (size * size));
+        stats_ = session.stats;
+        return picture;
     });
 }
 

@@ -31,6 +31,13 @@ struct RendererInfo {
     bool layered = false;  ///< all views of a mesh in one draw call
 };
 
+/// What a light sees of what casts shadows.
+struct ShadowPicture {
+    int size = 0;
+    int layers = 0;
+    Buffer<float> distances;
+};
+
 /// Draws scenes, into frames, captures and probes. It owns an OpenGL context and everything on the
 /// GPU.
 ///
@@ -73,6 +80,11 @@ public:
 
     /// What a render texture holds now. @throws std::invalid_argument if it was not drawn yet.
     Frame texture(const std::shared_ptr<RenderTexture>& texture);
+    /// Distances along the axis of each view of a light's map, all six of a point light in the
+    /// order of a cube's faces: from the light, for a directional one from where the casters'
+    /// bounds begin; infinite where nothing casts. Row 0 is on top, of a cube's faces t = 0.
+    /// @throws std::invalid_argument for a light that is not in the scene or has no shadow.
+    ShadowPicture shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
 
     Stats stats() const;
     const RendererInfo& info() const { return info_; }

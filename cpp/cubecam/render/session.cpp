@@ -42,11 +42,16 @@ void set_view_wrap(const GladGLContext& gl, GLuint view, Wrap wrap) {
 Session::Session(GpuState& its_gpu, const SceneSnapshot& scene)
     : gpu(its_gpu), asked_for(scene), numbers(scene), textures_(scene.textures.size()) {
     std::map<const Probe*, std::size_t> users;  // scenes so far; never walked
+    std::map<const Light*, std::size_t> lit;    // the same
     for (std::size_t i = 0; i <= scene.others.size(); ++i) {
         const SceneSnapshot& one = scene.scene(i);
         std::vector<std::size_t> ranks;
         for (const ProbeSnapshot& probe : one.probes) ranks.push_back(users[probe.object.get()]++);
-        calls_.emplace_back(*this, one, i, std::move(ranks));
+        std::vector<std::size_t> light_ranks;
+        for (const LightSnapshot& light : one.lights) {
+            light_ranks.push_back(lit[light.object.get()]++);
+        }
+        calls_.emplace_back(*this, one, i, std::move(ranks), std::move(light_ranks));
     }
 }
 

@@ -1,5 +1,6 @@
 #include "cubecam/render/surface_pass.hpp"
 
+#include "cubecam/math/transform.hpp"
 #include "cubecam/render/clear.hpp"
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/instance.hpp"
@@ -8,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -16,41 +18,22 @@
 namespace cubecam {
 namespace {
 
-constexpr GLuint draw_binding = 0;
 constexpr GLuint lights_binding = 1;
+constexpr GLuint shadows_binding = 2;
 constexpr GLuint map_unit = 0;
 constexpr GLuint cube_unit = 1;
 constexpr std::size_t flat_lights = 4;          // beyond that the vertex stage has no room for them
 constexpr std::size_t many_triangles = 10'000;  // of a call
 constexpr std::size_t dense_triangles = 4'000;  // of a mesh
 
-/// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
-/// lost.
-glm::dmat4 reverse_depth(glm::dmat4 view_projection) {
-    for (int column = 0; column < 4; ++column) {
-        glm::dvec4& c = view_projection[column];
-        c.z = 0.5 * (c.w - c.z);
-    }
-    return view_projection;
-}
-
 /// Whether a view shows the world mirrored: GL's own projections have a negative determinant.
 bool mirrored(const View& view) { return glm::determinant(view.view_projection) > 0.0; }
 
-Instance make_instance(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
-                       std::size_t layer) {
-    Instance instance;
-    instance.matrix = glm::mat4(matrix);
-    instance.eye =
-        view.parallel ? glm::vec4(view.forward, 1.0F) : glm::vec4(view.eye - origin, 0.0F);
-    instance.position = glm::vec4(view.position - origin, view.near);
-    instance.forward = glm::vec4(view.forward, static_cast<float>(layer));
-    return instance;
-}
-
+/// As shaders/lights.glsl has them, std140.
 struct LightBlock {
     glm::vec4 position;
     glm::vec4 color;
+    glm::vec4 cone{0.0F, 0.0F, 0.0F, 1.0F};
 };
 
 struct LightsBlock {
@@ -59,7 +42,32 @@ struct LightsBlock {
     LightBlock lights[max_lights];
 };
 
+/// How a spot light fades towards its edge, so that the shader has dot(cone.xyz, travel) + cone.w
+/// from 0 at the edge to 1 where the penumbra ends.
+glm::vec4 cone_of(const SpotParameters& spot) {
+    const double edge = std::cos(radians(spot.angle));
+    const double full = std::cos(radians(spot.angle * (1.0 - spot.penumbra)));
+    const double steepness = 1.0 / std::max(full - edge, 1e-6);  // without a penumbra: a step
+    return {spot.direction * steepness, -edge * steepness};
+}
+
 }  // namespace
+
+namespace {
+
+bool asks_lights(const PhongParameters&) { return true; }
+bool asks_lights(const ShaderParameters& p) { return p.asks_lights(); }
+template <class Parameters>
+bool asks_lights(const Parameters&) {
+    return false;
+}
+
+}  // namespace
+
+bool receives_shadows(const NodeSnapshot& node) {
+    return node.receives_shadows &&
+           std::visit([](const auto& p) { return asks_lights(p); }, node.material.value.parameters);
+}
 
 SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering)
     : context_(&context), gl_(&context.gl()), cache_(&cache),
@@ -74,36 +82,67 @@ SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering l
     gl_->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
 }
 
-void SurfacePass::upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin) {
+void SurfacePass::upload_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin) {
     LightsBlock block;
     ambient_ = glm::vec3(1.0F);
     light_count_ = 0;
     light_decay_ = false;
-    for (const LightValue& light : lights) {
+    light_cone_ = false;
+    shadow_count_ = 0;
+    const auto add = [&](const LightValue& light) {
         const glm::vec3 color = light.color * light.intensity;
         if (std::holds_alternative<AmbientParameters>(light.parameters)) {
             ambient_ += color;
-            continue;
+            return;
         }
         if (light_count_ == max_lights) {
             throw std::invalid_argument("lights: expected at most " + std::to_string(max_lights) +
-                                        " point and directional lights");
+                                        " lights beside ambient ones");
         }
         LightBlock& to = block.lights[light_count_++];
         if (const auto* point = std::get_if<PointParameters>(&light.parameters)) {
             to.position = glm::vec4(point->position - origin, 1.0F);
             to.color = glm::vec4(color, point->decay);
             light_decay_ = light_decay_ || point->decay != 0.0;
+        } else if (const auto* spot = std::get_if<SpotParameters>(&light.parameters)) {
+            to.position = glm::vec4(spot->position - origin, 1.0F);
+            to.color = glm::vec4(color, spot->decay);
+            to.cone = cone_of(*spot);
+            light_decay_ = light_decay_ || spot->decay != 0.0;
+            light_cone_ = true;
         } else {
             to.position =
                 glm::vec4(-std::get<DirectionalParameters>(light.parameters).direction, 0.0F);
             to.color = glm::vec4(color, 0.0F);
         }
+    };
+    // Those with a shadow first: so a shader knows which they are when it is compiled. The order
+    // must not hang on whether anything drawn receives one: sums of floats depend on it.
+    for (const LightSnapshot& light : lights) {
+        if (light.value.shadow) add(light.value);
+    }
+    shadow_count_ = light_count_;
+    for (const LightSnapshot& light : lights) {
+        if (!light.value.shadow) add(light.value);
     }
     block.counts.x = static_cast<int>(light_count_);
     block.ambient = glm::vec4(ambient_, 1.0F);
     lights_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, lights_binding, lights_.id());
+}
+
+void SurfacePass::upload_shadows(std::span<const ShadowUse> shadows, const glm::dvec3& origin) {
+    shadow_kinds_ = 0;
+    if (shadows.empty()) return;
+    std::vector<ShadowBlock> blocks;
+    for (const ShadowUse& shadow : shadows) {
+        shadow_kinds_ |= static_cast<std::uint32_t>(shadow.view.kind) << (2 * blocks.size());
+        gl_->BindTextureUnit(shadow_unit + static_cast<GLuint>(blocks.size()), shadow.texture);
+        blocks.push_back(make_shadow_block(shadow, origin));
+    }
+    blocks.resize(max_shadows);
+    shadows_ = gl::create_buffer(*gl_, std::span<const ShadowBlock>(blocks));
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, shadows_binding, shadows_.id());
 }
 
 void SurfacePass::set_scissor(const Rect& rect) {
@@ -172,7 +211,9 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
     const TargetDescription& description = target.description();
     const Rect whole{0, 0, description.width, description.height};
-    upload_lights(input.scene.lights, input.views[input.regions.front().view].position);
+    const glm::dvec3& origin = input.views[input.regions.front().view].position;
+    upload_lights(input.scene.lights, origin);
+    upload_shadows(input.shadows, origin);
     const Prepared prepared = prepare(input);
     gl_->Viewport(0, 0, description.width, description.height);
     // Never off: how pixels come out may not hang on the rectangle, but may on the test itself
@@ -301,6 +342,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
         textures(*phong);
         variant.lights = light_count_ <= flat_lights ? static_cast<int>(light_count_) : -1;
         variant.decay = light_decay_;
+        variant.cone = light_cone_;
     } else if (const auto* mirror = std::get_if<MirrorParameters>(&material.parameters)) {
         variant.fresnel = mirror->fresnel.has_value();
     } else if (const auto* glass = std::get_if<GlassParameters>(&material.parameters)) {
@@ -310,8 +352,11 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
         variant.vertex_colors = node.mesh->colors() != nullptr;
         variant.moved = shader.moves_vertices();
         variant.lights = -1;
-        variant.decay = true;
         variant.dense = true;
+    }
+    if (receives_shadows(node)) {
+        variant.shadows = static_cast<int>(shadow_count_);
+        variant.shadow_kinds = shadow_kinds_;
     }
     return variant;
 }
@@ -360,7 +405,6 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         ++stats.draw_calls;
         stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
     }
-    set_stencil(*gl_, std::nullopt);
 }
 
 void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats) {

@@ -6,10 +6,12 @@
 #include "cubecam/render/lookup.hpp"
 #include "cubecam/render/options.hpp"
 #include "cubecam/render/programs.hpp"
+#include "cubecam/render/shadow_block.hpp"
 #include "cubecam/render/target.hpp"
 #include "cubecam/render/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
@@ -35,7 +37,12 @@ struct PassInput {
     std::vector<Region> regions;
     BackgroundSource background;
     std::span<const NodeLookups> lookups;  ///< of each node of the scene
+    /// Of the lights that have one, in the scene's order; empty: no node of the plan receives any.
+    std::span<const ShadowUse> shadows;
 };
+
+/// Whether shadows show on a node: its material asks the lights.
+bool receives_shadows(const NodeSnapshot& node);
 
 /// Whether all views of a mesh go into one draw call.
 enum class Layering { never, where_faster, always };
@@ -87,7 +94,8 @@ private:
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
     const gl::Program& user_program(const SurfaceVariant& variant, const ShaderParameters& shader,
                                     const NodeLookups& lookups);
-    void upload_lights(std::span<const LightValue> lights, const glm::dvec3& origin);
+    void upload_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin);
+    void upload_shadows(std::span<const ShadowUse> shadows, const glm::dvec3& origin);
 
     const gl::Context* context_;
     const GladGLContext* gl_;
@@ -95,10 +103,13 @@ private:
     Programs programs_;
     Layering layering_;
     gl::Texture black_;  ///< a cube of one texel: what is reflected where there is no environment
-    gl::Buffer instances_, blocks_, lights_;
+    gl::Buffer instances_, blocks_, lights_, shadows_;
     glm::vec3 ambient_{1.0F};
     std::size_t light_count_ = 0;
+    std::size_t shadow_count_ = 0;    ///< of the lights, which come first
+    std::uint32_t shadow_kinds_ = 0;  ///< see SurfaceVariant
     bool light_decay_ = false;
+    bool light_cone_ = false;
 };
 
 }  // namespace cubecam

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t most_programs = 64;
 
 /// Units below are the scene's own (shaders/README.md).
-constexpr GLuint first_user_unit = 8;
+constexpr GLuint first_user_unit = 32;
 
 /// What shaders/ declares itself.
 constexpr std::array<std::string_view, 5> own_uniforms = {"u_map", "u_cube", "u_frame", "u_layer",

@@ -14,13 +14,24 @@ void check_parameters(PointParameters& p) {
     expect_not_negative(p.decay, "decay");
 }
 
-void check_parameters(DirectionalParameters& p) {
-    expect_finite(p.direction, "direction");
-    const double length = glm::length(p.direction);
-    expect(length > 0.0, "a direction of some length", describe(p.direction));
+void normalise(glm::dvec3& direction) {
+    expect_finite(direction, "direction");
+    const double length = glm::length(direction);
+    expect(length > 0.0, "a direction of some length", describe(direction));
     // What is unit length already stays as it is to the last bit: setting the colour of a light
     // must not turn it.
-    if (std::abs(length - 1.0) > 1e-14) p.direction /= length;
+    if (std::abs(length - 1.0) > 1e-14) direction /= length;
+}
+
+void check_parameters(DirectionalParameters& p) { normalise(p.direction); }
+
+void check_parameters(SpotParameters& p) {
+    expect_finite(p.position, "position");
+    normalise(p.direction);
+    expect(p.angle > 0.0 && p.angle < 90.0, "an angle above 0 and below 90 degrees",
+           describe(p.angle));
+    expect(p.penumbra >= 0.0 && p.penumbra <= 1.0, "a penumbra from 0 to 1", describe(p.penumbra));
+    expect_not_negative(p.decay, "decay");
 }
 
 void check_parameters(AmbientParameters&) {}
@@ -38,6 +49,10 @@ void check(LightValue& value) {
            "color finite and not negative", describe(glm::dvec3(color)));
     expect_not_negative(value.intensity, "intensity");
     std::visit([](auto& parameters) { check_parameters(parameters); }, value.parameters);
+    if (!value.shadow) return;
+    expect(!std::holds_alternative<AmbientParameters>(value.parameters),
+           "a shadow for a light with a direction", "one for an ambient light");
+    check(*value.shadow);
 }
 
 Light::Light(LightValue value) : value_(checked(std::move(value))) {}

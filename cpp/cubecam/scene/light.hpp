@@ -1,9 +1,12 @@
 #pragma once
 
+#include "cubecam/scene/shadow.hpp"
 #include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
 
+#include <optional>
+#include <utility>
 #include <variant>
 
 namespace cubecam {
@@ -25,18 +28,32 @@ struct AmbientParameters {
     bool operator==(const AmbientParameters&) const = default;
 };
 
-using LightParameters = std::variant<PointParameters, DirectionalParameters, AmbientParameters>;
+/// A point light that shines into a cone (three.js, and glTF's KHR_lights_punctual with angles for
+/// its cosines).
+struct SpotParameters {
+    glm::dvec3 position{0.0};
+    glm::dvec3 direction{0.0, -1.0, 0.0};  ///< of the cone's axis, the way the light travels
+    double angle = 30.0;                   ///< from the axis to the cone's edge, degrees
+    double penumbra = 0.0;  ///< share of the angle, from the edge inwards, over which light fades
+    double decay = 0.0;     ///< as PointParameters::decay
+
+    bool operator==(const SpotParameters&) const = default;
+};
+
+using LightParameters =
+    std::variant<PointParameters, DirectionalParameters, AmbientParameters, SpotParameters>;
 
 struct LightValue {
     LightParameters parameters;
     glm::vec3 color{1.0F};  ///< linear RGB
     float intensity = 1.0F;
+    std::optional<Shadow> shadow;  ///< none: it shines through everything
 
     bool operator==(const LightValue&) const = default;
 };
 
-/// Throws std::invalid_argument for a value that is not finite, negative light or a direction of no
-/// length; normalises the direction.
+/// Throws std::invalid_argument for a value that is not finite or out of its range, negative light,
+/// a direction of no length or an ambient light with a shadow; normalises the direction.
 void check(LightValue& value);
 
 class Light {
@@ -65,8 +82,8 @@ template <class Parameters>
 class LightOf : public Light {
 public:
     explicit LightOf(Parameters parameters = {}, glm::vec3 color = glm::vec3(1.0F),
-                     float intensity = 1.0F)
-        : Light({parameters, color, intensity}) {}
+                     float intensity = 1.0F, std::optional<Shadow> shadow = std::nullopt)
+        : Light({parameters, color, intensity, std::move(shadow)}) {}
 
     Parameters parameters() const { return std::get<Parameters>(value().parameters); }
 
@@ -79,5 +96,6 @@ public:
 using PointLight = LightOf<PointParameters>;
 using DirectionalLight = LightOf<DirectionalParameters>;
 using AmbientLight = LightOf<AmbientParameters>;
+using SpotLight = LightOf<SpotParameters>;
 
 }  // namespace cubecam

@@ -68,6 +68,10 @@ bool ShaderParameters::looks_up_environment() const {
     return mentions(fragment.text, "environment") || mentions(fragment.text, "environment_lod");
 }
 
+bool ShaderParameters::asks_lights() const {
+    return mentions(fragment.text, "sample_light") || mentions(fragment.text, "phong");
+}
+
 bool translucent(const MaterialValue& value) {
     const float own = std::visit([](const auto& p) { return alpha(p); }, value.parameters);
     return value.surface.opacity * own < 1.0F;

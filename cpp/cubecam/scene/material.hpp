@@ -86,6 +86,7 @@ struct ShaderParameters {
 
     bool moves_vertices() const { return !vertex.text.empty(); }
     bool looks_up_environment() const;
+    bool asks_lights() const;
     bool operator==(const ShaderParameters&) const = default;
 };
 

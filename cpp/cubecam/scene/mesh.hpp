@@ -18,6 +18,17 @@ struct Bounds {
     glm::dvec3 extent() const { return high - low; }
 };
 
+/// The box round a transformed box: |M| * half extents round M * centre
+/// (J. Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems, 1990).
+inline Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
+    const glm::dvec3 centre(m * glm::dvec4(bounds.centre(), 1.0));
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    const glm::dvec3 reach = glm::abs(glm::dvec3(m[0])) * half.x +
+                             glm::abs(glm::dvec3(m[1])) * half.y +
+                             glm::abs(glm::dvec3(m[2])) * half.z;
+    return {centre - reach, centre + reach};
+}
+
 /// Indexed triangles with smooth normals, and texture coordinates and colours where there are some.
 ///
 /// Immutable, so that threads and renderers share it: the GPU copy is keyed by `revision()`.

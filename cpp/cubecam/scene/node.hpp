@@ -41,6 +41,8 @@ struct NodeValue {
     bool in_probes = true;
     std::string name;
     std::int32_t render_order = 0;  ///< lower is drawn first, before distance
+    bool casts_shadows = true;      ///< false: nor does anything below it
+    bool receives_shadows = true;   ///< of its own surface
 };
 
 /// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the

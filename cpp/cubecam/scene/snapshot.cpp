@@ -12,17 +12,6 @@ namespace cubecam {
 
 namespace {
 
-/// The box round a transformed box: |M| * half extents round M * centre
-/// (J. Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems, 1990).
-Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
-    const glm::dvec3 centre(m * glm::dvec4(bounds.centre(), 1.0));
-    const glm::dvec3 half = 0.5 * bounds.extent();
-    const glm::dvec3 reach = glm::abs(glm::dvec3(m[0])) * half.x +
-                             glm::abs(glm::dvec3(m[1])) * half.y +
-                             glm::abs(glm::dvec3(m[2])) * half.z;
-    return {centre - reach, centre + reach};
-}
-
 /// A render texture's alpha counts only where something else makes the surface translucent: what it
 /// will hold is not known yet.
 bool shows_through(const MapSource& map) {
@@ -148,6 +137,7 @@ private:
         glm::dmat4 world;
         bool visible;
         bool in_probes;
+        bool casts_shadows;
         bool known = false;
     };
 
@@ -175,12 +165,14 @@ private:
             waiting_.pop_back();
             const Node& node = *nodes_[next];
             const NodeValue& value = node.value_;
-            Place place{matrix_of(value.placing), value.visible, value.in_probes, true};
+            Place place{matrix_of(value.placing), value.visible, value.in_probes,
+                        value.casts_shadows, true};
             if (node.parent_) {
                 const Place& above = places_[index_of(*node.parent_)];
                 place.world = above.world * place.world;
                 place.visible = place.visible && above.visible;
                 place.in_probes = place.in_probes && above.in_probes;
+                place.casts_shadows = place.casts_shadows && above.casts_shadows;
             }
             places_[next] = place;
         }
@@ -219,6 +211,8 @@ private:
             blend,
             surface.depth_write.value_or(blend == Blend::opaque),
             {},
+            place.casts_shadows && blend == Blend::opaque,
+            value.receives_shadows,
         };
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
             snapshot.ancestors.push_back(above->id());
@@ -311,7 +305,7 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared) const {
         builder.build();
         elsewhere = builder.take_elsewhere();
         snapshot.lights.reserve(lights_.size());
-        for (const auto& light : lights_) snapshot.lights.push_back(light->value());
+        for (const auto& light : lights_) snapshot.lights.push_back({light, light->value()});
     }
     // Unlocked: two scenes whose probes follow each other's nodes would wait for each other.
     for (const auto& [index, parent] : elsewhere) {

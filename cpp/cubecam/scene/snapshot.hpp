@@ -52,11 +52,19 @@ struct NodeSnapshot {
     Blend blend;                          ///< as it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
+    bool casts_shadows;                   ///< opaque, and so are it and all above it set
+    bool receives_shadows;
     std::int32_t render_order = 0;
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.
     bool drawn_late() const { return translucent || !depth_write; }
+};
+
+/// A light as it was at the moment of the snapshot; `object` names its shadow map.
+struct LightSnapshot {
+    std::shared_ptr<Light> object;
+    LightValue value;
 };
 
 /// An image effect as a call sees it.
@@ -87,7 +95,7 @@ struct SceneSnapshot {
     FrozenSource environment;
     std::variant<glm::vec4, FrozenCube> background;
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in order of id
-    std::vector<LightValue> lights;
+    std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
 

@@ -33,6 +33,7 @@ NAMES: tuple[str, ...] = (
     "anaglyph",
     "additive_blur",
     "render_to_texture",
+    "framebuffer_parts",
     "cube_camera",
     "cubemap_on_a_cube",
     "dynamic_reflection",

@@ -5,8 +5,10 @@ or RGB565, DEPTH_COMPONENT16, STENCIL_INDEX8. Several colour buffers are filled 
 colour, distance, normal, position and id. And it may have depth alone: a shadow map is such a
 target, drawn from the lamp.
 
-Look for, from left to right and top to bottom: colour with shadows in RGBA8; the same in RGB565, in
-bands of 32, 64 and 32 steps; depth; normals and positions as colours; a colour for each id.
+Look for, from left to right, above: colour with shadows in RGBA8; the same in RGB565, in bands of
+32, 64 and 32 steps; depth, dark where it is near; the lamp's shadow map, what is near it bright.
+Below: normals and positions as colours; a colour for each id; the stencil, counted up by each thing
+that covers a pixel, hidden or not.
 
 Worth trying: ``parts(program, renderer, frame, size)`` gives them as arrays of numbers. A depth of
 16 bits has 65,536 steps between near and far, most of them near: move near to 0.01 and see what is
@@ -29,31 +31,37 @@ PROGRAM = "P11"
 TITLE = "The parts of a framebuffer, and a shadow map"
 FRAMES = 120  # one turn
 STILL = 0
-SIZE = (768, 512)  # three by two pictures
+SIZE = (1024, 512)  # four by two pictures
 
 GREY = (0.4, 0.4, 0.4, 1.0)
 NEAR, FAR = 1.0, 20.0  # world units
 SHADOW = 512  # pixels along an edge of the shadow map
 TURN = 3.0  # degrees a frame
-OUTPUTS = ("distance", "normal", "position", "id", "depth", "stencil")
+OUTPUTS = ("distance", "z", "normal", "position", "id", "depth")
 
 
 @dataclass
 class Program:
-    """`ring` is what turns."""
+    """`ring` is what turns; `things` stand on it, over `ground`."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
+    lamp: cc.PointLight
+    ground: cc.Node
     ring: cc.Node
+    things: tuple[cc.Node, ...]
 
 
 def build() -> Program:
     """Make the scene: bunny, teapot and box on a ground under one lamp that throws shadows."""
     scene = cc.Scene(background=GREY)
-    lamp: Any = cc.PointLight
-    scene.add(lamp(position=LIGHT, shadow=cc.Shadow(size=SHADOW)))
-    scene.add(
-        cc.Mesh.plane(8, 8), cc.PhongMaterial(color=(0.6, 0.6, 0.7), ks=0), position=(0, -0.6, 0)
+    lamp = cc.PointLight(position=LIGHT, shadow=cc.Shadow(size=SHADOW))
+    scene.add(lamp)
+    count = cc.Stencil(depth_pass="incr", depth_fail="incr")
+    ground = scene.add(
+        cc.Mesh.plane(8, 8),
+        cc.PhongMaterial(color=(0.6, 0.6, 0.7), ks=0, stencil=count),
+        position=(0, -0.6, 0),
     )
     ring = scene.add()
     things = (
@@ -61,28 +69,52 @@ def build() -> Program:
         (teapot(), (1.0, 0.4, 0.4)),
         (cc.Mesh.box(0.8), (0.4, 0.4, 1.0)),
     )
-    for index, (mesh, color) in enumerate(things):
-        place = on_circle(1.4, 0, math.radians(360 * index / len(things)))
-        scene.add(mesh, cc.PhongMaterial(color=color), position=place, parent=ring)
+    nodes = tuple(
+        scene.add(
+            mesh,
+            cc.PhongMaterial(color=color, stencil=count),
+            position=on_circle(1.4, 0, math.radians(360 * index / len(things))),
+            parent=ring,
+        )
+        for index, (mesh, color) in enumerate(things)
+    )
     camera = cc.PerspectiveCamera(
         fov=45, position=(0, 2.5, 5), target=(0, 0, 0), near=NEAR, far=FAR
     )
-    return Program(scene, camera, ring)
+    return Program(scene, camera, lamp, ground, ring, nodes)
 
 
 def parts(
-    program: Program, renderer: Any, frame: int, size: tuple[int, int], **options: Any
+    program: Program,
+    renderer: cc.Renderer,
+    frame: int,
+    size: tuple[int, int],
+    **options: Any,
 ) -> dict[str, Picture]:
-    """Give every part as an array: one pass for all outputs, and one more for the colours of 16 bits."""
+    """Give every part as an array.
+
+    "color", "distance", "z", "normal", "position", "id" and "depth" are of one pass with a depth buffer of 16 bits,
+    "rgb565" is of one with 16 bits for a colour, "stencil" of one with a stencil buffer beside the depth,
+    "depth_only" of one without any colour buffer, and "shadow" is the lamp's map, six faces.
+    """
     program.ring.rotation = cc.axis_angle((0, 1, 0), TURN * frame)
     scene, camera = program.scene, program.camera
     drawn = renderer.render(
-        scene, camera, size, outputs=OUTPUTS, depth_format="depth_component16", format="rgba8",
-        **options,
-    )  # fmt: skip
+        scene, camera, size, outputs=OUTPUTS, depth_format="depth_component16", **options
+    )
     small = renderer.render(scene, camera, size, format="rgb565", **options)
-    found = {name: getattr(drawn, name) for name in OUTPUTS}
-    return {"color": drawn.color, "rgb565": small.color, **found}
+    counted = renderer.render(
+        scene, camera, size, outputs=("stencil",), depth_format="depth24_stencil8", **options
+    )
+    alone = renderer.render(scene, camera, size, outputs=("depth",), format=None)
+    return {
+        "color": drawn.color,
+        **{name: getattr(drawn, name) for name in OUTPUTS},
+        "rgb565": small.color,
+        "stencil": counted.stencil,
+        "depth_only": alone.depth,
+        "shadow": renderer.shadow_map(scene, program.lamp),
+    }
 
 
 def draw(
@@ -92,19 +124,32 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame as three by two pictures, uint8; each has its own format, which is therefore no option."""
-    cell = (max(size[0] // 3, 1), max(size[1] // 2, 1))
+    """Draw a frame as four by two pictures, uint8; each has its own format, which is therefore no option."""
+    cell = (max(size[0] // 4, 1), max(size[1] // 2, 1))
     part = parts(program, renderer, frame, cell, **options)
-    depth = np.repeat(part["depth"][..., None], 3, axis=2)
     normal = part["normal"] / 2 + 0.5
     position = np.nan_to_num(part["position"] / 4 + 0.5, nan=0.4)
     # Far apart from each other, for ids that follow each other.
     hues = (part["id"][..., None] * np.array([0.37, 0.61, 0.83])) % 1
-    cells = [
-        _bytes(item) for item in (part["color"], part["rgb565"], depth, normal, position, hues)
-    ]
-    rows = [np.concatenate(cells[:3], axis=1), np.concatenate(cells[3:], axis=1)]
+    above = [part["color"], part["rgb565"], _grey(part["depth"]), _grey(_shadow(part, cell))]
+    below = [normal, position, hues, _grey(part["stencil"] / 4)]
+    rows = [np.concatenate([_bytes(item) for item in row], axis=1) for row in (above, below)]
     return np.concatenate(rows)
+
+
+def _grey(values: Picture) -> Picture:
+    return np.repeat(np.asarray(values, np.float64)[..., None], 3, axis=2)
+
+
+def _shadow(part: dict[str, Picture], cell: tuple[int, int]) -> Picture:
+    """Give the two faces that look down from the lamp, -Y beside -X, as pictures of the cell's size."""
+    width, height = cell
+    distances = part["shadow"][[3, 1]]
+    pair = np.concatenate(list(1 / np.maximum(distances / 3, 1)), axis=1)
+    rows = (np.arange(height) + 0.5) * pair.shape[0] / height
+    columns = (np.arange(width) + 0.5) * pair.shape[1] / width
+    found: Picture = pair[rows.astype(int)[:, None], columns.astype(int)[None, :]]
+    return found
 
 
 def _bytes(picture: Picture) -> Picture:

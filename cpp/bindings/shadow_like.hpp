@@ -1,0 +1,30 @@
+/// What lights take as their shadow.
+#pragma once
+
+#include "objects.hpp"
+
+#include "cubecam/scene/shadow.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+
+namespace cubecam::bindings {
+
+using ShadowLike = OneOf<Shadow, bool, py::none>;
+
+/// None and False: none; True: the default one.
+inline std::optional<Shadow> to_shadow(py::handle value) {
+    if (value.is_none()) return std::nullopt;
+    if (py::isinstance<py::bool_>(value)) {
+        return value.cast<bool>() ? std::optional(Shadow{}) : std::nullopt;
+    }
+    return *to_shared<Shadow>(value, "shadow", "a Shadow, True or None");
+}
+
+inline OrNone<Shadow> from_shadow(const std::optional<Shadow>& shadow) {
+    return or_none(shadow ? std::make_shared<Shadow>(*shadow) : nullptr);
+}
+
+}  // namespace cubecam::bindings

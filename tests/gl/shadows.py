@@ -1,0 +1,156 @@
+"""Scenes with shadows, and what ray casting says of them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import cubecam as cc
+from tests.gl.world import World, inner, inner_smooth
+from tests.reference import raycast, shading
+from tests.reference.transforms import normalised
+
+COLORS = {
+    "floor": (0.6, 0.6, 0.7),
+    "box": (1, 0.5, 0.4),
+    "wall": (0.5, 0.9, 0.4),
+    "ball": (0.4, 0.6, 1),
+}
+
+
+def stage():
+    """A box that stands on the floor, one that floats, a thin wall and a ball: all cast and receive."""
+    world = World()
+
+    def add(make, name, **place):
+        return make(
+            color=COLORS[name],
+            material=cc.PhongMaterial(color=COLORS[name], double_sided=name == "wall"),
+            **place,
+        )
+
+    add(lambda **p: world.plane(7, 6, **p), "floor", position=(0.3, 0, -0.2))
+    add(lambda **p: world.box((0.8, 1.2, 0.6), **p), "box", position=(-0.9, 0.6, -0.4), degrees=25)
+    add(
+        lambda **p: world.box((0.7, 0.3, 0.5), **p),
+        "box",
+        position=(0.9, 1.3, 0.3),
+        axis=(1, 2, 1),
+        degrees=40,
+    )
+    add(
+        lambda **p: world.plane(1.1, 1, **p),
+        "wall",
+        position=(0.5, 0.5, -1.2),
+        axis=(1, 0, 0),
+        degrees=90,
+    )
+    add(lambda **p: world.sphere(0.5, subdivisions=2, **p), "ball", position=(0.2, 0.5, 0.9))
+    return world
+
+
+@dataclass
+class Lamp:
+    """A light of the product, its twin, and how wide a texel of its map is (a unit away); None: it has none."""
+
+    ours: object
+    theirs: object
+    texel: float
+    far: bool = False
+
+
+def lamps(size=256, radius=1.0, **more):
+    """One of each kind, over the stage. Texels are widest where the map is: bounds from the scene's size."""
+    shadow = cc.Shadow(size=size, radius=radius, **more)
+    wide = size - 2 * (np.ceil(radius) + 2)
+    return {
+        "directional": Lamp(
+            cc.DirectionalLight((-1, -1.7, 0.7), shadow=shadow),
+            shading.Directional((-1, -1.7, 0.7)),
+            8 / (size - 2),
+            True,
+        ),
+        "spot": Lamp(
+            cc.SpotLight(
+                (2.2, 4, -1.8), (-2.2, -3.8, 1.8), angle=38, penumbra=0.4, decay=0.3, shadow=shadow
+            ),
+            shading.Spot((2.2, 4, -1.8), (-2.2, -3.8, 1.8), 38, 0.4, decay=0.3),
+            2 * np.tan(np.radians(38)) / wide,
+        ),
+        "point": Lamp(
+            cc.PointLight((-0.1, 1.9, 0.2), shadow=shadow),
+            shading.Point((-0.1, 1.9, 0.2)),
+            2 / wide,
+        ),
+    }
+
+
+def around(hits, lamp, radius=1.0):
+    """(share of the light, whether it is the same around, whether the surface clearly faces it).
+
+    Around: on the surface's plane, where the map's texels are that the filter reaches, and one more.
+    """
+
+    def cast(points, start):
+        to_light, distance = shading.way_to(lamp.theirs, points)
+        return raycast.visible(hits.shapes, points, to_light, distance[..., 0], start)
+
+    share, same = np.ones(hits.id.shape), np.ones(hits.id.shape, bool)
+    to_light, distance = shading.way_to(lamp.theirs, hits.position)
+    cosine = shading.dot(hits.normal, to_light)[..., 0]
+    rows = hits.hit & (cosine > 0)  # the others are dark whatever stands in the way
+    points, normal, to_light = hits.position[rows], hits.normal[rows], to_light[rows]
+    texel = lamp.texel * (1 if lamp.far else distance[rows])
+    share[rows] = cast(points, 1e-4)
+    right = normalised(np.cross(to_light, [0.3, 0.5, -0.8]))
+    up = np.cross(right, to_light)
+    # Diagonals of square texels, and the bias of about a texel.
+    widest = np.sqrt(2) * (radius + 0.5) + 1.5
+    for reach, angle in (
+        (1, 0),
+        (1, 1),
+        (1, 2),
+        (1, 3),
+        (1, 4),
+        (1, 5),
+        (1, 6),
+        (1, 7),
+        (0.5, 0),
+        (0.5, 3),
+        (0.5, 5),
+    ):
+        turn = angle * np.pi / 4
+        across = reach * widest * texel * (np.cos(turn) * right + np.sin(turn) * up)
+        slide = shading.dot(normal, across) / np.maximum(cosine[rows], 0.02)[..., None]
+        same[rows] &= cast(points + across - slide * to_light, 2e-3) == share[rows]
+    return share, same, cosine
+
+
+def lit(hits, eye, all_lamps, radius=1.0, background=(0, 0, 0)):
+    """Phong with ray-cast shadows, and where that can be told exactly."""
+    color = np.zeros((*hits.id.shape, 3))
+    for id_, name in enumerate(("floor", "box", "box", "wall", "ball"), start=1):
+        color[hits.id == id_] = COLORS[name]
+    shares, good = [], np.where(hits.id == 5, inner_smooth(hits), inner(hits))
+    outside = ~hits.hit & raycast.interior(hits.id)
+    for lamp in all_lamps:
+        if lamp.texel is None:
+            shares.append(None)
+            continue
+        share, same, cosine = around(hits, lamp, radius)
+        shares.append(share)
+        good &= same | (cosine < 0)
+        # The ball's facets and its shading normals do not agree on where night begins; elsewhere light
+        # that grazes a surface takes long steps from texel to texel.
+        good &= (cosine < -0.3) | (cosine > np.where(hits.id == 5, 0.3, 0.05))
+    want = shading.phong(
+        hits.position, hits.normal, eye, color, [lamp.theirs for lamp in all_lamps],
+        visibility=shares,
+    )  # fmt: skip
+    want[~hits.hit] = background
+    return want, (good & hits.hit & (hits.id <= 5)) | outside, shares
+
+
+def with_shapes(hits, shapes):
+    """The hits, remembering what may stand in the light's way."""
+    hits.shapes = shapes
+    return hits

@@ -1,0 +1,165 @@
+"""P11: all parts of one pass against ray casting, formats by their steps, a shadow by rays towards the lamp."""
+
+import numpy as np
+import pytest
+
+from cubecam.examples import framebuffer_parts as example
+from tests.compare import assert_close
+from tests.programs.oracle import LAMP, Look, box, mesh, moved, quad, ry, unbroken
+from tests.reference import raycast, shading
+from tests.reference.raycast import interior
+
+SIZE = (64, 56)
+NEAR, FAR = 1, 20
+EYE = np.array([0, 2.5, 5.0])
+COLORS = [(0.6, 0.6, 0.7), (0.4, 1, 0.4), (1, 0.4, 0.4), (0.4, 0.4, 1)]
+
+
+def shapes_of(program, frame):
+    """Ground, bunny, teapot and box, from the document's numbers."""
+    bunny, teapot, cube = program.things
+    places = [ry(3 * frame) @ ry(120 * i) @ moved(1.4, 0, 0) @ ry(-120 * i) for i in range(3)]
+    return [
+        quad(program.ground, 8, moved(0, -0.6, 0)),
+        mesh(bunny, places[0], ("bunny", 1.2)),
+        mesh(teapot, places[1], ("teapot", 1.2)),
+        box(cube, 0.8, places[2]),
+    ]
+
+
+@pytest.fixture(scope="module")
+def drawn(shared_renderers):
+    made = {}
+
+    def get(frame):
+        if frame not in made:
+            program = example.build()
+            shapes = shapes_of(program, frame)
+            look = Look(EYE, (0, 0, 0), 45, NEAR, FAR, SIZE)
+            parts = example.parts(program, shared_renderers(None), frame, SIZE)
+            made[frame] = program, parts, shapes, look, look.hits(shapes)
+        return made[frame]
+
+    return get
+
+
+frames = pytest.mark.parametrize("frame", [0, 50])
+
+
+@frames
+def test_outputs_of_one_pass(drawn, frame):
+    _, parts, _, look, hits = drawn(frame)
+    mask = unbroken(hits) & interior(hits.id, hits.part // 1000)
+    assert mask.mean() > 0.3
+    assert (parts["id"][mask] == hits.id[mask]).all()
+    assert_close(parts["distance"], hits.distance, "distance", mask=mask)
+    z = -((look.view[:3, :3] @ np.nan_to_num(hits.position)[..., None])[..., 0] + look.view[:3, 3])[
+        ..., 2
+    ]
+    assert_close(parts["z"], np.where(hits.hit, z, np.inf), "distance", mask=mask)
+    assert_close(parts["position"], hits.position, "position", mask=mask)
+    # Bunny and teapot have no flat sides: their normals by the ray caster's interpolation, to the pixel's width.
+    flat = mask & np.isin(hits.id, [1, 5])
+    assert_close(
+        parts["normal"], np.where(hits.hit[..., None], hits.normal, 0), "normal", mask=flat
+    )
+
+
+@frames
+def test_depth_of_16_bits_is_the_quantised_window_depth(drawn, frame):
+    _, parts, _, _, hits = drawn(frame)
+    z = parts["z"].astype(float)
+    window = np.where(np.isfinite(z), FAR / (FAR - NEAR) * (1 - NEAR / z), 1.0)
+    steps = parts["depth"].astype(float) * 65535
+    assert np.abs(steps - np.rint(steps)).max() < 0.01, "whole steps of 65,535"
+    assert_close(parts["depth"], np.rint(window * 65535) / 65535, "depth16")
+    assert_close(parts["depth_only"], window, "depth32")
+    assert (parts["depth"][~hits.hit & interior(hits.id)] == 1).all()
+
+
+@frames
+def test_colours_of_16_bits_are_the_quantised_ones(drawn, frame):
+    _, parts, *_ = drawn(frame)
+    levels = np.array([31, 63, 31])
+    steps = parts["rgb565"][..., :3] / 255 * levels
+    assert np.abs(steps - np.rint(steps)).max() < 0.07, "what 5 or 6 bits can say, in 8"
+    exact = parts["color"][..., :3] / 255 * levels
+    assert np.abs(np.rint(steps) - exact).max() <= 0.5 + levels.max() / 255 / 2 + 0.01
+    assert (parts["rgb565"][..., 3] == 255).all()
+    assert len(np.unique(parts["rgb565"][..., 0])) <= 32
+
+
+@frames
+def test_the_stencil_counts_what_covers_a_pixel(drawn, frame):
+    """Front faces, hidden or not: for the ground and the box as many as rays through them say."""
+    program, parts, shapes, look, hits = drawn(frame)
+    alone = [look.hits([shape]) for shape in shapes]
+    others = np.zeros(hits.id.shape, bool)
+    for hit in alone[1:3]:
+        others |= hit.hit
+    mask = interior(
+        alone[0].hit.astype(int), alone[3].part, alone[3].hit.astype(int), others.astype(int)
+    )
+    want = alone[0].hit.astype(int) + alone[3].hit.astype(int)
+    simple = mask & ~others
+    assert (simple & (want == 2)).sum() > 5
+    assert (parts["stencil"][simple] == want[simple]).all()
+    assert (parts["stencil"] >= hits.hit)[mask].all()
+    assert program.things[2].material.stencil.depth_fail == "incr"
+
+
+@frames
+def test_the_shadow_against_ray_casting(drawn, frame):
+    """Rays from each point towards the lamp; where they turn from free to blocked the filter is soft, and masked."""
+    _, parts, shapes, _, hits = drawn(frame)
+    seen = hits.hit
+    start = hits.position[seen]
+    towards = np.asarray(LAMP.position) - start
+    blocked = np.zeros(seen.shape, int)
+    blocked[seen] = raycast.cast(solid(shapes), start, towards, near=0.01, far=1).hit
+    lit = unlit = np.zeros((*seen.shape, 3))
+    lit, unlit = lit.copy(), unlit.copy()
+    for shape, color in zip(shapes, COLORS, strict=True):
+        rows = hits.id == shape.id
+        weights = {"ks": 0} if shape.id == 1 else {}
+        lit[rows] = shading.phong(
+            hits.position[rows], hits.normal[rows], EYE, color, [LAMP], **weights
+        )
+        unlit[rows] = 0.2 * np.array(color)
+    want = np.where(blocked[..., None] == 1, unlit, lit)
+    ground = (hits.id == 1) & interior(hits.id, blocked, radius=2)
+    assert (ground & (blocked == 1)).sum() > 20
+    assert (ground & (blocked == 0)).sum() > 100
+    assert_close(parts["color"][..., :3] / 255, want, "unorm8_phong", mask=ground, least=0.05)
+    # On the box too: its sides away from the lamp are dark without any map.
+    side = (hits.id == 5) & interior(hits.id, hits.part, blocked, radius=1)
+    assert_close(parts["color"][..., :3] / 255, want, "unorm8_phong", mask=side, least=0.005)
+
+
+def solid(shapes):
+    """What stops light from either side."""
+    for shape in shapes:
+        shape.double_sided = True
+    return shapes
+
+
+@frames
+def test_the_lamps_map_holds_distances(drawn, frame):
+    """Straight down from the lamp is the face -Y: a ray through a texel's centre meets what the map says."""
+    _, parts, shapes, *_ = drawn(frame)
+    shadow = parts["shadow"]
+    assert shadow.shape == (6, example.SHADOW, example.SHADOW)
+    assert np.isinf(shadow[[0, 2, 4]]).all(), "nothing stands beyond or above the lamp"
+    assert np.isfinite(shadow[3]).any()
+    finite = shadow[3][np.isfinite(shadow[3])]
+    assert finite.max() <= 5.6 + 1e-3, "the ground lies 5.6 below"
+    assert finite.min() < 5, "and things stand on it"
+    assert solid(shapes)
+
+
+def test_the_picture_has_eight_cells(renderer):
+    picture = example.draw(example.build(), renderer, 0, (256, 128))
+    assert picture.shape == (128, 256, 4)
+    cells = [cell for row in np.split(picture, 2) for cell in np.split(row, 4, axis=1)]
+    assert all(np.ptp(cell[..., :3]) > 30 for cell in cells)
+    assert len({cell.tobytes() for cell in cells}) == 8
