@@ -94,7 +94,7 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     float width = 1.0 / (map.lens.z * inverse_z);
     float half_width = map.filter_.x + 0.5;
     float bias = (0.25 + 0.25 * half_width) * width / (abs(towards) * inverse_z);
-    bias += map.filter_.y + 1e-6 * (length(ray) + length(position) + abs(z));
+    bias += map.filter_.y + 1e-6 * (length(place) + length(position));
     float bias_depth = scale * bias * (parallel ? 1.0 : inverse_z / max(z - bias, 0.1 * z));
     bias_depth += (abs(slope.x) + abs(slope.y)) / 128.0;
 

@@ -32,6 +32,8 @@ STENCIL = ("tests/gl/test_stencil.py",)
 STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
+SHADOWS = ("tests/gl/test_shadows.py",)
+SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 
 CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
 CALL = "cpp/cubecam/render/call.cpp"
@@ -273,7 +275,9 @@ MUTATIONS = [
         STATS + CAPTURE,
     ),
     # What a picture depends on.
-    Mutation("key: lights forgotten", CALL, "add_light(common, light);", "(void)light;", STATS),
+    Mutation(
+        "key: lights forgotten", CALL, "add_light(common, light.value);", "(void)light;", STATS
+    ),
     Mutation(
         "key: the node's matrix forgotten",
         CALL,
@@ -479,5 +483,62 @@ MUTATIONS = [
         "zip((-APART, APART)",
         "zip((APART, -APART)",
         ("tests/programs/test_p17_dynamic_refraction.py",),
+    ),
+    # Shadows.
+    Mutation(
+        "shadow: +Y of a point light's cube turned",
+        "shaders/shadows.glsl",
+        "axis == 1 ? vec3(v.x, s * v.z, s * v.y)",
+        "axis == 1 ? vec3(v.x, -s * v.z, s * v.y)",
+        SHADOWS,
+    ),
+    Mutation(
+        "shadow: slope of the receiving plane forgotten",
+        "shaders/shadows.glsl",
+        "vec4 there = dot(corner - start - half_width, slope) + to_corners;",
+        "vec4 there = vec4(0.0);",
+        SHADOWS,
+    ),
+    Mutation(
+        "shadow: no rounded surface along the terminator",
+        "shaders/shadows.glsl",
+        "place += facet_height * plane;",
+        "place += 0.0 * facet_height * plane;",
+        SHADOWS,
+    ),
+    Mutation(
+        "shadow: texels of a gather in another order",
+        "shaders/shadows.glsl",
+        "y.y * dot(reached.xy, x) + y.x * dot(reached.wz, x)",
+        "y.x * dot(reached.xy, x) + y.y * dot(reached.wz, x)",
+        SHADOWS,
+    ),
+    Mutation(
+        "key: shadow maps forgotten",
+        CALL,
+        "if (receives_shadows(node)) key.add(shadows);",
+        "",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: a caster's matrix is not in the map's key",
+        "cpp/cubecam/render/shadow_pass.cpp",
+        "key.add(node.world);",
+        "",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: single-sided casters",
+        "cpp/cubecam/render/shadow_pass.cpp",
+        "gl_->Disable(GL_CULL_FACE);",
+        "gl_->Enable(GL_CULL_FACE);",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "spot: the penumbra's share turned round",
+        SURFACE,
+        "spot.angle * (1.0 - spot.penumbra)",
+        "spot.angle * spot.penumbra",
+        ("tests/gl/test_spot_light.py",),
     ),
 ]

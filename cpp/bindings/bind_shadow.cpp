@@ -21,6 +21,9 @@ A value that does not change: give a light another one. All visible opaque nodes
 fall on every node with a `PhongMaterial` whose ``receives_shadows`` is True. A map is drawn again
 only when what it sees changes.
 
+A directional light's map covers all that casts, so a wide floor makes its texels wide: set the
+floor's ``casts_shadows`` to False, or an ``extent``.
+
 The edge of a shadow is about ``2 * radius + 1`` texels wide. A surface does not shadow itself, since
 each texel is compared with the depth of the surface's own plane there, and no distance has to be
 tuned for that.
@@ -42,8 +45,9 @@ far : float or None
     Point and spot lights: what is farther from the light casts no shadow. World units, above near;
     None: all that there is casts.
 extent : float or None
-    Directional lights: width and height of what the map covers, world units, around the middle of
-    all that casts; beyond, all is lit. None: all that casts.
+    Directional lights: width and height of what the map covers (but for its outermost texels,
+    which stay empty), world units, around the middle of the bounds of all that casts; beyond, all
+    is lit. None: as much as all that casts.
 
 Raises
 ------

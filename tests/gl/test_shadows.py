@@ -201,8 +201,8 @@ def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
     light = scene.add(
         {
             "directional": cc.DirectionalLight(-way, shadow=shadow),
-            "spot": cc.SpotLight(way + (0, 1, 0), -way, angle=40, shadow=shadow),
-            "point": cc.PointLight(way + (0, 1, 0), shadow=shadow),
+            "spot": cc.SpotLight(way + np.array([0, 1, 0]), -way, angle=40, shadow=shadow),
+            "point": cc.PointLight(way + np.array([0, 1, 0]), shadow=shadow),
         }[kind]
     )
     view = perspective((0.5, 1.5, 4), (0, 1, 0), size=(48, 36))
@@ -220,7 +220,7 @@ def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
 @pytest.mark.parametrize("size", [256, 1024])
 @pytest.mark.parametrize("thing", ["box", "thin box", "plane"])
 def test_contact(renderer, kind, size, thing):
-    """Looked at from above: behind what stands on the floor, dark begins within two texels."""
+    """Looked at from above: behind what stands on the floor, dark begins within a texel."""
     scene = cc.Scene()
     matte = {"color": (1, 1, 1), "ka": 0, "ks": 0, "kd": 1}
     scene.add(cc.Mesh.plane(6, 6), cc.PhongMaterial(**matte))
@@ -254,7 +254,7 @@ def test_contact(renderer, kind, size, thing):
     ]
     first = (share > 0.5).sum(axis=1) * 0.8 / 400  # x grows to the right, from the foot
     # On a floor that light meets at 45 degrees a texel is as long as its diagonal.
-    assert first.max() < 2 * np.sqrt(2) * texel
+    assert first.max() < np.sqrt(2) * texel
     assert (share[:, -50:] == 0).all()
 
 
@@ -422,7 +422,7 @@ def test_near_and_far_cut_off_what_casts(renderer, kind):
 
 @kinds
 @pytest.mark.parametrize("offset", [(0, 0, 0), (1e5, -2e4, 3e4)], ids=["here", "far away"])
-@pytest.mark.parametrize("scale", [1e-3, 1, 1e3])
+@pytest.mark.parametrize("scale", [1e-6, 1, 1e4])
 def test_size_and_place_of_the_world_do_not_matter(renderer, kind, offset, scale):
     """The same scene, moved and scaled with its lamp and its camera, is the same picture."""
     offset = np.array(offset)
