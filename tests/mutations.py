@@ -39,6 +39,7 @@ CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
 CALL = "cpp/cubecam/render/call.cpp"
 NEEDS = "cpp/cubecam/render/needs.cpp"
 SURFACE = "cpp/cubecam/render/surface_pass.cpp"
+RASTER = "cpp/cubecam/render/raster_state.cpp"
 
 MUTATIONS = [
     # The convention, in its one place and in those that derive from it.
@@ -192,14 +193,14 @@ MUTATIONS = [
     ),
     Mutation(
         "culling of mirrored nodes",
-        SURFACE,
-        "(glm::determinant(glm::dmat3(item.node->world)) < 0.0) != mirror",
+        RASTER,
+        "(glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror",
         "mirror",
         SIDES,
     ),
     Mutation(
         "blending: alpha like colour",
-        SURFACE,
+        RASTER,
         "GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA",
         "GL_ONE_MINUS_SRC_ALPHA, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA",
         ALPHA,
@@ -309,7 +310,7 @@ MUTATIONS = [
     Mutation(
         "key: what a mirror shows forgotten",
         CALL,
-        "key.add(lookups[planned.node].revision);",
+        "key.add(found.cube.revision);",
         "",
         PROBES,
     ),
@@ -331,15 +332,15 @@ MUTATIONS = [
     Mutation(
         "key: what a map shows forgotten",
         CALL,
-        "key.add(session_.look_up(map).revision);",
-        "(void)map;",
+        "key.add(found.map.revision);",
+        "",
         RENDER_TEXTURES,
     ),
     Mutation(
         "texture: what it shows is not drawn first",
         "cpp/cubecam/render/session.cpp",
-        "return calls_[texture.scene].needs_of(work.plan);",
-        "return {};",
+        "std::vector<std::size_t> needs = calls_[texture.scene].needs_of(work.plan);",
+        "std::vector<std::size_t> needs;",
         RENDER_TEXTURES,
     ),
     Mutation(

@@ -36,11 +36,13 @@ depth_write=None        whether it hides what is drawn later and is farther; Non
                         "opaque"
 depth_test=True         False is drawn over what is nearer as well
 color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
-stencil=None            a `Stencil`: how it tests and changes the stencil buffer, if there is one
+stencil=None            a `Stencil`: how it tests and changes the stencil buffer, where
+                        ``depth_format`` has one; None leaves it alone
 ======================  =========================================================================
 
 What is blended, or writes no depth, is drawn after the background, far to near; it writes colour
-and none of the other outputs.
+and none of the other outputs. A mask that writes neither colour nor depth, but a stencil, is drawn
+among the opaque nodes.
 )doc";
 
 inline constexpr const char* basic_doc = R"doc(Unlit: color * map * vertex colour * cubemap.

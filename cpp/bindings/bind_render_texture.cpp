@@ -42,8 +42,8 @@ camera : Camera
     From where; the shape of the picture is that of `size`.
 size : (int, int)
     (width, height), texels.
-format : {"rgba8", "rgba16f", "rgba32f"}
-    What a texel is kept in. rgba8 clips light above 1.
+format : {"rgba8", "rgba16f", "rgba32f", "rgb565"}
+    What a texel is kept in. rgba8 and rgb565 clip light above 1.
 samples : int
     Samples of each texel, for smooth edges (MSAA); 1 is none.
 mipmaps : bool
@@ -165,7 +165,7 @@ void bind_texture_picture(Class<RenderTexture>& made) {
             const Format format = parse_format(value);
             self.edit([&](RenderTextureValue& next) { next.format = format; });
         },
-        "str: \"rgba8\", \"rgba16f\" or \"rgba32f\".");
+        "str: \"rgba8\", \"rgba16f\", \"rgba32f\" or \"rgb565\".");
     made.def_property(
         "depth_format", [](const T& self) { return from_depth_format(self.value().depth_format); },
         [](T& self, const std::optional<std::string>& value) {

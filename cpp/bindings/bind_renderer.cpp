@@ -260,7 +260,7 @@ Raises
 ------
 ValueError
     For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-    outputs that ``depth_format`` does not allow, tone mapping of no colour, or an impossible camera.
+    outputs that ``depth_format`` does not allow, tone mapping or effects of no colour, or an impossible camera.
 ContextError
     After :meth:`close`, or in a forked process.
 

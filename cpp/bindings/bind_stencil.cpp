@@ -1,4 +1,5 @@
 // cubecam.Stencil
+#include "numbers.hpp"
 #include "stencil.hpp"
 
 #include <pybind11/pybind11.h>
@@ -50,12 +51,13 @@ OpenGL 4.6, section 17.3.3; front and back faces alike.
 
 Examples
 --------
-A disc as a mask: the red plane before it, drawn after it, shows within the disc's outline only.
+A disc as a window: invisible itself, it lets the red plane behind it show within its outline only.
 
 >>> import cubecam as cc
 >>> scene = cc.Scene()
->>> hole = cc.BasicMaterial((0, 0, 0), stencil=cc.Stencil(reference=1, depth_pass="replace"))
->>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, -1), render_order=-1)
+>>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
+...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
+>>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
 >>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
 >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
 >>> with cc.Renderer() as renderer:
@@ -66,7 +68,7 @@ A disc as a mask: the red plane before it, drawn after it, shows within the disc
 )doc";
 
 std::uint8_t to_byte(py::handle value, const char* name) {
-    return static_cast<std::uint8_t>(to_whole(value, name, 0, 255));
+    return static_cast<std::uint8_t>(to_int(value, name, 0, 255));
 }
 
 using Whole = OneOf<py::int_>;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cube_source.hpp"
+#include "numbers.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -27,9 +28,9 @@ inline std::shared_ptr<Material> to_material(py::handle value) {
 }
 
 inline std::int32_t to_render_order(py::handle value) {
-    return static_cast<std::int32_t>(to_whole(value, "render_order",
-                                              std::numeric_limits<std::int32_t>::min(),
-                                              std::numeric_limits<std::int32_t>::max()));
+    return static_cast<std::int32_t>(to_int(value, "render_order",
+                                            std::numeric_limits<std::int32_t>::min(),
+                                            std::numeric_limits<std::int32_t>::max()));
 }
 
 /// What scene.add and unpickling give: a matrix, or any of the parts.

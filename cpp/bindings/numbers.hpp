@@ -26,6 +26,15 @@ inline std::int64_t to_int(py::handle value, const char* name) {
     return number;
 }
 
+/// The same within limits.
+inline std::int64_t to_int(py::handle value, const char* name, std::int64_t low,
+                           std::int64_t high) {
+    const std::int64_t number = to_int(value, name);
+    if (number >= low && number <= high) return number;
+    throw py::value_error(std::string(name) + ": expected an int from " + std::to_string(low) +
+                          " to " + std::to_string(high) + ", got " + text_of(value));
+}
+
 /// (width, height).
 inline std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
     if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) ||

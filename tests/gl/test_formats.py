@@ -602,6 +602,48 @@ def test_limits_hold_with_each(renderer, options):
         renderer.render(cc.Scene(), camera, (4, 4), samples=limits.max_samples + 1, format=None)
 
 
+def test_what_writes_depth_late_is_in_depth(any_path):
+    """A pane that blends and still hides: in `depth`, with samples and without a colour, too."""
+    scene = cc.Scene()
+    scene.add(cc.Mesh.box((9, 9, 1)), cc.BasicMaterial(), position=(0, 0, -6.5))
+    for z, write in ((-2, False), (-3, True)):
+        pane = cc.BasicMaterial(opacity=0.5, depth_write=write)
+        scene.add(cc.Mesh.box((9, 9, 0.002)), pane, position=(0, 0, z))
+    camera = cc.PerspectiveCamera(fov=30, near=1, far=20)
+    want = ref.window_depth(3 - 0.001, 1, 20)
+    for options in ({}, {"samples": 4}, {"format": None}, {"format": "rgb565"}):
+        frame = any_path.render(scene, camera, (6, 4), outputs=("depth", "z", "id"), **options)
+        np.testing.assert_allclose(frame.depth, want, atol=1e-6)
+        np.testing.assert_allclose(frame.z, 6, atol=1e-5)  # only opaque nodes write these
+        assert (frame.id == 1).all()
+
+
+def test_effects_need_a_colour(renderer):
+    effect = cc.ImageEffect("vec4 effect(vec2 uv) { return frame(uv); }")
+    with pytest.raises(ValueError, match=r"effects.*format None"):
+        renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4, 4), format=None, effects=[effect])
+
+
+@pytest.mark.parametrize("options", COMBINATIONS.values(), ids=COMBINATIONS)
+def test_render_textures_have_them_too(renderer, options):
+    """What a texture holds is what a frame with the same options would."""
+    options = {name: value for name, value in options.items() if name != "outputs"}
+    scene = crowd(np.random.default_rng(34))
+    for index, node in enumerate(scene.nodes):
+        node.render_order = index % 3
+    inner_camera = cc.PerspectiveCamera(fov=50, position=(2, 1.5, 5), target=(0, 0, 0))
+    texture = cc.RenderTexture(scene, inner_camera, size=(40, 30), **options)
+    outer = cc.Scene()
+    outer.add(cc.Mesh.plane(2, 2), cc.BasicMaterial(map=texture), position=(0, -1, 0))
+    camera = cc.PerspectiveCamera(fov=50, position=(0, 3, 0), target=(0, -1, 0), up=(0, 0, -1))
+    renderer.render(outer, camera, (20, 20))
+    held = renderer.texture(texture)
+    want = renderer.render(scene, inner_camera, (40, 30), **options).color
+    assert_identical(getattr(held, "color", held), want)
+    twin = pickle.loads(pickle.dumps(texture))
+    assert (twin.depth_format, twin.format) == (texture.depth_format, texture.format)
+
+
 def test_probes_keep_their_depth_format(renderer):
     probe = cc.Probe(depth_format="depth_component16", format="rgb565")
     assert (probe.depth_format, probe.format) == ("depth_component16", "rgb565")

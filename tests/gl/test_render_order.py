@@ -138,10 +138,10 @@ BAD = {
     "too large": (2**31, ValueError, "render_order.*2147483647.*2147483648"),
     "too small": (-(2**31) - 1, ValueError, "render_order"),
     "huge": (10**40, ValueError, "render_order"),
-    "float": (1.5, TypeError, "render_order.*int.*float"),
-    "bool": (True, TypeError, "render_order.*bool"),
+    "float": (1.5, TypeError, "render_order.*int.*1.5"),
+    "bool": (True, TypeError, "render_order.*True"),
     "None": (None, TypeError, "render_order.*None"),
-    "text": ("first", TypeError, "render_order.*str"),
+    "text": ("first", TypeError, "render_order.*first"),
 }
 
 

@@ -187,6 +187,37 @@ def test_the_order_of_drawing_decides(renderer):
     assert set(np.unique(frame.id)) == {0, 1}
 
 
+@pytest.mark.parametrize("samples", [1, 4])
+def test_a_window_leaves_nothing_of_itself(any_path, samples):
+    """A mask without colour and depth before a wall: the wall through it, and no id of the mask's own."""
+    world, view = World(), perspective((0.4, 0.3, 4), (0, 0, 0), size=(60, 45))
+    world.scene.background = (0.5, 0.5, 0.5, 1)
+    hole = cc.BasicMaterial(
+        color_write=False,
+        depth_write=False,
+        stencil=cc.Stencil(reference=5, depth_pass="replace"),
+    )
+    world.mesh(cc.Mesh.icosphere(0.8, subdivisions=3), material=hole, position=(-0.4, -0.2, 1.2))
+    seen = cc.BasicMaterial((1, 0.2, 0.1), stencil=cc.Stencil("equal", 5))
+    world.box((2.4, 2, 0.2), (1, 0.2, 0.1), material=seen, position=(0.3, 0.1, 0), degrees=20)
+    world.scene.nodes[0].render_order = -1
+    frame = any_path.render(
+        world.scene, view.camera, view.size, format="rgba32f", samples=samples,
+        depth_format="depth24_stencil8", outputs=("id", "depth", "stencil", "normal"),
+    )  # fmt: skip
+    disc, wall = (view.hits([shape]) for shape in world.shapes)
+    shown = disc.hit & wall.hit
+    mask = inner_smooth(disc) & inner(wall)
+    assert (shown & mask).sum() > 100
+    assert (disc.hit & ~wall.hit & mask).sum() > 50
+    assert_close(frame.id, np.where(shown, 2, 0), "exact", mask=mask)
+    assert_close(frame.stencil, 5 * disc.hit, "exact", mask=mask)
+    assert ((frame.depth < 1) == shown)[mask].all()
+    assert (frame.normal.any(-1) == shown)[mask].all()
+    want = np.where(shown[..., None], (1, 0.2, 0.1, 1), (0.5, 0.5, 0.5, 1))
+    assert_close(frame.color, want, "float32_maths", mask=mask)
+
+
 @pytest.mark.parametrize("depth_format", [None, "depth_component24", "depth_component32f"])
 def test_without_a_stencil_buffer_it_has_no_effect(renderer, depth_format):
     with_it, without = disc_and_plane("never"), disc_and_plane("always")
@@ -318,6 +349,8 @@ def test_a_probe_with_a_stencil(renderer):
 
 # The value object, and the property.
 
+SHADER = "vec3 shade(Surface surface) { return vec3(1.0); }"
+
 
 def test_defaults_repr_and_equality():
     stencil = cc.Stencil()
@@ -352,15 +385,24 @@ def test_twins(twin):
 
 
 @pytest.mark.parametrize(
-    "kind", [cc.BasicMaterial, cc.PhongMaterial, cc.MirrorMaterial, cc.GlassMaterial]
+    "kind",
+    [
+        cc.BasicMaterial,
+        cc.PhongMaterial,
+        cc.MirrorMaterial,
+        cc.GlassMaterial,
+        lambda **more: cc.ShaderMaterial(SHADER, **more),
+    ],
 )
 def test_every_material_has_one(kind):
     assert kind().stencil is None
     material = kind(stencil=cc.Stencil(reference=1))
     assert material.stencil == cc.Stencil(reference=1)
-    assert "stencil=Stencil(reference=1)" in repr(material)
+    if not isinstance(material, cc.ShaderMaterial):  # which prints its source and inputs alone
+        assert "stencil=Stencil(reference=1)" in repr(material)
     material.stencil = None
     assert "stencil" not in repr(material)
+    assert material.stencil is None
     with pytest.raises(TypeError, match="stencil"):
         kind(stencil="always")
     with pytest.raises(TypeError, match="stencil"):

@@ -90,6 +90,39 @@ def test_halves_are_both_eyes_own_frames(any_path, scene, layout, options):
             assert_identical(part, getattr(own, name), name)
 
 
+EFFECT = """
+uniform float strength = 0.5;
+vec4 effect(vec2 uv) {
+    ivec2 here = ivec2(gl_FragCoord.xy);
+    return mix(frame_pixel(here), frame_pixel(here + ivec2(3, 1)), strength) + vec4(uv, 0.0, 0.0);
+}
+"""
+
+
+@pytest.mark.parametrize("options", [{}, {"tonemap": "aces", "samples": 4}])
+@pytest.mark.parametrize("count", [1, 3])
+def test_effects_run_over_each_eye(any_path, scene, options, count):
+    """Which know of their neighbours, and must not see the other eye's."""
+    eyes = cc.StereoCamera.off_axis(lens(), 0.3, 4.0)
+    effects = [cc.ImageEffect(EFFECT) for _ in range(count)]
+    left, right = (
+        any_path.render(scene, camera, SIZE, effects=effects, **options).color
+        for camera in (eyes.left, eyes.right)
+    )
+    got = any_path.render(scene, eyes, SIZE, effects=effects, **options).color
+    assert_identical(got[..., 0], left[..., 0])
+    assert_identical(got[..., 1:3], right[..., 1:3])
+    eyes.layout = "side_by_side"
+    pair = any_path.render(scene, eyes, whole("side_by_side"), effects=effects, **options).color
+    for part, own in zip(split(pair, "side_by_side"), (left, right), strict=True):
+        assert_identical(part, own)
+    effects[0].uniforms["strength"] = 0.0
+    changed = any_path.render(scene, eyes, whole("side_by_side"), effects=effects, **options).color
+    assert (changed != pair).any()
+    own = any_path.render(scene, eyes.right, SIZE, effects=effects, **options).color
+    assert_identical(split(changed, "side_by_side")[1], own)
+
+
 def test_alpha_is_the_greater(renderer):
     """Only the left eye looks at an opaque wall, only the right one at a pane."""
     scene = cc.Scene(background=(0, 0, 0, 0.25))

@@ -143,6 +143,9 @@ auto Renderer::run(Work&& work) {
 Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
                              const FrameOptions& options) {
     check_buffers(options);
+    if (!options.color && !scene.effects.empty()) {
+        throw std::invalid_argument("effects: expected none without a colour, got format None");
+    }
     return run([&](GpuState& gpu) {
         TargetDescription description = describe_target(
             gpu.context, false, options.width, options.height, options.samples, options.format,

@@ -297,22 +297,23 @@ void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
                            Stats& stats) {
     reset_raster_state(*gl_);
     const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
-    if (input.plan.hiding == Hiding::by_order) {  // no depth buffer: the test always passes
-        if (color) draw_background(input, prepared, region, stats);
-        draw_items(prepared.opaque, region, mirror, outputs, stats);
-        reset_raster_state(*gl_);
-        return;
-    }
+    const bool painted = input.plan.hiding == Hiding::by_order;
+    if (color && painted) draw_background(input, prepared, region, stats);
     draw_items(prepared.opaque, region, mirror, outputs, stats);
     reset_raster_state(*gl_);
-    if (!late) return;  // neither the background nor what is drawn late writes the outputs
+    if (painted || !late) return;
 
-    for (int slot = 1; slot < slot_count; ++slot) {
-        gl_->ColorMaski(static_cast<GLuint>(slot), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    }
+    write_outputs(false);
     if (color) draw_background(input, prepared, region, stats);
     draw_items(prepared.late, region, mirror, false, stats);
     reset_raster_state(*gl_);
+}
+
+void SurfacePass::write_outputs(bool write) {
+    const GLboolean mask = write ? GL_TRUE : GL_FALSE;
+    for (int slot = 1; slot < slot_count; ++slot) {
+        gl_->ColorMaski(static_cast<GLuint>(slot), mask, mask, mask, mask);
+    }
 }
 
 void SurfacePass::draw_background(const PassInput& input, const Prepared& prepared,
@@ -391,6 +392,8 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         bound = &program;
 
         set_raster_state(*gl_, *item.node, mirror);
+        // Of what leaves no depth nothing says that it is the nearest.
+        if (outputs) write_outputs(item.node->depth_write);
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
                              sizeof(DrawBlock));
         if (variant.map) gl_->BindTextureUnit(map_unit, item.lookups->map.texture);

@@ -79,8 +79,8 @@ private:
     Prepared prepare(const PassInput& input);
     void draw_layers(const PassInput& input, const Prepared& prepared, Target& target,
                      Layers& layers, bool color, bool outputs, Stats& stats);
-    /// Draws everything into the bound framebuffer, in all regions or only in one. `late`:
-    /// those nodes, too.
+    /// Draws everything into the bound framebuffer, in all regions or only in one. `late`: what is
+    /// drawn late, too.
     void draw_all(const PassInput& input, const Prepared& prepared,
                   std::optional<std::size_t> region, bool color, bool outputs, bool late,
                   Stats& stats);
@@ -89,6 +89,7 @@ private:
     void draw_items(std::span<const Item> items, std::optional<std::size_t> region, bool mirror,
                     bool outputs, Stats& stats);
     void set_scissor(const Rect& rect);
+    void write_outputs(bool write);
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
     bool use_layers(const PassInput& input, const Prepared& prepared, const Rect& whole) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;

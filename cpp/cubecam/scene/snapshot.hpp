@@ -58,7 +58,10 @@ struct NodeSnapshot {
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.
-    bool drawn_late() const { return translucent || !depth_write; }
+    /// Not so a mask that leaves no colour either: it is there for what is drawn after it.
+    bool drawn_late() const {
+        return translucent || (!depth_write && glm::any(material.value.surface.color_write));
+    }
 };
 
 /// A light as it was at the moment of the snapshot; `object` names its shadow map.
