@@ -1,7 +1,7 @@
 // An ImageEffect: one pass over a finished picture in linear float. The documentation of cubecam.ImageEffect lists these
 // names: they are an interface, and stay.
 layout(binding = 0) uniform sampler2DArray u_frame;
-uniform int u_layer;
+layout(location = 0) uniform int u_layer;
 layout(location = 0) out vec4 o_color;
 
 // Pixels: width, height.

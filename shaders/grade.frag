@@ -1,6 +1,6 @@
 // Tone mapping and transfer function, over a finished frame in linear float. Alpha passes through.
 layout(binding = 0) uniform sampler2DArray u_frame;
-uniform int u_layer;
+layout(location = 0) uniform int u_layer;
 layout(location = 0) out vec4 o_color;
 
 #if defined(TONEMAP_REINHARD)

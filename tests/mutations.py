@@ -28,6 +28,8 @@ SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
 PROBES = ("tests/gl/test_probes.py",)
 FORMATS = ("tests/gl/test_formats.py",)
+STENCIL = ("tests/gl/test_stencil.py",)
+STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 
@@ -206,6 +208,55 @@ MUTATIONS = [
         "return a.distance > b.distance;",
         "return a.distance < b.distance;",
         ALPHA,
+    ),
+    Mutation(
+        "translucent: higher order first",
+        "cpp/cubecam/render/draw_plan.cpp",
+        "a.order < b.order : before(a, b)",
+        "a.order > b.order : before(a, b)",
+        ("tests/gl/test_render_order.py",),
+    ),
+    Mutation(
+        "stencil: less the other way round",
+        "cpp/cubecam/render/stencil_state.cpp",
+        "case StencilFunc::less: return GL_LESS;",
+        "case StencilFunc::less: return GL_GREATER;",
+        STENCIL,
+    ),
+    Mutation(
+        "stencil: not cleared with the rest",
+        "cpp/cubecam/render/clear.cpp",
+        "gl.StencilMask(0xFF);",
+        "",
+        STENCIL,
+    ),
+    Mutation(
+        "depth: reversed as it is stored",
+        "cpp/cubecam/render/readback.cpp",
+        "value = 1.0F - value;",
+        "value = value;",
+        FORMATS,
+    ),
+    Mutation(
+        "stereo: red from the right eye",
+        "cpp/cubecam/render/stereo.cpp",
+        "to[i] = left[i];",
+        "to[i] = right[i];",
+        STEREO,
+    ),
+    Mutation(
+        "stereo: sheared away from each other",
+        "cpp/cubecam/scene/stereo_camera.cpp",
+        "eye.lens.shift.x -= x / height;",
+        "eye.lens.shift.x += x / height;",
+        STEREO,
+    ),
+    Mutation(
+        "stereo: positions of both eyes count from the left one",
+        SURFACE,
+        "const glm::dvec3 origin = input.views[input.regions.front().view].position;",
+        "const glm::dvec3 origin = input.views.front().position;",
+        STEREO,
     ),
     Mutation(
         "seams: not seamless",

@@ -34,12 +34,25 @@ TOLERANCES = {
     "unorm8_counts": Tolerance(
         1.0, "one count of 255: the value may lie on a rounding boundary", mean=0.05
     ),
+    "unorm8_steps": Tolerance(
+        2.6 / 255,
+        "four translucent layers in 8 bits, each rounded, and once more to read",
+        mean=0.004,
+    ),
+    "texture8": Tolerance(
+        0.02, "a lookup in 8 bits of what was blended in 8 bits, times Phong's light", mean=6e-3
+    ),
     "unorm8_filter": Tolerance(
         7e-3,
         "llvmpipe filters 8-bit textures in 8-bit arithmetic: weights of 1/256, rounded twice",
         relative=0.03,
         mean=2e-3,
     ),
+    "unorm5": Tolerance(
+        1.0 / 31 + 0.5 / 255,
+        "llvmpipe cuts 8 bits to 5 for what it shades: the level below, not the nearest",
+    ),
+    "unorm6": Tolerance(1.0 / 63 + 0.5 / 255, "the same for 6 bits"),
     "half": Tolerance(
         1e-6, "float16 keeps 11 bits and may be rounded to zero: at most one unit", relative=2**-10
     ),
@@ -55,6 +68,12 @@ TOLERANCES = {
         mean=2e-4,
     ),
     "distance": Tolerance(1e-4, "from interpolated float32 world positions", relative=1e-4),
+    "window_depth": Tolerance(
+        4e-6, "float32 depth of vertices snapped to 1/256 pixel, in 0..1, interpolated", mean=5e-7
+    ),
+    "depth16": Tolerance(
+        1.0 / 65535 + 4e-6, "one step of 65535: the value may lie on a rounding boundary"
+    ),
     "position": Tolerance(
         2e-4, "float32 interpolation with 1/256 sub-pixel vertices", relative=1e-4
     ),

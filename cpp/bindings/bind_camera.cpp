@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 namespace cubecam::bindings {
 
@@ -55,6 +56,10 @@ up : array_like (3,)
     What is up in the picture; not along the line of sight.
 near, far : float
     Depths in world units between which things are seen: 0 < near < far.
+shift : array_like (2,)
+    How far the window that it looks through lies right of and above its axis, in heights of the
+    picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and verticals stay
+    vertical, as with an architect's lens.
 
 Raises
 ------
@@ -161,19 +166,57 @@ void point(Class<CameraOf<Lens>, Camera>& made, const char* name, glm::dvec3 Pla
         doc);
 }
 
+glm::dvec2 to_shift(const ArrayLike& value) {
+    const auto array = double_array(value, "shift", "(2,)");
+    return {array.data()[0], array.data()[1]};
+}
+
+void bind_shift(Class<PerspectiveCamera, Camera>& made) {
+    made.def_property(
+        "shift",
+        [](const PerspectiveCamera& self) {
+            const glm::dvec2 shift = self.placed().lens.shift;
+            py::array_t<double> array(2);
+            for (int i = 0; i < 2; ++i) array.mutable_data()[i] = shift[i];
+            array.attr("flags").attr("writeable") = false;
+            return array;
+        },
+        [](PerspectiveCamera& self, const ArrayLike& value) {
+            const glm::dvec2 shift = to_shift(value);
+            self.edit_placed([&](Placed<PerspectiveLens>& placed) { placed.lens.shift = shift; });
+        },
+        "ndarray (2,) float64: of the window right of and above the axis, in heights of the "
+        "picture, read-only.");
+}
+
 /// All that cameras with a place share; `opening` is the lens's first parameter.
 template <class Lens>
 void bind_placed(py::module_& module, const char* class_name, const char* class_doc,
                  const char* opening, double Lens::* field, const char* opening_doc) {
     using C = CameraOf<Lens>;
     auto made = declare<C, Camera>(module, class_name, class_doc);
-    made.def(py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
-                         const ArrayLike& up, double near, double far) {
-                 return std::make_shared<C>(Lens{size, near, far}, placement(position, target, up));
-             }),
-             py::arg(opening) = Lens{}.*field, py::arg("position") = py::make_tuple(0, 0, 0),
-             py::arg("target") = py::none(), py::arg("up") = py::make_tuple(0, 1, 0),
-             py::arg("near") = Lens{}.near, py::arg("far") = Lens{}.far);
+    if constexpr (std::is_same_v<Lens, PerspectiveLens>) {
+        made.def(
+            py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
+                        const ArrayLike& up, double near, double far, const ArrayLike& shift) {
+                return std::make_shared<C>(Lens{size, near, far, to_shift(shift)},
+                                           placement(position, target, up));
+            }),
+            py::arg(opening) = Lens{}.*field, py::arg("position") = py::make_tuple(0, 0, 0),
+            py::arg("target") = py::none(), py::arg("up") = py::make_tuple(0, 1, 0),
+            py::arg("near") = Lens{}.near, py::arg("far") = Lens{}.far,
+            py::arg("shift") = py::make_tuple(0, 0));
+        bind_shift(made);
+    } else {
+        made.def(
+            py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
+                        const ArrayLike& up, double near, double far) {
+                return std::make_shared<C>(Lens{size, near, far}, placement(position, target, up));
+            }),
+            py::arg(opening) = Lens{}.*field, py::arg("position") = py::make_tuple(0, 0, 0),
+            py::arg("target") = py::none(), py::arg("up") = py::make_tuple(0, 1, 0),
+            py::arg("near") = Lens{}.near, py::arg("far") = Lens{}.far);
+    }
     number<Lens>(made, opening, field, opening_doc);
     number<Lens>(made, "near", &Lens::near, "float: nothing nearer is seen; world units.");
     number<Lens>(made, "far", &Lens::far, "float: nothing farther is seen; world units.");
@@ -204,9 +247,11 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
                ", target=" + (p.target ? tuple_text(*p.target) : "None") + ")";
     });
     made.def("__reduce__", [opening](const py::object& self) {
-        return reduced(self, py::make_tuple(self.attr(opening), self.attr("position"),
-                                            self.attr("target"), self.attr("up"), self.attr("near"),
-                                            self.attr("far")));
+        py::list state;
+        for (const char* name : {opening, "position", "target", "up", "near", "far", "shift"}) {
+            if (py::hasattr(self, name)) state.append(self.attr(name));
+        }
+        return reduced(self, py::tuple(state));
     });
 }
 

@@ -322,22 +322,25 @@ std::shared_ptr<const Buffer<T>> copy_output(const py::object& value, const char
 
 py::tuple get_state(const CubeMap& cube) {
     const CapturedOutputs outputs = cube.outputs();
-    return py::make_tuple(faces_view(cube), cube.data()->mipmaps,
-                          output_view(cube, outputs.distance, 1), output_view(cube, outputs.z, 1),
-                          output_view(cube, outputs.normal, 3),
-                          output_view(cube, outputs.position, 3), output_view(cube, outputs.id, 1));
+    return py::make_tuple(
+        faces_view(cube), cube.data()->mipmaps, output_view(cube, outputs.distance, 1),
+        output_view(cube, outputs.z, 1), output_view(cube, outputs.normal, 3),
+        output_view(cube, outputs.position, 3), output_view(cube, outputs.id, 1),
+        output_view(cube, outputs.depth, 1), output_view(cube, outputs.stencil, 1));
 }
 
 /// NaN is let through: what was rendered may hold it, and what was pickled must come back.
 CubePtr from_state(const py::tuple& state) {
-    if (state.size() != 7) throw py::value_error("CubeMap: expected a state of 7 parts");
+    if (state.size() != 9) throw py::value_error("CubeMap: expected a state of 9 parts");
     const PixelArray pixels = pixel_array(state[0], "faces", "(6, N, N, C)", Values::any);
     const int size = to_size(pixels.shape(1), "faces");
     CapturedOutputs outputs = {copy_output<float>(state[2], "distance", size, false),
                                copy_output<float>(state[3], "z", size, false),
                                copy_output<float>(state[4], "normal", size, true),
                                copy_output<float>(state[5], "position", size, true),
-                               copy_output<std::int32_t>(state[6], "id", size, false)};
+                               copy_output<std::int32_t>(state[6], "id", size, false),
+                               copy_output<float>(state[7], "depth", size, false),
+                               copy_output<std::uint8_t>(state[8], "stencil", size, false)};
     return std::make_shared<CubeMap>(size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
                                      copy_pixels(pixels.data(), pixels.bytes()),
                                      state[1].cast<bool>(), std::move(outputs));
@@ -400,7 +403,13 @@ void bind_cubemap(py::module_& module) {
             "position", [](const CubeMap& c) { return output_view(c, c.outputs().position, 3); },
             docs::position)
         .def_property_readonly(
-            "id", [](const CubeMap& c) { return output_view(c, c.outputs().id, 1); }, docs::id);
+            "id", [](const CubeMap& c) { return output_view(c, c.outputs().id, 1); }, docs::id)
+        .def_property_readonly(
+            "depth", [](const CubeMap& c) { return output_view(c, c.outputs().depth, 1); },
+            docs::depth)
+        .def_property_readonly(
+            "stencil", [](const CubeMap& c) { return output_view(c, c.outputs().stencil, 1); },
+            docs::stencil);
 
     cube.def("set_face", &set_face, py::arg("face"), py::arg("pixels"),
              py::arg("convention") = "gl", docs::set_face)

@@ -289,5 +289,11 @@ inline constexpr const char* position =
     "Read-only.";
 inline constexpr const char* id =
     "Captured `node.id`, ndarray (6, N, N) int32, 0 where there is nothing, or None. Read-only.";
+inline constexpr const char* depth =
+    "Captured window-space z, ndarray (6, N, N) float32: 0 at the near plane, 1 at the far plane "
+    "and "
+    "where there is nothing, as fine as ``depth_format`` keeps it; or None. Read-only.";
+inline constexpr const char* stencil =
+    "Captured stencil buffer, ndarray (6, N, N) uint8, 0 where nothing wrote, or None. Read-only.";
 
 }  // namespace cubecam::docs

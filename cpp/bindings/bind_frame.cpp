@@ -9,7 +9,10 @@ namespace cubecam {
 PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height) {
     const auto rows = static_cast<py::ssize_t>(frame.height);
     const auto columns = static_cast<py::ssize_t>(frame.width);
-    color = owned_pixels(std::move(frame.color), dtype_of(frame.format), {rows, columns, 4});
+    color = py::none();
+    if (!frame.color.empty()) {
+        color = owned_pixels(std::move(frame.color), dtype_of(frame.format), {rows, columns, 4});
+    }
     const auto flat = [&](auto&& values) -> py::object {
         if (values.empty()) return py::none();
         return owned_array(std::move(values), {rows, columns});
@@ -23,13 +26,15 @@ PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height) {
     normal = vectors(std::move(frame.normal));
     position = vectors(std::move(frame.position));
     id = flat(std::move(frame.id));
+    depth = flat(std::move(frame.depth));
+    stencil = flat(std::move(frame.stencil));
 }
 
 namespace {
 
 py::tuple state_of(const PyFrame& frame) {
     return py::make_tuple(frame.width, frame.height, frame.color, frame.distance, frame.z,
-                          frame.normal, frame.position, frame.id);
+                          frame.normal, frame.position, frame.id, frame.depth, frame.stencil);
 }
 
 PyFrame frame_from(const py::tuple& state) {
@@ -42,6 +47,8 @@ PyFrame frame_from(const py::tuple& state) {
     frame.normal = state[5];
     frame.position = state[6];
     frame.id = state[7];
+    frame.depth = state[8];
+    frame.stencil = state[9];
     return frame;
 }
 
@@ -51,7 +58,8 @@ void bind_frame(py::module_& m) {
     bindings::declare<PyFrame>(
         m, "Frame", R"(A rendered picture: arrays with row 0 on top, each the caller's own.
 
-What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs.
+What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
+`stencil` are what those buffers hold in the end.
 
 Examples
 --------
@@ -64,7 +72,7 @@ Examples
 )")
         .def_readonly("color", &PyFrame::color,
                       "ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear "
-                      "unless encoded.")
+                      "unless encoded. None with ``format=None``.")
         .def_readonly("distance", &PyFrame::distance,
                       "ndarray (H, W) float32: length of the ray, world units; +inf where nothing "
                       "was hit. In an "
@@ -79,6 +87,10 @@ Examples
                       "ndarray (H, W, 3) float32: world position; NaN background.")
         .def_readonly("id", &PyFrame::id,
                       "ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.")
+        .def_readonly("depth", &PyFrame::depth,
+                      "ndarray (H, W) float32: OpenGL's window-space z, 0 at the near plane, 1 at "
+                      "the far plane and where nothing is, as fine as ``depth_format`` keeps it.")
+        .def_readonly("stencil", &PyFrame::stencil, "ndarray (H, W) uint8: 0 background.")
         .def_property_readonly(
             "size", [](const PyFrame& f) { return py::make_tuple(f.width, f.height); },
             "tuple of int: (width, height), pixels.")
@@ -86,7 +98,9 @@ Examples
              [](const PyFrame& f) {
                  return "<cubecam.Frame " + std::to_string(f.width) + " x " +
                         std::to_string(f.height) + ", " +
-                        py::str(f.color.attr("dtype")).cast<std::string>() + ">";
+                        (f.color.is_none() ? std::string("no colour")
+                                           : py::str(f.color.attr("dtype")).cast<std::string>()) +
+                        ">";
              })
         .def("__reduce__", [](const PyFrame& frame) -> py::tuple {
             const py::object restore = py::module_::import("cubecam._core").attr("_restore_frame");

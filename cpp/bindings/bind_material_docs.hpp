@@ -36,6 +36,7 @@ depth_write=None        whether it hides what is drawn later and is farther; Non
                         "opaque"
 depth_test=True         False is drawn over what is nearer as well
 color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
+stencil=None            a `Stencil`: how it tests and changes the stencil buffer, if there is one
 ======================  =========================================================================
 
 What is blended, or writes no depth, is drawn after the background, far to near; it writes colour
@@ -55,7 +56,7 @@ cubemap : CubeMap or Probe, optional
     whole of it and turns with it. Its alpha does not count.
 vertex_colors : bool
     Whether the mesh's colours count.
-opacity, double_sided, blend, depth_write, depth_test, color_write
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
 
 Raises
@@ -90,7 +91,7 @@ map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture that multiplies color, placed by the mesh's uvs.
 vertex_colors : bool
     Whether the mesh's colours multiply color.
-opacity, double_sided, blend, depth_write, depth_test, color_write
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
 
 Raises
@@ -131,7 +132,7 @@ fresnel : float, optional
     F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
     F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
     Rendering", 1994). None: it is not.
-opacity, double_sided, blend, depth_write, depth_test, color_write
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
 
 Raises
@@ -162,7 +163,7 @@ fresnel : bool
     False: T alone.
 tint : array_like (3,) or (4,)
     Linear RGB or RGBA, times what is refracted.
-opacity, double_sided, blend, depth_write, depth_test, color_write
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
 
 Raises

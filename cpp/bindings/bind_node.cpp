@@ -189,6 +189,14 @@ void bind_contents(Class<Node>& node) {
         [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.in_probes = value; }); },
         "bool: False is absent from captures and probes, as is all below it; still drawn in"
         " frames, and still showing probes.");
+    node.def_property(
+        "render_order", [](const Node& self) { return self.value().render_order; },
+        [](Node& self, const OneOf<py::int_>& value) {
+            const std::int32_t order = to_render_order(value);
+            self.edit([&](NodeValue& next) { next.render_order = order; });
+        },
+        "int: among opaque and among translucent nodes, lower is drawn first, before distance; 0."
+        " It is the node's own: what is below it has its own, too.");
 }
 
 }  // namespace

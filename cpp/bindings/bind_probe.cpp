@@ -1,4 +1,5 @@
 // cubecam.Probe
+#include "formats.hpp"
 #include "node_list.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
@@ -10,6 +11,7 @@
 #include <pybind11/stl.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,8 +35,8 @@ size : int
     Texels along an edge of a face.
 near, far : float
     World units: 0 < near < far.
-format : {"rgba16f", "rgba8", "rgba32f"}
-    What a texel is kept in. rgba8 clips light above 1.
+format : {"rgba16f", "rgba8", "rgba32f", "rgb565"}
+    What a texel is kept in. rgba8 and rgb565 clip light above 1.
 mipmaps : bool
     Whether lookups are trilinear.
 samples : int
@@ -48,6 +50,8 @@ parent : Node, optional
     It goes where this node goes; its axes stay the world's. The probe does not keep it alive.
 faces_per_frame : int
     At most so many faces are drawn in one call, from 1 to 6.
+depth_format : str or None
+    Its depth and stencil buffer, see `Renderer.render`.
 
 Raises
 ------
@@ -105,7 +109,8 @@ py::object update_of(const ProbeValue& value) {
 std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double near, double far,
                                   const std::string& format, bool mipmaps, int samples,
                                   const UpdateLike& update, const Nodes& exclude,
-                                  const OrNone<Node>& parent, int faces_per_frame) {
+                                  const OrNone<Node>& parent, int faces_per_frame,
+                                  const std::optional<std::string>& depth_format) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -118,6 +123,7 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double ne
     set_update(value, update);
     value.faces_per_frame = faces_per_frame;
     value.exclude = to_nodes(exclude, "exclude");
+    value.depth_format = to_depth_format(depth_format);
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -167,7 +173,8 @@ void bind_probe(pybind11::module_& module) {
               py::arg("size") = 256, py::arg("near") = 0.05, py::arg("far") = 1000.0,
               py::arg("format") = "rgba16f", py::arg("mipmaps") = false, py::arg("samples") = 1,
               py::arg("update") = "on_change", py::arg("exclude") = py::tuple(),
-              py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6);
+              py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6,
+              py::arg("depth_format") = "depth_component32f");
 
     probe.def_property(
         "position", [](const Probe& self) { return point_array(self.value().position); },
@@ -185,7 +192,15 @@ void bind_probe(pybind11::module_& module) {
             const Format format = parse_format(value);
             self.edit([&](ProbeValue& next) { next.format = format; });
         },
-        "str: \"rgba8\", \"rgba16f\" or \"rgba32f\".");
+        "str: \"rgba8\", \"rgba16f\", \"rgba32f\" or \"rgb565\".");
+    probe.def_property(
+        "depth_format",
+        [](const Probe& self) { return from_depth_format(self.value().depth_format); },
+        [](Probe& self, const std::optional<std::string>& value) {
+            const DepthFormat format = to_depth_format(value);
+            self.edit([&](ProbeValue& next) { next.depth_format = format; });
+        },
+        "str or None: its depth and stencil buffer, see `Renderer.render`.");
     field(probe, "mipmaps", &ProbeValue::mipmaps, "bool: whether lookups are trilinear.");
     field(probe, "samples", &ProbeValue::samples, "int: samples of each texel (MSAA); 1 is none.");
     probe.def_property(
@@ -218,7 +233,8 @@ void bind_probe(pybind11::module_& module) {
                        py::make_tuple(self.attr("position"), self.attr("size"), self.attr("near"),
                                       self.attr("far"), self.attr("format"), self.attr("mipmaps"),
                                       self.attr("samples"), self.attr("update"), py::tuple(),
-                                      py::none(), self.attr("faces_per_frame")),
+                                      py::none(), self.attr("faces_per_frame"),
+                                      self.attr("depth_format")),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

@@ -1,5 +1,6 @@
 // cubecam.RenderTexture
 #include "effect_list.hpp"
+#include "formats.hpp"
 #include "node_list.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
@@ -56,6 +57,8 @@ name : str
 effects : sequence of ImageEffect
     Passes over the picture, one after the other, in linear float. With an empty scene they make the
     picture alone.
+depth_format : str or None
+    The depth and stencil buffer, see `Renderer.render`; None paints nodes one over the other.
 
 Raises
 ------
@@ -121,12 +124,11 @@ void watch(const std::shared_ptr<RenderTexture>& texture) {
     watched.push_back(texture);
 }
 
-std::shared_ptr<RenderTexture> make_render_texture(const OneOf<Scene>& scene,
-                                                   const OneOf<Camera>& camera,
-                                                   const SizeLike& size, const std::string& format,
-                                                   const WholeNumber& samples, bool mipmaps,
-                                                   const std::string& wrap, const Nodes& exclude,
-                                                   std::string name, const EffectsLike& effects) {
+std::shared_ptr<RenderTexture>
+make_render_texture(const OneOf<Scene>& scene, const OneOf<Camera>& camera, const SizeLike& size,
+                    const std::string& format, const WholeNumber& samples, bool mipmaps,
+                    const std::string& wrap, const Nodes& exclude, std::string name,
+                    const EffectsLike& effects, const std::optional<std::string>& depth_format) {
     RenderTextureValue value;
     value.scene = to_shown_scene(scene);
     value.camera = to_shown_camera(camera);
@@ -138,6 +140,7 @@ std::shared_ptr<RenderTexture> make_render_texture(const OneOf<Scene>& scene,
     value.exclude = to_nodes(exclude, "exclude");
     value.name = std::move(name);
     value.effects = to_effects(effects);
+    value.depth_format = to_depth_format(depth_format);
     auto made = std::make_shared<RenderTexture>(std::move(value));
     watch(made);
     return made;
@@ -163,6 +166,13 @@ void bind_texture_picture(Class<RenderTexture>& made) {
             self.edit([&](RenderTextureValue& next) { next.format = format; });
         },
         "str: \"rgba8\", \"rgba16f\" or \"rgba32f\".");
+    made.def_property(
+        "depth_format", [](const T& self) { return from_depth_format(self.value().depth_format); },
+        [](T& self, const std::optional<std::string>& value) {
+            const DepthFormat format = to_depth_format(value);
+            self.edit([&](RenderTextureValue& next) { next.depth_format = format; });
+        },
+        "str or None: the depth and stencil buffer, see `Renderer.render`.");
     made.def_property(
         "samples", [](const T& self) { return self.value().samples; },
         [](T& self, const WholeNumber& value) {
@@ -246,7 +256,7 @@ py::tuple reduce_render_texture(const py::object& self) {
                                   self.attr("mipmaps"), self.attr("wrap"), py::tuple(),
                                   self.attr("name")),
                    py::make_tuple(self.attr("scene"), self.attr("camera"), self.attr("exclude"),
-                                  self.attr("effects")));
+                                  self.attr("effects"), self.attr("depth_format")));
 }
 
 }  // namespace
@@ -265,7 +275,7 @@ void bind_render_texture(pybind11::module_& module) {
              py::arg("size") = py::make_tuple(512, 512), py::arg("format") = "rgba8",
              py::arg("samples") = 1, py::arg("mipmaps") = false, py::arg("wrap") = "clamp",
              py::arg("exclude") = py::tuple(), py::arg("name") = "",
-             py::arg("effects") = py::tuple());
+             py::arg("effects") = py::tuple(), py::arg("depth_format") = "depth_component32f");
     bind_texture_links(made);
     bind_texture_picture(made);
     made.def("__repr__", &represent_render_texture);
@@ -275,5 +285,6 @@ void bind_render_texture(pybind11::module_& module) {
         self.attr("camera") = state[1];
         self.attr("exclude") = state[2];
         self.attr("effects") = state[3];
+        self.attr("depth_format") = state[4];
     });
 }

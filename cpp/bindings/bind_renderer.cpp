@@ -1,5 +1,6 @@
 #include "arrays.hpp"
 #include "effect_list.hpp"
+#include "formats.hpp"
 #include "frame.hpp"
 #include "info.hpp"
 #include "numbers.hpp"
@@ -83,31 +84,44 @@ std::shared_ptr<Renderer> make_renderer(py::handle device, py::handle layered,
     return std::make_shared<Renderer>(std::move(options));
 }
 
-PyFrame render(Renderer& renderer, const Scene& scene, const Camera& camera, py::handle size,
-               py::handle outputs, const std::string& format, py::handle samples,
+using SeenBy = bindings::OneOf<Camera, StereoCamera>;
+
+std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
+    if (py::isinstance<StereoCamera>(camera)) {
+        return camera.cast<std::shared_ptr<StereoCamera>>()->value();
+    }
+    return bindings::to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")->value();
+}
+
+PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera, py::handle size,
+               py::handle outputs, const std::optional<std::string>& format, py::handle samples,
                const std::optional<std::string>& tonemap, const std::optional<std::string>& encode,
-               py::handle effects) {
+               py::handle effects, const std::optional<std::string>& depth_format) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
-    options.format = parse_format(format);
+    options.color = format.has_value();
+    if (format) options.format = parse_format(*format);
     options.samples = to_int(samples, "samples");
     if (tonemap) options.tonemap = parse_tonemap(*tonemap);
     if (encode) options.encode = parse_encode(*encode);
-    const CameraValue seen = camera.value();
+    options.depth_format = bindings::to_depth_format(depth_format);
+    const auto seen = to_camera(camera);
     Frame frame;
     const SceneSnapshot snapshot = scene.snapshot(bindings::to_effects(effects));
     {
         const py::gil_scoped_release release;
-        frame = renderer.render(snapshot, seen, options);
+        frame = std::visit(
+            [&](const auto& value) { return renderer.render(snapshot, value, options); }, seen);
     }
     return PyFrame(std::move(frame));
 }
 
 std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::handle position,
                                  py::handle size, double near, double far, py::handle exclude,
-                                 py::handle outputs, const std::string& format, py::handle samples,
-                                 py::handle eye) {
+                                 py::handle outputs, const std::optional<std::string>& format,
+                                 py::handle samples, py::handle eye,
+                                 const std::optional<std::string>& depth_format) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -115,8 +129,13 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
     options.far = far;
     options.exclude = to_ids(scene, exclude);
     options.outputs = to_outputs(outputs);
-    options.format = parse_format(format);
+    if (!format) {
+        throw std::invalid_argument(
+            "format: expected one, since a cubemap has faces, got None; `rgba8` is the smallest");
+    }
+    options.format = parse_format(*format);
     options.samples = to_int(samples, "samples");
+    options.depth_format = bindings::to_depth_format(depth_format);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     const SceneSnapshot snapshot = scene.snapshot();
     const py::gil_scoped_release release;
@@ -200,7 +219,7 @@ Examples
         .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
-             py::arg("effects") = py::tuple(),
+             py::arg("effects") = py::tuple(), py::arg("depth_format") = "depth_component32f",
              R"(Draw a picture, with every probe its mirrors need brought up to date first.
 
 A picture that would come out as the last one of this size and format did is not drawn again.
@@ -208,13 +227,15 @@ A picture that would come out as the last one of this size and format did is not
 Parameters
 ----------
 scene : Scene
-camera : Camera
+camera : Camera or StereoCamera
 size : (int, int)
     (width, height), pixels.
 outputs : sequence of str
-    Besides colour: any of "distance", "z", "normal", "position", "id".
-format : str
-    "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16) or "rgba32f" (float32).
+    Besides colour: any of "distance", "z", "normal", "position", "id", and of "depth" and "stencil", what those
+    buffers hold in the end.
+format : str or None
+    "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
+    uint8 of 255; alpha 255). None: no colour buffer, only the outputs are drawn.
 samples : int
     Multisampling of colour: 1 for none, at most ``info.limits.max_samples``. The outputs are those of samples=1.
 tonemap : str or None
@@ -224,6 +245,11 @@ encode : str or None
     "srgb" (IEC 61966-2-1) or None: linear.
 effects : sequence of ImageEffect
     Passes over the colour, one after the other, after resolving and before the tone curve.
+depth_format : str or None
+    The depth and stencil buffer, by OpenGL's names: "depth_component32f", "depth_component24", "depth_component16",
+    "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without depth nothing is
+    hidden: nodes are painted one over the other, in order of ``render_order``, then id, and there are no outputs but
+    "stencil".
 
 Returns
 -------
@@ -233,7 +259,8 @@ Frame
 Raises
 ------
 ValueError
-    For an unknown name, a size or sample count beyond the driver's limits, or an impossible camera.
+    For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
+    outputs that ``depth_format`` does not allow, tone mapping of no colour, or an impossible camera.
 ContextError
     After :meth:`close`, or in a forked process.
 
@@ -250,6 +277,7 @@ Examples
              py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f",
              py::arg("samples") = 1, py::arg("eye") = py::none(),
+             py::arg("depth_format") = "depth_component32f",
              R"(Draw what surrounds a point into a cubemap.
 
 Parameters
@@ -264,13 +292,15 @@ near, far : float
 exclude : sequence of Node
     Left out, with all below them.
 outputs : sequence of str
-    Besides ``faces``: any of "distance", "z", "normal", "position", "id".
+    Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil".
 format : str
-    "rgba32f" (float32), "rgba16f" (float16) or "rgba8" (uint8, clamped).
+    "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
 samples : int
     Multisampling of colour, see :meth:`render`.
 eye : array_like (3,) or None
     From where highlights and mirrors are seen; None: from ``position``.
+depth_format : str or None
+    The depth and stencil buffer, see :meth:`render`.
 
 Returns
 -------

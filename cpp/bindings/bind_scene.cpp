@@ -45,11 +45,12 @@ std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
                                const OneOf<py::float_, ArrayLike, py::none>& scale,
                                const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
                                const CubeLike& environment, bool visible, bool in_probes,
-                               std::string name) {
+                               std::string name, const OneOf<py::int_>& render_order) {
     NodeValue value{
         {},      to_mesh(mesh), to_material(material), to_cube_source(environment, "environment"),
         visible, in_probes,     std::move(name)};
     value.placing = to_placing(position, rotation, scale, matrix);
+    value.render_order = to_render_order(render_order);
     return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
 }
 
@@ -155,7 +156,7 @@ void bind_scene(pybind11::module_& module) {
               py::arg("scale") = py::none(), py::arg("matrix") = py::none(),
               py::arg("parent") = py::none(), py::arg("environment") = py::none(),
               py::arg("visible") = true, py::arg("in_probes") = true, py::arg("name") = "",
-              add_node_doc);
+              py::arg("render_order") = 0, add_node_doc);
     scene.def("remove", &remove_thing, py::arg("thing"), remove_doc);
     scene.def("clear", &Scene::clear, "Take all nodes and lights out.");
     scene.def_property_readonly(

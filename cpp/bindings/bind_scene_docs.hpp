@@ -78,6 +78,8 @@ in_probes : bool
     False is absent from captures and probes, as is all below it; still drawn in frames.
 name : str
     For people.
+render_order : int
+    Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
 
 Returns
 -------

@@ -25,7 +25,7 @@ textures : dict of str, optional
 displacement : float, optional
     How far `vertex` moves a vertex at most, in the mesh's units. None: unknown; such a node is never
     culled, and its picture is redrawn whole.
-opacity, double_sided, blend, depth_write, depth_test, color_write
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
 
 Attributes

@@ -70,6 +70,14 @@ void bind_surface_options(Class<Material>& material) {
         },
         "tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. "
         "Depth and the other outputs are written all the same.");
+    surface_property(
+        material, "stencil", [](const SurfaceOptions& s) { return from_stencil(s.stencil); },
+        [](Material& self, const OrNone<Stencil>& value) {
+            const auto stencil = to_stencil(value);
+            edit_surface(self, [&](SurfaceOptions& s) { s.stencil = stencil; });
+        },
+        "Stencil or None: how it tests and changes the stencil buffer, where ``depth_format`` has"
+        " one; None leaves it alone.");
 }
 
 }  // namespace cubecam::bindings

@@ -15,7 +15,7 @@ struct PyFrame {
 
     int width = 0;
     int height = 0;
-    py::object color, distance, z, normal, position, id;
+    py::object color, distance, z, normal, position, id, depth, stencil;
 };
 
 void bind_frame(py::module_& m);

@@ -9,6 +9,8 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -22,6 +24,12 @@ inline std::shared_ptr<const Mesh> to_mesh(py::handle value) {
 
 inline std::shared_ptr<Material> to_material(py::handle value) {
     return to_shared_or_none<Material>(value, "material", "a Material or None");
+}
+
+inline std::int32_t to_render_order(py::handle value) {
+    return static_cast<std::int32_t>(to_whole(value, "render_order",
+                                              std::numeric_limits<std::int32_t>::min(),
+                                              std::numeric_limits<std::int32_t>::max()));
 }
 
 /// What scene.add and unpickling give: a matrix, or any of the parts.
@@ -41,16 +49,18 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
     return transform;
 }
 
-/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name)
+/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name,
+/// render_order)
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
-    return py::make_tuple(
-        std::const_pointer_cast<Mesh>(value.mesh), value.material,
-        parts ? py::object(point_array(parts->position)) : py::none(),
-        parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
-        parts ? py::object(point_array(parts->scale)) : py::none(),
-        parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
-        from_cube_source(value.environment), value.visible, value.in_probes, value.name);
+    return py::make_tuple(std::const_pointer_cast<Mesh>(value.mesh), value.material,
+                          parts ? py::object(point_array(parts->position)) : py::none(),
+                          parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
+                          parts ? py::object(point_array(parts->scale)) : py::none(),
+                          parts ? py::none()
+                                : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
+                          from_cube_source(value.environment), value.visible, value.in_probes,
+                          value.name, value.render_order);
 }
 
 inline NodeValue node_from_state(const py::tuple& state) {
@@ -60,7 +70,8 @@ inline NodeValue node_from_state(const py::tuple& state) {
             to_cube_source(state[6], "environment"),
             state[7].cast<bool>(),
             state[8].cast<bool>(),
-            state[9].cast<std::string>()};
+            state[9].cast<std::string>(),
+            to_render_order(state[10])};
 }
 
 }  // namespace cubecam::bindings

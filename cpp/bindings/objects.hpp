@@ -6,6 +6,7 @@
 #include <pybind11/typing.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <typeinfo>
@@ -85,6 +86,20 @@ std::shared_ptr<T> to_shared_or_none(py::handle value, const char* name, const c
 template <class T>
 OrNone<T> or_none(const std::shared_ptr<T>& object) {
     return py::cast(object);
+}
+
+/// A whole number of Python or numpy, bool left out, from `low` to `high`.
+inline std::int64_t to_whole(py::handle value, const char* name, std::int64_t low,
+                             std::int64_t high) {
+    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
+        refuse(value, name, "an int");
+    }
+    const std::int64_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);  // clamped to 64 bits
+    if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+    if (number >= low && number <= high) return number;
+    throw py::value_error(std::string(name) + ": expected an int from " + std::to_string(low) +
+                          " to " + std::to_string(high) + ", got " +
+                          py::str(value).cast<std::string>());
 }
 
 /// For `__reduce__`: pickle keeps the object made of `args` in its memo before it pickles `state`,

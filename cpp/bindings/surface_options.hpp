@@ -2,6 +2,7 @@
 #pragma once
 
 #include "objects.hpp"
+#include "stencil.hpp"
 
 #include "cubecam/scene/material.hpp"
 
@@ -65,22 +66,24 @@ template <class P, class... Own, class... Named>
 void def_init(Class<MaterialOf<P>, Material>& made, P (*make)(Own...), const Named&... named) {
     made.def(py::init([make](Own... own, float opacity, bool double_sided, const BlendLike& blend,
                              const DepthWriteLike& depth_write, bool depth_test,
-                             const ColorWriteLike& color_write) {
+                             const ColorWriteLike& color_write, const OrNone<Stencil>& stencil) {
                  return std::make_shared<MaterialOf<P>>(
-                     make(own...), SurfaceOptions{opacity, double_sided, to_blend(blend),
-                                                  to_depth_write(depth_write), depth_test,
-                                                  to_color_write(color_write)});
+                     make(own...),
+                     SurfaceOptions{opacity, double_sided, to_blend(blend),
+                                    to_depth_write(depth_write), depth_test,
+                                    to_color_write(color_write), to_stencil(stencil)});
              }),
              named..., py::kw_only(), py::arg("opacity") = 1.0F, py::arg("double_sided") = false,
              py::arg("blend") = py::none(), py::arg("depth_write") = py::none(),
-             py::arg("depth_test") = true, py::arg("color_write") = true);
+             py::arg("depth_test") = true, py::arg("color_write") = true,
+             py::arg("stencil") = py::none());
 }
 
 /// The same by name, for pickling.
 inline py::dict surface_state(py::handle material) {
     py::dict state;
-    for (const char* name :
-         {"opacity", "double_sided", "blend", "depth_write", "depth_test", "color_write"}) {
+    for (const char* name : {"opacity", "double_sided", "blend", "depth_write", "depth_test",
+                             "color_write", "stencil"}) {
         state[name] = material.attr(name);
     }
     return state;

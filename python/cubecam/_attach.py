@@ -31,11 +31,11 @@ def _cube_repr_png(self: CubeMap) -> bytes:
     return cube_png(self)
 
 
-def _frame_repr_png(self: Frame) -> bytes:
-    """Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats."""
+def _frame_repr_png(self: Frame) -> bytes | None:
+    """Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats; None without."""
     from .pictures import frame_png
 
-    return frame_png(self)
+    return None if self.color is None else frame_png(self)
 
 
 def _image_repr_png(self: Image) -> bytes:

@@ -1,12 +1,26 @@
-"""Formats and dtypes; tone curves and the sRGB curve against numpy."""
+"""Formats and dtypes, depth and stencil buffers by choice; tone curves and the sRGB curve against numpy."""
+
+import pickle
 
 import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.gl.world import perspective, smooth_environment
+from tests.gl.test_damage import crowd, follow
+from tests.gl.world import (
+    OUTPUTS,
+    capture_hits,
+    inner,
+    orthographic,
+    perspective,
+    room,
+    smooth_environment,
+)
 from tests.reference import shading
+from tests.reference import transforms as ref
+from tests.reference.compositing import over
+from tests.reference.raycast import interior
 
 FORMATS = {"rgba8": np.uint8, "rgba16f": np.float16, "rgba32f": np.float32}
 formats = pytest.mark.parametrize(("fmt", "dtype"), FORMATS.items(), ids=FORMATS)
@@ -58,7 +72,7 @@ def test_unknown_formats_are_refused_naming_those_there_are(renderer, fmt):
         assert "rgba16f" in str(raised.value)
 
 
-@pytest.mark.parametrize("outputs", [("depth",), ("colour",), "distance", (3,), ("id", "depth")])
+@pytest.mark.parametrize("outputs", [("depths",), ("colour",), "distance", (3,), ("id", "deep")])
 def test_unknown_outputs_are_refused(renderer, outputs):
     if (
         outputs == "distance"
@@ -128,3 +142,474 @@ def test_unknown_curves_are_refused(renderer, option):
     camera = cc.PerspectiveCamera(fov=50, position=(0, 0, 1), target=(0, 0, 0))
     with pytest.raises(ValueError, match=r"reinhard|srgb"):
         renderer.render(cc.Scene(), camera, (2, 2), **option)
+
+
+# Five, six and five bits.
+
+
+def as_565(color):
+    """What a linear colour is kept and read as."""
+    bits = np.array([5, 6, 5])
+    whole = np.round(np.clip(color, 0, 1)[..., :3] * (2**bits - 1))
+    rgb = np.round(whole * 255 / (2**bits - 1))
+    return np.concatenate([rgb, np.full_like(rgb[..., :1], 255)], axis=-1).astype(np.uint8)
+
+
+def test_rgb565_values_are_the_quantised_ones(any_path):
+    """Every level of each channel, cleared to and shaded."""
+    for level in range(64):
+        color = np.array([level // 2 / 31, level / 63, 1 - level // 2 / 31])
+        off = color + 0.3 / 63 * (-1) ** level  # not on a level, and on this side of the boundary
+        scene = cc.Scene(background=np.clip(off, 0, 1))
+        box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color), position=(0.2, 0.1, -2))
+        cube = any_path.capture(scene, size=8, format="rgb565", outputs=("id",))
+        want = np.where(cube.id[..., None] == box.id, as_565(color), as_565(off))
+        assert cube.faces.dtype == np.uint8
+        np.testing.assert_array_equal(cube.faces, want)
+
+
+def test_rgb565_is_the_picture_in_fewer_levels(renderer):
+    view, scene = perspective((0, 0, 0), (0.3, 0.2, -1)), cc.Scene()
+    scene.background = cc.CubeMap(smooth_environment(16))
+    full = renderer.render(scene, view.camera, view.size, format="rgba32f").color[..., :3]
+    got = renderer.render(scene, view.camera, view.size, format="rgb565").color
+    assert (got[..., 3] == 255).all()
+    assert_close(got[..., 0] / 255, np.clip(full[..., 0], 0, 1), "unorm5")
+    assert_close(got[..., 1] / 255, np.clip(full[..., 1], 0, 1), "unorm6")
+    assert_close(got[..., 2] / 255, np.clip(full[..., 2], 0, 1), "unorm5")
+    assert len(np.unique(got[..., 1])) > len(np.unique(got[..., 2])) > 10
+
+
+def test_rgb565_has_no_alpha(renderer):
+    scene = cc.Scene(background=(1, 0, 0, 0.25))
+    assert renderer.capture(scene, size=2, format="rgb565").faces[0, 0, 0].tolist() == [
+        255,
+        0,
+        0,
+        255,
+    ]
+    pane = cc.BasicMaterial((0, 0, 1), opacity=16 / 31, double_sided=True)
+    scene.add(cc.Mesh.plane(9, 9), pane, position=(0, -1, 0))
+    faces = renderer.capture(scene, size=2, format="rgb565").faces
+    np.testing.assert_array_equal(faces[3, 0, 0], as_565(np.array([15, 0, 16]) / 31))
+
+
+def test_rgb565_of_an_encoded_frame(renderer, bright, raw):
+    view, linear = raw
+    got = renderer.render(
+        bright, view.camera, view.size, format="rgb565", tonemap="aces", encode="srgb"
+    ).color
+    want = shading.srgb_encode(shading.aces(linear[..., :3].astype(float)))
+    assert_close(got[..., 1] / 255, want[..., 1], "unorm6")
+    assert_close(got[..., 2] / 255, want[..., 2], "unorm5")
+    assert (got[..., 3] == 255).all()
+
+
+def test_rgb565_probe_is_looked_up(renderer):
+    scene = cc.Scene(background=(0.4, 0.5, 0.6))
+    ball = scene.add(cc.Mesh.sphere(1), cc.MirrorMaterial(), position=(0, 0, -3))
+    ball.environment = cc.Probe(position=(0, 0, -3), size=8, format="rgb565", mipmaps=True)
+    camera = cc.PerspectiveCamera(fov=50, position=(0, 0, 1), target=(0, 0, -3))
+    frame = renderer.render(scene, camera, (8, 8), format="rgba32f", outputs=("id",))
+    levels = np.round(np.array([0.4, 0.5, 0.6]) * [31, 63, 31]) / [31, 63, 31]
+    np.testing.assert_allclose(frame.color[4, 4, :3], levels, atol=1e-2)
+    assert (renderer.cubemap(ball.environment).faces == as_565(np.array([0.4, 0.5, 0.6]))).all()
+
+
+# Depth.
+
+DEPTHS = (
+    "depth_component32f",
+    "depth_component24",
+    "depth_component16",
+    "depth24_stencil8",
+    "depth32f_stencil8",
+)
+STENCILS = ("depth24_stencil8", "depth32f_stencil8", "stencil_index8")
+PAINTERS = (None, "stencil_index8")
+depth_formats = pytest.mark.parametrize("depth_format", DEPTHS)
+PLACE = ((1.2, 0.9, -0.2), (-0.6, -0.1, 1.5))
+VIEWS = {
+    "perspective": lambda: perspective(*PLACE, near=0.2, far=20),
+    "orthographic": lambda: orthographic(*PLACE, near=0.2, far=20),
+}
+
+
+@depth_formats
+@pytest.mark.parametrize("make", VIEWS.values(), ids=VIEWS)
+def test_depth_is_the_window_space_value(any_path, depth_format, make):
+    world, view = room(), make()
+    frame = any_path.render(
+        world.scene, view.camera, view.size, depth_format=depth_format, outputs=("depth",)
+    )
+    hits = view.hits(world.shapes)
+    parallel = isinstance(view.camera, cc.OrthographicCamera)
+    want = ref.window_depth(hits.t, view.near, view.far, parallel)
+    assert (~hits.hit).any()
+    assert frame.depth.dtype == np.float32
+    tolerance = "depth16" if depth_format == "depth_component16" else "window_depth"
+    assert_close(frame.depth, want, tolerance, mask=inner(hits))
+    assert (frame.depth[~hits.hit & inner(hits)] == 1).all()
+
+
+@depth_formats
+def test_depth_of_a_capture(any_path, depth_format):
+    world = room()
+    cube = any_path.capture(
+        world.scene, size=24, near=0.1, far=30, depth_format=depth_format, outputs=("depth", "z")
+    )
+    hits = capture_hits(world, size=24, near=0.1, far=30)
+    tolerance = "depth16" if depth_format == "depth_component16" else "window_depth"
+    want = ref.window_depth(hits.t, 0.1, 30)
+    assert cube.depth.dtype == np.float32
+    assert not cube.depth.flags.writeable
+    assert_close(cube.depth, want, tolerance, mask=inner(hits))
+
+
+@pytest.mark.parametrize(
+    ("depth_format", "bits"),
+    [("depth_component16", 16), ("depth_component24", 24), ("depth24_stencil8", 24)],
+)
+def test_fixed_point_depth_is_what_the_buffer_holds(renderer, depth_format, bits):
+    """Whole steps: the nearest to the float depth, or the one beside it on a rounding boundary."""
+    world, view = room(), perspective(*PLACE, near=0.2, far=20)
+    fixed, full = (
+        renderer.render(
+            world.scene, view.camera, view.size, depth_format=name, outputs=("depth",)
+        ).depth.astype(float)
+        for name in (depth_format, "depth_component32f")
+    )
+    most = 2**bits - 1
+    steps = np.round(fixed * most)
+    # float32 has 24 bits: near 1 a step of 2^-24 is kept as the nearest float.
+    np.testing.assert_array_equal((steps / most).astype(np.float32), fixed.astype(np.float32))
+    assert np.abs(steps - ref.quantised(full, bits)).max() <= 1
+    assert len(np.unique(steps)) > 100
+
+
+def test_a_stencil_beside_it_does_not_change_depth(renderer):
+    world, view = room(), perspective(*PLACE)
+    depth = {
+        name: renderer.render(
+            world.scene, view.camera, view.size, depth_format=name, outputs=("depth",)
+        ).depth
+        for name in DEPTHS
+    }
+    assert_identical(depth["depth24_stencil8"], depth["depth_component24"])
+    assert_identical(depth["depth32f_stencil8"], depth["depth_component32f"])
+
+
+@depth_formats
+def test_other_outputs_do_not_hang_on_the_depth_format(renderer, depth_format):
+    """Away from where two surfaces meet."""
+    world, view = room(), perspective(*PLACE, near=0.2, far=20)
+    a, b = (
+        renderer.render(world.scene, view.camera, view.size, depth_format=name, outputs=OUTPUTS)
+        for name in (depth_format, "depth_component32f")
+    )
+    mask = inner(view.hits(world.shapes))
+    for name in ("color", *OUTPUTS):
+        assert_identical(getattr(a, name)[mask], getattr(b, name)[mask], name)
+
+
+def test_sixteen_bits_cannot_tell_far_things_apart(renderer):
+    """Two walls a hundredth of a unit apart, 50 units away: a step there is far more."""
+    scene = cc.Scene()
+    far = scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial((1, 0, 0)), position=(0, 0, -51))
+    scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial((0, 1, 0)), position=(0, 0, -50.99))
+    far.render_order = -1
+    camera = cc.PerspectiveCamera(fov=60, near=0.1, far=1000)
+    seen = {
+        name: renderer.render(scene, camera, (4, 4), depth_format=name).color[0, 0, :2].tolist()
+        for name in ("depth_component16", "depth_component32f")
+    }
+    assert seen == {"depth_component16": [255, 0], "depth_component32f": [0, 255]}
+
+
+def test_depth_of_an_empty_picture(renderer):
+    camera = cc.PerspectiveCamera()
+    for name in DEPTHS:
+        outputs = ("depth", "stencil") if name in STENCILS else "depth"
+        frame = renderer.render(cc.Scene(), camera, (3, 2), depth_format=name, outputs=outputs)
+        assert (frame.depth == 1).all()
+        assert frame.stencil is None or not frame.stencil.any()
+
+
+# No colour.
+
+
+@depth_formats
+@pytest.mark.parametrize("samples", [1, 4])
+def test_without_a_colour_only_outputs_come_back(any_path, depth_format, samples):
+    world, view = room(), perspective(*PLACE)
+    names = ("depth", *OUTPUTS)
+    options = {"depth_format": depth_format, "outputs": names, "samples": samples}
+    bare = any_path.render(world.scene, view.camera, view.size, format=None, **options)
+    full = any_path.render(world.scene, view.camera, view.size, **options)
+    assert bare.color is None
+    assert bare.size == view.size
+    for name in names:
+        assert_identical(getattr(bare, name), getattr(full, name), name)
+
+
+def test_a_frame_without_a_colour_is_a_frame(renderer):
+    camera = cc.PerspectiveCamera()
+    frame = renderer.render(cc.Scene(), camera, (3, 2), format=None, outputs="depth")
+    assert repr(frame) == "<cubecam.Frame 3 x 2, no colour>"
+    assert frame._repr_png_() is None
+    twin = pickle.loads(pickle.dumps(frame))
+    assert twin.color is None
+    assert_identical(twin.depth, frame.depth)
+    assert renderer.render(cc.Scene(), camera, (3, 2), format=None).color is None
+
+
+def test_the_background_needs_no_colour(renderer):
+    """A skybox is not drawn, and nothing is drawn again."""
+    scene = cc.Scene(background=cc.CubeMap(smooth_environment(4)))
+    camera = cc.PerspectiveCamera()
+    renderer.render(scene, camera, (5, 4), format=None, outputs="depth")
+    assert (renderer.stats.views_drawn, renderer.stats.draw_calls) == (1, 0)
+    renderer.render(scene, camera, (5, 4), format=None, outputs="depth")
+    assert renderer.stats.views_drawn == 0
+
+
+REFUSED = {
+    "stencil without one": ({"outputs": "stencil"}, "outputs.*depth24_stencil8.*component32f"),
+    "stencil of nothing": ({"outputs": "stencil", "depth_format": None}, "outputs.*none"),
+    "depth without one": ({"outputs": "depth", "depth_format": None}, "outputs.*none"),
+    "depth of a stencil": ({"outputs": "depth", "depth_format": "stencil_index8"}, "outputs.*at most"),
+    "id without depth": ({"outputs": ("id",), "depth_format": None}, "outputs.*depth"),
+    "distance of a stencil": (
+        {"outputs": ("stencil", "distance"), "depth_format": "stencil_index8"},
+        "outputs.*depth",
+    ),
+    "unknown": ({"depth_format": "depth16"}, "depth_format.*depth_component16.*'depth16'"),
+    "empty": ({"depth_format": ""}, "depth_format.*stencil_index8"),
+}  # fmt: skip
+REFUSED_FRAMES = {
+    "tone mapping of nothing": ({"format": None, "tonemap": "aces"}, "tonemap.*format"),
+    "encoding of nothing": ({"format": None, "encode": "srgb"}, "encode.*format"),
+    "nothing at all": ({"format": None, "depth_format": None}, "format, depth_format"),
+}
+
+
+@pytest.mark.parametrize(("options", "text"), REFUSED.values(), ids=REFUSED)
+def test_what_cannot_be_together_is_refused(renderer, options, text):
+    with pytest.raises(ValueError, match=text):
+        renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4, 4), **options)
+    with pytest.raises(ValueError, match=text):
+        renderer.capture(cc.Scene(), size=4, **options)
+
+
+@pytest.mark.parametrize(("options", "text"), REFUSED_FRAMES.values(), ids=REFUSED_FRAMES)
+def test_frames_of_nothing_are_refused(renderer, options, text):
+    with pytest.raises(ValueError, match=text):
+        renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4, 4), **options)
+
+
+@pytest.mark.parametrize("bad", [16, ("depth_component16",), b"x"])
+def test_depth_formats_are_names(renderer, bad):
+    with pytest.raises((TypeError, ValueError)):
+        renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4, 4), depth_format=bad)
+
+
+def test_faces_need_a_format(renderer):
+    with pytest.raises(ValueError, match=r"format.*faces.*None"):
+        renderer.capture(cc.Scene(), size=4, format=None)
+    with pytest.raises(TypeError):
+        cc.Probe(format=None)
+
+
+# The painter: no depth buffer.
+
+
+def overlapping():
+    """Boxes across each other, near ones added first, some translucent, and the order they are painted in."""
+    world = room()
+    for index in range(0, len(world.shapes), 3):
+        world.scene.nodes[index].material.opacity = 0.5
+    for node, order in zip(
+        world.scene.nodes, (0, 3, -1, 3, 0, -(2**31), 2**31 - 1, 0), strict=True
+    ):
+        node.render_order = order
+    world.scene.background = (0.1, 0.2, 0.3, 1)
+    return world, sorted(world.scene.nodes, key=lambda node: (node.render_order, node.id))
+
+
+@pytest.mark.parametrize("depth_format", PAINTERS)
+def test_without_depth_nodes_are_painted_in_order(any_path, depth_format):
+    world, order = overlapping()
+    view = perspective((1.2, 0.9, -3.5), (0, 0, 0.5))
+    got = any_path.render(
+        world.scene, view.camera, view.size, format="rgba32f", depth_format=depth_format
+    ).color
+    want = np.broadcast_to(np.float64([0.1, 0.2, 0.3, 1]), got.shape)
+    mask = np.ones(got.shape[:2], bool)
+    shapes = {shape.id: shape for shape in world.shapes}
+    for node in order:
+        hits = view.hits([shapes[node.id]])
+        color = (*world.colors[node.id][:3], node.material.opacity)
+        want = np.where(hits.hit[..., None], over(color, want), want)
+        mask &= inner(hits) | (node.id == 6)
+    mask &= interior(view.hits([shapes[6]]).id)  # its facets are no creases
+    assert_close(got, want, "float32_maths", mask=mask)
+
+
+@pytest.mark.parametrize("depth_format", PAINTERS)
+def test_the_painter_in_captures_and_probes(new_renderer, depth_format):
+    world, _ = overlapping()
+    layered, one_pass = new_renderer(layered=True), new_renderer(layered=False)
+    cubes = [
+        r.capture(world.scene, size=24, depth_format=depth_format) for r in (layered, one_pass)
+    ]
+    assert_identical(cubes[0].faces, cubes[1].faces)
+    with_depth = layered.capture(world.scene, size=24).faces
+    assert (cubes[0].faces != with_depth).any()
+    ball = world.scene.add(cc.Mesh.sphere(0.1), cc.MirrorMaterial())
+    ball.environment = cc.Probe(size=24, format="rgba32f", depth_format=depth_format)
+    layered.update(world.scene)
+    assert_identical(layered.cubemap(ball.environment).faces, cubes[0].faces)
+
+
+def test_the_sky_is_behind_the_painter(renderer):
+    scene = cc.Scene(background=cc.CubeMap(smooth_environment(8)))
+    scene.add(cc.Mesh.box(1), cc.BasicMaterial((1, 0, 0)), position=(0, 0, -3))
+    camera = cc.PerspectiveCamera(fov=50)
+    a, b = (
+        renderer.render(scene, camera, (32, 24), depth_format=name).color
+        for name in (None, "depth_component32f")
+    )
+    assert_identical(a, b)
+
+
+# What all of them promise.
+
+COMBINATIONS = {
+    "565": {"format": "rgb565"},
+    "565 samples": {"format": "rgb565", "samples": 4},
+    "16 bits": {"depth_format": "depth_component16", "outputs": ("depth", "id")},
+    "16 bits samples": {
+        "depth_format": "depth_component16", "outputs": ("depth",), "samples": 4, "format": "rgb565"
+    },
+    "24 bits": {"depth_format": "depth_component24", "outputs": ("depth", "normal")},
+    "stencil": {"depth_format": "depth24_stencil8", "outputs": ("depth", "stencil")},
+    "float and stencil": {"depth_format": "depth32f_stencil8", "outputs": ("depth", "id")},
+    "painter": {"depth_format": None},
+    "painter samples": {"depth_format": None, "samples": 4},
+    "painter with a stencil": {"depth_format": "stencil_index8", "outputs": ("stencil",)},
+}  # fmt: skip
+COLOURLESS = {
+    "depth only": {"format": None, "outputs": ("depth",)},
+    "16 bits only": {
+        "format": None, "depth_format": "depth_component16", "outputs": ("depth", "z"), "samples": 4
+    },
+    "stencil only": {"format": None, "depth_format": "stencil_index8", "outputs": ("stencil",)},
+    "graded": {"format": "rgb565", "tonemap": "aces", "encode": "srgb"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "options", (COMBINATIONS | COLOURLESS).values(), ids=(COMBINATIONS | COLOURLESS)
+)
+def test_incremental_equals_from_scratch(new_renderer, options):
+    rng = np.random.default_rng(31)
+    scene = crowd(rng)
+    for node in scene.nodes:
+        node.render_order = rng.integers(-1, 2)
+    camera = cc.PerspectiveCamera(fov=50, position=(2, 1.5, 5), target=(0, 0, 0))
+    names = list(options.get("outputs", ()))
+    if options.get("format", "rgba8") is not None:
+        names.append("color")
+    follow(
+        new_renderer(),
+        new_renderer(cache_bytes=0),
+        lambda r: r.render(scene, camera, (97, 71), **options),
+        scene,
+        rng,
+        names,
+    )
+
+
+@pytest.mark.parametrize("options", COMBINATIONS.values(), ids=COMBINATIONS)
+def test_layered_equals_one_pass(new_renderer, options):
+    scene = crowd(np.random.default_rng(32))
+    a, b = (
+        new_renderer(layered=layered).capture(scene, size=24, **options)
+        for layered in (True, False)
+    )
+    assert a == b
+    for name in ("faces", *options.get("outputs", ())):
+        assert_identical(getattr(a, name), getattr(b, name), name)
+    twin = pickle.loads(pickle.dumps(a))
+    assert twin == a
+    for name in options.get("outputs", ()):
+        assert_identical(getattr(twin, name), getattr(a, name), name)
+
+
+def test_each_choice_keeps_its_own_picture(fresh_renderer):
+    scene, camera = crowd(np.random.default_rng(33)), cc.PerspectiveCamera(position=(0, 0, 5))
+
+    def draw_all():
+        for options in (COMBINATIONS | COLOURLESS).values():
+            yield fresh_renderer.render(scene, camera, (40, 30), **options)
+
+    first = list(draw_all())
+    for frame, again in zip(first, draw_all(), strict=True):
+        assert fresh_renderer.stats.views_drawn == 0
+        for name in ("color", "depth", "stencil"):
+            a, b = getattr(frame, name), getattr(again, name)
+            assert (a is None) == (b is None)
+            if a is not None:
+                assert_identical(a, b)
+
+
+@pytest.mark.parametrize("depth_format", [*DEPTHS, *PAINTERS])
+@pytest.mark.parametrize("fmt", ["rgba8", "rgb565", "rgba32f"])
+def test_samples_average_edges_with_each(any_path, depth_format, fmt):
+    scene = cc.Scene()
+    scene.add(cc.Mesh.box((4, 4, 0.1)), cc.BasicMaterial(), position=(-2, 0.2, -2),
+              rotation=cc.axis_angle((0, 0, 1), 10))  # fmt: skip
+    camera = cc.PerspectiveCamera(fov=90)
+    options = {"format": fmt, "depth_format": depth_format}
+    one = any_path.render(scene, camera, (32, 32), **options).color[..., 0] * 1.0
+    four = any_path.render(scene, camera, (32, 32), samples=4, **options).color[..., 0] * 1.0
+    assert set(np.unique(one)) == {0, one.max()}
+    assert len(np.unique(four)) == 5
+    assert four.mean() == pytest.approx(one.mean(), rel=0.03)
+
+
+@pytest.mark.parametrize("depth_format", DEPTHS)
+def test_depth_of_samples_is_that_of_one(any_path, depth_format):
+    world, view = room(), perspective(*PLACE)
+    a, b = (
+        any_path.render(world.scene, view.camera, view.size, depth_format=depth_format,
+                        outputs=("depth", "id"), samples=samples)
+        for samples in (1, 4)
+    )  # fmt: skip
+    assert_identical(a.depth, b.depth)
+    assert_identical(a.id, b.id)
+
+
+@pytest.mark.parametrize("options", [{"depth_format": None}, {"format": "rgb565"}])
+def test_limits_hold_with_each(renderer, options):
+    limits = renderer.info.limits
+    camera = cc.PerspectiveCamera()
+    with pytest.raises(ValueError, match=str(limits.max_texture_size)):
+        renderer.render(cc.Scene(), camera, (limits.max_texture_size + 1, 1), **options)
+    with pytest.raises(ValueError, match=str(limits.max_samples)):
+        renderer.render(cc.Scene(), camera, (4, 4), samples=limits.max_samples + 1, **options)
+    with pytest.raises(ValueError, match=str(limits.max_samples)):
+        renderer.render(cc.Scene(), camera, (4, 4), samples=limits.max_samples + 1, format=None)
+
+
+def test_probes_keep_their_depth_format(renderer):
+    probe = cc.Probe(depth_format="depth_component16", format="rgb565")
+    assert (probe.depth_format, probe.format) == ("depth_component16", "rgb565")
+    assert pickle.loads(pickle.dumps(probe)).depth_format == "depth_component16"
+    probe.depth_format = None
+    assert pickle.loads(pickle.dumps(probe)).depth_format is None
+    with pytest.raises(ValueError, match="depth_format"):
+        probe.depth_format = "z16"
+    with pytest.raises(ValueError, match="depth_format"):
+        cc.Probe(depth_format="DEPTH_COMPONENT16")
+    assert cc.Probe().depth_format == "depth_component32f"

@@ -100,7 +100,7 @@ def edit_exclude_inside(scene, rng):
 def edit_screens(scene, rng):
     """One screen shows what another shows: now and then the monitor, seen by probes, which is an error."""
     screens = [node for node in scene.nodes if node.name.startswith("screen")]
-    a, b = rng.choice(len(screens), 2)
+    a, b = rng.choice(len(screens), 2, replace=False)
     screens[a].material = screens[b].material
 
 

@@ -107,3 +107,16 @@ def pixel_rays(view, projection, size):
     origins = apply(to_world, start)
     directions = step @ to_world[:3, :3].T
     return origins, directions
+
+
+def window_depth(z, near, far, parallel=False):
+    """OpenGL's window-space z, 0 at the near plane and 1 at the far one, of distances along the axis; inf gives 1."""
+    z = np.asarray(z, float)
+    with np.errstate(invalid="ignore"):
+        depth = (z - near) / (far - near) if parallel else far / (far - near) * (1 - near / z)
+    return np.where(np.isinf(z), 1.0, depth)
+
+
+def quantised(value, bits):
+    """The nearest whole number of 0..2^bits - 1 for 0..1."""
+    return np.round(np.asarray(value, float) * (2**bits - 1)).astype(np.int64)

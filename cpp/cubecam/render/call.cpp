@@ -123,8 +123,10 @@ std::vector<std::size_t> Call::find_work(std::size_t index) {
     work.due = count_and_decide(probe, work);
     if (!work.due) return {};  // it shows what it holds, and needs nothing
     work.views = cube_views(probe.position, probe.value.near, probe.value.far);
-    work.plan = make_plan(scene_, work.views, probe.value.size, probe.value.size,
-                          [&](const NodeSnapshot& node) { return is_seen(scene_, node, index); });
+    work.plan = make_plan(
+        scene_, work.views, probe.value.size, probe.value.size,
+        [&](const NodeSnapshot& node) { return is_seen(scene_, node, index); },
+        hiding(probe.value.depth_format));
     return needs_of(work.plan);
 }
 
@@ -135,7 +137,7 @@ void Call::draw_probe(std::size_t index) {
     ProbeState& state = *work.state;
     TargetDescription description =
         describe_target(gpu_.context, true, probe.value.size, probe.value.size, probe.value.samples,
-                        probe.value.format);
+                        probe.value.format, {}, probe.value.depth_format);
     description.mipmaps = probe.value.mipmaps;
     std::optional<Budget> budget;
     if (state.target == nullptr || state.target->description() != description) {
@@ -241,17 +243,27 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     }
     const Lookup sky = background_lookup();
     const auto* color = std::get_if<glm::vec4>(&scene_.background);
-    gpu_.surface.draw({scene_, views, plan, std::move(regions),
-                       color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture),
-                       lookups},
-                      target, stats);
-    for (std::size_t v = 0; v < views.size(); ++v) {
-        if (!damaged[v].empty() && target.multisampled()) target.resolve(static_cast<int>(v));
+    // Place by place: positions in the shaders count from where a view stands, so its picture is
+    // the same bit for bit whether others are drawn along or not.
+    while (!regions.empty()) {
+        const View& here = views[regions.front().view];
+        const auto elsewhere =
+            std::stable_partition(regions.begin(), regions.end(), [&](const Region& region) {
+                return same_place(here, views[region.view]);
+            });
+        std::vector<Region> rest(elsewhere, regions.end());
+        regions.erase(elsewhere, regions.end());
+        gpu_.surface.draw(
+            {scene_, views, plan, std::move(regions),
+             color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture), lookups},
+            target, stats);
+        regions = std::move(rest);
     }
-    if (target.description().graded) {
-        const auto textures = look_up_all(finish);
-        for (std::size_t v = 0; v < views.size(); ++v) {
-            if (damaged[v].empty()) continue;
+    const auto textures = look_up_all(finish);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (damaged[v].empty()) continue;
+        if (target.multisampled()) target.resolve(static_cast<int>(v));
+        if (target.description().graded) {
             gpu_.finish.draw(finish, textures, target, static_cast<int>(v), stats);
         }
     }
@@ -272,8 +284,9 @@ void Call::draw(std::span<const View> views, Target& target,
         session_.numbers.add_needs(finish.effects, shown);
         refuse_circles(session_.asked_for, session_.numbers, unique(std::move(shown)));
     }
-    const DrawPlan plan =
-        make_plan(scene_, views, target.description().width, target.description().height, wanted);
+    const TargetDescription& description = target.description();
+    const DrawPlan plan = make_plan(scene_, views, description.width, description.height, wanted,
+                                    hiding(description.depth_format));
     std::vector<std::size_t> needs = needs_of(plan);
     session_.numbers.add_needs(finish.effects, needs);
     session_.update(unique(std::move(needs)));

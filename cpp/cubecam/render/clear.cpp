@@ -7,13 +7,14 @@ namespace {
 
 constexpr GLint no_id[4] = {0, 0, 0, 0};
 constexpr float far_depth = 0.0F;  // depth is reversed
+constexpr GLint no_stencil = 0;
 
 /// Calls `put(slot, four floats)` for colour and every output that holds floats.
 template <class Put>
 void for_each_float(const Target& target, const ClearValues& values, Put&& put) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    if (values.with_color) put(Slot::color, values.color);
+    if (values.with_color && target.description().color) put(Slot::color, values.color);
     if (!values.with_outputs) return;
     const Outputs& outputs = target.description().outputs;
     if (outputs.distance) put(Slot::distance, glm::vec4(infinity));
@@ -37,7 +38,15 @@ void clear_bound(const GladGLContext& gl, const Target& target, const ClearValue
     if (clears_id(target, values)) {
         gl.ClearBufferiv(GL_COLOR, static_cast<GLint>(Slot::id), no_id);
     }
-    gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    const DepthFormat depth = target.description().depth_format;
+    gl.StencilMask(0xFF);
+    if (has_depth(depth) && has_stencil(depth)) {
+        gl.ClearBufferfi(GL_DEPTH_STENCIL, 0, far_depth, no_stencil);
+    } else if (has_depth(depth)) {
+        gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+    } else if (has_stencil(depth)) {
+        gl.ClearBufferiv(GL_STENCIL, 0, &no_stencil);
+    }
 }
 
 void clear_layer(const GladGLContext& gl, const Target& target, int layer, const Rect& rect,
@@ -54,7 +63,18 @@ void clear_layer(const GladGLContext& gl, const Target& target, int layer, const
     if (clears_id(target, values)) {
         clear(target.output(Slot::id), GL_RED_INTEGER, GL_INT, no_id);
     }
-    clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far_depth);
+    const DepthFormat depth = target.description().depth_format;
+    if (has_depth(depth) && has_stencil(depth)) {
+        const struct {
+            float depth;
+            GLuint stencil;
+        } both{far_depth, no_stencil};
+        clear(target.depth(), GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &both);
+    } else if (has_depth(depth)) {
+        clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far_depth);
+    } else if (has_stencil(depth)) {
+        clear(target.depth(), GL_STENCIL_INDEX, GL_INT, &no_stencil);
+    }
 }
 
 }  // namespace cubecam

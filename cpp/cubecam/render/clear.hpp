@@ -4,8 +4,8 @@
 
 namespace cubecam {
 
-/// What a pass starts from: the background where it is a colour, no depth, and each output's
-/// "nothing was hit".
+/// What a pass starts from: the background where it is a colour, no depth, a stencil of 0, and each
+/// output's "nothing was hit".
 struct ClearValues {
     glm::vec4 color;
     bool with_color;    ///< clear the colour, too

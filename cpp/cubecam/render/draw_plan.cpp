@@ -4,13 +4,15 @@
 #include "cubecam/render/screen_bounds.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cstdint>
+#include <utility>
 
 namespace cubecam {
 namespace {
 
 struct Seen {
     PlannedNode planned;
+    std::int32_t order;
     double distance;
 };
 
@@ -19,18 +21,25 @@ double distance_to(const View& view, const glm::dvec3& point) {
                          : glm::distance(point, view.position);
 }
 
-/// Views are sorted for alike if they stand in one place: then distances are equal, bit for bit.
-bool same_order(const View& a, const View& b) {
-    return a.position == b.position && a.parallel == b.parallel &&
-           (!a.parallel || a.forward == b.forward);
+/// Nodes come in order of id, so a stable sort breaks ties by id.
+template <class Before>
+void append_sorted(std::vector<Seen>& seen, std::vector<PlannedNode>& to, Before before) {
+    std::stable_sort(seen.begin(), seen.end(), [before](const Seen& a, const Seen& b) {
+        return a.order != b.order ? a.order < b.order : before(a, b);
+    });
+    for (Seen& node : seen) to.push_back(std::move(node.planned));
 }
 
 }  // namespace
 
+bool same_place(const View& a, const View& b) {
+    return a.position == b.position && a.parallel == b.parallel &&
+           (!a.parallel || a.forward == b.forward);
+}
+
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
-                   const std::function<bool(const NodeSnapshot&)>& wanted) {
-    std::vector<Seen> opaque;
-    std::vector<PlannedNode> late;
+                   const std::function<bool(const NodeSnapshot&)>& wanted, Hiding hiding) {
+    std::vector<PlannedNode> all;
     for (std::size_t index = 0; index < scene.nodes.size(); ++index) {
         const NodeSnapshot& node = scene.nodes[index];
         if (!wanted(node)) continue;
@@ -45,46 +54,47 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
             if (!may_show(views[v].view_projection, bounds.low, bounds.high, error)) continue;
             planned.sights.push_back({v, screen_bounds(views[v], bounds, error, width, height)});
         }
-        if (planned.sights.empty()) continue;
-        if (node.drawn_late()) {
-            late.push_back(std::move(planned));
-            continue;
-        }
-        // Of all views, also those that do not see it: what one view draws must not hang on which
-        // others are drawn.
-        double nearest = std::numeric_limits<double>::infinity();
-        for (const View& view : views)
-            nearest = std::min(nearest, distance_to(view, node.world_bounds.centre()));
-        opaque.push_back({std::move(planned), nearest});
+        if (!planned.sights.empty()) all.push_back(std::move(planned));
     }
 
     DrawPlan plan;
-    // Nodes come in order of id, so a stable sort breaks ties by id.
-    std::stable_sort(opaque.begin(), opaque.end(),
-                     [](const Seen& a, const Seen& b) { return a.distance < b.distance; });
-    plan.opaque.reserve(opaque.size());
-    for (Seen& seen : opaque) plan.opaque.push_back(std::move(seen.planned));
-    if (late.empty()) return plan;
-
+    plan.hiding = hiding;
+    plan.opaque.reserve(all.size());
+    const bool one_place = std::all_of(views.begin(), views.end(), [&views](const View& view) {
+        return same_place(views.front(), view);
+    });
     std::vector<bool> done(views.size(), false);
     for (std::size_t first = 0; first < views.size(); ++first) {
         if (done[first]) continue;
-        std::vector<Seen> sequence;
-        for (const PlannedNode& planned : late) {
+        // What a view draws must not hang on views that stand elsewhere.
+        for (std::size_t v = first; v < views.size(); ++v) {
+            if (same_place(views[first], views[v])) done[v] = true;
+        }
+        std::vector<Seen> opaque;
+        std::vector<Seen> late;
+        for (PlannedNode& planned : all) {
             PlannedNode part{planned.node, {}};
-            for (const PlannedNode::Sight& sight : planned.sights) {
-                if (same_order(views[first], views[sight.view])) part.sights.push_back(sight);
+            if (one_place) {
+                part.sights.swap(planned.sights);
+            } else {
+                for (const PlannedNode::Sight& sight : planned.sights) {
+                    if (same_place(views[first], views[sight.view])) part.sights.push_back(sight);
+                }
             }
             if (part.sights.empty()) continue;
-            const glm::dvec3 centre = scene.nodes[planned.node].world_bounds.centre();
-            sequence.push_back({std::move(part), distance_to(views[first], centre)});
+            const NodeSnapshot& node = scene.nodes[planned.node];
+            const double distance = distance_to(views[first], node.world_bounds.centre());
+            const bool later = node.drawn_late() && hiding == Hiding::by_depth;
+            (later ? late : opaque).push_back({std::move(part), node.render_order, distance});
         }
-        std::stable_sort(sequence.begin(), sequence.end(),
-                         [](const Seen& a, const Seen& b) { return a.distance > b.distance; });
-        for (Seen& seen : sequence) plan.late.push_back(std::move(seen.planned));
-        for (std::size_t v = first; v < views.size(); ++v) {
-            if (same_order(views[first], views[v])) done[v] = true;
+        if (hiding == Hiding::by_order) {
+            append_sorted(opaque, plan.opaque, [](const Seen&, const Seen&) { return false; });
+            continue;
         }
+        append_sorted(opaque, plan.opaque,
+                      [](const Seen& a, const Seen& b) { return a.distance < b.distance; });
+        append_sorted(late, plan.late,
+                      [](const Seen& a, const Seen& b) { return a.distance > b.distance; });
     }
     return plan;
 }

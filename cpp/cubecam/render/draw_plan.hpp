@@ -2,6 +2,7 @@
 
 #include "cubecam/math/rect.hpp"
 #include "cubecam/render/view.hpp"
+#include "cubecam/scene/depth_format.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
 #include <cstddef>
@@ -21,18 +22,32 @@ struct PlannedNode {
     std::vector<Sight> sights;  ///< by view, ascending
 };
 
+/// Whether a pass tests depth, or paints one node over the other.
+enum class Hiding { by_depth, by_order };
+
+/// What a target with such a buffer can do.
+inline Hiding hiding(DepthFormat format) {
+    return has_depth(format) ? Hiding::by_depth : Hiding::by_order;
+}
+
 /// What is drawn, in order: opaque nodes near to far, then those of NodeSnapshot::drawn_late far to
-/// near.
+/// near; of nodes that differ in Node's render_order, the lower first.
+///
+/// Views that stand in one place share one sequence; others follow each other, sequence by
+/// sequence, so a node may come several times.
 struct DrawPlan {
-    std::vector<PlannedNode> opaque;
-    /// Back to front for the views it lists. Views that stand in one place share one sequence;
-    /// others follow each other, sequence by sequence, so a node may come several times.
+    Hiding hiding = Hiding::by_depth;
+    std::vector<PlannedNode> opaque;  ///< by_order: all, by render_order and id
     std::vector<PlannedNode> late;
 };
+
+/// Whether two views stand in one place, so that distances from them are equal bit for bit.
+bool same_place(const View& a, const View& b);
 
 /// For pictures of `width` x `height`: culls every node that `wanted` lets through against every
 /// view and sorts what is left, ties by id: the order depends on the scene alone.
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
-                   const std::function<bool(const NodeSnapshot&)>& wanted);
+                   const std::function<bool(const NodeSnapshot&)>& wanted,
+                   Hiding hiding = Hiding::by_depth);
 
 }  // namespace cubecam

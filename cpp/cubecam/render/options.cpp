@@ -19,16 +19,50 @@ Value parse(std::string_view what, std::string_view name,
                                 std::string(name) + "\"");
 }
 
+void check_outputs_of(const Outputs& outputs, DepthFormat depth_format) {
+    const auto refuse = [&](const char* expected) {
+        throw std::invalid_argument("outputs: expected " + std::string(expected) +
+                                    ", got depth_format " + std::string(to_string(depth_format)));
+    };
+    if (outputs.stencil && !has_stencil(depth_format)) {
+        refuse("\"stencil\" only with a depth_format that has one, depth24_stencil8, "
+               "depth32f_stencil8 or stencil_index8");
+    }
+    // Nothing says which node is the nearest.
+    if ((outputs.shaded() || outputs.depth) && !has_depth(depth_format)) {
+        refuse(has_stencil(depth_format) ? "\"stencil\" at most without a depth buffer"
+                                         : "none without a depth buffer");
+    }
+}
+
 }  // namespace
 
+void check_buffers(const FrameOptions& options) {
+    check_outputs_of(options.outputs, options.depth_format);
+    if (options.color) return;
+    if (options.tonemap != Tonemap::none || options.encode != Encode::none) {
+        throw std::invalid_argument("tonemap, encode: expected None without a colour, got format "
+                                    "None");
+    }
+    if (options.depth_format == DepthFormat::none) {
+        throw std::invalid_argument("format, depth_format: expected at least one, got None twice");
+    }
+}
+
+void check_buffers(const CaptureOptions& options) {
+    check_outputs_of(options.outputs, options.depth_format);
+}
+
 Outputs parse_outputs(const std::vector<std::string>& names) {
-    static constexpr std::array<std::pair<std::string_view, bool Outputs::*>, 6> known{{
+    static constexpr std::array<std::pair<std::string_view, bool Outputs::*>, 8> known{{
         {"color", nullptr},
         {"distance", &Outputs::distance},
         {"z", &Outputs::z},
         {"normal", &Outputs::normal},
         {"position", &Outputs::position},
         {"id", &Outputs::id},
+        {"depth", &Outputs::depth},
+        {"stencil", &Outputs::stencil},
     }};
     Outputs outputs;
     for (const std::string& name : names) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/gl/context.hpp"
+#include "cubecam/scene/depth_format.hpp"
 #include "cubecam/scene/format.hpp"
 
 #include <glm/glm.hpp>
@@ -14,15 +15,22 @@
 
 namespace cubecam {
 
-/// What a picture holds besides its colour. Only opaque nodes write these.
+/// What a picture holds besides its colour. Only opaque nodes write the shaded ones; depth and
+/// stencil are what those buffers hold in the end.
 struct Outputs {
     bool distance = false;  ///< length of the ray, world units
     bool z = false;         ///< along the camera's axis, world units
     bool normal = false;    ///< world shading normal, towards the viewer
     bool position = false;  ///< world
     bool id = false;        ///< Node::id
+    bool depth = false;     ///< window-space z, 0 near to 1 far
+    bool stencil = false;
 
-    bool any() const { return distance || z || normal || position || id; }
+    /// Whether fragment shaders write any.
+    bool shaded() const { return distance || z || normal || position || id; }
+    /// Whether any is read from the depth and stencil buffer.
+    bool buffered() const { return depth || stencil; }
+    bool any() const { return shaded() || buffered(); }
     auto operator<=>(const Outputs&) const = default;
 };
 
@@ -54,6 +62,8 @@ struct FrameOptions {
     std::int64_t samples = 1;
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
+    bool color = true;  ///< false: no colour buffer, only outputs; `format` does not count
+    DepthFormat depth_format = DepthFormat::depth_component32f;
 };
 
 struct CaptureOptions {
@@ -66,7 +76,13 @@ struct CaptureOptions {
     Format format = Format::rgba32f;
     std::int64_t samples = 1;
     std::optional<glm::dvec3> eye;  ///< none: `position`
+    DepthFormat depth_format = DepthFormat::depth_component32f;
 };
+
+/// Both throw std::invalid_argument for what cannot be drawn or read together: outputs that the
+/// depth format lacks what they need for, tone mapping without a colour, a picture of nothing.
+void check_buffers(const FrameOptions& options);
+void check_buffers(const CaptureOptions& options);
 
 /// What the last call did.
 struct Stats {

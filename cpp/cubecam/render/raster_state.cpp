@@ -1,5 +1,7 @@
 #include "cubecam/render/raster_state.hpp"
 
+#include "cubecam/render/stencil_state.hpp"
+
 namespace cubecam {
 namespace {
 
@@ -49,6 +51,7 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
     const glm::bvec4& write = surface.color_write;
     gl.ColorMaski(0, write.r, write.g, write.b, write.a);
     set_blending(gl, node.blend);
+    set_stencil(gl, surface.stencil);
 }
 
 void reset_raster_state(const GladGLContext& gl) {
@@ -57,6 +60,7 @@ void reset_raster_state(const GladGLContext& gl) {
     gl.DepthMask(GL_TRUE);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.Disable(GL_BLEND);
+    gl.Disable(GL_STENCIL_TEST);
 }
 
 }  // namespace cubecam

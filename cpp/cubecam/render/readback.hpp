@@ -8,8 +8,8 @@
 
 namespace cubecam {
 
-/// Copies of what a target holds. Frames are flipped to row 0 on top; cube faces are taken as they
-/// are.
+/// Copies of what a target holds. Frames are flipped to row 0 on top, and several views stand one
+/// below the other; cube faces are taken as they are.
 Frame read_frame(const GladGLContext& gl, Target& target);
 std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target);
 

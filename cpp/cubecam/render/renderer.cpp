@@ -3,6 +3,7 @@
 #include "cubecam/error.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/session.hpp"
+#include "cubecam/render/stereo.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -138,32 +139,49 @@ auto Renderer::run(Work&& work) {
     }
 }
 
-Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
-                       const FrameOptions& options) {
+Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
+                             const FrameOptions& options) {
+    check_buffers(options);
     return run([&](GpuState& gpu) {
-        TargetDescription description =
-            describe_target(gpu.context, false, options.width, options.height, options.samples,
-                            options.format, options.outputs);
+        TargetDescription description = describe_target(
+            gpu.context, false, options.width, options.height, options.samples, options.format,
+            options.outputs, options.depth_format, options.color, static_cast<int>(cameras.size()));
         const Finish finish{scene.effects, options.tonemap, options.encode};
         set_finish(description, finish.effects.size(), finish.any());
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
             static_cast<double>(options.width) / static_cast<double>(options.height);
-        const View view = camera_view(matrices(camera, aspect));
+        std::vector<View> views;
+        for (const CameraValue& camera : cameras) {
+            views.push_back(camera_view(matrices(camera, aspect)));
+        }
         Session session(gpu, scene);
-        session.call().draw({&view, 1}, target, [](const NodeSnapshot&) { return true; }, finish);
+        session.call().draw(views, target, [](const NodeSnapshot&) { return true; }, finish);
         stats_ = session.stats;
         return read_frame(gpu.context.gl(), target);
     });
 }
 
+Frame Renderer::render(const SceneSnapshot& scene, const CameraValue& camera,
+                       const FrameOptions& options) {
+    return render_views(scene, {&camera, 1}, options);
+}
+
+Frame Renderer::render(const SceneSnapshot& scene, const StereoValue& camera,
+                       const FrameOptions& options) {
+    const CameraValue eyes[] = {camera.eyes.left, camera.eyes.right};
+    return combine_eyes(render_views(scene, eyes, eye_options(options, camera.layout)),
+                        camera.layout);
+}
+
 std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
                                            const CaptureOptions& options) {
     check(options);
+    check_buffers(options);
     return run([&](GpuState& gpu) {
         const TargetDescription description =
             describe_target(gpu.context, true, options.size, options.size, options.samples,
-                            options.format, options.outputs);
+                            options.format, options.outputs, options.depth_format);
         Target& target = gpu.targets.get(gpu.context, description);
         const std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);

@@ -8,9 +8,11 @@
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
+#include "cubecam/scene/stereo_camera.hpp"
 
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 namespace cubecam {
@@ -49,6 +51,13 @@ public:
         return render(scene.snapshot(), camera.value(), options);
     }
 
+    /// Both eyes' pictures as one; each eye's `aspect` is that of its part.
+    Frame render(const SceneSnapshot& scene, const StereoValue& camera,
+                 const FrameOptions& options);
+    Frame render(const Scene& scene, const StereoCamera& camera, const FrameOptions& options) {
+        return render(scene.snapshot(), camera.value(), options);
+    }
+
     std::shared_ptr<CubeMap> capture(const SceneSnapshot& scene, const CaptureOptions& options);
     std::shared_ptr<CubeMap> capture(const Scene& scene, const CaptureOptions& options) {
         return capture(scene.snapshot(), options);
@@ -77,6 +86,9 @@ private:
 
     template <class Work>
     auto run(Work&& work);
+    /// The cameras' pictures, each of the size that the options say, one below the other.
+    Frame render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
+                       const FrameOptions& options);
 
     RendererInfo info_;
     mutable std::mutex mutex_;

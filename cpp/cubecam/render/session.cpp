@@ -14,7 +14,8 @@ namespace {
 TargetDescription describe_texture(const gl::Context& context, const RenderTextureValue& value) {
     try {
         TargetDescription description =
-            describe_target(context, false, value.width, value.height, value.samples, value.format);
+            describe_target(context, false, value.width, value.height, value.samples, value.format,
+                            {}, value.depth_format);
         description.mipmaps = value.mipmaps;
         set_finish(description, value.effects.size(), false);
         return description;
@@ -86,9 +87,10 @@ std::vector<std::size_t> Session::find_texture_work(std::size_t index) {
     work.state = &gpu.textures.get(texture.object, [] { return TextureState{}; });
     work.view = camera_view(matrices(texture.camera, static_cast<double>(value.width) /
                                                          static_cast<double>(value.height)));
-    work.plan = make_plan(asked_for.scene(texture.scene), {&work.view, 1}, description.width,
-                          description.height,
-                          [&](const NodeSnapshot& node) { return is_seen(texture, node); });
+    work.plan = make_plan(
+        asked_for.scene(texture.scene), {&work.view, 1}, description.width, description.height,
+        [&](const NodeSnapshot& node) { return is_seen(texture, node); },
+        hiding(value.depth_format));
     std::vector<std::size_t> needs = calls_[texture.scene].needs_of(work.plan);
     numbers.add_needs(texture.effects, needs);
     return unique(std::move(needs));

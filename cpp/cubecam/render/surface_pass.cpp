@@ -112,9 +112,9 @@ void SurfacePass::set_scissor(const Rect& rect) {
 
 SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
     Prepared prepared;
-    // The shaders' positions count from where the first view stands: far from the world's origin a
+    // The shaders' positions count from where the views stand: far from the world's origin a
     // float would have no digits left for what is near.
-    const glm::dvec3 origin = input.views.front().position;
+    const glm::dvec3 origin = input.views[input.regions.front().view].position;
     std::vector<Instance> views;  // of each region
     for (const Region& region : input.regions) {
         const View& view = input.views[region.view];
@@ -172,17 +172,17 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
     const TargetDescription& description = target.description();
     const Rect whole{0, 0, description.width, description.height};
-    upload_lights(input.scene.lights, input.views.front().position);
+    upload_lights(input.scene.lights, input.views[input.regions.front().view].position);
     const Prepared prepared = prepare(input);
     gl_->Viewport(0, 0, description.width, description.height);
     // Never off: how pixels come out may not hang on the rectangle, but may on the test itself
     // (GL 4.6 appendix A.3, rule 2).
     gl_->Enable(GL_SCISSOR_TEST);
-    const bool outputs = description.outputs.any();
-    draw_layers(input, prepared, target, target.color_pass(), true,
-                outputs && !target.multisampled(), stats);
-    if (outputs && target.multisampled()) {
-        draw_layers(input, prepared, target, target.output_pass(), false, true, stats);
+    const bool shaded = description.outputs.shaded();
+    draw_layers(input, prepared, target, target.color_pass(), description.color,
+                shaded && !target.multisampled(), stats);
+    if (description.outputs.any() && target.multisampled()) {
+        draw_layers(input, prepared, target, target.output_pass(), false, shaded, stats);
     }
     set_scissor(whole);  // resolving and grading obey it, too
     gl::check_gl(*gl_, "drawing a scene");
@@ -193,6 +193,8 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     const auto* plain = std::get_if<glm::vec4>(&input.background);
     const ClearValues values{plain != nullptr ? *plain : glm::vec4(0.0F), color, outputs};
     const bool by_texture = target.description().cube && !(color && target.multisampled());
+    // What is drawn late writes no shaded outputs, but may write what is read of the buffers.
+    const bool late = color || target.description().outputs.buffered();
     if (by_texture) {
         for (const Region& region : input.regions) {
             clear_layer(*gl_, target, static_cast<int>(region.view), region.rect, values);
@@ -208,7 +210,7 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     if (!use_layers(input, prepared, whole)) {
         for (std::size_t r = 0; r < input.regions.size(); ++r) {
             bind(input.regions[r]);
-            draw_all(input, prepared, r, color, outputs, stats);
+            draw_all(input, prepared, r, color, outputs, late, stats);
         }
         return;
     }
@@ -219,12 +221,12 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
     gl_->BindFramebuffer(GL_FRAMEBUFFER, layers.all());
     set_scissor(whole);
     if (all && !by_texture) clear_bound(*gl_, target, values);
-    draw_all(input, prepared, std::nullopt, color, outputs, stats);
+    draw_all(input, prepared, std::nullopt, color, outputs, late, stats);
 }
 
 bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
                              const Rect& whole) const {
-    if (layering_ == Layering::never) return false;
+    if (layering_ == Layering::never || input.regions.size() == 1) return false;
     // One scissor serves all layers, and one winding: other pictures are drawn one by one. (A
     // viewport for each region would do, but llvmpipe then transforms vertices by slower code that
     // rounds otherwise.)
@@ -250,23 +252,34 @@ bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
 }
 
 void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
-                           std::optional<std::size_t> region, bool color, bool outputs,
+                           std::optional<std::size_t> region, bool color, bool outputs, bool late,
                            Stats& stats) {
     reset_raster_state(*gl_);
     const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
+    if (input.plan.hiding == Hiding::by_order) {  // no depth buffer: the test always passes
+        if (color) draw_background(input, prepared, region, stats);
+        draw_items(prepared.opaque, region, mirror, outputs, stats);
+        reset_raster_state(*gl_);
+        return;
+    }
     draw_items(prepared.opaque, region, mirror, outputs, stats);
     reset_raster_state(*gl_);
-    if (!color) return;  // neither the background nor what is drawn late writes the outputs
+    if (!late) return;  // neither the background nor what is drawn late writes the outputs
 
     for (int slot = 1; slot < slot_count; ++slot) {
         gl_->ColorMaski(static_cast<GLuint>(slot), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     }
-    if (const auto* cube = std::get_if<GLuint>(&input.background)) {
-        draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(region.value_or(0)),
-                    region ? 1 : input.regions.size(), stats);
-    }
+    if (color) draw_background(input, prepared, region, stats);
     draw_items(prepared.late, region, mirror, false, stats);
     reset_raster_state(*gl_);
+}
+
+void SurfacePass::draw_background(const PassInput& input, const Prepared& prepared,
+                                  std::optional<std::size_t> region, Stats& stats) {
+    const auto* cube = std::get_if<GLuint>(&input.background);
+    if (cube == nullptr) return;  // cleared to
+    draw_skybox(*cube, prepared.first_skybox + static_cast<GLuint>(region.value_or(0)),
+                region ? 1 : input.regions.size(), stats);
 }
 
 SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) const {
@@ -347,6 +360,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         ++stats.draw_calls;
         stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
     }
+    set_stencil(*gl_, std::nullopt);
 }
 
 void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats) {

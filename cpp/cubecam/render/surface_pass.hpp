@@ -31,7 +31,8 @@ struct PassInput {
     const SceneSnapshot& scene;
     std::span<const View> views;  ///< view i goes to layer i
     const DrawPlan& plan;
-    std::vector<Region> regions;  ///< by view, ascending; all other pixels stay as they are
+    /// By view, ascending, of views that stand in one place; all other pixels stay as they are.
+    std::vector<Region> regions;
     BackgroundSource background;
     std::span<const NodeLookups> lookups;  ///< of each node of the scene
 };
@@ -40,8 +41,9 @@ struct PassInput {
 enum class Layering { never, where_faster, always };
 
 /// The one path that draws a scene, into one view or many: opaque nodes near to far, the
-/// background, what is drawn late far to near. A mesh is drawn once for all the views that see it;
-/// without layered rendering, once for each.
+/// background, what is drawn late far to near; without a depth buffer the background, then all
+/// nodes as planned. A mesh is drawn once for all the views that see it; without layered rendering,
+/// once for each.
 class SurfacePass {
 public:
     SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering);
@@ -70,9 +72,13 @@ private:
     Prepared prepare(const PassInput& input);
     void draw_layers(const PassInput& input, const Prepared& prepared, Target& target,
                      Layers& layers, bool color, bool outputs, Stats& stats);
-    /// Draws everything into the bound framebuffer, in all regions or only in one.
+    /// Draws everything into the bound framebuffer, in all regions or only in one. `late`:
+    /// those nodes, too.
     void draw_all(const PassInput& input, const Prepared& prepared,
-                  std::optional<std::size_t> region, bool color, bool outputs, Stats& stats);
+                  std::optional<std::size_t> region, bool color, bool outputs, bool late,
+                  Stats& stats);
+    void draw_background(const PassInput& input, const Prepared& prepared,
+                         std::optional<std::size_t> region, Stats& stats);
     void draw_items(std::span<const Item> items, std::optional<std::size_t> region, bool mirror,
                     bool outputs, Stats& stats);
     void set_scissor(const Rect& rect);

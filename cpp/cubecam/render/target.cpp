@@ -1,5 +1,6 @@
 #include "cubecam/render/target.hpp"
 
+#include "cubecam/error.hpp"
 #include "cubecam/scene/memory.hpp"
 
 #include <algorithm>
@@ -7,9 +8,6 @@
 #include <string>
 namespace cubecam {
 namespace {
-
-constexpr GLenum depth_format =
-    GL_DEPTH_COMPONENT32F;  // reversed depth wants a float's precision near 0
 
 struct OutputFormat {
     Slot slot;
@@ -34,15 +32,51 @@ GLenum gl_format(Format format) {
         case Format::rgba8: return GL_RGBA8;
         case Format::rgba16f: return GL_RGBA16F;
         case Format::rgba32f: return GL_RGBA32F;
+        case Format::rgb565: return GL_RGB565;
     }
     return GL_RGBA32F;
+}
+
+GLenum gl_format(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::none: return GL_NONE;
+        case DepthFormat::depth_component16: return GL_DEPTH_COMPONENT16;
+        case DepthFormat::depth_component24: return GL_DEPTH_COMPONENT24;
+        case DepthFormat::depth_component32f: return GL_DEPTH_COMPONENT32F;
+        case DepthFormat::depth24_stencil8: return GL_DEPTH24_STENCIL8;
+        case DepthFormat::depth32f_stencil8: return GL_DEPTH32F_STENCIL8;
+        case DepthFormat::stencil_index8: return GL_STENCIL_INDEX8;
+    }
+    return GL_NONE;
+}
+
+GLenum depth_attachment(DepthFormat format) {
+    if (!has_stencil(format)) return GL_DEPTH_ATTACHMENT;
+    return has_depth(format) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT;
+}
+
+bool is_color(GLenum point) {
+    return point >= GL_COLOR_ATTACHMENT0 &&
+           point < GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot_count);
+}
+
+/// A driver may offer fewer samples for one format than for others.
+void check_samples(const gl::Context& context, GLenum format, std::string_view name,
+                   std::int64_t samples) {
+    GLint most = 0;  // the first of a descending list
+    context.gl().GetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, format, GL_SAMPLES, 1, &most);
+    if (samples <= std::max(most, 1)) return;
+    throw std::invalid_argument("samples: expected 1 to " + std::to_string(std::max(most, 1)) +
+                                " (GL_SAMPLES of " + std::string(name) + " on " +
+                                context.renderer() + "), got " + std::to_string(samples));
 }
 
 }  // namespace
 
 TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
                                   std::int64_t height, std::int64_t samples, Format format,
-                                  Outputs outputs) {
+                                  Outputs outputs, DepthFormat depth_format, bool color,
+                                  int views) {
     const gl::Limits& limits = context.limits();
     const auto on = [&context](const char* limit) {
         return std::string(" (") + limit + " of " + context.renderer() + ")";
@@ -60,13 +94,22 @@ TargetDescription describe_target(const gl::Context& context, bool cube, std::in
         throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
                                     on("GL_MAX_SAMPLES") + ", got " + std::to_string(samples));
     }
+    if (samples > 1 && color) {
+        check_samples(context, gl_format(format), to_string(format), samples);
+        if (depth_format != DepthFormat::none) {
+            check_samples(context, gl_format(depth_format), to_string(depth_format), samples);
+        }
+    }
     TargetDescription description;
     description.cube = cube;
     description.width = static_cast<int>(width);
     description.height = static_cast<int>(height);
-    description.samples = static_cast<int>(samples);
-    description.format = format;
+    description.samples = color ? static_cast<int>(samples) : 1;
+    description.format = color ? format : Format::rgba8;
     description.outputs = outputs;
+    description.color = color;
+    description.depth_format = depth_format;
+    description.views = views;
     // A software driver takes its textures from main memory.
     if (context.software()) check_memory(static_cast<double>(description.bytes()), got + " pixels");
     return description;
@@ -78,12 +121,13 @@ void set_finish(TargetDescription& description, std::size_t effects, bool graded
 }
 
 std::size_t TargetDescription::bytes() const {
-    const std::size_t color = 4 * dtype_size(dtype_of(graded ? Format::rgba32f : format));
-    std::size_t texel = color + 4;
-    if (samples > 1) texel += static_cast<std::size_t>(samples) * (color + 4);
-    if (graded) texel += 4 * dtype_size(dtype_of(format));
-    texel += static_cast<std::size_t>(effects) * color;
-    if (mipmaps) texel += color / 3;
+    const std::size_t drawn = color ? texel_size(graded ? Format::rgba32f : format) : 0;
+    const std::size_t depth = texel_size(depth_format);
+    std::size_t texel = drawn + depth;
+    if (samples > 1) texel += static_cast<std::size_t>(samples) * (drawn + depth);
+    if (graded) texel += texel_size(format);
+    texel += static_cast<std::size_t>(effects) * drawn;
+    if (mipmaps) texel += drawn / 3;
     for (const OutputFormat& output : output_formats) {
         if (outputs.*output.wanted) texel += output.bytes;
     }
@@ -105,7 +149,7 @@ gl::Framebuffer Layers::make(std::optional<int> layer) const {
         } else {
             gl_->NamedFramebufferTexture(framebuffer.id(), a.point, a.texture, a.level);
         }
-        if (a.point != GL_DEPTH_ATTACHMENT) draw_buffers[a.point - GL_COLOR_ATTACHMENT0] = a.point;
+        if (is_color(a.point)) draw_buffers[a.point - GL_COLOR_ATTACHMENT0] = a.point;
     }
     gl_->NamedFramebufferDrawBuffers(framebuffer.id(), slot_count, draw_buffers);
     const auto first = std::find_if(std::begin(draw_buffers), std::end(draw_buffers),
@@ -135,14 +179,20 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         gl_format(description.graded ? Format::rgba32f : description.format);
     const int levels =
         description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
-    color_ = make_texture(context, color_format, description.graded ? 1 : levels);
-    depth_ = make_texture(context, depth_format, 1);
+    const GLenum depth_format = gl_format(description.depth_format);
+    const GLenum depth_point = depth_attachment(description.depth_format);
+    if (description.color) {
+        color_ = make_texture(context, color_format, description.graded ? 1 : levels);
+    }
+    if (depth_format != GL_NONE) depth_ = make_texture(context, depth_format, 1);
     if (description.mipmaps && !description.graded) {
         gl_->TextureParameteri(color_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     }
 
-    std::vector<Layers::Attachment> color_pass{{attachment(Slot::color), color_.id()}};
-    std::vector<Layers::Attachment> output_pass{{GL_DEPTH_ATTACHMENT, depth_.id()}};
+    std::vector<Layers::Attachment> color_pass;
+    std::vector<Layers::Attachment> output_pass;
+    if (color_) color_pass.push_back({attachment(Slot::color), color_.id()});
+    if (depth_) output_pass.push_back({depth_point, depth_.id()});
     for (const OutputFormat& output : output_formats) {
         if (!(description.outputs.*output.wanted)) continue;
         gl::Texture& texture = outputs_[static_cast<std::size_t>(output.slot)];
@@ -153,12 +203,14 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         sample_color_ = gl::create_texture_2d_multisample_array(
             *gl_, color_format, description.samples, description.width, description.height,
             description.layers());
-        sample_depth_ = gl::create_texture_2d_multisample_array(
-            *gl_, depth_format, description.samples, description.width, description.height,
-            description.layers());
         resolved_.emplace(*gl_, color_pass, description.layers());
-        color_pass = {{attachment(Slot::color), sample_color_.id()},
-                      {GL_DEPTH_ATTACHMENT, sample_depth_.id()}};
+        color_pass = {{attachment(Slot::color), sample_color_.id()}};
+        if (depth_format != GL_NONE) {
+            sample_depth_ = gl::create_texture_2d_multisample_array(
+                *gl_, depth_format, description.samples, description.width, description.height,
+                description.layers());
+            color_pass.push_back({depth_point, sample_depth_.id()});
+        }
         if (description.outputs.any())
             output_pass_.emplace(*gl_, output_pass, description.layers());
     } else {
@@ -178,6 +230,26 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
             description.layers());
     }
     gl::check_gl(*gl_, "making a render target");
+    check_complete();
+}
+
+void Target::check_complete() {
+    try {
+        for (auto* pass : {&color_pass_, &output_pass_, &resolved_, &graded_pass_}) {
+            if (*pass) (*pass)->one(0);
+        }
+    } catch (const GlError& error) {
+        if (error.code() != GL_FRAMEBUFFER_UNSUPPORTED &&
+            error.code() != GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT) {
+            throw;
+        }
+        const auto* driver = reinterpret_cast<const char*>(gl_->GetString(GL_RENDERER));
+        throw std::invalid_argument(
+            std::string("format, depth_format: expected a pair that ") + driver +
+            " can draw into, got " +
+            std::string(description_.color ? to_string(description_.format) : "None") + " and " +
+            std::string(to_string(description_.depth_format)) + ": " + error.what());
+    }
 }
 
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
@@ -186,7 +258,7 @@ gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int 
         description_.cube
             ? gl::create_texture_cube(context.gl(), format, description_.width, levels)
             : gl::create_texture_2d_array(context.gl(), format, description_.width,
-                                          description_.height, 1, levels);
+                                          description_.height, description_.views, levels);
     // Probes and effects look them up.
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);

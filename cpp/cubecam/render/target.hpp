@@ -19,7 +19,7 @@ inline constexpr int slot_count = 6;
 
 /// Two targets of one description can stand for each other.
 struct TargetDescription {
-    bool cube = false;  ///< six square layers that a shader can look up; else one layer
+    bool cube = false;  ///< six square layers that a shader can look up
     int width = 0;
     int height = 0;
     int samples = 1;
@@ -28,8 +28,11 @@ struct TargetDescription {
     bool mipmaps = false;
     bool graded = false;  ///< colour is drawn in float, then brought into `format` by FinishPass
     int effects = 0;      ///< passes before that, 2 standing for more
+    bool color = true;    ///< false: no colour buffer
+    DepthFormat depth_format = DepthFormat::depth_component32f;
+    int views = 1;  ///< layers of a target that is no cube
 
-    int layers() const { return cube ? 6 : 1; }
+    int layers() const { return cube ? 6 : views; }
     /// GPU memory it takes, padding and driver overhead left out.
     std::size_t bytes() const;
     auto operator<=>(const TargetDescription&) const = default;
@@ -40,7 +43,9 @@ struct TargetDescription {
 /// message can say so.
 TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
                                   std::int64_t height, std::int64_t samples, Format format,
-                                  Outputs outputs = {});
+                                  Outputs outputs = {},
+                                  DepthFormat depth_format = DepthFormat::depth_component32f,
+                                  bool color = true, int views = 1);
 
 /// Says that a picture is worked on by FinishPass: by effects, by a tone curve or encoding, or not.
 void set_finish(TargetDescription& description, std::size_t effects, bool graded);
@@ -72,10 +77,11 @@ private:
 ///
 /// With one sample a single pass writes colour and outputs. With more, colour is drawn multisampled
 /// and resolved, and the outputs are drawn in a pass of their own without multisampling: an average
-/// of ids would mean nothing.
+/// of ids would mean nothing. Without a colour there is nothing to multisample.
 class Target {
 public:
-    /// @throws GlError when memory is short.
+    /// @throws GlError when memory is short; std::invalid_argument, naming the formats, if the
+    /// driver cannot draw into them together.
     Target(const gl::Context& context, const TargetDescription& description);
 
     const TargetDescription& description() const { return description_; }
@@ -95,6 +101,8 @@ public:
     Layers& output_pass() { return *output_pass_; }
     Layers& resolved() { return *resolved_; }
     Layers& graded_pass() { return *graded_pass_; }
+    /// What the outputs can be read from.
+    Layers& outputs() { return multisampled() ? *output_pass_ : *color_pass_; }
 
     /// Where effects draw to, by turns.
     const gl::Texture& scratch(std::size_t turn) const { return scratch_[turn]; }
@@ -107,6 +115,7 @@ public:
     std::vector<std::optional<PictureKey>> keys;
 
 private:
+    void check_complete();
     gl::Texture make_texture(const gl::Context& context, GLenum format, int levels) const;
 
     const GladGLContext* gl_;

@@ -47,6 +47,7 @@ void check_lens(const PerspectiveLens& lens) {
     }
     expect_positive(lens.near, "near");
     check_range(lens.near, lens.far);
+    expect_finite(glm::dvec3(lens.shift, 0.0), "shift");
 }
 
 void check_lens(const OrthographicLens& lens) {
@@ -73,7 +74,11 @@ void check_value(const Matrices& given) {
 }
 
 glm::dmat4 projection_of(const PerspectiveLens& lens, double aspect) {
-    return perspective(lens.fov, aspect, lens.near, lens.far);
+    glm::dmat4 projection = perspective(lens.fov, aspect, lens.near, lens.far);
+    // The frustum is sheared: what lies on the axis moves against the window.
+    projection[2][0] = 2.0 * lens.shift.x / aspect;
+    projection[2][1] = 2.0 * lens.shift.y;
+    return projection;
 }
 
 glm::dmat4 projection_of(const OrthographicLens& lens, double aspect) {

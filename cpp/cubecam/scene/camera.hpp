@@ -22,6 +22,9 @@ struct PerspectiveLens {
     double fov = 60.0;  ///< vertical, degrees
     double near = 0.1;
     double far = 1000.0;
+    /// How far the window that it looks through lies right of and above its axis, in heights of the
+    /// picture.
+    glm::dvec2 shift{0.0};
 
     bool operator==(const PerspectiveLens&) const = default;
 };

@@ -30,6 +30,8 @@ void check_outputs(const CapturedOutputs& outputs, int size) {
     if (outputs.normal) check_length("normal", 3 * texels, outputs.normal->size());
     if (outputs.position) check_length("position", 3 * texels, outputs.position->size());
     if (outputs.id) check_length("id", texels, outputs.id->size());
+    if (outputs.depth) check_length("depth", texels, outputs.depth->size());
+    if (outputs.stencil) check_length("stencil", texels, outputs.stencil->size());
 }
 
 std::array<std::uint64_t, face_count> new_face_revisions() {
@@ -210,7 +212,8 @@ bool CubeMap::same_contents(const CubeMap& other) const {
            a->mipmaps == b->mipmaps && same_values<std::byte>(a->pixels, b->pixels) &&
            same_values(p.distance, q.distance) && same_values(p.z, q.z) &&
            same_values(p.normal, q.normal) && same_values(p.position, q.position) &&
-           same_values(p.id, q.id);
+           same_values(p.id, q.id) && same_values(p.depth, q.depth) &&
+           same_values(p.stencil, q.stencil);
 }
 
 CubeMap::MipChain make_mip_chain(const CubeMapData& data) {

@@ -38,8 +38,10 @@ struct CapturedOutputs {
         distance;                                 ///< [6][N][N] length of the ray, +inf: background
     std::shared_ptr<const Buffer<float>> z;       ///< [6][N][N] along the face's axis, +inf
     std::shared_ptr<const Buffer<float>> normal;  ///< [6][N][N][3] world, towards the viewer; 0
-    std::shared_ptr<const Buffer<float>> position;   ///< [6][N][N][3] world; NaN
-    std::shared_ptr<const Buffer<std::int32_t>> id;  ///< [6][N][N] node ids; 0
+    std::shared_ptr<const Buffer<float>> position;        ///< [6][N][N][3] world; NaN
+    std::shared_ptr<const Buffer<std::int32_t>> id;       ///< [6][N][N] node ids; 0
+    std::shared_ptr<const Buffer<float>> depth;           ///< [6][N][N] window-space z, 0..1; 1
+    std::shared_ptr<const Buffer<std::uint8_t>> stencil;  ///< [6][N][N]; 0
 };
 
 /// Six faces that surround a point: a handle, safe to share between threads, on one CubeMapData

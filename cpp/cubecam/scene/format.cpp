@@ -9,10 +9,11 @@ namespace cubecam {
 
 namespace {
 
-constexpr std::array<std::pair<Format, std::string_view>, 3> format_names = {{
+constexpr std::array<std::pair<Format, std::string_view>, 4> format_names = {{
     {Format::rgba8, "rgba8"},
     {Format::rgba16f, "rgba16f"},
     {Format::rgba32f, "rgba32f"},
+    {Format::rgb565, "rgb565"},
 }};
 
 }  // namespace
@@ -21,7 +22,7 @@ Format parse_format(std::string_view name) {
     for (const auto& [format, known] : format_names) {
         if (name == known) return format;
     }
-    throw std::invalid_argument("expected format 'rgba8', 'rgba16f' or 'rgba32f', got '" +
+    throw std::invalid_argument("expected format 'rgba8', 'rgba16f', 'rgba32f' or 'rgb565', got '" +
                                 std::string(name) + "'");
 }
 

@@ -3,6 +3,7 @@
 #include "cubecam/scene/blend.hpp"
 #include "cubecam/scene/image.hpp"
 #include "cubecam/scene/lookup.hpp"
+#include "cubecam/scene/stencil.hpp"
 #include "cubecam/scene/user_shader.hpp"
 #include "cubecam/scene/versioned.hpp"
 
@@ -22,6 +23,7 @@ struct SurfaceOptions {
     std::optional<bool> depth_write;  ///< none: what is opaque writes depth
     bool depth_test = true;           ///< hidden by what is nearer
     glm::bvec4 color_write{true};     ///< channels of the colour that are written
+    std::optional<Stencil> stencil;   ///< none: neither tested nor written
 
     bool operator==(const SurfaceOptions&) const = default;
 };

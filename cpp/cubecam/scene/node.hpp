@@ -40,6 +40,7 @@ struct NodeValue {
     bool visible = true;
     bool in_probes = true;
     std::string name;
+    std::int32_t render_order = 0;  ///< lower is drawn first, before distance
 };
 
 /// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the

@@ -13,7 +13,7 @@ bool ProbeValue::operator==(const ProbeValue& other) const {
            near == other.near && far == other.far && format == other.format &&
            mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
            every == other.every && faces_per_frame == other.faces_per_frame &&
-           same_nodes(exclude, other.exclude);
+           depth_format == other.depth_format && same_nodes(exclude, other.exclude);
 }
 
 void check(const ProbeValue& value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/scene/depth_format.hpp"
 #include "cubecam/scene/format.hpp"
 #include "cubecam/scene/versioned.hpp"
 #include "cubecam/scene/weak_nodes.hpp"
@@ -34,6 +35,7 @@ struct ProbeValue {
     int every = 1;            ///< n of every_n_frames
     int faces_per_frame = 6;  ///< at most so many faces are drawn in one call
     WeakNodes exclude;
+    DepthFormat depth_format = DepthFormat::depth_component32f;
 
     bool operator==(const ProbeValue& other) const;
 };

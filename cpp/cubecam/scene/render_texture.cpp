@@ -12,9 +12,9 @@ namespace cubecam {
 
 bool RenderTextureValue::operator==(const RenderTextureValue& other) const {
     return scene == other.scene && camera == other.camera && width == other.width &&
-           height == other.height && format == other.format && samples == other.samples &&
-           mipmaps == other.mipmaps && wrap == other.wrap && same_nodes(exclude, other.exclude) &&
-           effects == other.effects && name == other.name;
+           height == other.height && format == other.format && depth_format == other.depth_format &&
+           samples == other.samples && mipmaps == other.mipmaps && wrap == other.wrap &&
+           same_nodes(exclude, other.exclude) && effects == other.effects && name == other.name;
 }
 
 void check(const RenderTextureValue& value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/scene/depth_format.hpp"
 #include "cubecam/scene/format.hpp"
 #include "cubecam/scene/image.hpp"
 #include "cubecam/scene/image_effect.hpp"
@@ -22,6 +23,7 @@ struct RenderTextureValue {
     std::int64_t width = 512;   ///< texels
     std::int64_t height = 512;  ///< texels
     Format format = Format::rgba8;
+    DepthFormat depth_format = DepthFormat::depth_component32f;
     std::int64_t samples = 1;
     bool mipmaps = false;
     Wrap wrap = Wrap::clamp;

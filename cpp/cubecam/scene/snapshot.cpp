@@ -223,6 +223,7 @@ private:
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
             snapshot.ancestors.push_back(above->id());
         }
+        snapshot.render_order = value.render_order;
         to_.nodes.push_back(std::move(snapshot));
     }
 

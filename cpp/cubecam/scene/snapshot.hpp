@@ -52,6 +52,7 @@ struct NodeSnapshot {
     Blend blend;                          ///< as it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
+    std::int32_t render_order = 0;
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.

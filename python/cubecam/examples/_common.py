@@ -73,7 +73,11 @@ def on_circle(radius: float, height: float, radians: float) -> tuple[float, floa
 
 
 def picture(
-    renderer: cc.Renderer, scene: cc.Scene, camera: cc.Camera, size: tuple[int, int], options: Any
+    renderer: cc.Renderer,
+    scene: cc.Scene,
+    camera: cc.Camera | cc.StereoCamera,
+    size: tuple[int, int],
+    options: Any,
 ) -> Picture:
     """Render a frame and give its colours."""
     color: Picture = renderer.render(scene, camera, size, **options).color

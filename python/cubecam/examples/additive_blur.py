@@ -40,8 +40,8 @@ class Program:
     scene: cc.Scene
     camera: cc.OrthographicCamera
     passes: tuple[cc.Node, ...]
-    sharp: Any
-    weighted: Any
+    sharp: cc.BasicMaterial
+    weighted: cc.BasicMaterial
 
 
 def build(image: Any = None) -> Program:

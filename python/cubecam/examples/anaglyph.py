@@ -39,7 +39,7 @@ class Program:
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
-    stereo: Any
+    stereo: cc.StereoCamera
     ring: cc.Node
 
 
@@ -57,7 +57,7 @@ def build(degrees: float = DEGREES) -> Program:
             parent=ring,
         )
     camera = cc.PerspectiveCamera(fov=45, position=(0, 1.5, 5), target=(0, 0, 0), near=1, far=100)
-    stereo: Any = cc.StereoCamera.toe_in(camera, degrees=degrees, layout="anaglyph")
+    stereo = cc.StereoCamera.toe_in(camera, degrees=degrees, layout="anaglyph")
     return Program(scene, camera, stereo, ring)
 
 

@@ -8,7 +8,7 @@ Look for: each side of the cube shows this frame's discs, never the last one's; 
 translucent, drawn in the order they were added.
 
 Worth trying: put the cube's own scene into the texture. A picture in a picture cannot be finished:
-the inner one shows the background there.
+it is refused, by name, until the cube is left out of it (``exclude=[cube]``).
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Program:
     inner: cc.Scene
     inner_camera: cc.OrthographicCamera
     discs: tuple[cc.Node, ...]
-    texture: Any
+    texture: cc.RenderTexture
 
 
 def build() -> Program:
@@ -58,17 +58,16 @@ def build() -> Program:
     upright = cc.axis_angle((1, 0, 0), 90)
     discs = []
     for color, radius, _ in DISCS:
-        material: Any = cc.BasicMaterial
         discs.append(
             inner.add(
                 # A cylinder seen from above its cap.
                 cc.Mesh.cylinder(radius, 0.01),
-                material(color=color, opacity=0.6, depth_test=False, depth_write=False),
+                cc.BasicMaterial(color=color, opacity=0.6),
                 rotation=upright,
             )
         )
     inner_camera = cc.OrthographicCamera(height=2, position=(0, 0, 1), near=0.5, far=2)
-    texture: Any = cc.RenderTexture(inner, inner_camera, size=TEXTURE, depth_format=None)
+    texture = cc.RenderTexture(inner, inner_camera, size=TEXTURE, depth_format=None, name="discs")
     scene = cc.Scene(background=BLACK)
     scene.add(cc.PointLight(position=LIGHT))
     cube = scene.add(cc.Mesh.box(1.6), cc.PhongMaterial(color=(1, 1, 1), ka=0.4, map=texture))

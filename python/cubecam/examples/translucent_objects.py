@@ -66,7 +66,8 @@ def build() -> Program:
         translucent.append(
             scene.add(
                 mesh,
-                cc.PhongMaterial(color=color, ks=0.5, opacity=opacity),
+                # SRC_ALPHA, ONE_MINUS_SRC_ALPHA for colour, ZERO, ONE for alpha; no depth is written.
+                cc.PhongMaterial(color=color, ks=0.5, opacity=opacity, blend="alpha_keep"),
                 position=on_circle(RADIUS, 0, math.radians(degrees)),
                 rotation=cc.axis_angle((0, 1, 0), degrees + 90),
                 parent=ring,

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace cubecam {
+
+/// What a picture's depth and stencil buffer is, under OpenGL's names. Depth is reversed in all of
+/// them (docs/adr/0001).
+enum class DepthFormat : std::uint8_t {
+    none,  ///< neither depth nor stencil
+    depth_component16,
+    depth_component24,
+    depth_component32f,
+    depth24_stencil8,
+    depth32f_stencil8,
+    stencil_index8,  ///< a stencil without depth
+};
+
+/// @throws std::invalid_argument for a name it does not know, listing those it does; `none` has no
+/// name.
+DepthFormat parse_depth_format(std::string_view name);
+/// "none" for `none`.
+std::string_view to_string(DepthFormat format);
+
+constexpr bool has_depth(DepthFormat format) {
+    return format != DepthFormat::none && format != DepthFormat::stencil_index8;
+}
+
+constexpr bool has_stencil(DepthFormat format) {
+    return format == DepthFormat::depth24_stencil8 || format == DepthFormat::depth32f_stencil8 ||
+           format == DepthFormat::stencil_index8;
+}
+
+/// Bits of a depth that is stored as a whole number, 0..2^bits - 1 for 0..1; 0 where it is a float
+/// or there is none.
+constexpr int fixed_depth_bits(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::depth_component16: return 16;
+        case DepthFormat::depth_component24:
+        case DepthFormat::depth24_stencil8: return 24;
+        default: return 0;
+    }
+}
+
+/// Bytes of a texel on the GPU, as drivers pad them.
+constexpr std::size_t texel_size(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::none: return 0;
+        case DepthFormat::stencil_index8: return 1;
+        case DepthFormat::depth_component16: return 2;
+        case DepthFormat::depth32f_stencil8: return 8;
+        default: return 4;
+    }
+}
+
+}  // namespace cubecam

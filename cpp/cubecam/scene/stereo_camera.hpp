@@ -1,0 +1,71 @@
+#pragma once
+
+#include "cubecam/scene/camera.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string_view>
+
+namespace cubecam {
+
+/// How the pictures of two eyes become one.
+enum class StereoLayout : std::uint8_t {
+    anaglyph,      ///< red from the left eye, green and blue from the right, alpha the greater
+    side_by_side,  ///< the left eye in the left half
+    top_bottom     ///< the left eye in the upper half
+};
+
+/// @throws std::invalid_argument for any other name.
+StereoLayout parse_stereo_layout(std::string_view name);
+std::string_view to_string(StereoLayout layout);
+
+struct Eyes {
+    CameraValue left;
+    CameraValue right;
+};
+
+/// Eyes to both sides of a camera, half of `separation` along its own right axis, with parallel
+/// axes. With `convergence` their frusta are sheared so that what lies at that distance from the
+/// camera, along its axis, has the same place in both pictures (P. Bourke, "Calculating Stereo
+/// Pairs", 1999). All in world units.
+/// @throws std::invalid_argument for numbers out of their range, or a convergence of parallel rays,
+/// which have no frustum.
+Eyes off_axis_eyes(const CameraValue& camera, double separation, std::optional<double> convergence);
+
+/// Eyes on a circle round the camera's target, half of `degrees` to both sides, about the axis that
+/// is up in its picture.
+/// @throws std::invalid_argument for a camera without a target, or an angle outside [0, 180).
+Eyes toe_in_eyes(const CameraValue& camera, double degrees);
+
+struct StereoValue {
+    Eyes eyes;
+    StereoLayout layout;
+};
+
+/// Two cameras whose pictures are drawn in one call and combined.
+class StereoCamera {
+public:
+    StereoCamera(std::shared_ptr<Camera> left, std::shared_ptr<Camera> right, StereoLayout layout);
+    StereoCamera(const StereoCamera&) = delete;
+    StereoCamera& operator=(const StereoCamera&) = delete;
+
+    std::shared_ptr<Camera> left() const;
+    std::shared_ptr<Camera> right() const;
+    StereoLayout layout() const;
+    /// @throws std::invalid_argument for null.
+    void set_left(std::shared_ptr<Camera> camera);
+    void set_right(std::shared_ptr<Camera> camera);
+    void set_layout(StereoLayout layout);
+
+    StereoValue value() const;
+
+private:
+    mutable std::mutex mutex_;
+    std::shared_ptr<Camera> left_;
+    std::shared_ptr<Camera> right_;
+    StereoLayout layout_;
+};
+
+}  // namespace cubecam

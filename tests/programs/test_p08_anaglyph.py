@@ -1,0 +1,77 @@
+"""P8: red is the left eye's own frame, green and blue the right eye's; the eyes stand where the document turns them."""
+
+import numpy as np
+import pytest
+
+import cubecam as cc
+from cubecam.examples import anaglyph as example
+from tests.compare import assert_identical
+from tests.programs.oracle import Look, box, lit, mesh, moved, near_enough, ry, unbroken
+
+SIZE = (60, 60)
+EYE = np.array([0, 1.5, 5])
+
+
+def eye_turned(degrees):
+    """The document's way: the view is turned round the vertical axis through what it looks at, the origin."""
+    return (ry(degrees) @ [*EYE, 1])[:3]
+
+
+def other_eye(degrees):
+    return eye_turned(-degrees)
+
+
+@pytest.mark.parametrize("kind", ["rgba8", "rgba32f"])
+@pytest.mark.parametrize("frame", [0, 10, 47])
+def test_channels_are_the_eyes_own_frames(any_path, frame, kind):
+    program = example.build()
+    got = example.draw(program, any_path, frame, SIZE, format=kind)
+    eyes = [
+        any_path.render(program.scene, camera, SIZE, format=kind).color
+        for camera in (program.stereo.left, program.stereo.right)
+    ]
+    assert_identical(got[..., :1], eyes[0][..., :1])
+    assert_identical(got[..., 1:3], eyes[1][..., 1:3])
+    assert (got[..., 3] == got.dtype.type(255 if kind == "rgba8" else 1)).all()
+    assert (eyes[0] != eyes[1]).any()
+
+
+@pytest.mark.parametrize("frame", [10, 70])
+def test_both_eyes_against_ray_casting(renderer, frame):
+    """Grey things: red and green are the same picture from two places."""
+    program = example.build(degrees=6)
+    got = example.draw(program, renderer, frame, SIZE, format="rgba32f")
+    nodes = [node for node in program.scene.nodes if node.mesh is not None]
+    for channel, degrees in ((0, -3), (1, 3), (2, 3)):
+        look = Look(eye_turned(degrees), (0, 0, 0), 45, 1, 100, SIZE)
+        shapes = []
+        for index, node in enumerate(nodes):
+            matrix = ry(3 * frame) @ ry(90 * index) @ moved(1.5, 0, 0) @ ry(-90 * index)
+            shapes.append(box(node, 0.8, matrix) if index == 1 else mesh(node, matrix))
+        hits = look.hits(shapes)
+        colors = dict.fromkeys((node.id for node in nodes), (0.7, 0.7, 0.7))
+        want = lit(hits, colors, look.eye, (0, 0, 0), ks=0.3)
+        mask = unbroken(hits)
+        assert mask[hits.hit].mean() > 0.2
+        near_enough(
+            got[..., channel], want[..., 0], mask & hits.hit, 0.02, 0.01, f"channel {channel}"
+        )
+        other = Look(eye_turned(-degrees), (0, 0, 0), 45, 1, 100, SIZE).hits(shapes)
+        both = mask & hits.hit & other.hit
+        swapped = lit(other, colors, other_eye(degrees), (0, 0, 0), ks=0.3)[..., 0]
+        assert np.abs(swapped - got[..., channel])[both].mean() > 0.02, "the other eye's is another"
+
+
+def test_two_views_are_one_call(fresh_renderer):
+    program = example.build()
+    example.draw(program, fresh_renderer, 0, SIZE)
+    assert fresh_renderer.stats.views_drawn == 2
+    example.draw(program, fresh_renderer, 0, SIZE)
+    assert fresh_renderer.stats.views_drawn == 0
+
+
+def test_without_an_angle_it_is_flat(renderer):
+    program = example.build(degrees=0)
+    got = example.draw(program, renderer, 10, SIZE)
+    assert_identical(got, renderer.render(program.scene, program.camera, SIZE).color)
+    assert isinstance(program.stereo, cc.StereoCamera)

@@ -1,0 +1,77 @@
+"""The README's Python runs as it stands, and its material of one's own gives the picture it promises."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cubecam as cc
+from tests.compare import assert_close
+
+TEXT = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, flags=re.DOTALL)
+
+
+def run(code, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    scope = {}
+    exec(compile(code, "README.md", "exec"), scope)
+    return scope
+
+
+@pytest.mark.parametrize("index", range(len(BLOCKS)))
+def test_every_block_runs_alone(index, tmp_path, monkeypatch):
+    run(BLOCKS[index], tmp_path, monkeypatch)
+    saved = set(re.findall(r'save\w*\("([^"]+)"', BLOCKS[index]))
+    assert saved
+    assert {path.name for path in tmp_path.iterdir()} == saved
+
+
+def test_the_material_of_ones_own_is_the_mirror_it_says(tmp_path, monkeypatch):
+    (code,) = [block for block in BLOCKS if "ShaderMaterial" in block]
+    scope = run(code, tmp_path, monkeypatch)
+    own, ball, scene, camera = (scope[name] for name in ("gold", "ball", "scene", "camera"))
+    own.uniforms["share"] = 0.78
+    with cc.Renderer(device="software") as renderer:
+        got = renderer.render(scene, camera, (64, 64), format="rgba32f", outputs=("id",))
+        ball.material = cc.MirrorMaterial(
+            color=(0.95, 0.85, 0.4), env_weight=0.78, color_weight=0.3
+        )
+        want = renderer.render(scene, camera, (64, 64), format="rgba32f")
+    assert (got.id == ball.id).mean() > 0.2
+    assert_close(got.color, want.color, "lookup")
+    picture = cc.load_image(tmp_path / "gold.png")
+    assert picture.shape == (256, 256, 4)
+    assert np.ptp(picture[96:160, 96:160, :3]) > 30
+
+
+def test_every_name_at_hand_exists(tmp_path):
+    """The table of what a source has at hand, in one shader that uses all of it."""
+    table = TEXT[TEXT.index("| at hand |") : TEXT.index("`shade` may return")]
+    names = set(re.findall(r"`(\w+)\(", table)) | set(re.findall(r"`(\w+)`", table)) - {"Surface"}
+    source = """
+    uniform sampler2D image;
+    vec4 shade(Surface surface) {
+        vec3 sum = surface.position + surface.normal + surface.incident + surface.position_object;
+        sum += surface.normal_object + vec3(surface.uv, 0.0) + surface.color.rgb;
+        sum += environment(surface.normal) + environment_lod(surface.normal, 1.0) + ambient_light();
+        for (int i = 0; i < light_count(); ++i) {
+            LightSample light = sample_light(i, surface);
+            sum += light.direction * light.radiance;
+        }
+        sum += phong(surface, vec3(1.0), 0.2, 0.7, 1.0, 10.0) + schlick(surface, 0.04);
+        sum += (model_matrix() * vec4(0.0, 0.0, 0.0, 1.0)).xyz + normal_matrix()[0] + eye_position();
+        return vec4(sum * texture(image, surface.uv).rgb, 1.0);
+    }"""
+    missing = {name for name in names if not re.search(rf"\b{name}\b", source)}
+    assert not missing, f"this test does not try {missing}"
+    material = cc.ShaderMaterial(source, textures={"image": np.ones((1, 1, 3), np.float32)})
+    scene = cc.Scene(environment=cc.CubeMap(np.ones((6, 2, 2, 3), np.float32)))
+    scene.add(cc.PointLight((1, 2, 3), shadow=True))
+    scene.add(cc.Mesh.sphere(0.5), material)
+    camera = cc.PerspectiveCamera(position=(0, 0, 2), target=(0, 0, 0))
+    with cc.Renderer(device="software") as renderer:
+        frame = renderer.render(scene, camera, (16, 16), format="rgba32f", outputs=("id",))
+    assert np.isfinite(frame.color).all()
+    assert frame.color[8, 8, :3].min() > 0
