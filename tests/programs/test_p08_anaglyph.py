@@ -5,20 +5,19 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import anaglyph as example
-from tests.compare import assert_identical
-from tests.programs.oracle import Look, box, lit, mesh, moved, near_enough, ry, unbroken
+from tests.compare import assert_close, assert_identical
+from tests.programs.oracle import Look, box, lit, mesh, moved, near_enough, ry, turned, unbroken
 
 SIZE = (60, 60)
 EYE = np.array([0, 1.5, 5])
 
 
 def eye_turned(degrees):
-    """The document's way: the view is turned round the vertical axis through what it looks at, the origin."""
-    return (ry(degrees) @ [*EYE, 1])[:3]
-
-
-def other_eye(degrees):
-    return eye_turned(-degrees)
+    """The document's way: the view is turned about its own y-axis, through what it looks at, the origin."""
+    look = Look(EYE, (0, 0, 0), 45, 1, 100, SIZE)
+    turn = turned(look.view[1, :3], degrees)
+    look.view, look.eye = look.view @ np.linalg.inv(turn), turn[:3, :3] @ EYE
+    return look
 
 
 @pytest.mark.parametrize("kind", ["rgba8", "rgba32f"])
@@ -43,7 +42,7 @@ def test_both_eyes_against_ray_casting(renderer, frame):
     got = example.draw(program, renderer, frame, SIZE, format="rgba32f")
     nodes = [node for node in program.scene.nodes if node.mesh is not None]
     for channel, degrees in ((0, -3), (1, 3), (2, 3)):
-        look = Look(eye_turned(degrees), (0, 0, 0), 45, 1, 100, SIZE)
+        look = eye_turned(degrees)
         shapes = []
         for index, node in enumerate(nodes):
             matrix = ry(3 * frame) @ ry(90 * index) @ moved(1.5, 0, 0) @ ry(-90 * index)
@@ -53,12 +52,17 @@ def test_both_eyes_against_ray_casting(renderer, frame):
         want = lit(hits, colors, look.eye, (0, 0, 0), ks=0.3)
         mask = unbroken(hits)
         assert mask[hits.hit].mean() > 0.2
+        # The ball and the box to the last digit; bunny and teapot have edges of their own everywhere.
+        plain = mask & np.isin(hits.id, [nodes[1].id, nodes[3].id])
+        assert plain.sum() > 100
+        assert_close(got[..., channel], want[..., 0], "phong", mask=plain, least=0.02)
         near_enough(
-            got[..., channel], want[..., 0], mask & hits.hit, 0.02, 0.01, f"channel {channel}"
+            got[..., channel], want[..., 0], mask & hits.hit, 0.02, 0.04, f"channel {channel}"
         )
-        other = Look(eye_turned(-degrees), (0, 0, 0), 45, 1, 100, SIZE).hits(shapes)
+        opposite = eye_turned(-degrees)
+        other = opposite.hits(shapes)
         both = mask & hits.hit & other.hit
-        swapped = lit(other, colors, other_eye(degrees), (0, 0, 0), ks=0.3)[..., 0]
+        swapped = lit(other, colors, opposite.eye, (0, 0, 0), ks=0.3)[..., 0]
         assert np.abs(swapped - got[..., channel])[both].mean() > 0.02, "the other eye's is another"
 
 
