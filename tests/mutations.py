@@ -444,6 +444,20 @@ MUTATIONS = [
         ("tests/programs/test_p05_arriving_faces.py",),
     ),
     Mutation(
+        "P6: the direction stays in model space",
+        "python/cubecam/examples/model_space_reflection.py",
+        "return matModelToWorld * reflect(eyeDir, normal);",
+        "return reflect(eyeDir, normal);",
+        ("tests/programs/test_p06_model_space_reflection.py",),
+    ),
+    Mutation(
+        "P6: the eye in camera space",
+        "python/cubecam/examples/model_space_reflection.py",
+        "np.linalg.inv(camera.view @ node.world_matrix)",
+        "np.linalg.inv(node.world_matrix @ camera.view)",
+        ("tests/programs/test_p06_model_space_reflection.py",),
+    ),
+    Mutation(
         "P7: opacity is transparency",
         "python/cubecam/examples/translucent_objects.py",
         "opacity=opacity",

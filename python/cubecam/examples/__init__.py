@@ -29,6 +29,7 @@ NAMES: tuple[str, ...] = (
     "skybox",
     "reflection_and_refraction",
     "arriving_faces",
+    "model_space_reflection",
     "translucent_objects",
     "anaglyph",
     "additive_blur",

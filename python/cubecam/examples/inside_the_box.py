@@ -8,8 +8,8 @@ hand: frame k shows what k of its events lead to.
 Look for: the walls come nearer as one walks, parts of them vanish behind the near plane, and at
 last one stands outside. That is the document's question, and P3 its answer.
 
-Worth trying: turn by 90 degrees first and then drag up and down: the view rolls round its own axis,
-for the second turn is about the world's X. `camera.yaw` and `camera.pitch` turn as people do.
+Worth trying: turn by 90 degrees first and then drag up and down: nothing happens, for the second
+turn is about the world's X, along which one looks. `camera.yaw` and `camera.pitch` turn as people do.
 """
 
 from __future__ import annotations

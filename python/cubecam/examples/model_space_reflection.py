@@ -5,13 +5,16 @@ model space, inverse(view * model) * (0, 0, 0, 1), reflects there with the mesh'
 takes the result to the world by mat3(model). The left teapot is made so; the right one reflects in
 world space, as P4 does. Both have the same matrix but for their place.
 
-Look for: the two agree, for a rotation and one scale for all axes keep angles. Then try
-``build(stretch=(2, 1, 1))``: they part, by up to 73 degrees, because mat3(model) bends a direction
-that was reflected before it. The right one is right.
+Look for: the two show the same photographs, as two mirrors side by side do. A rotation and one
+scale for all axes keep angles, so it does not matter in which space one reflects.
 
-Worth trying: ``build(per_vertex=True)`` reflects at the vertices and interpolates, as the document
-does. Where a large triangle curves its normals much, straight lines break. ``build(skybox=True)``
-is the document's RENDER_SKYBOX.
+Worth trying: ``build(stretch=(2, 1, 1))``: the two part, by up to 73 degrees, because mat3(model)
+bends a direction that was reflected before it. The right one is right. ``build(per_vertex=True)``
+reflects at the vertices and interpolates, as the document does; on a mesh of few triangles the
+picture breaks along their edges, so try ``mesh=cubecam.Mesh.icosphere(0.75, subdivisions=1)`` with
+it. ``build(skybox=True)`` is the document's RENDER_SKYBOX. The eye in model space is a number of
+one camera; a probe that sees the teapot looks from elsewhere, and would need
+``inverse(model_matrix()) * vec4(eye_position(), 1)``, in the shader.
 """
 
 from __future__ import annotations
@@ -29,15 +32,16 @@ from ._common import Picture, picture, surroundings, teapot
 PROGRAM = "P6"
 TITLE = "Reflection in model space, from a cubemap of one image"
 FRAMES = 90  # one turn
-STILL = 20
-SIZE = (512, 512)
+STILL = 7
+SIZE = (512, 256)
 
-FOV, EYE = 45.0, (0.0, 0.8, 4.0)  # degrees, world units
+FOV, EYE = 28.0, (0.0, 0.8, 4.0)  # degrees, world units
 APART = 0.95  # world units from the middle to each teapot
+TEAPOT = 1.5  # largest extent, world units
 TURN = 4.0  # degrees a frame round Y
 
-#: What both stages share: the document's lines, in its own names.
-REFLECT = """
+#: What both shaders share: the document's lines, in its own names.
+REFLECTION = """
 uniform vec3 camPosModel;
 uniform mat3 matModelToWorld;
 
@@ -46,31 +50,35 @@ vec3 reflection(vec3 position, vec3 normal) {
     return matModelToWorld * reflect(eyeDir, normal);
 }
 """
+#: Per fragment: the mesh's position and normal are interpolated, then reflected.
 FRAGMENT = (
-    REFLECT
+    REFLECTION
     + """
-vec3 shade(Surface s) {
-    // The mesh's normal, from the world's: those go by the inverse transpose.
-    vec3 normal = normalize(transpose(matModelToWorld) * s.normal);
-    return texture(textureCubeMap, reflection(s.position_object, normal)).rgb;
+uniform samplerCube textureCubeMap;
+
+vec3 shade(Surface surface) {
+    vec3 normal = normalize(surface.normal_object);
+    return texture(textureCubeMap, reflection(surface.position_object, normal)).rgb;
 }
 """
 )
+#: Per vertex, as the document has it: reflected first, then interpolated. v_ is the renderer's, hence the name.
 VERTEX = (
-    REFLECT
+    REFLECTION
     + """
-out vec3 v_reflectionVector;
+out vec3 reflectionVector;
 
-void vertex(vec3 position, vec3 normal) {
-    v_reflectionVector = reflection(position, normal);
+void vertex(inout Vertex vertex) {
+    reflectionVector = reflection(vertex.position, vertex.normal);
 }
 """
 )
 FRAGMENT_OF_VERTEX = """
-in vec3 v_reflectionVector;
+uniform samplerCube textureCubeMap;
+in vec3 reflectionVector;
 
-vec3 shade(Surface s) {
-    return texture(textureCubeMap, v_reflectionVector).rgb;
+vec3 shade(Surface surface) {
+    return texture(textureCubeMap, reflectionVector).rgb;
 }
 """
 
@@ -83,7 +91,7 @@ class Program:
     camera: cc.PerspectiveCamera
     model: cc.Node
     world: cc.Node
-    material: Any
+    material: cc.ShaderMaterial
 
 
 def cross(images: Any = None) -> Picture:
@@ -96,26 +104,26 @@ def build(
     stretch: tuple[float, float, float] = (1.0, 1.0, 1.0),
     per_vertex: bool = False,
     skybox: bool = False,
+    mesh: cc.Mesh | None = None,
 ) -> Program:
     """Make the scene.
 
     image : path or array (H, W, C) of one picture that holds six faces; its shape tells the layout.
-    stretch : scale of both teapots along their own axes.
+    stretch : scale of both along their own axes. mesh : in place of the teapot.
     """
     if image is None:
         image = cross()
     cubemap = cc.CubeMap.from_layout(image) if hasattr(image, "shape") else cc.load_cubemap(image)
     scene = cc.Scene(environment=cubemap, background=None if skybox else (0, 0, 0, 1))
-    shader: Any = cc.ShaderMaterial
-    material = shader(
-        fragment=FRAGMENT_OF_VERTEX if per_vertex else FRAGMENT,
-        vertex=VERTEX if per_vertex else None,
-        uniforms={"camPosModel": (0.0, 0.0, 0.0), "matModelToWorld": np.eye(3)},
+    material = cc.ShaderMaterial(
+        FRAGMENT_OF_VERTEX if per_vertex else FRAGMENT,
+        VERTEX if per_vertex else None,
         textures={"textureCubeMap": cubemap},
+        displacement=0,  # nothing is moved
     )
-    mesh = teapot(1.5)
-    model = scene.add(mesh, material, position=(-APART, 0, 0), scale=stretch)
-    world = scene.add(mesh, cc.MirrorMaterial(), position=(APART, 0, 0), scale=stretch)
+    shape = teapot(TEAPOT) if mesh is None else mesh
+    model = scene.add(shape, material, position=(-APART, 0, 0), scale=stretch)
+    world = scene.add(shape, cc.MirrorMaterial(), position=(APART, 0, 0), scale=stretch)
     camera = cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0))
     return Program(scene, camera, model, world, material)
 
