@@ -34,6 +34,10 @@ TOLERANCES = {
     "unorm8_counts": Tolerance(
         1.0, "one count of 255: the value may lie on a rounding boundary", mean=0.05
     ),
+    "unorm8_phong": Tolerance(
+        0.51 / 255 + 1.5e-3, "Phong's own tolerance, and one rounding to 8 bits", mean=2e-3
+    ),
+    "depth32": Tolerance(2e-5, "window depth of what is seen, from a z of float32 arithmetic"),
     "unorm8_steps": Tolerance(
         2.6 / 255,
         "four translucent layers in 8 bits, each rounded, and once more to read",

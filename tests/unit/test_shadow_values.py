@@ -217,7 +217,7 @@ def test_pickles_of_before_there_were_shadows():
     scene.add(cc.Mesh.box(), casts_shadows=False, receives_shadows=False, name="old")
     state = scene.__reduce__()[2]
     ((number, parent, record),) = state["nodes"]
-    assert len(record) == 12
+    assert len(record) == 13
     state["nodes"] = [(number, parent, record[:10])]
     other = cc.Scene()
     other.__setstate__(state)

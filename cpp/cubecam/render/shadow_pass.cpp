@@ -262,12 +262,13 @@ Buffer<float> ShadowPass::read(const ShadowUse& use) {
     gl::check_gl(*gl_, "reading a shadow map");
     const bool parallel = use.view.kind == ShadowView::Kind::parallel;
     for (float& value : values) {
+        const auto held = static_cast<double>(value);
         if (value == nothing) {
             value = std::numeric_limits<float>::infinity();
         } else if (parallel) {
-            value = static_cast<float>((value - use.view.offset) / use.view.scale - use.view.near);
+            value = static_cast<float>((held - use.view.offset) / use.view.scale - use.view.near);
         } else {
-            value = static_cast<float>(use.view.scale / (value - use.view.offset));
+            value = static_cast<float>(use.view.scale / (held - use.view.offset));
         }
     }
     if (use.view.kind == ShadowView::Kind::cube) return values;
