@@ -33,7 +33,7 @@ def make_describable() -> None:
     """Undo, in this process, what hides the module's contents from the generator.
 
     Classes call themselves cubecam.Scene, which is what users see, and would be taken for imports.
-    Methods that python/cubecam/_attach.py adds are plain functions with annotations as text.
+    Methods and properties that python/cubecam/_attach.py adds are plain functions with annotations as text.
     """
     for name, thing in vars(_core).items():
         if getattr(thing, "__module__", None) != "cubecam":
@@ -42,9 +42,12 @@ def make_describable() -> None:
         # Signatures name every class as cubecam.Name, those that cubecam does not export as well.
         if not hasattr(cubecam, name):
             setattr(cubecam, name, thing)
-        for method in vars(thing).values() if isinstance(thing, type) else ():
-            if isinstance(method, types.FunctionType) and method.__module__.startswith("cubecam"):
-                make_method(method)
+        for member in vars(thing).values() if isinstance(thing, type) else ():
+            accessors = (member.fget, member.fset) if isinstance(member, property) else (member,)
+            for function in accessors:
+                ours = isinstance(function, types.FunctionType)
+                if ours and function.__module__.startswith("cubecam"):
+                    make_method(function)
 
 
 def make_method(function: types.FunctionType) -> None:

@@ -27,6 +27,7 @@ __all__: list[str] = [
     "GlError",
     "GlassMaterial",
     "Image",
+    "ImageEffect",
     "ImageError",
     "Light",
     "Limits",
@@ -40,11 +41,17 @@ __all__: list[str] = [
     "PhongMaterial",
     "PointLight",
     "Probe",
+    "RenderTexture",
     "Renderer",
     "RendererInfo",
     "Scene",
     "ShaderError",
+    "ShaderMaterial",
+    "Shadow",
+    "SpotLight",
     "Stats",
+    "Stencil",
+    "StereoCamera",
     "axis_angle",
     "devices",
 ]
@@ -165,6 +172,13 @@ class Node:
         For unpickling.
         """
     @property
+    def casts_shadows(self) -> bool:
+        """
+        bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.
+        """
+    @casts_shadows.setter
+    def casts_shadows(self, arg1: bool) -> None: ...
+    @property
     def children(self) -> tuple[Node, ...]:
         """
         tuple of Node: in order of id.
@@ -231,6 +245,20 @@ class Node:
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
+    def receives_shadows(self) -> bool:
+        """
+        bool: whether shadows show on its own surface.
+        """
+    @receives_shadows.setter
+    def receives_shadows(self, arg1: bool) -> None: ...
+    @property
+    def render_order(self) -> int:
+        """
+        int: among opaque and among translucent nodes, lower is drawn first, before distance; 0. It is the node's own: what is below it has its own, too.
+        """
+    @render_order.setter
+    def render_order(self, arg1: int) -> None: ...
+    @property
     def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.
@@ -274,8 +302,8 @@ class Probe:
         Texels along an edge of a face.
     near, far : float
         World units: 0 < near < far.
-    format : {"rgba16f", "rgba8", "rgba32f"}
-        What a texel is kept in. rgba8 clips light above 1.
+    format : {"rgba16f", "rgba8", "rgba32f", "rgb565"}
+        What a texel is kept in. rgba8 and rgb565 clip light above 1.
     mipmaps : bool
         Whether lookups are trilinear.
     samples : int
@@ -289,6 +317,8 @@ class Probe:
         It goes where this node goes; its axes stay the world's. The probe does not keep it alive.
     faces_per_frame : int
         At most so many faces are drawn in one call, from 1 to 6.
+    depth_format : str or None
+        Its depth and stencil buffer, see `Renderer.render`.
 
     Raises
     ------
@@ -319,6 +349,7 @@ class Probe:
         exclude: collections.abc.Iterable[Node] = (),
         parent: Node | None = None,
         faces_per_frame: typing.SupportsInt | typing.SupportsIndex = 6,
+        depth_format: str | None = "depth_component32f",
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Probe) -> str: ...
@@ -326,6 +357,13 @@ class Probe:
         """
         For unpickling.
         """
+    @property
+    def depth_format(self) -> str | None:
+        """
+        str or None: its depth and stencil buffer, see `Renderer.render`.
+        """
+    @depth_format.setter
+    def depth_format(self, arg1: str | None) -> None: ...
     @property
     def exclude(self) -> tuple[Node, ...]:
         """
@@ -350,7 +388,7 @@ class Probe:
     @property
     def format(self) -> str:
         """
-        str: "rgba8", "rgba16f" or "rgba32f".
+        str: "rgba8", "rgba16f", "rgba32f" or "rgb565".
         """
     @format.setter
     def format(self, arg1: str) -> None: ...
@@ -403,6 +441,173 @@ class Probe:
         """
     @update.setter
     def update(self, arg1: str | int) -> None: ...
+
+class RenderTexture:
+    """
+    A picture that a scene is drawn into and that materials show in the same frame.
+
+    It is only a description, and may serve any number of materials in any number of scenes: give it as
+    the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
+    (``renderer.texture(render_texture)``), brings them up to date before what shows them, and draws
+    them again only if the picture would come out different.
+
+    Parameters
+    ----------
+    scene : Scene
+        What it shows; kept alive. It may show other render textures, and mirrors with probes.
+    camera : Camera
+        From where; the shape of the picture is that of `size`.
+    size : (int, int)
+        (width, height), texels.
+    format : {"rgba8", "rgba16f", "rgba32f", "rgb565"}
+        What a texel is kept in. rgba8 and rgb565 clip light above 1.
+    samples : int
+        Samples of each texel, for smooth edges (MSAA); 1 is none.
+    mipmaps : bool
+        Whether lookups are trilinear, for pictures that are seen small. False: bilinear.
+    wrap : {"clamp", "repeat"}
+        What a lookup outside 0..1 gives.
+    exclude : iterable of Node
+        Nodes of `scene` that it does not show, whole subtrees.
+    name : str
+        For people: messages use it.
+    effects : sequence of ImageEffect
+        Passes over the picture, one after the other, in linear float. With an empty scene they make the
+        picture alone.
+    depth_format : str or None
+        The depth and stencil buffer, see `Renderer.render`; None paints nodes one over the other.
+
+    Raises
+    ------
+    ValueError
+        For a size or samples below 1, or another format or wrap.
+    TypeError
+        For a scene, a camera or excluded things of another type.
+
+    Notes
+    -----
+    uv (0, 0) is the picture's bottom-left, as with an `Image`. Its alpha counts where the material's
+    own opacity is below 1; it does not make a surface translucent by itself.
+
+    A picture that shows itself, directly, by other render textures or by probes, has no end: drawing
+    what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> clock = cc.Scene(background=(0, 0, .2))
+    >>> hand = clock.add(cc.Mesh.box((.1, 1, .1)), cc.BasicMaterial(color=(1, 1, 0)))
+    >>> face = cc.RenderTexture(clock, cc.OrthographicCamera(height=2, position=(0, 0, 5)),
+    ...                         size=(64, 64), name="clock")
+    >>> scene = cc.Scene()
+    >>> cube = scene.add(cc.Mesh.box(), cc.BasicMaterial(map=face))
+    >>> camera = cc.PerspectiveCamera(position=(1, 1, 2), target=(0, 0, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     for degrees in (0, 6, 12):
+    ...         hand.rotation = cc.axis_angle((0, 0, 1), -degrees)
+    ...         frame = renderer.render(scene, camera, size=(64, 48))  # shows the hand as it is now
+    ...     drawn = renderer.stats.textures_updated
+    ...     picture = renderer.texture(face)
+    >>> picture.shape, drawn
+    ((64, 64, 4), 1)
+    """
+    def __init__(
+        self: RenderTexture,
+        scene: Scene,
+        camera: Camera,
+        size: tuple[int, int] = (512, 512),
+        format: str = "rgba8",
+        samples: int = 1,
+        mipmaps: bool = False,
+        wrap: str = "clamp",
+        exclude: collections.abc.Iterable[Node] = (),
+        name: str = "",
+        effects: collections.abc.Iterable[ImageEffect] = (),
+        depth_format: str | None = "depth_component32f",
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: RenderTexture) -> str: ...
+    def __setstate__(self: RenderTexture, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def camera(self) -> Camera:
+        """
+        Camera: from where it is seen.
+        """
+    @camera.setter
+    def camera(self, arg1: Camera) -> None: ...
+    @property
+    def depth_format(self) -> str | None:
+        """
+        str or None: the depth and stencil buffer, see `Renderer.render`.
+        """
+    @depth_format.setter
+    def depth_format(self, arg1: str | None) -> None: ...
+    @property
+    def effects(self) -> tuple[ImageEffect, ...]:
+        """
+        tuple of ImageEffect: passes over the picture, one after the other.
+        """
+    @effects.setter
+    def effects(self, arg1: collections.abc.Iterable[ImageEffect]) -> None: ...
+    @property
+    def exclude(self) -> tuple[Node, ...]:
+        """
+        tuple of Node: nodes of `scene` that it does not show, whole subtrees.
+        """
+    @exclude.setter
+    def exclude(self, arg1: collections.abc.Iterable[Node]) -> None: ...
+    @property
+    def format(self) -> str:
+        """
+        str: "rgba8", "rgba16f", "rgba32f" or "rgb565".
+        """
+    @format.setter
+    def format(self, arg1: str) -> None: ...
+    @property
+    def mipmaps(self) -> bool:
+        """
+        bool: whether lookups are trilinear.
+        """
+    @mipmaps.setter
+    def mipmaps(self, arg1: bool) -> None: ...
+    @property
+    def name(self) -> str:
+        """
+        str: for people; need not be unique.
+        """
+    @name.setter
+    def name(self, arg1: str) -> None: ...
+    @property
+    def samples(self) -> int:
+        """
+        int: samples of each texel (MSAA); 1 is none.
+        """
+    @samples.setter
+    def samples(self, arg1: int) -> None: ...
+    @property
+    def scene(self) -> Scene:
+        """
+        Scene: what it shows.
+        """
+    @scene.setter
+    def scene(self, arg1: Scene) -> None: ...
+    @property
+    def size(self) -> tuple[int, int]:
+        """
+        tuple of int: (width, height), texels.
+        """
+    @size.setter
+    def size(self, arg1: tuple[int, int]) -> None: ...
+    @property
+    def wrap(self) -> str:
+        """
+        str: "repeat" or "clamp".
+        """
+    @wrap.setter
+    def wrap(self, arg1: str) -> None: ...
 
 class Scene:
     """
@@ -495,6 +700,9 @@ class Scene:
         visible: bool = True,
         in_probes: bool = True,
         name: str = "",
+        render_order: int = 0,
+        casts_shadows: bool = True,
+        receives_shadows: bool = True,
     ) -> Node:
         """
         Add a mesh with a material, or a group.
@@ -523,6 +731,12 @@ class Scene:
             False is absent from captures and probes, as is all below it; still drawn in frames.
         name : str
             For people.
+        render_order : int
+            Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
+        casts_shadows : bool
+            False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
+        receives_shadows : bool
+            Whether shadows show on its own surface.
 
         Returns
         -------
@@ -989,6 +1203,11 @@ class CubeMap:
         C: 1, 3 or 4, int.
         """
     @property
+    def depth(self) -> typing.Any:
+        """
+        Captured window-space z, ndarray (6, N, N) float32: 0 at the near plane, 1 at the far plane and where there is nothing, as fine as ``depth_format`` keeps it; or None. Read-only.
+        """
+    @property
     def distance(self) -> typing.Any:
         """
         Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
@@ -1029,6 +1248,11 @@ class CubeMap:
     def size(self) -> int:
         """
         N, texels along an edge, int.
+        """
+    @property
+    def stencil(self) -> typing.Any:
+        """
+        Captured stencil buffer, ndarray (6, N, N) uint8, 0 where nothing wrote, or None. Read-only.
         """
     @property
     def z(self) -> typing.Any:
@@ -1452,6 +1676,112 @@ class Mesh:
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
         """
 
+class Stencil:
+    """
+    A stencil test, and what drawing does to the stencil buffer.
+
+    Give it to any material as ``stencil=``, and ask for a buffer by ``depth_format="depth24_stencil8"``,
+    "depth32f_stencil8" or "stencil_index8"; without one it has no effect. The buffer holds 8 bits a
+    pixel and starts a picture at 0. What masks must be drawn before what is masked: see
+    ``Node.render_order``. It never changes; compared by its values.
+
+    Parameters
+    ----------
+    func : {"always", "never", "less", "equal", "lequal", "greater", "notequal", "gequal"}
+        A pixel is drawn where ``reference & read_mask`` compares so with ``stored & read_mask``: "less"
+        where the reference is less than what is stored.
+    reference : int
+        From 0 to 255.
+    read_mask : int
+        The bits that are compared, from 0 to 255.
+    write_mask : int
+        The bits that may change, from 0 to 255.
+    fail : {"keep", "zero", "replace", "incr", "incr_wrap", "decr", "decr_wrap", "invert"}
+        What becomes of the stored number where the test fails. "replace": the reference. "incr" stops
+        at 255, "incr_wrap" goes on at 0; so, downwards, do "decr" and "decr_wrap".
+    depth_fail : str
+        The same where the test passes and the depth test fails.
+    depth_pass : str
+        The same where both pass, or there is no depth test.
+
+    Raises
+    ------
+    ValueError
+        For an unknown word, or a number out of its range.
+    TypeError
+        For an argument of another type.
+
+    Notes
+    -----
+    OpenGL 4.6, section 17.3.3; front and back faces alike.
+
+    Examples
+    --------
+    A disc as a window: invisible itself, it lets the red plane behind it show within its outline only.
+
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
+    ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
+    >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
+    >>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
+    >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),
+    ...                             depth_format="depth24_stencil8", outputs=("stencil", "id"))
+    >>> int(frame.id[16, 16]), int(frame.stencil[16, 16]), int(frame.id[0, 0])
+    (2, 1, 0)
+    """
+    def __eq__(self: Stencil, other: Stencil) -> bool: ...
+    def __hash__(self: Stencil) -> int: ...
+    def __init__(
+        self: Stencil,
+        func: str = "always",
+        reference: int = 0,
+        read_mask: int = 255,
+        write_mask: int = 255,
+        fail: str = "keep",
+        depth_fail: str = "keep",
+        depth_pass: str = "keep",
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Stencil) -> str: ...
+    @property
+    def depth_fail(self) -> str:
+        """
+        str: where only the depth test fails.
+        """
+    @property
+    def depth_pass(self) -> str:
+        """
+        str: where both pass.
+        """
+    @property
+    def fail(self) -> str:
+        """
+        str: where the test fails.
+        """
+    @property
+    def func(self) -> str:
+        """
+        str: the comparison.
+        """
+    @property
+    def read_mask(self) -> int:
+        """
+        int: the bits that are compared.
+        """
+    @property
+    def reference(self) -> int:
+        """
+        int: what is compared and written.
+        """
+    @property
+    def write_mask(self) -> int:
+        """
+        int: the bits that may change.
+        """
+
 class Material:
     """
     Base of the materials: how a surface answers light.
@@ -1459,6 +1789,33 @@ class Material:
     A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
     numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
     opaque is blended over what lies behind it.
+
+    Every material takes these by keyword, and has them as attributes:
+
+    ======================  =========================================================================
+    opacity=1               from 0 to 1, times the alpha of the colours
+    double_sided=False      True shows both sides; False culls back faces
+    blend=None              how its colour S, of alpha a, joins what is there already, D:
+                            "opaque": S, with alpha 1;
+                            "alpha": a S + (1 - a) D, alpha a + (1 - a) D;
+                            "alpha_keep": the same colour, alpha stays D's;
+                            "additive": a S + D, alpha a + D;
+                            "multiply": (1 - a + a S) D, alpha stays D's;
+                            "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
+                            is multiplied by their alpha already; opacity and the colour's alpha
+                            multiply both.
+                            None: "alpha" where anything is translucent, else "opaque"
+    depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
+                            "opaque"
+    depth_test=True         False is drawn over what is nearer as well
+    color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
+    stencil=None            a `Stencil`: how it tests and changes the stencil buffer, where
+                            ``depth_format`` has one; None leaves it alone
+    ======================  =========================================================================
+
+    What is blended, or writes no depth, is drawn after the background, far to near; it writes colour
+    and none of the other outputs. A mask that writes neither colour nor depth, but a stencil, is drawn
+    among the opaque nodes.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -1466,6 +1823,34 @@ class Material:
         """
         For unpickling.
         """
+    @property
+    def blend(self) -> str | None:
+        """
+        str or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply" or "premultiplied"; see `Material`. None: "alpha" where anything is translucent, else "opaque".
+        """
+    @blend.setter
+    def blend(self, arg1: str | None) -> None: ...
+    @property
+    def color_write(self) -> tuple[bool, bool, bool, bool]:
+        """
+        tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. Depth and the other outputs are written all the same.
+        """
+    @color_write.setter
+    def color_write(self, arg1: bool | tuple[bool, bool, bool, bool]) -> None: ...
+    @property
+    def depth_test(self) -> bool:
+        """
+        bool: False is drawn over what is nearer as well.
+        """
+    @depth_test.setter
+    def depth_test(self, arg1: bool) -> None: ...
+    @property
+    def depth_write(self) -> bool | None:
+        """
+        bool or None: whether it hides what is drawn after it and is farther. None: if its blend is "opaque".
+        """
+    @depth_write.setter
+    def depth_write(self, arg1: bool | None) -> None: ...
     @property
     def double_sided(self) -> bool:
         """
@@ -1480,6 +1865,13 @@ class Material:
         """
     @opacity.setter
     def opacity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def stencil(self) -> Stencil | None:
+        """
+        Stencil or None: how it tests and changes the stencil buffer, where ``depth_format`` has one; None leaves it alone.
+        """
+    @stencil.setter
+    def stencil(self, arg1: Stencil | None) -> None: ...
 
 class BasicMaterial(Material):
     """
@@ -1489,17 +1881,15 @@ class BasicMaterial(Material):
     ----------
     color : array_like (3,) or (4,)
         Linear RGB or RGBA.
-    map : Image or array_like (H, W, C), optional
+    map : Image, array_like (H, W, C) or RenderTexture, optional
         A picture, placed by the mesh's uvs.
     cubemap : CubeMap or Probe, optional
         Looked up in the direction of the object-space position, so that a box or sphere shows the
         whole of it and turns with it. Its alpha does not count.
     vertex_colors : bool
         Whether the mesh's colours count.
-    opacity : float
-        From 0 to 1.
-    double_sided : bool
-        False culls back faces.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
 
     Raises
     ------
@@ -1517,12 +1907,17 @@ class BasicMaterial(Material):
     def __init__(
         self: BasicMaterial,
         color: numpy.typing.ArrayLike = (1, 1, 1),
-        map: Image | numpy.typing.ArrayLike | None = None,
+        map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
         *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
     ) -> None: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -1539,12 +1934,12 @@ class BasicMaterial(Material):
     @cubemap.setter
     def cubemap(self, arg1: CubeMap | Probe | None) -> None: ...
     @property
-    def map(self) -> Image | None:
+    def map(self) -> Image | RenderTexture | None:
         """
-        Image or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
+        Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
     @map.setter
-    def map(self, arg1: Image | numpy.typing.ArrayLike | None) -> None: ...
+    def map(self, arg1: Image | RenderTexture | numpy.typing.ArrayLike | None) -> None: ...
     @property
     def vertex_colors(self) -> bool:
         """
@@ -1569,14 +1964,12 @@ class PhongMaterial(Material):
         Ambient, diffuse and specular weights, not negative.
     shininess : float
         Above 0; greater is a smaller highlight.
-    map : Image or array_like (H, W, C), optional
+    map : Image, array_like (H, W, C) or RenderTexture, optional
         A picture that multiplies color, placed by the mesh's uvs.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity : float
-        From 0 to 1.
-    double_sided : bool
-        False culls back faces.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
 
     Raises
     ------
@@ -1602,11 +1995,16 @@ class PhongMaterial(Material):
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
         ks: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
-        map: Image | numpy.typing.ArrayLike | None = None,
+        map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         vertex_colors: bool = False,
         *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
     ) -> None: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -1637,12 +2035,12 @@ class PhongMaterial(Material):
     @ks.setter
     def ks(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def map(self) -> Image | None:
+    def map(self) -> Image | RenderTexture | None:
         """
-        Image or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
+        Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
     @map.setter
-    def map(self, arg1: Image | numpy.typing.ArrayLike | None) -> None: ...
+    def map(self, arg1: Image | RenderTexture | numpy.typing.ArrayLike | None) -> None: ...
     @property
     def shininess(self) -> float:
         """
@@ -1679,10 +2077,8 @@ class MirrorMaterial(Material):
         F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
         F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
         Rendering", 1994). None: it is not.
-    opacity : float
-        From 0 to 1.
-    double_sided : bool
-        False culls back faces.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
 
     Raises
     ------
@@ -1706,6 +2102,11 @@ class MirrorMaterial(Material):
         *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
     ) -> None: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -1759,10 +2160,8 @@ class GlassMaterial(Material):
         False: T alone.
     tint : array_like (3,) or (4,)
         Linear RGB or RGBA, times what is refracted.
-    opacity : float
-        From 0 to 1.
-    double_sided : bool
-        False culls back faces.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
 
     Raises
     ------
@@ -1784,6 +2183,11 @@ class GlassMaterial(Material):
         *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
     ) -> None: ...
     @property
     def eta(self) -> float:
@@ -1806,6 +2210,404 @@ class GlassMaterial(Material):
         """
     @tint.setter
     def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class ShaderMaterial(Material):
+    """
+    A material of one's own, in GLSL (4.50 core) with the scene at hand.
+
+    Parameters
+    ----------
+    fragment : str or path
+        GLSL with a function ``vec3 shade(Surface surface)``: the linear colour of a fragment; ``vec4`` to
+        give an alpha as well, which counts where `blend` is not "opaque". A str is the source itself, a
+        path (``pathlib.Path``) a file that holds it.
+    vertex : str or path, optional
+        GLSL with a function ``void vertex(inout Vertex vertex)``, which moves vertices in the mesh's own
+        space.
+    uniforms : dict of str, optional
+        Values of the uniforms that the source declares: numbers, bools, vectors (2,) to (4,), matrices
+        (2, 2) to (4, 4) in reading order, or arrays of these with the number of elements ahead. A
+        uniform without a value has what its declaration says, else 0.
+    textures : dict of str, optional
+        For each ``uniform sampler2D`` an Image or an array (H, W, C); for each
+        ``uniform samplerCube`` a CubeMap or a Probe, from which the node is then left out.
+    displacement : float, optional
+        How far `vertex` moves a vertex at most, in the mesh's units. None: unknown; such a node is never
+        culled, and its picture is redrawn whole.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Attributes
+    ----------
+    uniforms, textures : mutable mapping
+        ``material.uniforms["time"] = 2`` shows in the next picture.
+
+    Raises
+    ------
+    ValueError
+        For a source without its function, or a name or value that no uniform can have. When it is
+        drawn: for a name that the source does not declare, or a value of another shape.
+    TypeError
+        For values of another type.
+    OSError
+        For a path that cannot be read.
+    ShaderError
+        When it is drawn, for a source that does not compile; the message has the user's own
+        lines and their numbers.
+
+    Notes
+    -----
+    What the source has at hand; names that begin with ``u_``, ``v_``, ``a_`` or ``gl_`` are taken.
+
+    In both stages: ``mat4 model_matrix()`` (mesh to world), ``mat3 normal_matrix()`` (its inverse
+    transpose, to any length), ``vec3 eye_position()`` (world; of perspective views).
+    What a vertex hands on is declared in both, as ``out vec3 x;`` and ``in vec3 x;``.
+
+    ``struct Vertex { vec3 position; vec3 normal; vec2 uv; vec4 color; }``, in the mesh's space.
+
+    ``struct Surface``: ``position`` (world), ``normal`` (world, unit, towards the viewer on
+    double-sided surfaces), ``incident`` (world, unit, from the eye to the surface), ``position_object``,
+    ``normal_object``, ``uv``, ``color`` (the vertices', white if there is none).
+
+    ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
+    ``environment_lod(direction, level)`` at a level of its mipmaps.
+    ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
+    the light) and ``radiance``; ``vec3 ambient_light()``.
+    ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
+    ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
+
+    Examples
+    --------
+    The mirror of document 000 in GLSL, on a ball that follows the scene:
+
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(.4, .4, .4))
+    >>> box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, 3))
+    >>> gold = cc.ShaderMaterial('''
+    ...     uniform vec3 color;
+    ...     uniform float share = 0.78;
+    ...     vec3 shade(Surface surface) {
+    ...         vec3 reflected = reflect(surface.incident, surface.normal);
+    ...         return share * environment(reflected) + 0.3 * color;
+    ...     }
+    ... ''', uniforms={"color": (.95, .85, .4)})
+    >>> ball = scene.add(cc.Mesh.sphere(.5), gold, environment=cc.Probe(size=64))
+    >>> camera = cc.PerspectiveCamera(fov=30, position=(0, 0, 5), target=(0, 0, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, camera, size=(9, 9), format="rgba32f")
+    >>> gold.uniforms["share"] = .5
+    >>> sorted(gold.uniforms)
+    ['color', 'share']
+    """
+    def __init__(
+        self: ShaderMaterial,
+        fragment: str | typing.Any | None,
+        vertex: str | typing.Any | None = None,
+        uniforms: dict[str, typing.Any] | None = None,
+        textures: dict[str, typing.Any] | None = None,
+        displacement: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: ShaderMaterial) -> str: ...
+    def __setstate__(self: ShaderMaterial, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    def _remove_texture(self: ShaderMaterial, name: str) -> None: ...
+    def _remove_uniform(self: ShaderMaterial, name: str) -> None: ...
+    def _set_inputs(
+        self: ShaderMaterial, uniforms: typing.Any = None, textures: typing.Any = None
+    ) -> None:
+        """
+        Replace all uniforms, all textures, or both.
+        """
+    def _set_texture(self: ShaderMaterial, name: str, value: typing.Any) -> None: ...
+    def _set_uniform(self: ShaderMaterial, name: str, value: typing.Any) -> None: ...
+    def _textures(self: ShaderMaterial) -> dict: ...
+    def _uniforms(self: ShaderMaterial) -> dict: ...
+    def reload(self: ShaderMaterial) -> bool:
+        """
+        Read the source again from its file.
+
+        A source that does not compile raises when it is drawn next; mended and reloaded, it works again.
+
+        Returns
+        -------
+        bool
+            Whether it changed.
+
+        Raises
+        ------
+        ValueError
+            If no part of the source came from a file, or what is in the file lacks its function.
+        OSError
+            If the file cannot be read; the old source stays.
+        """
+    @property
+    def displacement(self) -> float | None:
+        """
+        float or None: how far `vertex` moves a vertex at most, in the mesh's units; None: unknown, so the node is never culled.
+        """
+    @displacement.setter
+    def displacement(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def fragment(self) -> str | None:
+        """
+        str: GLSL of every fragment. Setting it, to text or a path, shows in the next picture.
+        """
+    @fragment.setter
+    def fragment(self, arg1: str | typing.Any | None) -> None: ...
+    @property
+    def textures(self) -> collections.abc.MutableMapping[str, typing.Any]:
+        """
+        Mapping of str to Image, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture.
+        """
+    @textures.setter
+    def textures(self, values: typing.Any) -> None:
+        """
+        Replace all textures.
+        """
+    @property
+    def uniforms(self) -> collections.abc.MutableMapping[str, typing.Any]:
+        """
+        Mapping of str to numbers: ``uniforms["time"] = 2`` shows in the next picture.
+        """
+    @uniforms.setter
+    def uniforms(self, values: typing.Any) -> None:
+        """
+        Replace all uniforms.
+        """
+    @property
+    def vertex(self) -> str | None:
+        """
+        str or None: GLSL of every vertex.
+        """
+    @vertex.setter
+    def vertex(self, arg1: str | typing.Any | None) -> None: ...
+
+class ImageEffect:
+    """
+    A pass over a finished picture, in GLSL (4.50 core): ``renderer.render(..., effects=[effect])``.
+
+    Effects run one after the other, each over all pixels, in linear float32: after multisamples are resolved, before
+    tone mapping and encoding.
+
+    Parameters
+    ----------
+    fragment : str or path
+        GLSL with a function ``vec4 effect(vec2 uv)``: a pixel's new value, uv (0, 0) being the picture's
+        bottom-left corner and (1, 1) its top-right; ``vec3`` to keep the alpha. A str is the source itself, a
+        path (``pathlib.Path``) a file that holds it.
+    uniforms, textures : dict of str, optional
+        As of `ShaderMaterial`; no probes.
+
+    Attributes
+    ----------
+    uniforms, textures : mutable mapping
+        ``effect.uniforms["strength"] = 2`` shows in the next picture.
+
+    Raises
+    ------
+    ValueError, TypeError, OSError, ShaderError
+        As of `ShaderMaterial`.
+
+    Notes
+    -----
+    The source has at hand ``vec4 frame(vec2 uv)`` (the picture so far, bilinear), ``vec4 frame_pixel(ivec2 pixel)`` (one
+    pixel as it is, (0, 0) the bottom-left one), both repeating the border beyond it, and ``ivec2 frame_size()``.
+
+    Examples
+    --------
+    A box filter of nine taps:
+
+    >>> import cubecam as cc
+    >>> blur = cc.ImageEffect('''
+    ...     vec4 effect(vec2 uv) {
+    ...         ivec2 here = ivec2(gl_FragCoord.xy);
+    ...         vec4 sum = vec4(0.0);
+    ...         for (int y = -1; y <= 1; ++y)
+    ...             for (int x = -1; x <= 1; ++x) sum += frame_pixel(here + ivec2(x, y));
+    ...         return sum / 9.0;
+    ...     }
+    ... ''')
+    >>> scene = cc.Scene(background=(1, .5, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 4), effects=[blur])
+    >>> frame.color[0, 0].tolist()
+    [255, 128, 0, 255]
+    """
+    def __init__(
+        self: ImageEffect,
+        fragment: str | typing.Any | None,
+        uniforms: dict[str, typing.Any] | None = None,
+        textures: dict[str, typing.Any] | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: ImageEffect) -> str: ...
+    def __setstate__(self: ImageEffect, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    def _remove_texture(self: ImageEffect, name: str) -> None: ...
+    def _remove_uniform(self: ImageEffect, name: str) -> None: ...
+    def _set_inputs(
+        self: ImageEffect, uniforms: typing.Any = None, textures: typing.Any = None
+    ) -> None:
+        """
+        Replace all uniforms, all textures, or both.
+        """
+    def _set_texture(self: ImageEffect, name: str, value: typing.Any) -> None: ...
+    def _set_uniform(self: ImageEffect, name: str, value: typing.Any) -> None: ...
+    def _textures(self: ImageEffect) -> dict: ...
+    def _uniforms(self: ImageEffect) -> dict: ...
+    def reload(self: ImageEffect) -> bool:
+        """
+        Read the source again from its file.
+
+        A source that does not compile raises when it is drawn next; mended and reloaded, it works again.
+
+        Returns
+        -------
+        bool
+            Whether it changed.
+
+        Raises
+        ------
+        ValueError
+            If no part of the source came from a file, or what is in the file lacks its function.
+        OSError
+            If the file cannot be read; the old source stays.
+        """
+    @property
+    def fragment(self) -> str:
+        """
+        str: GLSL of every pixel. Setting it, to text or a path, shows in the next picture.
+        """
+    @fragment.setter
+    def fragment(self, arg1: str | typing.Any | None) -> None: ...
+    @property
+    def textures(self) -> collections.abc.MutableMapping[str, typing.Any]:
+        """
+        Mapping of str to Image, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture.
+        """
+    @textures.setter
+    def textures(self, values: typing.Any) -> None:
+        """
+        Replace all textures.
+        """
+    @property
+    def uniforms(self) -> collections.abc.MutableMapping[str, typing.Any]:
+        """
+        Mapping of str to numbers: ``uniforms["time"] = 2`` shows in the next picture.
+        """
+    @uniforms.setter
+    def uniforms(self, values: typing.Any) -> None:
+        """
+        Replace all uniforms.
+        """
+
+class Shadow:
+    """
+    How a light's shadow is made: a depth map as the light sees it, and how that is looked up.
+
+    A value that does not change: give a light another one. All visible opaque nodes cast shadows whose
+    ``casts_shadows`` is True, in or out of a picture's view, from either side of their surface. They
+    fall on every node with a `PhongMaterial` whose ``receives_shadows`` is True. A map is drawn again
+    only when what it sees changes.
+
+    A directional light's map covers all that casts, so a wide floor makes its texels wide: set the
+    floor's ``casts_shadows`` to False, or an ``extent``.
+
+    The edge of a shadow is about ``2 * radius + 1`` texels wide. A surface does not shadow itself, since
+    each texel is compared with the depth of the surface's own plane there, and no distance has to be
+    tuned for that.
+
+    Parameters
+    ----------
+    size : int
+        Texels a side of the map; a point light has six. From 8, and more for a larger radius, to
+        ``info.limits.max_texture_size``.
+    radius : float
+        Of the percentage-closer filter (Reeves, Salesin and Cook, 1987), texels, from 0 to 16: a box of
+        ``2 * radius + 1`` texels. 0 is as hard as a map can be.
+    bias : float
+        World units, not negative: what is nearer to a surface casts no shadow on it. It comes on top of
+        a fraction of a texel.
+    near : float
+        Point and spot lights: what is nearer to the light casts no shadow. World units, above 0.
+    far : float or None
+        Point and spot lights: what is farther from the light casts no shadow. World units, above near;
+        None: all that there is casts.
+    extent : float or None
+        Directional lights: width and height of what the map covers (but for its outermost texels,
+        which stay empty), world units, around the middle of the bounds of all that casts; beyond, all
+        is lit. None: as much as all that casts.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> lamp = cc.PointLight(position=(0, 3, 0), shadow=cc.Shadow(size=512, radius=2))
+    >>> lamp.shadow
+    Shadow(size=512, radius=2, bias=0, near=0.05, far=None, extent=None)
+    >>> lamp.shadow == cc.Shadow(512, 2)
+    True
+    """
+    def __eq__(self: Shadow, other: typing.Any) -> typing.Any: ...
+    def __hash__(self: Shadow) -> int: ...
+    def __init__(
+        self: Shadow,
+        size: typing.SupportsInt | typing.SupportsIndex = 1024,
+        radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        bias: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+        far: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        extent: typing.SupportsFloat | typing.SupportsIndex | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Shadow) -> str: ...
+    @property
+    def bias(self) -> float:
+        """
+        float: world units.
+        """
+    @property
+    def extent(self) -> float | None:
+        """
+        float or None: what the map covers, world units; directional lights.
+        """
+    @property
+    def far(self) -> float | None:
+        """
+        float or None: nothing farther casts; point and spot lights.
+        """
+    @property
+    def near(self) -> float:
+        """
+        float: nothing nearer casts; point and spot lights.
+        """
+    @property
+    def radius(self) -> float:
+        """
+        float: of the filter, texels.
+        """
+    @property
+    def size(self) -> int:
+        """
+        int: texels a side of the map.
+        """
 
 class Light:
     """
@@ -1843,6 +2645,8 @@ class PointLight(Light):
         Times color, not negative.
     decay : float
         The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+    shadow : Shadow, bool or None
+        None: it shines through everything. True: ``Shadow()``.
 
     Raises
     ------
@@ -1863,6 +2667,7 @@ class PointLight(Light):
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shadow: Shadow | bool | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: PointLight) -> str: ...
@@ -1880,6 +2685,105 @@ class PointLight(Light):
         """
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def shadow(self) -> Shadow | None:
+        """
+        Shadow or None: None shines through everything; True sets ``Shadow()``.
+        """
+    @shadow.setter
+    def shadow(self, arg1: Shadow | bool | None) -> None: ...
+
+class SpotLight(Light):
+    """
+    Light from one point into a cone, as three.js and glTF have it.
+
+    Parameters
+    ----------
+    position : array_like (3,)
+        World space.
+    direction : array_like (3,)
+        Of the cone's axis, the way the light travels, in world space, of any length but 0; kept
+        normalised. Straight down by default.
+    angle : float
+        From the axis to the cone's edge, degrees: above 0, below 90. Beyond it there is no light.
+    penumbra : float
+        Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
+        it fades from the axis on. Between the cosines of the two angles it is smoothstep.
+    color : array_like (3,)
+        Linear RGB, not negative.
+    intensity : float
+        Times color, not negative.
+    decay : float
+        The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+    shadow : Shadow, bool or None
+        None: it shines through everything. True: ``Shadow()``.
+
+    Raises
+    ------
+    ValueError
+        For a direction of no length, or a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.SpotLight(position=(0, 3, 0), angle=20, penumbra=.5)
+    SpotLight(position=(0, 3, 0), direction=(0, -1, 0), angle=20, penumbra=0.5, color=(1, 1, 1), intensity=1, decay=0)
+    """
+    def __init__(
+        self: SpotLight,
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        direction: numpy.typing.ArrayLike = (0, -1, 0),
+        angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
+        penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        shadow: Shadow | bool | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: SpotLight) -> str: ...
+    @property
+    def angle(self) -> float:
+        """
+        float: from the axis to the cone's edge, degrees.
+        """
+    @angle.setter
+    def angle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def decay(self) -> float:
+        """
+        float: the light falls with distance**-decay.
+        """
+    @decay.setter
+    def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def direction(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: the way the light travels, unit length, read-only.
+        """
+    @direction.setter
+    def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def penumbra(self) -> float:
+        """
+        float: share of the angle over which the light fades.
+        """
+    @penumbra.setter
+    def penumbra(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (3,) float64: world space, read-only.
+        """
+    @position.setter
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def shadow(self) -> Shadow | None:
+        """
+        Shadow or None: None shines through everything; True sets ``Shadow()``.
+        """
+    @shadow.setter
+    def shadow(self, arg1: Shadow | bool | None) -> None: ...
 
 class DirectionalLight(Light):
     """
@@ -1894,6 +2798,8 @@ class DirectionalLight(Light):
         Linear RGB, not negative.
     intensity : float
         Times color, not negative.
+    shadow : Shadow, bool or None
+        None: it shines through everything. True: ``Shadow()``.
 
     Raises
     ------
@@ -1911,6 +2817,7 @@ class DirectionalLight(Light):
         direction: numpy.typing.ArrayLike = (0, -1, 0),
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        shadow: Shadow | bool | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: DirectionalLight) -> str: ...
@@ -1921,6 +2828,13 @@ class DirectionalLight(Light):
         """
     @direction.setter
     def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def shadow(self) -> Shadow | None:
+        """
+        Shadow or None: None shines through everything; True sets ``Shadow()``.
+        """
+    @shadow.setter
+    def shadow(self, arg1: Shadow | bool | None) -> None: ...
 
 class AmbientLight(Light):
     """
@@ -2031,6 +2945,10 @@ class PerspectiveCamera(Camera):
         What is up in the picture; not along the line of sight.
     near, far : float
         Depths in world units between which things are seen: 0 < near < far.
+    shift : array_like (2,)
+        How far the window that it looks through lies right of and above its axis, in heights of the
+        picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and verticals stay
+        vertical, as with an architect's lens.
 
     Raises
     ------
@@ -2058,9 +2976,178 @@ class PerspectiveCamera(Camera):
         up: numpy.typing.ArrayLike = (0, 1, 0),
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+        shift: numpy.typing.ArrayLike = (0, 0),
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: PerspectiveCamera) -> str: ...
+    def look(self, direction: numpy.typing.ArrayLike) -> None:
+        """
+        Turn the view along a direction of the world.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        direction : array_like (3,)
+            World space, of any length but 0, not along `up`.
+
+        Raises
+        ------
+        ValueError
+            For a direction that is not three finite numbers, has no length, or lies along `up`.
+        TypeError
+            For a camera given by its matrices, or something that is no vector.
+
+        Notes
+        -----
+        The target goes to the position plus the direction, at the distance it had; at 1 if there was none.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(1, 0, 0))
+        >>> camera.look((0, 0, 2))
+        >>> camera.target.tolist()
+        [1.0, 0.0, 1.0]
+        """
+    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+        """
+        Move round the target, as if the scene were turned in the hand.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+            One that has a target.
+        yaw : float
+            Degrees round `up`. Positive turns what is seen to the right, as a drag to the right does: the camera goes to
+            its left.
+        pitch : float
+            Degrees of elevation. Positive tips what is seen towards the viewer, as a drag downwards does: the camera
+            rises. It stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
+
+        Raises
+        ------
+        ValueError
+            For a camera without a target, or a number that is not finite.
+        TypeError
+            As `yaw`.
+
+        Notes
+        -----
+        Target and distance stay.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
+        >>> camera.orbit(30)
+        >>> camera.position.round(3).tolist()
+        [-2.0, 0.0, 3.464]
+        """
+    def pitch(self, degrees: float) -> None:
+        """
+        Turn the view up, round the camera's right.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        degrees : float
+            Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; one that
+            is nearer already goes no further.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `yaw`.
+
+        Notes
+        -----
+        The position stays, and so does the target's distance; without a target one is set at distance 1.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 1, 0))
+        >>> camera.pitch(30)
+        >>> camera.target.round(3).tolist()
+        [0.0, 1.5, -0.866]
+        """
+    def strafe(self, distance: float) -> None:
+        """
+        Move to the right, target and all.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        distance : float
+            World units; negative moves left.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `walk`.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera()
+        >>> camera.strafe(.5)
+        >>> camera.position.tolist()
+        [0.5, 0.0, 0.0]
+        """
+    def walk(self, distance: float) -> None:
+        """
+        Move along the view direction, target and all.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        distance : float
+            World units; negative walks backwards.
+
+        Raises
+        ------
+        ValueError
+            For a number that is not finite, or a step so long that position and target cannot be told apart.
+        TypeError
+            As `yaw`.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0))
+        >>> camera.walk(2)
+        >>> camera.position.tolist(), camera.target.tolist()
+        ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
+        """
+    def yaw(self, degrees: float) -> None:
+        """
+        Turn the view to the left, round the camera's `up` through its position.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        degrees : float
+            Positive turns left: counter-clockwise seen from above.
+
+        Raises
+        ------
+        ValueError
+            For a number that is not finite.
+        TypeError
+            For a camera given by its matrices, or something that is no number.
+
+        Notes
+        -----
+        The position stays, and so does the target's distance; without a target one is set at distance 1.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 1, 0), target=(0, 1, -2))
+        >>> camera.yaw(30)
+        >>> camera.target.round(3).tolist()
+        [-1.0, 1.0, -1.732]
+        """
     @property
     def far(self) -> float:
         """
@@ -2089,6 +3176,13 @@ class PerspectiveCamera(Camera):
         """
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def shift(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (2,) float64: of the window right of and above the axis, in heights of the picture, read-only.
+        """
+    @shift.setter
+    def shift(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
@@ -2156,6 +3250,174 @@ class OrthographicCamera(Camera):
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: OrthographicCamera) -> str: ...
+    def look(self, direction: numpy.typing.ArrayLike) -> None:
+        """
+        Turn the view along a direction of the world.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        direction : array_like (3,)
+            World space, of any length but 0, not along `up`.
+
+        Raises
+        ------
+        ValueError
+            For a direction that is not three finite numbers, has no length, or lies along `up`.
+        TypeError
+            For a camera given by its matrices, or something that is no vector.
+
+        Notes
+        -----
+        The target goes to the position plus the direction, at the distance it had; at 1 if there was none.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(1, 0, 0))
+        >>> camera.look((0, 0, 2))
+        >>> camera.target.tolist()
+        [1.0, 0.0, 1.0]
+        """
+    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+        """
+        Move round the target, as if the scene were turned in the hand.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+            One that has a target.
+        yaw : float
+            Degrees round `up`. Positive turns what is seen to the right, as a drag to the right does: the camera goes to
+            its left.
+        pitch : float
+            Degrees of elevation. Positive tips what is seen towards the viewer, as a drag downwards does: the camera
+            rises. It stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
+
+        Raises
+        ------
+        ValueError
+            For a camera without a target, or a number that is not finite.
+        TypeError
+            As `yaw`.
+
+        Notes
+        -----
+        Target and distance stay.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
+        >>> camera.orbit(30)
+        >>> camera.position.round(3).tolist()
+        [-2.0, 0.0, 3.464]
+        """
+    def pitch(self, degrees: float) -> None:
+        """
+        Turn the view up, round the camera's right.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        degrees : float
+            Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; one that
+            is nearer already goes no further.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `yaw`.
+
+        Notes
+        -----
+        The position stays, and so does the target's distance; without a target one is set at distance 1.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 1, 0))
+        >>> camera.pitch(30)
+        >>> camera.target.round(3).tolist()
+        [0.0, 1.5, -0.866]
+        """
+    def strafe(self, distance: float) -> None:
+        """
+        Move to the right, target and all.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        distance : float
+            World units; negative moves left.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `walk`.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera()
+        >>> camera.strafe(.5)
+        >>> camera.position.tolist()
+        [0.5, 0.0, 0.0]
+        """
+    def walk(self, distance: float) -> None:
+        """
+        Move along the view direction, target and all.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        distance : float
+            World units; negative walks backwards.
+
+        Raises
+        ------
+        ValueError
+            For a number that is not finite, or a step so long that position and target cannot be told apart.
+        TypeError
+            As `yaw`.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0))
+        >>> camera.walk(2)
+        >>> camera.position.tolist(), camera.target.tolist()
+        ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
+        """
+    def yaw(self, degrees: float) -> None:
+        """
+        Turn the view to the left, round the camera's `up` through its position.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+        degrees : float
+            Positive turns left: counter-clockwise seen from above.
+
+        Raises
+        ------
+        ValueError
+            For a number that is not finite.
+        TypeError
+            For a camera given by its matrices, or something that is no number.
+
+        Notes
+        -----
+        The position stays, and so does the target's distance; without a target one is set at distance 1.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 1, 0), target=(0, 1, -2))
+        >>> camera.yaw(30)
+        >>> camera.target.round(3).tolist()
+        [-1.0, 1.0, -1.732]
+        """
     @property
     def far(self) -> float:
         """
@@ -2204,6 +3466,148 @@ class OrthographicCamera(Camera):
         ndarray (4, 4) float64: world to camera, read-only.
         """
 
+class StereoCamera:
+    """
+    Two eyes, whose pictures are drawn in one call and combined.
+
+    ``renderer.render(scene, stereo_camera, size)`` gives one Frame of that size. Each eye's picture is, bit
+    for bit, the one that its camera gives alone, with the aspect of its part; tone mapping and encoding come
+    before they are combined. Only the eyes whose picture changed are drawn again.
+
+    Parameters
+    ----------
+    left, right : Camera
+        Any two; changed at any time, they show it in the next picture.
+    layout : {"anaglyph", "side_by_side", "top_bottom"}
+        "anaglyph", for red-cyan glasses: red from the left eye, green and blue from the right, alpha the
+        greater; there are no outputs. "side_by_side": the left eye in the left half, of an even width;
+        "top_bottom": the left eye in the upper half, of an even height; outputs are combined alike.
+
+    Raises
+    ------
+    TypeError
+        For what is no Camera.
+    ValueError
+        For another layout.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> camera = cc.PerspectiveCamera(fov=60, position=(0, 1, 5), target=(0, 0, 0))
+    >>> eyes = cc.StereoCamera.off_axis(camera, separation=.1, convergence=5, layout="side_by_side")
+    >>> eyes.left.position.round(9).tolist(), eyes.right.position.round(9).tolist()
+    ([-0.05, 1.0, 5.0], [0.05, 1.0, 5.0])
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(cc.Scene(background=(1, 1, 1)), eyes, size=(8, 4))
+    >>> frame.size
+    (8, 4)
+    """
+    @staticmethod
+    def off_axis(
+        camera: Camera,
+        separation: typing.SupportsFloat | typing.SupportsIndex = 0.065,
+        convergence: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        layout: str = "anaglyph",
+    ) -> StereoCamera:
+        """
+        Eyes beside a camera, with parallel axes.
+
+        They stand half of `separation` to the left and right of it, along its own right axis, and look the same
+        way. Without `convergence` what is infinitely far has no parallax, and all else stands before the screen.
+
+        Parameters
+        ----------
+        camera : Camera
+            The middle of the two; it is copied.
+        separation : float
+            Distance of the eyes, world units, not negative. 0.065 is a person's, in metres.
+        convergence : float, optional
+            Distance along the camera's axis, world units, at which points have the same place in both pictures:
+            farther ones lie behind the screen, nearer ones before it. The frusta are sheared for that, and not
+            turned, so that no vertical parallax arises. Not for cameras of parallel rays.
+        layout : {"anaglyph", "side_by_side", "top_bottom"}
+            See the class.
+
+        Returns
+        -------
+        StereoCamera
+
+        Raises
+        ------
+        ValueError
+            For a number out of its range or not finite, or a convergence of parallel rays.
+
+        Notes
+        -----
+        P. Bourke, "Calculating Stereo Pairs", 1999. At depth z a point's places differ by
+        ``separation * (1 / convergence - 1 / z) * f / 2`` widths of the picture to the right for the right eye, f
+        being ``camera.projection(aspect)[0, 0]``.
+        """
+    @staticmethod
+    def toe_in(
+        camera: Camera,
+        degrees: typing.SupportsFloat | typing.SupportsIndex = 4.0,
+        layout: str = "anaglyph",
+    ) -> StereoCamera:
+        """
+        Eyes on a circle round a camera's target, both looking at it.
+
+        The view is turned by half of `degrees` to the left and to the right, about the axis through the target
+        that is up in the camera's picture. Simple, and with vertical parallax towards the corners; `off_axis` has
+        none.
+
+        Parameters
+        ----------
+        camera : PerspectiveCamera or OrthographicCamera
+            The middle of the two, with a target; it is copied.
+        degrees : float
+            Angle between the two eyes as seen from the target: from 0 to below 180.
+        layout : {"anaglyph", "side_by_side", "top_bottom"}
+            See the class.
+
+        Returns
+        -------
+        StereoCamera
+
+        Raises
+        ------
+        ValueError
+            For a camera without a target, or an angle out of its range.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 0, 2), target=(0, 0, 0))
+        >>> cc.StereoCamera.toe_in(camera, degrees=90).right.position.round(3).tolist()
+        [1.414, 0.0, 1.414]
+        """
+    def __init__(
+        self: StereoCamera, left: Camera, right: Camera, layout: str = "anaglyph"
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: StereoCamera) -> str: ...
+    @property
+    def layout(self) -> str:
+        """
+        str: "anaglyph", "side_by_side" or "top_bottom".
+        """
+    @layout.setter
+    def layout(self, arg1: str) -> None: ...
+    @property
+    def left(self) -> Camera:
+        """
+        Camera: of the left eye.
+        """
+    @left.setter
+    def left(self, arg1: Camera) -> None: ...
+    @property
+    def right(self) -> Camera:
+        """
+        Camera: of the right eye.
+        """
+    @right.setter
+    def right(self, arg1: Camera) -> None: ...
+
 class Stats:
     """
     What a renderer's last call drew, skipped and took.
@@ -2226,6 +3630,16 @@ class Stats:
         int: probes of which at least one face was drawn.
         """
     @property
+    def shadow_views_drawn(self) -> int:
+        """
+        int: layers of shadow maps drawn: one for each directional and spot light, six for a point light.
+        """
+    @property
+    def textures_updated(self) -> int:
+        """
+        int: render textures that were drawn.
+        """
+    @property
     def triangles(self) -> int:
         """
         int: sent to the GPU, each view counted.
@@ -2233,7 +3647,7 @@ class Stats:
     @property
     def views_drawn(self) -> int:
         """
-        int: pictures drawn: frames, faces of captures, faces of probes.
+        int: pictures drawn: frames, faces of captures, faces of probes, textures.
         """
     @property
     def views_skipped(self) -> int:
@@ -2333,7 +3747,8 @@ class Frame:
     """
     A rendered picture: arrays with row 0 on top, each the caller's own.
 
-    What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs.
+    What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
+    `stencil` are what those buffers hold in the end.
 
     Examples
     --------
@@ -2346,14 +3761,19 @@ class Frame:
     """
     def __reduce__(self: Frame) -> tuple: ...
     def __repr__(self: Frame) -> str: ...
-    def _repr_png_(self) -> bytes:
+    def _repr_png_(self) -> bytes | None:
         """
-        Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats.
+        Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats; None without.
         """
     @property
     def color(self) -> typing.Any:
         """
-        ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear unless encoded.
+        ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear unless encoded. None with ``format=None``.
+        """
+    @property
+    def depth(self) -> typing.Any:
+        """
+        ndarray (H, W) float32: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
         """
     @property
     def distance(self) -> typing.Any:
@@ -2379,6 +3799,11 @@ class Frame:
     def size(self) -> tuple[int, int]:
         """
         tuple of int: (width, height), pixels.
+        """
+    @property
+    def stencil(self) -> typing.Any:
+        """
+        ndarray (H, W) uint8: 0 background.
         """
     @property
     def z(self) -> typing.Any:
@@ -2447,9 +3872,10 @@ class Renderer:
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         exclude: typing.Any = (),
         outputs: typing.Any = (),
-        format: str = "rgba32f",
+        format: str | None = "rgba32f",
         samples: typing.Any = 1,
         eye: typing.Any = None,
+        depth_format: str | None = "depth_component32f",
     ) -> CubeMap:
         """
         Draw what surrounds a point into a cubemap.
@@ -2466,13 +3892,15 @@ class Renderer:
         exclude : sequence of Node
             Left out, with all below them.
         outputs : sequence of str
-            Besides ``faces``: any of "distance", "z", "normal", "position", "id".
+            Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil".
         format : str
-            "rgba32f" (float32), "rgba16f" (float16) or "rgba8" (uint8, clamped).
+            "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
         samples : int
             Multisampling of colour, see :meth:`render`.
         eye : array_like (3,) or None
             From where highlights and mirrors are seen; None: from ``position``.
+        depth_format : str or None
+            The depth and stencil buffer, see :meth:`render`.
 
         Returns
         -------
@@ -2511,13 +3939,15 @@ class Renderer:
     def render(
         self: Renderer,
         scene: Scene,
-        camera: Camera,
+        camera: Camera | StereoCamera,
         size: typing.Any,
         outputs: typing.Any = (),
-        format: str = "rgba8",
+        format: str | None = "rgba8",
         samples: typing.Any = 1,
         tonemap: str | None = None,
         encode: str | None = None,
+        effects: typing.Any = (),
+        depth_format: str | None = "depth_component32f",
     ) -> Frame:
         """
         Draw a picture, with every probe its mirrors need brought up to date first.
@@ -2527,13 +3957,15 @@ class Renderer:
         Parameters
         ----------
         scene : Scene
-        camera : Camera
+        camera : Camera or StereoCamera
         size : (int, int)
             (width, height), pixels.
         outputs : sequence of str
-            Besides colour: any of "distance", "z", "normal", "position", "id".
-        format : str
-            "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16) or "rgba32f" (float32).
+            Besides colour: any of "distance", "z", "normal", "position", "id", and of "depth" and "stencil", what those
+            buffers hold in the end.
+        format : str or None
+            "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
+            uint8 of 255; alpha 255). None: no colour buffer, only the outputs are drawn.
         samples : int
             Multisampling of colour: 1 for none, at most ``info.limits.max_samples``. The outputs are those of samples=1.
         tonemap : str or None
@@ -2541,6 +3973,13 @@ class Renderer:
             after resolving. None: values stay as they are.
         encode : str or None
             "srgb" (IEC 61966-2-1) or None: linear.
+        effects : sequence of ImageEffect
+            Passes over the colour, one after the other, after resolving and before the tone curve.
+        depth_format : str or None
+            The depth and stencil buffer, by OpenGL's names: "depth_component32f", "depth_component24", "depth_component16",
+            "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without depth nothing is
+            hidden: nodes are painted one over the other, in order of ``render_order``, then id, and there are no outputs but
+            "stencil".
 
         Returns
         -------
@@ -2550,7 +3989,8 @@ class Renderer:
         Raises
         ------
         ValueError
-            For an unknown name, a size or sample count beyond the driver's limits, or an impossible camera.
+            For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
+            outputs that ``depth_format`` does not allow, tone mapping or effects of no colour, or an impossible camera.
         ContextError
             After :meth:`close`, or in a forked process.
 
@@ -2561,6 +4001,62 @@ class Renderer:
         ...     frame = renderer.render(cc.Scene(background=(2, 0, 0)), cc.PerspectiveCamera(), size=(1, 1), format="rgba16f")
         >>> frame.color.tolist()
         [[[2.0, 0.0, 0.0, 1.0]]]
+        """
+    def shadow_map(self: Renderer, scene: Scene, light: Light) -> numpy.ndarray:
+        """
+        What a light sees of what casts shadows, to look at. It is drawn if it is not up to date.
+
+        Parameters
+        ----------
+        scene : Scene
+        light : Light
+            One of the scene's, with a shadow.
+
+        Returns
+        -------
+        ndarray (L, size, size) float32
+            Distances in world units along the axis of each view, +inf where nothing casts. A spot light has one view, from the
+            light along its direction. A point light has six, +X -X +Y -Y +Z -Z, laid out as the faces of a capture; they, and
+            a spot light's, are a little wider than 90 degrees or the cone: the filter reaches into ``ceil(radius) + 2``
+            texels more on each side. A directional light has one view of parallel rays, and distances count from the plane at
+            which the bounds of all that casts begin; its outermost texels stay empty. Row 0 of a single view is on top: +Y is
+            up there, -Z for light from straight above or below.
+
+        Raises
+        ------
+        ValueError
+            For a light that is not in the scene or has no shadow, or a size beyond the driver's limits.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> sun = scene.add(cc.DirectionalLight(direction=(0, -1, 0), shadow=cc.Shadow(size=32)))
+        >>> box = scene.add(cc.Mesh.box(1), position=(0, 3, 0))
+        >>> floor = scene.add(cc.Mesh.plane(4, 4))
+        >>> with cc.Renderer() as renderer:
+        ...     depth = renderer.shadow_map(scene, sun)
+        >>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
+        ((1, 32, 32), 0.0, 3.5)
+        """
+    def texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
+        """
+        What a render texture holds now, in its format.
+
+        Parameters
+        ----------
+        render_texture : RenderTexture
+            One that a picture of this renderer has shown.
+
+        Returns
+        -------
+        ndarray (H, W, 4)
+            uint8, float16 or float32, row 0 on top; the caller's own.
+
+        Raises
+        ------
+        ValueError
+            If this renderer has not drawn it yet.
         """
     def update(self: Renderer, scene: Scene, probes: typing.Any = None) -> None:
         """

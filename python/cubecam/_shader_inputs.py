@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, MutableMapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from ._core import ImageEffect, ShaderMaterial
+from ._core import ImageEffect, ShaderMaterial
 
 __all__ = ["ShaderInputs", "set_textures", "set_uniforms", "textures", "uniforms"]
 
