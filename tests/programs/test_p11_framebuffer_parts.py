@@ -12,6 +12,8 @@ from tests.reference.raycast import interior
 SIZE = (64, 56)
 NEAR, FAR = 1, 20
 EYE = np.array([0, 2.5, 5.0])
+#: World units: four texels of the lamp's map where the ground is farthest from it.
+PENUMBRA = 0.2
 COLORS = [(0.6, 0.6, 0.7), (0.4, 1, 0.4), (1, 0.4, 0.4), (0.4, 0.4, 1)]
 
 
@@ -115,9 +117,14 @@ def test_the_shadow_against_ray_casting(drawn, frame):
     _, parts, shapes, _, hits = drawn(frame)
     seen = hits.hit
     start = hits.position[seen]
-    towards = np.asarray(LAMP.position) - start
-    blocked = np.zeros(seen.shape, int)
-    blocked[seen] = raycast.cast(solid(shapes), start, towards, near=0.01, far=1).hit
+    blocked, soft = np.zeros(seen.shape, int), np.zeros(seen.shape, int)
+    for x, z in ((0, 0), (PENUMBRA, 0), (-PENUMBRA, 0), (0, PENUMBRA), (0, -PENUMBRA)):
+        beside = np.add(start, (x, 0, z))
+        hit = raycast.cast(solid(shapes), beside, np.asarray(LAMP.position) - beside, 0.01, 1).hit
+        soft[seen] += hit
+        if (x, z) == (0, 0):
+            blocked[seen] = hit
+    hard = (soft == 0) | (soft == 5)
     lit = unlit = np.zeros((*seen.shape, 3))
     lit, unlit = lit.copy(), unlit.copy()
     for shape, color in zip(shapes, COLORS, strict=True):
@@ -128,12 +135,12 @@ def test_the_shadow_against_ray_casting(drawn, frame):
         )
         unlit[rows] = 0.2 * np.array(color)
     want = np.where(blocked[..., None] == 1, unlit, lit)
-    ground = (hits.id == 1) & interior(hits.id, blocked, radius=2)
+    ground = (hits.id == 1) & interior(hits.id, blocked) & hard
     assert (ground & (blocked == 1)).sum() > 5
     assert (ground & (blocked == 0)).sum() > 100
     assert_close(parts["color"][..., :3] / 255, want, "unorm8_phong", mask=ground, least=0.05)
     # On the box too: its sides away from the lamp are dark without any map.
-    side = (hits.id == 5) & interior(hits.id, hits.part, blocked, radius=1)
+    side = (hits.id == 5) & interior(hits.id, hits.part, blocked) & hard
     assert_close(parts["color"][..., :3] / 255, want, "unorm8_phong", mask=side, least=0.005)
 
 

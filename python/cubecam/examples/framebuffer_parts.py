@@ -145,7 +145,7 @@ def _shadow(part: dict[str, Picture], cell: tuple[int, int]) -> Picture:
     """Give the two faces that look down from the lamp, -Y beside -X, as pictures of the cell's size."""
     width, height = cell
     distances = part["shadow"][[3, 1]]
-    pair = np.concatenate(list(1 / np.maximum(distances / 3, 1)), axis=1)
+    pair = np.concatenate(list(np.clip((9 - distances) / 6, 0, 1)), axis=1)
     rows = (np.arange(height) + 0.5) * pair.shape[0] / height
     columns = (np.arange(width) + 0.5) * pair.shape[1] / width
     found: Picture = pair[rows.astype(int)[:, None], columns.astype(int)[None, :]]
