@@ -4,12 +4,14 @@ They guard what no formula covers: that a change of one thing does not change an
 meant, write them anew and look at them:  pytest tests/images --regenerate-references
 """
 
+import functools
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam import examples
 from tests.compare import assert_close
 
 FOLDER = Path(__file__).parent
@@ -90,7 +92,17 @@ def draw_translucent(renderer):
     return front(renderer, scene, tonemap=None)
 
 
+def program_still(name, renderer):
+    """The still picture of one of the documents' programs, small."""
+    module = examples.load(name)
+    width, height = module.SIZE
+    size = (64 * width // height, 64)
+    return module.draw(module.build(), renderer, module.STILL, size=size)
+
+
 PICTURES = {name[5:]: draw for name, draw in sorted(globals().items()) if name.startswith("draw_")}
+for number, name in enumerate(examples.NAMES, start=1):
+    PICTURES[f"p{number:02}_{name}"] = functools.partial(program_still, name)
 
 
 @pytest.mark.parametrize("name", PICTURES)
