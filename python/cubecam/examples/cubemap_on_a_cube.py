@@ -32,6 +32,7 @@ SIZE = (512, 512)  # aspect 1
 FOV, NEAR, FAR = 70.0, 1.0, 100.0  # main view: degrees, world units
 EYE = (0.0, 1.0, 5.0)  # the document prints none; it looks at the origin
 PROBE = 256  # texels along an edge of a face; 90 degrees, aspect 1, near 1, far 100
+DEPTH = "depth_component16"  # of the framebuffer that the faces are drawn in
 CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 PLACE, SCALE = (0.0, 0.8, 0.0), 0.8
 AXIS, TURN = (1.0, 1.0, 1.0), 0.45  # degrees a frame
@@ -69,7 +70,14 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
     scene.add(quad, phong(CEILING_COLOR), position=CEILING, rotation=cc.axis_angle((1, 0, 0), 180))
     scene.add(bunny(), phong(BUNNY[1]), position=BUNNY[0])
     scene.add(teapot(), phong(TEAPOT[1]), position=TEAPOT[0])
-    probe = cc.Probe(position=(0, 0, 0), size=probe_size, near=NEAR, far=FAR, format=probe_format)
+    probe = cc.Probe(
+        position=(0, 0, 0),
+        size=probe_size,
+        near=NEAR,
+        far=FAR,
+        format=probe_format,
+        depth_format=DEPTH,
+    )
     cube = scene.add(
         cc.Mesh.box(CUBE), cc.BasicMaterial(cubemap=probe), position=PLACE, scale=SCALE
     )

@@ -22,6 +22,7 @@ import cubecam as cc
 from ._common import GREY, LIGHT, Picture, bunny, on_circle, picture, teapot
 from .cubemap_on_a_cube import (
     BUNNY,
+    DEPTH,
     EYE,
     FAR,
     FOV,
@@ -62,7 +63,14 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
     """Make the scene; the probe's texels are of 8 bits as in the document."""
     scene, actors = stage()
     ball = scene.add(cc.Mesh.sphere(BALL), gold(), scale=SCALE)
-    probe = cc.Probe(position=(0, 0, 0), size=probe_size, near=NEAR, far=FAR, format=probe_format)
+    probe = cc.Probe(
+        position=(0, 0, 0),
+        size=probe_size,
+        near=NEAR,
+        far=FAR,
+        format=probe_format,
+        depth_format=DEPTH,
+    )
     ball.environment = probe
     return Program(scene, main_camera(), ball, actors, probe)
 
