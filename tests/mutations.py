@@ -567,7 +567,7 @@ MUTATIONS = [
         "P8: the eyes change places",
         "python/cubecam/examples/anaglyph.py",
         "    return Program(scene, camera, stereo, ring)",
-        "    stereo.left, stereo.right = stereo.right, stereo.left\n    return Program(scene, camera, stereo, ring)",
+        "    return Program(scene, camera, cc.StereoCamera(stereo.right, stereo.left), ring)",
         ("tests/programs/test_p08_anaglyph.py",),
     ),
     Mutation(

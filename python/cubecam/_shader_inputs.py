@@ -13,7 +13,7 @@ __all__ = ["ShaderInputs", "set_textures", "set_uniforms", "textures", "uniforms
 class ShaderInputs(MutableMapping[str, Any]):
     """A live view of an object's uniforms or textures: what is set here shows in the next picture.
 
-    Values come back as float, read-only float64 array, Image, CubeMap or Probe.
+    Values come back as float, read-only float64 array, Image, RenderTexture, CubeMap or Probe.
     """
 
     def __init__(self, owner: ShaderMaterial | ImageEffect, kind: str) -> None:
@@ -59,7 +59,7 @@ def set_uniforms(self: ShaderMaterial | ImageEffect, values: Any) -> None:
 
 
 def textures(self: ShaderMaterial | ImageEffect) -> MutableMapping[str, Any]:
-    """Mapping of str to Image, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture."""
+    """Mapping of str to Image, RenderTexture, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture."""
     return ShaderInputs(self, "texture")
 
 

@@ -55,6 +55,13 @@ std::vector<std::size_t> Call::needs_of(const DrawPlan& plan) const {
             session_.numbers.add_needs(scene_, number_, scene_.nodes[planned.node], needs);
         }
     }
+    // What casts a shadow may be out of view, and still move its vertices by a texture.
+    if (receives_any(plan)) {
+        for (const NodeSnapshot& node : scene_.nodes) {
+            if (!node.casts_shadows || !moves_vertices(node)) continue;
+            session_.numbers.add_needs(scene_, number_, node, needs);
+        }
+    }
     return unique(std::move(needs));
 }
 
@@ -298,15 +305,18 @@ std::size_t Call::draw_changed(std::span<const View> views, const DrawPlan& plan
     return budget ? last : count;
 }
 
-void Call::need_shadows(const DrawPlan& plan) {
-    if (shadows_) return;
+bool Call::receives_any(const DrawPlan& plan) const {
     const auto receives = [this](const PlannedNode& planned) {
         return receives_shadows(scene_.nodes[planned.node]);
     };
-    if (std::any_of(plan.opaque.begin(), plan.opaque.end(), receives) ||
-        std::any_of(plan.late.begin(), plan.late.end(), receives)) {
-        update_shadows();
-    }
+    return std::any_of(scene_.lights.begin(), scene_.lights.end(),
+                       [](const LightSnapshot& light) { return light.value.shadow.has_value(); }) &&
+           (std::any_of(plan.opaque.begin(), plan.opaque.end(), receives) ||
+            std::any_of(plan.late.begin(), plan.late.end(), receives));
+}
+
+void Call::need_shadows(const DrawPlan& plan) {
+    if (!shadows_ && receives_any(plan)) update_shadows();
 }
 
 void Call::update_shadows() {

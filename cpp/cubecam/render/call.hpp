@@ -79,6 +79,8 @@ private:
     std::vector<std::vector<Lookup>> look_up_all(const Finish& finish);
     std::vector<PictureKey> keys_of(std::span<const View> views, const DrawPlan& plan,
                                     const std::vector<NodeLookups>& lookups, const Finish& finish);
+    /// Whether a shadow shows on anything planned.
+    bool receives_any(const DrawPlan& plan) const;
     /// Brings the maps up to date the first time that a node of some plan receives shadows.
     void need_shadows(const DrawPlan& plan);
     void update_shadows();

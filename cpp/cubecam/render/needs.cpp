@@ -46,6 +46,11 @@ const FrozenSource& source_of(const SceneSnapshot& scene, const NodeSnapshot& no
     return node.environment.index() == 0 ? scene.environment : node.environment;
 }
 
+bool moves_vertices(const NodeSnapshot& node) {
+    const auto* shader = std::get_if<ShaderParameters>(&node.material.value.parameters);
+    return shader != nullptr && shader->moves_vertices();
+}
+
 bool is_seen(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe) {
     return node.in_probes && !uses(node, probe) && !is_excluded(node, scene.probes[probe].excluded);
 }

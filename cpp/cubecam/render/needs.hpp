@@ -18,6 +18,9 @@ bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excl
 /// The cube that a node's material looks up.
 const FrozenSource& source_of(const SceneSnapshot& scene, const NodeSnapshot& node);
 
+/// Whether a user's own source moves a node's vertices.
+bool moves_vertices(const NodeSnapshot& node);
+
 /// Whether a probe, or a render texture, of a node's scene sees the node.
 bool is_seen(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe);
 bool is_seen(const TextureSnapshot& texture, const NodeSnapshot& node);

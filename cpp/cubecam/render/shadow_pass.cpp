@@ -3,6 +3,7 @@
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/flip.hpp"
 #include "cubecam/render/instance.hpp"
+#include "cubecam/render/needs.hpp"
 #include "cubecam/scene/memory.hpp"
 #include "cubecam/scene/revision.hpp"
 
@@ -20,16 +21,10 @@ namespace {
 constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
 constexpr float nothing = 0.0F;  // depth is reversed
 
-/// Whether a user's own source moves its vertices.
-bool is_moved(const NodeSnapshot& node) {
-    const auto* shader = std::get_if<ShaderParameters>(&node.material.value.parameters);
-    return shader != nullptr && shader->moves_vertices();
-}
-
 void add_caster(Key& key, const NodeSnapshot& node, const ShadowPass::LookUp& look_up) {
     key.add(node.world);
     key.add(node.mesh->revision());
-    if (!is_moved(node)) return;
+    if (!moves_vertices(node)) return;
     key.add(node.material.revision);
     for (const Lookup& texture : look_up(node)) key.add(texture.revision);
 }
@@ -179,7 +174,7 @@ void ShadowPass::draw_layer(const SceneSnapshot& scene, const ShadowView& view,
                         [layer](const PlannedNode::Sight& sight) { return sight.view == layer; });
         if (!seen) continue;
         const NodeSnapshot& node = scene.nodes[planned.node];
-        if (is_moved(node)) {
+        if (moves_vertices(node)) {
             moved.push_back(&node);
             continue;
         }
