@@ -566,8 +566,8 @@ MUTATIONS = [
     Mutation(
         "P8: the eyes change places",
         "python/cubecam/examples/anaglyph.py",
-        "    return Program(scene, camera, stereo, ring)",
-        "    return Program(scene, camera, cc.StereoCamera(stereo.right, stereo.left), ring)",
+        "return Program(scene, camera, stereo, ring)",
+        "return Program(scene, camera, cc.StereoCamera(stereo.right, stereo.left), ring)",
         ("tests/programs/test_p08_anaglyph.py",),
     ),
     Mutation(

@@ -2368,7 +2368,7 @@ class ShaderMaterial(Material):
     @property
     def textures(self) -> collections.abc.MutableMapping[str, typing.Any]:
         """
-        Mapping of str to Image, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture.
+        Mapping of str to Image, RenderTexture, CubeMap or Probe: a name set here shows in the next picture.
         """
     @textures.setter
     def textures(self, values: typing.Any) -> None:
@@ -2496,7 +2496,7 @@ class ImageEffect:
     @property
     def textures(self) -> collections.abc.MutableMapping[str, typing.Any]:
         """
-        Mapping of str to Image, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture.
+        Mapping of str to Image, RenderTexture, CubeMap or Probe: a name set here shows in the next picture.
         """
     @textures.setter
     def textures(self, values: typing.Any) -> None:

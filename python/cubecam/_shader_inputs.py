@@ -59,7 +59,7 @@ def set_uniforms(self: ShaderMaterial | ImageEffect, values: Any) -> None:
 
 
 def textures(self: ShaderMaterial | ImageEffect) -> MutableMapping[str, Any]:
-    """Mapping of str to Image, RenderTexture, CubeMap or Probe: ``textures["noise"] = image`` shows in the next picture."""
+    """Mapping of str to Image, RenderTexture, CubeMap or Probe: a name set here shows in the next picture."""
     return ShaderInputs(self, "texture")
 
 
