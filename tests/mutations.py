@@ -655,4 +655,18 @@ MUTATIONS = [
         "",
         ("tests/gl/test_effects.py",),
     ),
+    Mutation(
+        "circles: shadows forgotten",
+        NEEDS,
+        "needs.insert(needs.end(), casting_[scene].begin(), casting_[scene].end());",
+        "",
+        ("tests/gl/test_render_texture_circles.py",),
+    ),
+    Mutation(
+        "shadow: hangs on all textures",
+        NEEDS,
+        "if (mentions(shader.vertex.text, name)) found.push_back(place);",
+        "found.push_back(place);",
+        ("tests/gl/test_render_texture_circles.py",),
+    ),
 ]

@@ -71,6 +71,11 @@ void translate(std::exception_ptr pointer) {
         py::set_error(classes.error, error.what());
     } catch (const TypeError& error) {
         py::set_error(PyExc_TypeError, error.what());
+    } catch (const py::cast_error&) {
+        // pybind11 would make it a RuntimeError that speaks of C++.
+        py::set_error(PyExc_TypeError,
+                      "expected text that is valid Unicode, numbers in range and objects whose "
+                      "__init__ was called, got an argument that is not");
     }
 }
 

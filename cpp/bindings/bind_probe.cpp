@@ -1,6 +1,7 @@
 // cubecam.Probe
 #include "formats.hpp"
 #include "node_list.hpp"
+#include "numbers.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -10,6 +11,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,7 +94,7 @@ void set_update(ProbeValue& value, py::handle update) {
     if (py::isinstance<py::bool_>(update) || !PyIndex_Check(update.ptr())) {
         refuse(update, "update", expected);
     }
-    value.every = py::int_(py::reinterpret_borrow<py::object>(update)).cast<int>();
+    value.every = static_cast<int>(to_int(update, "update", 1, std::numeric_limits<int>::max()));
     value.update = ProbeUpdate::every_n_frames;
 }
 

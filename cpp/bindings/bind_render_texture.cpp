@@ -73,7 +73,8 @@ uv (0, 0) is the picture's bottom-left, as with an `Image`. Its alpha counts whe
 own opacity is below 1; it does not make a surface translucent by itself.
 
 A picture that shows itself, directly, by other render textures or by probes, has no end: drawing
-what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`.
+what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`. What
+is left out still casts: a shadow whose caster moves its vertices by the picture must not fall there.
 
 Examples
 --------

@@ -41,7 +41,15 @@ std::string names_of(const Map& map) {
 
 UserSource to_user_source(py::handle value, const char* name) {
     if (value.is_none()) return {};
-    if (py::isinstance<py::str>(value)) return {value.cast<std::string>(), {}};
+    if (py::isinstance<py::str>(value)) {
+        std::string text = value.cast<std::string>();
+        // A driver would stop there, and tell of what it misses after it.
+        if (const std::size_t at = text.find('\0'); at != std::string::npos) {
+            throw py::value_error(std::string(name) + ": expected GLSL, got a NUL at byte " +
+                                  std::to_string(at));
+        }
+        return {std::move(text), {}};
+    }
     if (!py::hasattr(value, "__fspath__")) {
         refuse(value, name, "GLSL as a str, or a pathlib.Path of a file");
     }

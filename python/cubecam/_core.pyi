@@ -490,7 +490,8 @@ class RenderTexture:
     own opacity is below 1; it does not make a surface translucent by itself.
 
     A picture that shows itself, directly, by other render textures or by probes, has no end: drawing
-    what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`.
+    what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`. What
+    is left out still casts: a shadow whose caster moves its vertices by the picture must not fall there.
 
     Examples
     --------

@@ -306,3 +306,72 @@ def test_each_scene_is_seen_at_one_moment(new_renderer):
     finally:
         stop.set()
         thread.join()
+
+
+MOVED = """uniform sampler2D t;
+void vertex(inout Vertex v) { v.position.x += textureLod(t, vec2(0.5), 0.0).r; }"""
+MOVED_BY_CUBE = """uniform samplerCube t;
+void vertex(inout Vertex v) { v.position.x += textureLod(t, v.position, 0.0).r; }"""
+SHADE = "vec3 shade(Surface s) { return vec3(0.5); }"
+BY_SHADOW = OUT + ", those that cast by it with casts_shadows=False"
+
+
+def lamp_and_floor():
+    """A scene in which shadows fall, and a texture that looks at it from above."""
+    scene = cc.Scene()
+    scene.add(cc.PointLight((0, 3, 0), shadow=cc.Shadow(32)))
+    floor = scene.add(cc.Mesh.plane(6, 6), cc.PhongMaterial(ks=0), position=(0, -1, 0))
+    eye = cc.PerspectiveCamera(position=(0, 5, 0.01), target=(0, 0, 0))
+    return scene, floor, cc.RenderTexture(scene, eye, (8, 8), "rgba32f", name="above")
+
+
+def from_aside(renderer, scene):
+    camera = cc.PerspectiveCamera(position=(2, 3, 4), target=(0, 0, 0))
+    return renderer.render(scene, camera, (32, 32), format="rgba32f").color
+
+
+def test_by_the_shadow_of_what_it_moves(any_path):
+    """Left out of the texture it still casts there; not so without its shadow, or where none is received."""
+    scene, floor, above = lamp_and_floor()
+    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, MOVED, textures={"t": above}))
+    above.exclude = [box]
+    text = 'RenderTexture "above" shows itself: "above" -> "above"' + BY_SHADOW
+    with pytest.raises(ValueError, match="shows itself") as error:
+        from_aside(any_path, scene)
+    assert str(error.value) == text
+    box.casts_shadows = False
+    first = from_aside(any_path, scene)
+    assert_identical(from_aside(any_path, scene), first)
+    assert (any_path.stats.views_drawn, any_path.stats.textures_updated) == (0, 0)
+    box.casts_shadows, floor.receives_shadows = True, False
+    from_aside(any_path, scene)
+    from_aside(any_path, scene)
+    assert (any_path.stats.views_drawn, any_path.stats.textures_updated) == (0, 0)
+
+
+def test_a_probe_by_the_shadow_of_what_it_moves(renderer):
+    scene, _, _ = lamp_and_floor()
+    probe = cc.Probe(position=(0, 1, 0), size=8)
+    box = scene.add(
+        cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, MOVED_BY_CUBE, textures={"t": probe})
+    )
+    way = f"the probe of node {box.id}"
+    with pytest.raises(ValueError, match="shows itself") as error:
+        from_aside(renderer, scene)
+    assert str(error.value) == f"{way} shows itself: {way} -> {way}" + BY_SHADOW
+
+
+@pytest.mark.parametrize("kind", ["sampler2D", "samplerCube"])
+def test_what_only_colours_a_moved_caster_is_no_circle(any_path, kind):
+    """Waves that mirror a scene with shadows: the shadow hangs on the vertices alone, and all comes to rest."""
+    scene, _, above = lamp_and_floor()
+    source = above if kind == "sampler2D" else cc.Probe(position=(0, 1, 0), size=8)
+    coordinate = "s.uv" if kind == "sampler2D" else "s.normal"
+    fragment = f"uniform {kind} t; vec3 shade(Surface s) {{ return texture(t, {coordinate}).rgb; }}"
+    wave = "void vertex(inout Vertex v) { v.position.y += 0.1; }"
+    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(fragment, wave, textures={"t": source}))
+    above.exclude = [box]
+    first = from_aside(any_path, scene)
+    assert_identical(from_aside(any_path, scene), first)
+    stats = any_path.stats
+    assert (stats.views_drawn, stats.shadow_views_drawn, stats.probes_updated) == (0, 0, 0)

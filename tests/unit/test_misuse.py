@@ -64,3 +64,29 @@ def test_sizes_that_no_memory_holds_are_refused():
 def test_arguments_of_the_wrong_kind(renderer, options):
     with pytest.raises(TypeError):
         renderer.capture(cc.Scene(), **options)
+
+
+@pytest.mark.parametrize(
+    "misuse",
+    [
+        lambda: cc.ShaderMaterial("// \udc80\nvec3 shade(Surface s) { return vec3(1); }"),
+        lambda: cc.BasicMaterial(blend="\ud800"),
+        lambda: cc.Renderer(device="\ud800"),
+        lambda: cc.Scene(environment=cc.CubeMap.__new__(cc.CubeMap)),
+        lambda: setattr(cc.PointLight(), "shadow", cc.Shadow.__new__(cc.Shadow)),
+    ],
+)
+def test_what_has_no_meaning_in_cpp_is_a_type_error(misuse):
+    with pytest.raises(TypeError, match=r"^expected text that is valid Unicode"):
+        misuse()
+
+
+@pytest.mark.parametrize("frames", [0, -1, 2**31, 2**70])
+def test_probes_are_updated_every_so_many_frames(frames):
+    with pytest.raises(ValueError, match=r"^update: expected an int from 1 to 2147483647, got"):
+        cc.Probe(update=frames)
+
+
+def test_a_nul_in_glsl_is_told_where_it_is():
+    with pytest.raises(ValueError, match=r"^fragment: expected GLSL, got a NUL at byte 40$"):
+        cc.ShaderMaterial("vec3 shade(Surface s) { return vec3(1); }"[:40] + "\0 }")

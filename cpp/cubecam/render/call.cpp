@@ -55,13 +55,7 @@ std::vector<std::size_t> Call::needs_of(const DrawPlan& plan) const {
             session_.numbers.add_needs(scene_, number_, scene_.nodes[planned.node], needs);
         }
     }
-    // What casts a shadow may be out of view, and still move its vertices by a texture.
-    if (receives_any(plan)) {
-        for (const NodeSnapshot& node : scene_.nodes) {
-            if (!node.casts_shadows || !moves_vertices(node)) continue;
-            session_.numbers.add_needs(scene_, number_, node, needs);
-        }
-    }
+    if (receives_any(plan)) session_.numbers.add_shadow_needs(scene_, number_, needs);
     return unique(std::move(needs));
 }
 
@@ -321,7 +315,11 @@ void Call::need_shadows(const DrawPlan& plan) {
 
 void Call::update_shadows() {
     const auto look_up_in = [this](const NodeSnapshot& node) {
-        return look_up(node, std::nullopt).textures;
+        std::vector<Lookup> found(node.textures.size());
+        for (const std::size_t place : vertex_textures(node)) {
+            found[place] = look_up(node.textures[place], std::nullopt);
+        }
+        return found;
     };
     shadows_ = gpu_.shadows.update(scene_, light_ranks_, look_up_in, stats);
 }
@@ -336,11 +334,15 @@ Buffer<float> Call::shadow_map(std::size_t light) {
 
 void Call::draw(std::span<const View> views, Target& target,
                 const std::function<bool(const NodeSnapshot&)>& wanted, const Finish& finish) {
-    if (!session_.asked_for.textures.empty()) {
+    if (may_have_circles(session_.asked_for, session_.numbers)) {
         std::vector<std::size_t> shown;
+        bool receives = false;
         for (const NodeSnapshot& node : scene_.nodes) {
-            if (wanted(node)) session_.numbers.add_needs(scene_, number_, node, shown);
+            if (!wanted(node)) continue;
+            session_.numbers.add_needs(scene_, number_, node, shown);
+            receives = receives || receives_shadows(node);
         }
+        if (receives) session_.numbers.add_shadow_needs(scene_, number_, shown);
         session_.numbers.add_needs(finish.effects, shown);
         refuse_circles(session_.asked_for, session_.numbers, unique(std::move(shown)));
     }

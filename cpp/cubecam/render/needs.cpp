@@ -1,6 +1,7 @@
 #include "cubecam/render/needs.hpp"
 
 #include "cubecam/render/probe_order.hpp"
+#include "cubecam/render/surface_pass.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -51,6 +52,18 @@ bool moves_vertices(const NodeSnapshot& node) {
     return shader != nullptr && shader->moves_vertices();
 }
 
+std::vector<std::size_t> vertex_textures(const NodeSnapshot& node) {
+    std::vector<std::size_t> found;
+    if (!moves_vertices(node)) return found;
+    const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
+    std::size_t place = 0;
+    for (const auto& [name, source] : shader.inputs.textures) {
+        if (mentions(shader.vertex.text, name)) found.push_back(place);
+        ++place;
+    }
+    return found;
+}
+
 bool is_seen(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe) {
     return node.in_probes && !uses(node, probe) && !is_excluded(node, scene.probes[probe].excluded);
 }
@@ -76,19 +89,31 @@ PictureNumbers::Place PictureNumbers::place(std::size_t picture) const {
 
 void PictureNumbers::add_needs(const SceneSnapshot& scene, std::size_t number,
                                const NodeSnapshot& node, std::vector<std::size_t>& to) const {
-    const auto add_source = [&](const FrozenSource& source) {
-        if (const auto* probe = std::get_if<std::size_t>(&source)) {
-            to.push_back(of_probe(number, *probe));
-        }
-    };
-    add_source(source_of(scene, node));
+    add_needs(number, source_of(scene, node), to);
     add_needs(node.map, to);
-    for (const FrozenTexture& texture : node.textures) {
-        if (const auto* source = std::get_if<FrozenSource>(&texture)) {
-            add_source(*source);
-        } else {
-            add_needs(std::get<FrozenMap>(texture), to);
+    for (const FrozenTexture& texture : node.textures) add_needs(number, texture, to);
+}
+
+void PictureNumbers::add_shadow_needs(const SceneSnapshot& scene, std::size_t number,
+                                      std::vector<std::size_t>& to) const {
+    if (std::none_of(scene.lights.begin(), scene.lights.end(),
+                     [](const LightSnapshot& light) { return light.value.shadow.has_value(); })) {
+        return;
+    }
+    for (const NodeSnapshot& node : scene.nodes) {
+        if (!node.casts_shadows) continue;
+        for (const std::size_t place : vertex_textures(node)) {
+            add_needs(number, node.textures[place], to);
         }
+    }
+}
+
+void PictureNumbers::add_needs(std::size_t number, const FrozenTexture& texture,
+                               std::vector<std::size_t>& to) const {
+    const auto* source = std::get_if<FrozenSource>(&texture);
+    if (source == nullptr) return add_needs(std::get<FrozenMap>(texture), to);
+    if (const auto* probe = std::get_if<std::size_t>(source)) {
+        to.push_back(of_probe(number, *probe));
     }
 }
 
@@ -118,7 +143,7 @@ class Contents {
 public:
     Contents(const SceneSnapshot& asked_for, const PictureNumbers& numbers)
         : asked_for_(asked_for), numbers_(numbers), showing_(asked_for.others.size() + 1),
-          needs_(numbers.count()), found_(numbers.count(), false) {
+          casting_(showing_.size()), needs_(numbers.count()), found_(numbers.count(), false) {
         for (std::size_t s = 0; s < showing_.size(); ++s) {
             const SceneSnapshot& scene = asked_for.scene(s);
             for (const NodeSnapshot& node : scene.nodes) {
@@ -126,7 +151,16 @@ public:
                 numbers.add_needs(scene, s, node, shown);
                 if (!shown.empty()) showing_[s].push_back({&node, std::move(shown)});
             }
+            numbers.add_shadow_needs(scene, s, casting_[s]);
         }
+    }
+
+    /// What the shadows of any scene hang on.
+    std::vector<std::size_t> casting() const {
+        std::vector<std::size_t> all;
+        for (const auto& pictures : casting_)
+            all.insert(all.end(), pictures.begin(), pictures.end());
+        return unique(std::move(all));
     }
 
     /// The needs of all that `roots` lead to.
@@ -153,6 +187,12 @@ private:
         const PictureNumbers::Place place = numbers_.place(picture);
         std::vector<std::size_t> needs;
         const auto add = [&](std::size_t scene, const auto& seen) {
+            const std::vector<NodeSnapshot>& nodes = asked_for_.scene(scene).nodes;
+            if (std::any_of(nodes.begin(), nodes.end(), [&seen](const NodeSnapshot& node) {
+                    return receives_shadows(node) && seen(node);
+                })) {
+                needs.insert(needs.end(), casting_[scene].begin(), casting_[scene].end());
+            }
             for (const Showing& showing : showing_[scene]) {
                 if (!seen(*showing.node)) continue;
                 needs.insert(needs.end(), showing.pictures.begin(), showing.pictures.end());
@@ -172,7 +212,8 @@ private:
 
     const SceneSnapshot& asked_for_;
     const PictureNumbers& numbers_;
-    std::vector<std::vector<Showing>> showing_;  // of each scene
+    std::vector<std::vector<Showing>> showing_;      // of each scene
+    std::vector<std::vector<std::size_t>> casting_;  // the same: what its shadows hang on
     std::vector<std::vector<std::size_t>> needs_;
     std::vector<bool> found_;
 };
@@ -217,9 +258,17 @@ std::string label(const SceneSnapshot& asked_for, const PictureNumbers& numbers,
 
 }  // namespace
 
+bool may_have_circles(const SceneSnapshot& asked_for, const PictureNumbers& numbers) {
+    std::vector<std::size_t> casting;
+    for (std::size_t s = 0; s <= asked_for.others.size(); ++s) {
+        numbers.add_shadow_needs(asked_for.scene(s), s, casting);
+    }
+    return !asked_for.textures.empty() || !casting.empty();
+}
+
 void refuse_circles(const SceneSnapshot& asked_for, const PictureNumbers& numbers,
                     const std::vector<std::size_t>& roots) {
-    if (asked_for.textures.empty()) return;
+    if (!may_have_circles(asked_for, numbers)) return;
     Contents contents(asked_for, numbers);
     const auto& needs = contents.follow(roots);
     const std::vector<std::size_t> components = order_probes(needs, roots).components;
@@ -227,17 +276,21 @@ void refuse_circles(const SceneSnapshot& asked_for, const PictureNumbers& number
     for (const std::size_t component : components) {
         if (component < members.size()) ++members[component];
     }
+    // Other probes may go in circles: what comes too late shows the environment.
+    std::vector<std::size_t> strict = contents.casting();
     for (std::size_t t = 0; t < asked_for.textures.size(); ++t) {
-        const std::size_t texture = numbers.of_texture(t);
+        strict.push_back(numbers.of_texture(t));
+    }
+    for (const std::size_t picture : strict) {
         const bool by_others =
-            components[texture] < members.size() && members[components[texture]] > 1;
+            components[picture] < members.size() && members[components[picture]] > 1;
         const bool directly =
-            std::binary_search(needs[texture].begin(), needs[texture].end(), texture);
+            std::binary_search(needs[picture].begin(), needs[picture].end(), picture);
         if (!by_others && !directly) continue;
 
         constexpr std::size_t most_named = 12;
-        const std::vector<std::size_t> way = circle(needs, texture);
-        const std::string first = label(asked_for, numbers, texture, 1);
+        const std::vector<std::size_t> way = circle(needs, picture);
+        const std::string first = label(asked_for, numbers, picture, 1);
         std::string text =
             (first.front() == '"' ? "RenderTexture " : "") + first + " shows itself: " + first;
         for (std::size_t i = 1; i + 1 < way.size(); ++i) {
@@ -247,8 +300,9 @@ void refuse_circles(const SceneSnapshot& asked_for, const PictureNumbers& number
             }
             text += " -> " + label(asked_for, numbers, way[i], i + 1);
         }
-        throw std::invalid_argument(text + " -> " + first +
-                                    "; leave the nodes that show it out with exclude=");
+        text += " -> " + first + "; leave the nodes that show it out with exclude=";
+        if (!contents.casting().empty()) text += ", those that cast by it with casts_shadows=False";
+        throw std::invalid_argument(text);
     }
 }
 

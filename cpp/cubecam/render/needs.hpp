@@ -21,6 +21,9 @@ const FrozenSource& source_of(const SceneSnapshot& scene, const NodeSnapshot& no
 /// Whether a user's own source moves a node's vertices.
 bool moves_vertices(const NodeSnapshot& node);
 
+/// The places, among a node's textures, of those that its vertices are moved by.
+std::vector<std::size_t> vertex_textures(const NodeSnapshot& node);
+
 /// Whether a probe, or a render texture, of a node's scene sees the node.
 bool is_seen(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe);
 bool is_seen(const TextureSnapshot& texture, const NodeSnapshot& node);
@@ -46,10 +49,16 @@ public:
     /// Adds the pictures that a node of a scene shows.
     void add_needs(const SceneSnapshot& scene, std::size_t number, const NodeSnapshot& node,
                    std::vector<std::size_t>& to) const;
+    /// Adds those that the shadows of a scene hang on: by them what casts moves its vertices, in
+    /// view or not, and shown elsewhere or not.
+    void add_shadow_needs(const SceneSnapshot& scene, std::size_t number,
+                          std::vector<std::size_t>& to) const;
     /// Adds those that effects show.
     void add_needs(const std::vector<EffectSnapshot>& effects, std::vector<std::size_t>& to) const;
 
 private:
+    void add_needs(std::size_t number, const FrozenTexture& texture,
+                   std::vector<std::size_t>& to) const;
     void add_needs(const FrozenMap& map, std::vector<std::size_t>& to) const;
 
     std::vector<std::size_t> first_;  // of each scene's probes, then of the textures
@@ -59,8 +68,12 @@ private:
 /// Each once, ascending.
 std::vector<std::size_t> unique(std::vector<std::size_t> pictures);
 
+/// Whether there may be anything for refuse_circles to find.
+bool may_have_circles(const SceneSnapshot& asked_for, const PictureNumbers& numbers);
+
 /// Refuses render textures that show themselves, directly or by others or by probes, among those
-/// that the pictures `roots` may lead to. It goes by what the scenes hold and not by what is in
+/// that the pictures `roots` may lead to; and probes that shadows hang on and that show those
+/// shadows. It goes by what the scenes hold and not by what is in
 /// view: turning a camera must not make an error appear.
 /// @throws std::invalid_argument naming the chain.
 void refuse_circles(const SceneSnapshot& asked_for, const PictureNumbers& numbers,
