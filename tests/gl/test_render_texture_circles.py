@@ -26,11 +26,10 @@ def show(texture, scene, **place):
 
 
 def refused(renderer, text, draw):
-    """The message is `text`, nothing was drawn, and the renderer draws other scenes as before."""
+    """The message is `text`, and the renderer draws other scenes as before."""
     with pytest.raises(ValueError, match="shows itself") as error:
         draw()
     assert str(error.value) == text + OUT
-    assert renderer.stats.views_drawn == 0
     assert_close(look(renderer, screen_scene(flat_texture(PICTURE))[0])[..., :3], PICTURE, "lookup")
 
 
@@ -70,6 +69,15 @@ def test_by_way_of_others(renderer, order):
     look(renderer, scene)
     assert renderer.stats.textures_updated == 3
     assert node.visible
+
+
+def test_nothing_is_drawn_before_it_is_refused(renderer):
+    a, fine = empty("a"), flat_texture(PICTURE)
+    show(fine, a.scene)
+    show(a, a.scene, position=(0, 0, 1))
+    refused(renderer, 'RenderTexture "a" shows itself: "a" -> "a"', lambda: look(renderer, a.scene))
+    with pytest.raises(ValueError, match="one that this renderer has drawn"):
+        renderer.texture(fine)
 
 
 def test_the_chain_is_the_shortest(renderer):
