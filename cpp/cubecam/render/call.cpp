@@ -303,10 +303,8 @@ bool Call::receives_any(const DrawPlan& plan) const {
     const auto receives = [this](const PlannedNode& planned) {
         return receives_shadows(scene_.nodes[planned.node]);
     };
-    return std::any_of(scene_.lights.begin(), scene_.lights.end(),
-                       [](const LightSnapshot& light) { return light.value.shadow.has_value(); }) &&
-           (std::any_of(plan.opaque.begin(), plan.opaque.end(), receives) ||
-            std::any_of(plan.late.begin(), plan.late.end(), receives));
+    return has_shadows(scene_) && (std::any_of(plan.opaque.begin(), plan.opaque.end(), receives) ||
+                                   std::any_of(plan.late.begin(), plan.late.end(), receives));
 }
 
 void Call::need_shadows(const DrawPlan& plan) {

@@ -1,7 +1,6 @@
 #include "cubecam/render/needs.hpp"
 
 #include "cubecam/render/probe_order.hpp"
-#include "cubecam/render/surface_pass.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -28,6 +27,13 @@ bool uses(const NodeSnapshot& node, std::size_t probe) {
                        });
 }
 
+bool asks_lights(const PhongParameters&) { return true; }
+bool asks_lights(const ShaderParameters& p) { return p.asks_lights(); }
+template <class Parameters>
+bool asks_lights(const Parameters&) {
+    return false;
+}
+
 }  // namespace
 
 bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded) {
@@ -50,6 +56,16 @@ const FrozenSource& source_of(const SceneSnapshot& scene, const NodeSnapshot& no
 bool moves_vertices(const NodeSnapshot& node) {
     const auto* shader = std::get_if<ShaderParameters>(&node.material.value.parameters);
     return shader != nullptr && shader->moves_vertices();
+}
+
+bool receives_shadows(const NodeSnapshot& node) {
+    return node.receives_shadows &&
+           std::visit([](const auto& p) { return asks_lights(p); }, node.material.value.parameters);
+}
+
+bool has_shadows(const SceneSnapshot& scene) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [](const LightSnapshot& light) { return light.value.shadow.has_value(); });
 }
 
 std::vector<std::size_t> vertex_textures(const NodeSnapshot& node) {
@@ -96,10 +112,7 @@ void PictureNumbers::add_needs(const SceneSnapshot& scene, std::size_t number,
 
 void PictureNumbers::add_shadow_needs(const SceneSnapshot& scene, std::size_t number,
                                       std::vector<std::size_t>& to) const {
-    if (std::none_of(scene.lights.begin(), scene.lights.end(),
-                     [](const LightSnapshot& light) { return light.value.shadow.has_value(); })) {
-        return;
-    }
+    if (!has_shadows(scene)) return;
     for (const NodeSnapshot& node : scene.nodes) {
         if (!node.casts_shadows) continue;
         for (const std::size_t place : vertex_textures(node)) {
@@ -268,7 +281,6 @@ bool may_have_circles(const SceneSnapshot& asked_for, const PictureNumbers& numb
 
 void refuse_circles(const SceneSnapshot& asked_for, const PictureNumbers& numbers,
                     const std::vector<std::size_t>& roots) {
-    if (!may_have_circles(asked_for, numbers)) return;
     Contents contents(asked_for, numbers);
     const auto& needs = contents.follow(roots);
     const std::vector<std::size_t> components = order_probes(needs, roots).components;

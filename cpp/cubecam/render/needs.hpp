@@ -21,6 +21,12 @@ const FrozenSource& source_of(const SceneSnapshot& scene, const NodeSnapshot& no
 /// Whether a user's own source moves a node's vertices.
 bool moves_vertices(const NodeSnapshot& node);
 
+/// Whether shadows show on a node: its material asks the lights.
+bool receives_shadows(const NodeSnapshot& node);
+
+/// Whether any light of a scene has a shadow.
+bool has_shadows(const SceneSnapshot& scene);
+
 /// The places, among a node's textures, of those that its vertices are moved by.
 std::vector<std::size_t> vertex_textures(const NodeSnapshot& node);
 

@@ -4,6 +4,7 @@
 #include "cubecam/render/clear.hpp"
 #include "cubecam/render/draw_block.hpp"
 #include "cubecam/render/instance.hpp"
+#include "cubecam/render/needs.hpp"
 #include "cubecam/render/raster_state.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -52,22 +53,6 @@ glm::vec4 cone_of(const SpotParameters& spot) {
 }
 
 }  // namespace
-
-namespace {
-
-bool asks_lights(const PhongParameters&) { return true; }
-bool asks_lights(const ShaderParameters& p) { return p.asks_lights(); }
-template <class Parameters>
-bool asks_lights(const Parameters&) {
-    return false;
-}
-
-}  // namespace
-
-bool receives_shadows(const NodeSnapshot& node) {
-    return node.receives_shadows &&
-           std::visit([](const auto& p) { return asks_lights(p); }, node.material.value.parameters);
-}
 
 SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering)
     : context_(&context), gl_(&context.gl()), cache_(&cache),

@@ -41,9 +41,6 @@ struct PassInput {
     std::span<const ShadowUse> shadows;
 };
 
-/// Whether shadows show on a node: its material asks the lights.
-bool receives_shadows(const NodeSnapshot& node);
-
 /// Whether all views of a mesh go into one draw call.
 enum class Layering { never, where_faster, always };
 

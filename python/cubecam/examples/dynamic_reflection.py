@@ -100,6 +100,12 @@ def circle(actor: cc.Node, radians: float) -> None:
     actor.rotation = cc.axis_angle((0, 1, 0), math.degrees(radians))
 
 
+def go_round(actors: tuple[cc.Node, cc.Node], frame: int) -> None:
+    """Put the actors, opposite each other, where a tenth of a radian a frame has taken them."""
+    for index, actor in enumerate(actors):
+        circle(actor, TURN * frame + index * math.pi)
+
+
 def draw(
     program: Program,
     renderer: cc.Renderer,
@@ -108,6 +114,5 @@ def draw(
     **options: Any,
 ) -> Picture:
     """Draw a frame: the actors, opposite each other, have gone on by a tenth of a radian a frame."""
-    for index, actor in enumerate(program.actors):
-        circle(actor, TURN * frame + index * math.pi)
+    go_round(program.actors, frame)
     return picture(renderer, program.scene, program.camera, size, options)

@@ -13,7 +13,6 @@ that bends here: light that leaves a real ball is bent a second time.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,8 +23,7 @@ from .cubemap_on_a_cube import FAR, NEAR, PROBE
 from .dynamic_reflection import (
     BALL,
     SCALE,
-    TURN,
-    circle,
+    go_round,
     gold,
     main_camera,
     stage,
@@ -83,6 +81,5 @@ def draw(
     **options: Any,
 ) -> Picture:
     """Draw a frame: the actors have gone on by a tenth of a radian a frame."""
-    for index, actor in enumerate(program.actors):
-        circle(actor, TURN * frame + index * math.pi)
+    go_round(program.actors, frame)
     return picture(renderer, program.scene, program.camera, size, options)

@@ -14,7 +14,6 @@ Or set the colour of an actor to the colour it has: equal is no change.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,7 +22,7 @@ import cubecam as cc
 from . import dynamic_reflection
 from ._common import Picture, picture
 from .cubemap_on_a_cube import PROBE
-from .dynamic_reflection import TURN, circle
+from .dynamic_reflection import TURN, circle, go_round
 
 PROGRAM = "P15"
 TITLE = "Nothing is drawn again while nothing it sees has changed"
@@ -47,8 +46,7 @@ class Program:
 def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
     """Make P14's scene, actors in their places of frame 0."""
     made = dynamic_reflection.build(probe_size, probe_format)
-    for index, actor in enumerate(made.actors):
-        circle(actor, index * math.pi)
+    go_round(made.actors, 0)
     return Program(made.scene, made.camera, made.ball, made.actors[0], made.probe)
 
 
