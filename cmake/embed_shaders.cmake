@@ -1,20 +1,21 @@
 # cubecam_embed_shaders(TARGET DIR)
 #
-# Compiles every *.glsl, *.vert, *.tesc, *.tese, *.geom, *.frag and *.comp file of DIR into TARGET, as the table that
-# cubecam::gl::embedded_shaders() returns (cpp/cubecam/gl/embedded.hpp), sorted by name. The table is written anew when
-# a shader changes, comes or goes; nothing is read from disk at run time.
+# Compiles every *.glsl, *.vert, *.tesc, *.tese, *.geom, *.frag and *.comp file below DIR into TARGET, as the table that
+# cubecam::gl::embedded_shaders() returns (cpp/cubecam/gl/embedded.hpp), sorted by path. A shader's name in the table is
+# its path from DIR. The table is written anew when a shader changes, comes or goes; nothing is read from disk at run
+# time.
 function(cubecam_embed_shaders target directory)
     set(patterns "")
     foreach(ending IN ITEMS glsl vert tesc tese geom frag comp)
         list(APPEND patterns "${directory}/*.${ending}")
     endforeach()
-    file(GLOB shaders CONFIGURE_DEPENDS ${patterns})
+    file(GLOB_RECURSE shaders CONFIGURE_DEPENDS ${patterns})
     list(SORT shaders)
 
     set(script "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/write_shader_table.cmake")
     set(output "${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp")
     add_custom_command(OUTPUT "${output}"
-        COMMAND "${CMAKE_COMMAND}" "-DOUTPUT=${output}" "-DSHADERS=${shaders}" -P "${script}"
+        COMMAND "${CMAKE_COMMAND}" "-DOUTPUT=${output}" "-DDIRECTORY=${directory}" "-DSHADERS=${shaders}" -P "${script}"
         DEPENDS ${shaders} "${script}"
         COMMENT "Embedding the shaders"
         VERBATIM)

@@ -1,4 +1,4 @@
-# cmake -DOUTPUT=<file.cpp> -DSHADERS=<files> -P write_shader_table.cmake
+# cmake -DOUTPUT=<file.cpp> -DDIRECTORY=<folder> -DSHADERS=<files> -P write_shader_table.cmake
 #
 # Writes the table of embedded shaders; run by cubecam_embed_shaders at build.
 
@@ -7,7 +7,7 @@ set(chunk_size 8000)
 
 set(entries "")
 foreach(shader IN LISTS SHADERS)
-    get_filename_component(name "${shader}" NAME)
+    file(RELATIVE_PATH name "${DIRECTORY}" "${shader}")
     file(READ "${shader}" text)
     string(FIND "${text}" ")glsl\"" delimiter)
     if(NOT delimiter EQUAL -1)

@@ -36,10 +36,10 @@ SHADOWS = ("tests/gl/test_shadows.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 
 CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
-CALL = "cpp/cubecam/render/call.cpp"
-NEEDS = "cpp/cubecam/render/needs.cpp"
-SURFACE = "cpp/cubecam/render/surface_pass.cpp"
-RASTER = "cpp/cubecam/render/raster_state.cpp"
+CALL = "cpp/cubecam/render/graph/call.cpp"
+NEEDS = "cpp/cubecam/render/graph/dependencies.cpp"
+SURFACE = "cpp/cubecam/render/passes/surface_pass.cpp"
+RASTER = "cpp/cubecam/render/passes/raster_state.cpp"
 
 MUTATIONS = [
     # The convention, in its one place and in those that derive from it.
@@ -73,28 +73,28 @@ MUTATIONS = [
     ),
     Mutation(
         "corner: average of four",
-        "cpp/cubecam/scene/cube_texels.hpp",
+        "cpp/cubecam/cubemap/cube_texels.hpp",
         "3.0f;",
         "4.0f;",
         SAMPLE,
     ),
     Mutation(
         "convention: inside flips +-Y left-right",
-        "cpp/cubecam/scene/cubemap_layout.cpp",
+        "cpp/cubecam/cubemap/cubemap_layout.cpp",
         "return {face, !vertical, vertical};",
         "return {face, true, false};",
         CONVENTIONS,
     ),
     Mutation(
         "convention: three does not swap",
-        "cpp/cubecam/scene/cubemap_layout.cpp",
+        "cpp/cubecam/cubemap/cubemap_layout.cpp",
         "face == Face::pos_x ? Face::neg_x : face == Face::neg_x ? Face::pos_x",
         "face == Face::pos_x ? Face::pos_x : face == Face::neg_x ? Face::neg_x",
         CONVENTIONS,
     ),
     Mutation(
         "layout: last face of the vertical cross not turned",
-        "cpp/cubecam/scene/cubemap_layout.cpp",
+        "cpp/cubecam/cubemap/cubemap_layout.cpp",
         "Cell{back, 1, 3, true}",
         "Cell{back, 1, 3, false}",
         CONVENTIONS,
@@ -109,84 +109,84 @@ MUTATIONS = [
     # The renderer.
     Mutation(
         "skybox: mirrored",
-        "shaders/skybox.frag",
+        "shaders/passes/skybox.frag",
         "environment(normalize(direction))",
         "environment(normalize(direction * vec3(-1.0, 1.0, 1.0)))",
         ORIENTATION,
     ),
     Mutation(
         "skybox: moves with the camera",
-        "cpp/cubecam/render/view.cpp",
+        "cpp/cubecam/render/resources/view.cpp",
         "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
         "turned[3] *= 1.0;",
         SKYBOX,
     ),
     Mutation(
         "mirror: the normal's sign",
-        "shaders/mirror.glsl",
+        "shaders/materials/mirror.glsl",
         "environment(reflect(surface.incident, surface.normal))",
         "environment(surface.incident - 2.0 * surface.normal)",
         LOOKUPS,
     ),
     Mutation(
         "mirror: looks along the incident direction",
-        "shaders/surface.frag",
+        "shaders/passes/surface.frag",
         "normalize(v_position - v_eye.xyz)",
         "normalize(v_eye.xyz - v_position)",
         LOOKUPS,
     ),
     Mutation(
         "glass: eta upside down",
-        "shaders/glass.glsl",
+        "shaders/materials/glass.glsl",
         "refract(surface.incident, surface.normal, eta)",
         "refract(surface.incident, surface.normal, 1.0 / eta)",
         LOOKUPS,
     ),
     Mutation(
         "glass: parallel and perpendicular confused",
-        "shaders/glass.glsl",
+        "shaders/materials/glass.glsl",
         "f = 0.5 * (r_s * r_s + r_p * r_p);",
         "f = r_s * r_s;",
         LOOKUPS,
     ),
     Mutation(
         "phong: highlight on the dark side",
-        "shaders/phong.glsl",
+        "shaders/materials/phong.glsl",
         "if (n_dot_l <= 0.0) return vec3(0.0);",
         "",
         PHONG,
     ),
     Mutation(
         "phong: ambient for each light",
-        "shaders/phong.glsl",
+        "shaders/materials/phong.glsl",
         "result += light_answer(surface,",
         "result += result + light_answer(surface,",
         PHONG,
     ),
     Mutation(
         "phong: highlight towards the light",
-        "shaders/phong.glsl",
+        "shaders/materials/phong.glsl",
         "2.0 * n_dot_l * dot(surface.normal, surface.incident)",
         "0.0 * n_dot_l",
         PHONG,
     ),
     Mutation(
         "normals by the model matrix",
-        "shaders/surface.vert",
+        "shaders/passes/surface.vert",
         "v_normal = mat3(u_normal_matrix) * a_normal;",
         "v_normal = mat3(u_model) * a_normal;",
         CAPTURE + LOOKUPS,
     ),
     Mutation(
         "distance is z",
-        "shaders/surface.frag",
+        "shaders/passes/surface.frag",
         "o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;",
         "o_distance = z;",
         CAPTURE,
     ),
     Mutation(
         "frames upside down",
-        "cpp/cubecam/render/flip.hpp",
+        "cpp/cubecam/image/flip.hpp",
         "to + (rows - 1 - row) * row_bytes",
         "to + row * row_bytes",
         FRAMES,
@@ -207,28 +207,28 @@ MUTATIONS = [
     ),
     Mutation(
         "translucent: near to far",
-        "cpp/cubecam/render/draw_plan.cpp",
+        "cpp/cubecam/render/passes/draw_plan.cpp",
         "return a.distance > b.distance;",
         "return a.distance < b.distance;",
         ALPHA,
     ),
     Mutation(
         "translucent: higher order first",
-        "cpp/cubecam/render/draw_plan.cpp",
+        "cpp/cubecam/render/passes/draw_plan.cpp",
         "a.order < b.order : before(a, b)",
         "a.order > b.order : before(a, b)",
         ("tests/gl/test_render_order.py",),
     ),
     Mutation(
         "stencil: less the other way round",
-        "cpp/cubecam/render/stencil_state.cpp",
+        "cpp/cubecam/render/passes/stencil_state.cpp",
         "case StencilFunc::less: return GL_LESS;",
         "case StencilFunc::less: return GL_GREATER;",
         STENCIL,
     ),
     Mutation(
         "stencil: not cleared with the rest",
-        "cpp/cubecam/render/clear.cpp",
+        "cpp/cubecam/render/passes/clear.cpp",
         "gl.StencilMask(0xFF);",
         "",
         STENCIL,
@@ -288,14 +288,14 @@ MUTATIONS = [
     ),
     Mutation(
         "damage: where a node was is left as it is",
-        "cpp/cubecam/render/picture_key.cpp",
+        "cpp/cubecam/render/resources/picture_key.cpp",
         "if (found != old.end()) add(found->second->bounds);",
         "",
         ("tests/gl/test_damage.py",),
     ),
     Mutation(
         "damage: bounds mirrored",
-        "cpp/cubecam/render/screen_bounds.cpp",
+        "cpp/cubecam/render/passes/screen_bounds.cpp",
         "const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;",
         "const glm::dvec2 ndc = glm::dvec2(-clip.x, clip.y) / clip.w;",
         ("tests/gl/test_damage.py",),
@@ -317,8 +317,8 @@ MUTATIONS = [
     Mutation(
         "probe: sees its own user",
         NEEDS,
-        "return node.in_probes && !uses(node, probe) &&",
-        "return node.in_probes &&",
+        "return node.in_captures && !uses(node, probe) &&",
+        "return node.in_captures &&",
         PROBES,
     ),
     Mutation(
@@ -338,7 +338,7 @@ MUTATIONS = [
     ),
     Mutation(
         "texture: what it shows is not drawn first",
-        "cpp/cubecam/render/session.cpp",
+        "cpp/cubecam/render/graph/session.cpp",
         "std::vector<std::size_t> needs = calls_[texture.scene].needs_of(work.plan);",
         "std::vector<std::size_t> needs;",
         RENDER_TEXTURES,
@@ -359,7 +359,7 @@ MUTATIONS = [
     ),
     Mutation(
         "texture: a circle that something leads to is freed",
-        "cpp/cubecam/scene/unreachable.cpp",
+        "cpp/cubecam/scene/cycle_collector.cpp",
         "if (entry.object.use_count() > entry.inside + 1) visit(object);",
         "if (entry.object.use_count() > entry.inside + 2) visit(object);",
         ("tests/unit/test_render_textures.py",),
@@ -367,35 +367,35 @@ MUTATIONS = [
     # Python.
     Mutation(
         "png: colour multiplied by alpha",
-        "python/cubecam/_oiio.py",
+        "python/cubecam/io/oiio.py",
         'config.attribute("oiio:UnassociatedAlpha", 1)',
         'config.attribute("oiio:UnassociatedAlpha", 0)',
         ("tests/unit/test_images.py",),
     ),
     Mutation(
         "srgb: wrong power",
-        "python/cubecam/_pixels.py",
+        "python/cubecam/io/pixels.py",
         "** np.float32(2.4)",
         "** np.float32(2.2)",
         ("tests/unit/test_images.py",),
     ),
     Mutation(
         "six files in another order",
-        "python/cubecam/_cubemap_names.py",
+        "python/cubecam/io/cubemap_names.py",
         '("px", "nx", "py", "ny", "pz", "nz"),',
         '("nx", "px", "py", "ny", "pz", "nz"),',
         ("tests/unit/test_cli.py", "tests/unit/test_cubemap_files.py"),
     ),
     Mutation(
         "openexr cube copied, not resampled",
-        "python/cubecam/_cubemap_save.py",
+        "python/cubecam/io/cubemap_save.py",
         'picture = source.to_layout("openexr", "inside")',
         'picture = source.to_layout("column", "inside")',
         ("tests/unit/test_cubemap_files.py",),
     ),
     Mutation(
         "mesh not centred",
-        "python/cubecam/meshes.py",
+        "python/cubecam/io/meshes.py",
         "positions = (positions - (low + high) / 2) * (size / extent)",
         "positions = positions * (size / extent)",
         ("tests/unit/test_meshes.py",),
@@ -502,28 +502,28 @@ MUTATIONS = [
     # Shadows.
     Mutation(
         "shadow: +Y of a point light's cube turned",
-        "shaders/shadows.glsl",
+        "shaders/include/shadows.glsl",
         "axis == 1 ? vec3(v.x, s * v.z, s * v.y)",
         "axis == 1 ? vec3(v.x, -s * v.z, s * v.y)",
         SHADOWS,
     ),
     Mutation(
         "shadow: slope of the receiving plane forgotten",
-        "shaders/shadows.glsl",
+        "shaders/include/shadows.glsl",
         "vec4 there = dot(corner - start - half_width, slope) + to_corners;",
         "vec4 there = vec4(0.0);",
         SHADOWS,
     ),
     Mutation(
         "shadow: no rounded surface along the terminator",
-        "shaders/shadows.glsl",
+        "shaders/include/shadows.glsl",
         "place += facet_height * plane;",
         "place += 0.0 * facet_height * plane;",
         SHADOWS,
     ),
     Mutation(
         "shadow: texels of a gather in another order",
-        "shaders/shadows.glsl",
+        "shaders/include/shadows.glsl",
         "y.y * dot(reached.xy, x) + y.x * dot(reached.wz, x)",
         "y.x * dot(reached.xy, x) + y.y * dot(reached.wz, x)",
         SHADOWS,
@@ -531,20 +531,20 @@ MUTATIONS = [
     Mutation(
         "key: shadow maps forgotten",
         CALL,
-        "if (receives_shadows(node)) key.add(shadows);",
+        "if (receive_shadow(node)) key.add(shadows);",
         "",
         SHADOW_MAPS,
     ),
     Mutation(
         "shadow: a caster's matrix is not in the map's key",
-        "cpp/cubecam/render/shadow_pass.cpp",
+        "cpp/cubecam/render/passes/shadow_pass.cpp",
         "key.add(node.world);",
         "",
         SHADOW_MAPS,
     ),
     Mutation(
         "shadow: single-sided casters",
-        "cpp/cubecam/render/shadow_pass.cpp",
+        "cpp/cubecam/render/passes/shadow_pass.cpp",
         "gl_->Disable(GL_CULL_FACE);",
         "gl_->Enable(GL_CULL_FACE);",
         SHADOW_MAPS,
@@ -615,37 +615,37 @@ MUTATIONS = [
     # Blending, users' shaders, effects.
     Mutation(
         "blend: multiply forgets its alpha",
-        "shaders/surface.frag",
+        "shaders/passes/surface.frag",
         "o_color.rgb = mix(vec3(1.0), o_color.rgb, o_color.a);",
         "",
         ("tests/gl/test_blending.py",),
     ),
     Mutation(
         "blend: alpha_keep writes alpha",
-        "cpp/cubecam/render/raster_state.cpp",
+        "cpp/cubecam/render/passes/raster_state.cpp",
         "gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);",
         "gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE);",
         ("tests/gl/test_blending.py",),
     ),
     Mutation(
         "uniforms: matrices by columns",
-        "cpp/cubecam/render/user_program.cpp",
+        "cpp/cubecam/render/passes/user_program.cpp",
         "gl.ProgramUniformMatrix3fv(id, at, n, GL_TRUE, v)",
         "gl.ProgramUniformMatrix3fv(id, at, n, GL_FALSE, v)",
         ("tests/gl/test_shader_material.py",),
     ),
     Mutation(
         "uniforms: the last material's value stays",
-        "cpp/cubecam/render/user_program.cpp",
+        "cpp/cubecam/render/passes/user_program.cpp",
         "set(uniform, uniform.initial);",
         "",
         ("tests/gl/test_shader_material.py",),
     ),
     Mutation(
         "effects: in reverse order",
-        "cpp/cubecam/render/finish_pass.cpp",
-        "const EffectValue& effect = finish.effects[i].value;",
-        "const EffectValue& effect = finish.effects[finish.effects.size() - 1 - i].value;",
+        "cpp/cubecam/render/passes/post_process_pass.cpp",
+        "const EffectValue& effect = post_process.effects[i].value;",
+        "const EffectValue& effect = post_process.effects[post_process.effects.size() - 1 - i].value;",
         ("tests/gl/test_effects.py",),
     ),
     Mutation(

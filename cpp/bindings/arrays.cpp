@@ -1,6 +1,6 @@
 #include "arrays.hpp"
 
-#include "cubecam/math/parallel.hpp"
+#include "cubecam/core/parallel.hpp"
 
 #include <array>
 #include <cmath>

@@ -8,7 +8,7 @@
 /// object, str and dates raise TypeError; wrong shapes and values raise ValueError.
 #pragma once
 
-#include "cubecam/scene/pixels.hpp"
+#include "cubecam/image/pixels.hpp"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

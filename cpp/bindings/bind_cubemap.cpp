@@ -3,11 +3,11 @@
 #include "bind_cubemap_docs.hpp"
 #include "objects.hpp"
 
-#include "cubecam/math/parallel.hpp"
-#include "cubecam/scene/cubemap.hpp"
-#include "cubecam/scene/cubemap_layout.hpp"
-#include "cubecam/scene/cubemap_resample.hpp"
-#include "cubecam/scene/memory.hpp"
+#include "cubecam/core/memory.hpp"
+#include "cubecam/core/parallel.hpp"
+#include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/cubemap/cubemap_layout.hpp"
+#include "cubecam/cubemap/cubemap_resample.hpp"
 
 #include <pybind11/native_enum.h>
 #include <pybind11/pybind11.h>

@@ -57,7 +57,7 @@ the other three.
 Parameters
 ----------
 directions : array_like (..., 3)
-    World axes, from the centre of the cube outwards, of any length but 0.
+    World axes, from the center of the cube outwards, of any length but 0.
 lod : float or array_like (...,), default 0
     Level of detail: 0 is `faces`, each further level has half the size. Other than 0 only with
     ``mipmaps=True``, trilinear, clamped to the levels there are.
@@ -92,7 +92,7 @@ Parameters
 width : int, optional
     Even; 4 * size by default, which keeps the resolution.
 center : {"-z", "+z", "+x", "-x"}, default "-z"
-    The axis at the centre: "-z" camera forward; "+z" OpenEXR, Mitsuba; "+x" three.js.
+    The axis at the center: "-z" camera forward; "+z" OpenEXR, Mitsuba; "+x" three.js.
 sampling : {"centers", "borders"}, default "centers"
     Where samples lie. "borders": the first and last row and column lie on the edges, as in
     OpenEXR's latitude-longitude maps.
@@ -123,7 +123,7 @@ image : array_like (H, 2H, C)
 size : int, optional
     Of a face; by default the next power of two from W / pi, which loses nothing.
 center : {"-z", "+z", "+x", "-x"}, default "-z"
-    The axis at the centre column.
+    The axis at the center column.
 mipmaps : bool, default False
     Of the new cube.
 sampling : {"centers", "borders"}, default "centers"

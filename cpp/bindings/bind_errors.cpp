@@ -1,5 +1,5 @@
 // The exception classes of cubecam, and which C++ exception becomes which.
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 
 #include <pybind11/gil_safe_call_once.h>
 #include <pybind11/pybind11.h>

@@ -2,7 +2,7 @@
 #include "objects.hpp"
 #include "vectors.hpp"
 
-#include "cubecam/scene/image.hpp"
+#include "cubecam/image/image.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -6,8 +6,8 @@
 #include "surface_options.hpp"
 #include "vectors.hpp"
 
-#include "cubecam/scene/cubemap.hpp"
-#include "cubecam/scene/material.hpp"
+#include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/materials/material.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 

@@ -3,8 +3,8 @@
 #include "objects.hpp"
 #include "vectors.hpp"
 
-#include "cubecam/scene/mesh.hpp"
-#include "cubecam/scene/primitives.hpp"
+#include "cubecam/geometry/mesh.hpp"
+#include "cubecam/geometry/primitives.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

@@ -101,7 +101,7 @@ inline constexpr const char* sphere_doc =
     R"doc(A centred sphere of rings and segments, as on a globe.
 
 u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
-picture on it reads unmirrored from outside, its centre at +Z and its seam at -Z.
+picture on it reads unmirrored from outside, its center at +Z and its seam at -Z.
 
 Parameters
 ----------
@@ -218,7 +218,7 @@ inline constexpr const char* torus_doc = R"doc(A centred torus round the Y axis.
 Parameters
 ----------
 radius : float
-    From the axis to the centre of the tube.
+    From the axis to the center of the tube.
 tube : float
     Radius of the tube: above 0, below `radius`.
 segments : int

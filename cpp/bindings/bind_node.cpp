@@ -185,8 +185,10 @@ void bind_contents(Class<Node>& node) {
         [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.visible = value; }); },
         "bool: False is drawn nowhere, nor is anything below it.");
     node.def_property(
-        "in_probes", [](const Node& self) { return self.value().in_probes; },
-        [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.in_probes = value; }); },
+        "in_captures", [](const Node& self) { return self.value().in_captures; },
+        [](Node& self, bool value) {
+            self.edit([&](NodeValue& next) { next.in_captures = value; });
+        },
         "bool: False is absent from captures and probes, as is all below it; still drawn in"
         " frames, and still showing probes.");
     node.def_property(
@@ -198,15 +200,15 @@ void bind_contents(Class<Node>& node) {
         "int: among opaque and among translucent nodes, lower is drawn first, before distance; 0."
         " It is the node's own: what is below it has its own, too.");
     node.def_property(
-        "casts_shadows", [](const Node& self) { return self.value().casts_shadows; },
+        "cast_shadow", [](const Node& self) { return self.value().cast_shadow; },
         [](Node& self, bool value) {
-            self.edit([&](NodeValue& next) { next.casts_shadows = value; });
+            self.edit([&](NodeValue& next) { next.cast_shadow = value; });
         },
         "bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.");
     node.def_property(
-        "receives_shadows", [](const Node& self) { return self.value().receives_shadows; },
+        "receive_shadow", [](const Node& self) { return self.value().receive_shadow; },
         [](Node& self, bool value) {
-            self.edit([&](NodeValue& next) { next.receives_shadows = value; });
+            self.edit([&](NodeValue& next) { next.receive_shadow = value; });
         },
         "bool: whether shadows show on its own surface.");
 }

@@ -6,10 +6,10 @@
 #include "objects.hpp"
 
 #include "cubecam/scene/camera.hpp"
+#include "cubecam/scene/cycle_collector.hpp"
 #include "cubecam/scene/image_effect.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
-#include "cubecam/scene/unreachable.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -118,7 +118,7 @@ void watch(const std::shared_ptr<RenderTexture>& texture) {
     };
     if (watched.size() >= enough) {
         drop_dead();
-        free_unreachable(watched);
+        collect_cycles(watched);
         drop_dead();
         enough = std::max<std::size_t>(16, 2 * watched.size());
     }

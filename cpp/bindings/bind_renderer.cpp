@@ -6,7 +6,7 @@
 #include "numbers.hpp"
 #include "objects.hpp"
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 #include "cubecam/render/renderer.hpp"
 
 #include <pybind11/stl.h>

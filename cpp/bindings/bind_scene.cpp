@@ -44,19 +44,19 @@ std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
                                const OrNone<ArrayLike>& rotation,
                                const OneOf<py::float_, ArrayLike, py::none>& scale,
                                const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
-                               const CubeLike& environment, bool visible, bool in_probes,
+                               const CubeLike& environment, bool visible, bool in_captures,
                                std::string name, const OneOf<py::int_>& render_order,
-                               bool casts_shadows, bool receives_shadows) {
+                               bool cast_shadow, bool receive_shadow) {
     NodeValue value{{},
                     to_mesh(mesh),
                     to_material(material),
                     to_cube_source(environment, "environment"),
                     visible,
-                    in_probes,
+                    in_captures,
                     std::move(name),
                     to_render_order(render_order),
-                    casts_shadows,
-                    receives_shadows};
+                    cast_shadow,
+                    receive_shadow};
     value.placing = to_placing(position, rotation, scale, matrix);
     value.render_order = to_render_order(render_order);
     return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
@@ -163,9 +163,9 @@ void bind_scene(pybind11::module_& module) {
               py::kw_only(), py::arg("position") = py::none(), py::arg("rotation") = py::none(),
               py::arg("scale") = py::none(), py::arg("matrix") = py::none(),
               py::arg("parent") = py::none(), py::arg("environment") = py::none(),
-              py::arg("visible") = true, py::arg("in_probes") = true, py::arg("name") = "",
-              py::arg("render_order") = 0, py::arg("casts_shadows") = true,
-              py::arg("receives_shadows") = true, add_node_doc);
+              py::arg("visible") = true, py::arg("in_captures") = true, py::arg("name") = "",
+              py::arg("render_order") = 0, py::arg("cast_shadow") = true,
+              py::arg("receive_shadow") = true, add_node_doc);
     scene.def("remove", &remove_thing, py::arg("thing"), remove_doc);
     scene.def("clear", &Scene::clear, "Take all nodes and lights out.");
     scene.def_property_readonly(

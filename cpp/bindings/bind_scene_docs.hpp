@@ -74,15 +74,15 @@ environment : CubeMap or Probe, optional
     What mirrors and glass show; None is the scene's.
 visible : bool
     False is drawn nowhere, nor is anything below it.
-in_probes : bool
+in_captures : bool
     False is absent from captures and probes, as is all below it; still drawn in frames.
 name : str
     For people.
 render_order : int
     Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
-casts_shadows : bool
+cast_shadow : bool
     False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
-receives_shadows : bool
+receive_shadow : bool
     Whether shadows show on its own surface.
 
 Returns

@@ -4,8 +4,8 @@
 #include "surface_options.hpp"
 #include "vectors.hpp"
 
+#include "cubecam/materials/material.hpp"
 #include "cubecam/scene/image_effect.hpp"
-#include "cubecam/scene/material.hpp"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>

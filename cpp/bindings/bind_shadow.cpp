@@ -17,12 +17,12 @@ constexpr const char* shadow_doc =
     R"doc(How a light's shadow is made: a depth map as the light sees it, and how that is looked up.
 
 A value that does not change: give a light another one. All visible opaque nodes cast shadows whose
-``casts_shadows`` is True, in or out of a picture's view, from either side of their surface. They
-fall on every node with a `PhongMaterial` whose ``receives_shadows`` is True. A map is drawn again
+``cast_shadow`` is True, in or out of a picture's view, from either side of their surface. They
+fall on every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again
 only when what it sees changes.
 
 A directional light's map covers all that casts, so a wide floor makes its texels wide: set the
-floor's ``casts_shadows`` to False, or an ``extent``.
+floor's ``cast_shadow`` to False, or an ``extent``.
 
 The edge of a shadow is about ``2 * radius + 1`` texels wide. A surface does not shadow itself, since
 each texel is compared with the depth of the surface's own plane there, and no distance has to be

@@ -3,8 +3,8 @@
 
 #include "objects.hpp"
 
-#include "cubecam/scene/cubemap.hpp"
-#include "cubecam/scene/lookup.hpp"
+#include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/materials/texture_source.hpp"
 #include "cubecam/scene/probe.hpp"
 
 namespace cubecam::bindings {

@@ -1,7 +1,7 @@
 /// Names of formats, from Python and back; None is no buffer.
 #pragma once
 
-#include "cubecam/scene/depth_format.hpp"
+#include "cubecam/image/depth_format.hpp"
 
 #include <optional>
 #include <string>

@@ -3,8 +3,8 @@
 
 #include "objects.hpp"
 
-#include "cubecam/scene/image.hpp"
-#include "cubecam/scene/lookup.hpp"
+#include "cubecam/image/image.hpp"
+#include "cubecam/materials/texture_source.hpp"
 #include "cubecam/scene/render_texture.hpp"
 
 #include <memory>

@@ -50,18 +50,18 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
     return transform;
 }
 
-/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_probes, name,
-/// render_order, casts_shadows, receives_shadows)
+/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_captures, name,
+/// render_order, cast_shadow, receive_shadow)
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
-    return py::make_tuple(
-        std::const_pointer_cast<Mesh>(value.mesh), value.material,
-        parts ? py::object(point_array(parts->position)) : py::none(),
-        parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
-        parts ? py::object(point_array(parts->scale)) : py::none(),
-        parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
-        from_cube_source(value.environment), value.visible, value.in_probes, value.name,
-        value.render_order, value.casts_shadows, value.receives_shadows);
+    return py::make_tuple(std::const_pointer_cast<Mesh>(value.mesh), value.material,
+                          parts ? py::object(point_array(parts->position)) : py::none(),
+                          parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
+                          parts ? py::object(point_array(parts->scale)) : py::none(),
+                          parts ? py::none()
+                                : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
+                          from_cube_source(value.environment), value.visible, value.in_captures,
+                          value.name, value.render_order, value.cast_shadow, value.receive_shadow);
 }
 
 inline NodeValue node_from_state(const py::tuple& state) {

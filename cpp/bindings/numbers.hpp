@@ -1,7 +1,7 @@
 /// Whole numbers and sizes, from Python.
 #pragma once
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 
 #include <pybind11/pybind11.h>
 

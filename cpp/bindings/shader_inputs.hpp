@@ -4,7 +4,7 @@
 #include "arrays.hpp"
 #include "objects.hpp"
 
-#include "cubecam/scene/user_shader.hpp"
+#include "cubecam/materials/user_shader.hpp"
 
 #include <pybind11/pybind11.h>
 

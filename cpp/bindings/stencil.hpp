@@ -3,7 +3,7 @@
 
 #include "objects.hpp"
 
-#include "cubecam/scene/stencil.hpp"
+#include "cubecam/materials/stencil.hpp"
 
 #include <memory>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "objects.hpp"
 #include "stencil.hpp"
 
-#include "cubecam/scene/material.hpp"
+#include "cubecam/materials/material.hpp"
 
 #include <pybind11/pybind11.h>
 

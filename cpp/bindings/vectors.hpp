@@ -4,7 +4,7 @@
 #include "arrays.hpp"
 #include "objects.hpp"
 
-#include "cubecam/scene/describe.hpp"
+#include "cubecam/core/checks.hpp"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>

@@ -5,9 +5,9 @@
 // writes OUT_DIR/face_0.pfm ... face_5.pfm in the order +X -X +Y -Y +Z -Z: linear RGB floats, each
 // file's rows bottom to top as the PFM format has them, so that a picture viewer shows row 0 of the
 // face (t = 0) on top.
+#include "cubecam/geometry/primitives.hpp"
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/render/renderer.hpp"
-#include "cubecam/scene/primitives.hpp"
 
 #include <cstddef>
 #include <exception>

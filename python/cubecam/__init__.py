@@ -56,10 +56,10 @@ from ._core import (
     axis_angle,
     devices,
 )
-from .cubemaps import load_cubemap, load_environment
 from .data import sample_data
-from .images import load_image, save_animation, save_image
-from .meshes import load_mesh
+from .io.cubemaps import load_cubemap, load_environment
+from .io.images import load_image, save_animation, save_image
+from .io.meshes import load_mesh
 
 __all__ = [
     "AmbientLight",

@@ -18,7 +18,7 @@ from ._core import (
     PerspectiveCamera,
     ShaderMaterial,
 )
-from ._cubemap_save import save_cubemap
+from .io.cubemap_save import save_cubemap
 
 if TYPE_CHECKING:
     from collections.abc import Callable

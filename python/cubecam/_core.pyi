@@ -172,12 +172,12 @@ class Node:
         For unpickling.
         """
     @property
-    def casts_shadows(self) -> bool:
+    def cast_shadow(self) -> bool:
         """
         bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.
         """
-    @casts_shadows.setter
-    def casts_shadows(self, arg1: bool) -> None: ...
+    @cast_shadow.setter
+    def cast_shadow(self, arg1: bool) -> None: ...
     @property
     def children(self) -> tuple[Node, ...]:
         """
@@ -196,12 +196,12 @@ class Node:
         int: from 1 in order of add, never used again in the scene; 0 is the background in id pictures.
         """
     @property
-    def in_probes(self) -> bool:
+    def in_captures(self) -> bool:
         """
         bool: False is absent from captures and probes, as is all below it; still drawn in frames, and still showing probes.
         """
-    @in_probes.setter
-    def in_probes(self, arg1: bool) -> None: ...
+    @in_captures.setter
+    def in_captures(self, arg1: bool) -> None: ...
     @property
     def material(self) -> Material | None:
         """
@@ -245,12 +245,12 @@ class Node:
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def receives_shadows(self) -> bool:
+    def receive_shadow(self) -> bool:
         """
         bool: whether shadows show on its own surface.
         """
-    @receives_shadows.setter
-    def receives_shadows(self, arg1: bool) -> None: ...
+    @receive_shadow.setter
+    def receive_shadow(self, arg1: bool) -> None: ...
     @property
     def render_order(self) -> int:
         """
@@ -699,11 +699,11 @@ class Scene:
         parent: Node | None = None,
         environment: CubeMap | Probe | None = None,
         visible: bool = True,
-        in_probes: bool = True,
+        in_captures: bool = True,
         name: str = "",
         render_order: int = 0,
-        casts_shadows: bool = True,
-        receives_shadows: bool = True,
+        cast_shadow: bool = True,
+        receive_shadow: bool = True,
     ) -> Node:
         """
         Add a mesh with a material, or a group.
@@ -728,15 +728,15 @@ class Scene:
             What mirrors and glass show; None is the scene's.
         visible : bool
             False is drawn nowhere, nor is anything below it.
-        in_probes : bool
+        in_captures : bool
             False is absent from captures and probes, as is all below it; still drawn in frames.
         name : str
             For people.
         render_order : int
             Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
-        casts_shadows : bool
+        cast_shadow : bool
             False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
-        receives_shadows : bool
+        receive_shadow : bool
             Whether shadows show on its own surface.
 
         Returns
@@ -892,7 +892,7 @@ class CubeMap:
         size : int, optional
             Of a face; by default the next power of two from W / pi, which loses nothing.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
-            The axis at the centre column.
+            The axis at the center column.
         mipmaps : bool, default False
             Of the new cube.
         sampling : {"centers", "borders"}, default "centers"
@@ -1006,7 +1006,7 @@ class CubeMap:
         Parameters
         ----------
         directions : array_like (..., 3)
-            World axes, from the centre of the cube outwards, of any length but 0.
+            World axes, from the center of the cube outwards, of any length but 0.
         lod : float or array_like (...,), default 0
             Level of detail: 0 is `faces`, each further level has half the size. Other than 0 only with
             ``mipmaps=True``, trilinear, clamped to the levels there are.
@@ -1153,7 +1153,7 @@ class CubeMap:
         width : int, optional
             Even; 4 * size by default, which keeps the resolution.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
-            The axis at the centre: "-z" camera forward; "+z" OpenEXR, Mitsuba; "+x" three.js.
+            The axis at the center: "-z" camera forward; "+z" OpenEXR, Mitsuba; "+x" three.js.
         sampling : {"centers", "borders"}, default "centers"
             Where samples lie. "borders": the first and last row and column lie on the edges, as in
             OpenEXR's latitude-longitude maps.
@@ -1545,7 +1545,7 @@ class Mesh:
         A centred sphere of rings and segments, as on a globe.
 
         u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
-        picture on it reads unmirrored from outside, its centre at +Z and its seam at -Z.
+        picture on it reads unmirrored from outside, its center at +Z and its seam at -Z.
 
         Parameters
         ----------
@@ -1585,7 +1585,7 @@ class Mesh:
         Parameters
         ----------
         radius : float
-            From the axis to the centre of the tube.
+            From the axis to the center of the tube.
         tube : float
             Radius of the tube: above 0, below `radius`.
         segments : int
@@ -2520,12 +2520,12 @@ class Shadow:
     How a light's shadow is made: a depth map as the light sees it, and how that is looked up.
 
     A value that does not change: give a light another one. All visible opaque nodes cast shadows whose
-    ``casts_shadows`` is True, in or out of a picture's view, from either side of their surface. They
-    fall on every node with a `PhongMaterial` whose ``receives_shadows`` is True. A map is drawn again
+    ``cast_shadow`` is True, in or out of a picture's view, from either side of their surface. They
+    fall on every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again
     only when what it sees changes.
 
     A directional light's map covers all that casts, so a wide floor makes its texels wide: set the
-    floor's ``casts_shadows`` to False, or an ``extent``.
+    floor's ``cast_shadow`` to False, or an ``extent``.
 
     The edge of a shadow is about ``2 * radius + 1`` texels wide. A surface does not shadow itself, since
     each texel is compared with the depth of the surface's own plane there, and no distance has to be

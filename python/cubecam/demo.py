@@ -24,11 +24,11 @@ from ._core import (
     Scene,
     axis_angle,
 )
-from ._files import PathLike, as_path
-from .cubemaps import load_environment
 from .data import sample_data
-from .images import save_animation, save_image
-from .meshes import load_mesh
+from .io.cubemaps import load_environment
+from .io.files import PathLike, as_path
+from .io.images import save_animation, save_image
+from .io.meshes import load_mesh
 from .pictures import cube_picture, for_screen
 
 if TYPE_CHECKING:

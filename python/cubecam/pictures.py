@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import _oiio
-from ._pixels import Array, FloatArray, on_colour, srgb_encode, to_float32, to_integers
+from .io import oiio
+from .io.pixels import Array, FloatArray, on_colour, srgb_encode, to_float32, to_integers
 
 if TYPE_CHECKING:
     from ._core import CubeMap, Frame, Image
@@ -77,4 +77,4 @@ def image_png(image: Image) -> bytes:
 
 
 def _png(pixels: Array) -> bytes:
-    return _oiio.encode(".png", pixels, {"oiio:UnassociatedAlpha": 1})
+    return oiio.encode(".png", pixels, {"oiio:UnassociatedAlpha": 1})

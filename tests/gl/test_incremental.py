@@ -86,7 +86,7 @@ def edit_visible(scene, rng):
 
 def edit_in_probes(scene, rng):
     node = scene.nodes[rng.integers(len(scene.nodes))]
-    node.in_probes = not node.in_probes
+    node.in_captures = not node.in_captures
 
 
 def edit_material(scene, rng):
@@ -116,7 +116,7 @@ def edit_shadow(scene, rng):
 
 def edit_casting(scene, rng):
     node = scene.nodes[rng.integers(len(scene.nodes))]
-    name = ("casts_shadows", "receives_shadows")[rng.integers(2)]
+    name = ("cast_shadow", "receive_shadow")[rng.integers(2)]
     setattr(node, name, not getattr(node, name))
 
 

@@ -181,7 +181,7 @@ def test_exclude_covers_subtrees(renderer):
 
 def test_in_probes_false_is_absent_from_captures_and_probes_but_drawn(renderer):
     scene, box, ball = stage()
-    box.in_probes = False
+    box.in_captures = False
     shown = frame(renderer, scene)
     held = renderer.cubemap(ball.environment).faces
     assert_identical(held, truth(renderer, scene, ball, exclude=[ball, box]))

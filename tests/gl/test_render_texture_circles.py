@@ -120,10 +120,10 @@ def test_by_way_of_a_probe(renderer):
     ball.environment.exclude = [screen]
     look(renderer, a.scene)
     ball.environment.exclude = []
-    screen.in_probes = False
+    screen.in_captures = False
     look(renderer, a.scene)
     assert renderer.stats.textures_updated == 0
-    screen.in_probes = True
+    screen.in_captures = True
     a.exclude = [screen, ball]
     look(renderer, a.scene)
     assert (renderer.stats.textures_updated, renderer.stats.probes_updated) == (1, 1)
@@ -156,7 +156,7 @@ def test_by_way_of_probes_that_see_each_other(renderer):
 def test_by_way_of_a_probe_in_another_scene(renderer):
     a, b = empty("a"), empty("b")
     show(b, a.scene)
-    show(a, b.scene, in_probes=True)
+    show(a, b.scene, in_captures=True)
     b.exclude = b.scene.nodes
     shown = b.scene.add(
         cc.Mesh.box(1), cc.BasicMaterial(cubemap=cc.Probe(size=8)), position=(3, 3, 0)
@@ -177,7 +177,7 @@ def test_captures_refuse_what_they_see(renderer):
     text = 'RenderTexture "a" shows itself: "a" -> "a"'
     refused(renderer, text, lambda: renderer.capture(a.scene, size=8))
     renderer.capture(a.scene, size=8, exclude=[node])
-    node.in_probes = False
+    node.in_captures = False
     renderer.capture(a.scene, size=8)
 
 
@@ -321,7 +321,7 @@ void vertex(inout Vertex v) { v.position.x += textureLod(t, vec2(0.5), 0.0).r; }
 MOVED_BY_CUBE = """uniform samplerCube t;
 void vertex(inout Vertex v) { v.position.x += textureLod(t, v.position, 0.0).r; }"""
 SHADE = "vec3 shade(Surface s) { return vec3(0.5); }"
-BY_SHADOW = OUT + ", those that cast by it with casts_shadows=False"
+BY_SHADOW = OUT + ", those that cast by it with cast_shadow=False"
 
 
 def lamp_and_floor():
@@ -347,11 +347,11 @@ def test_by_the_shadow_of_what_it_moves(any_path):
     with pytest.raises(ValueError, match="shows itself") as error:
         from_aside(any_path, scene)
     assert str(error.value) == text
-    box.casts_shadows = False
+    box.cast_shadow = False
     first = from_aside(any_path, scene)
     assert_identical(from_aside(any_path, scene), first)
     assert (any_path.stats.views_drawn, any_path.stats.textures_updated) == (0, 0)
-    box.casts_shadows, floor.receives_shadows = True, False
+    box.cast_shadow, floor.receive_shadow = True, False
     from_aside(any_path, scene)
     from_aside(any_path, scene)
     assert (any_path.stats.views_drawn, any_path.stats.textures_updated) == (0, 0)

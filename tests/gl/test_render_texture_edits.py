@@ -40,7 +40,7 @@ def textured_scene(rng):
             position=(0.8 * index - 1.5, 0.3 * index - 0.5, 1 - index),
             rotation=cc.axis_angle((0, 1, 0), 30 * index),
             name=f"screen{index}",
-            in_probes=texture is not monitor,
+            in_captures=texture is not monitor,
         )
     monitor.exclude = [screen]
     return scene

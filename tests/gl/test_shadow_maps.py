@@ -60,14 +60,14 @@ CASTING = {
         lambda s, box: setattr(box.material, "map", np.full((2, 2, 4), 99, np.uint8)),
         False,
     ),
-    "casts no shadows": (lambda s, box: setattr(box, "casts_shadows", False), False),
+    "casts no shadows": (lambda s, box: setattr(box, "cast_shadow", False), False),
     "below one that casts none": (
-        lambda s, box: setattr(box, "parent", s.add(casts_shadows=False)),
+        lambda s, box: setattr(box, "parent", s.add(cast_shadow=False)),
         False,
     ),
     "removed": (lambda s, box: s.remove(box), False),
-    "receives none": (lambda s, box: setattr(box, "receives_shadows", False), True),
-    "out of probes": (lambda s, box: setattr(box, "in_probes", False), True),
+    "receives none": (lambda s, box: setattr(box, "receive_shadow", False), True),
+    "out of probes": (lambda s, box: setattr(box, "in_captures", False), True),
     "unlit": (lambda s, box: setattr(box, "material", cc.BasicMaterial()), True),
     "mirror": (lambda s, box: setattr(box, "material", cc.MirrorMaterial()), True),
     "glass": (lambda s, box: setattr(box, "material", cc.GlassMaterial()), True),
@@ -99,18 +99,18 @@ def test_what_casts(renderer, fresh_renderer, kind, change, casts):
 
 def test_what_receives(renderer):
     scene, floor, box, light = hovering()
-    floor.receives_shadows = False
+    floor.receive_shadow = False
     assert dark(renderer, scene) == 0
     light.shadow = None
     plain = picture(renderer, scene)
     light.shadow = True
     np.testing.assert_allclose(picture(renderer, scene), plain, atol=1e-6)
-    floor.receives_shadows = True
+    floor.receive_shadow = True
     assert dark(renderer, scene) > 0.1
     floor.material.opacity = 0.999  # translucent things cast none, but show them
     assert dark(renderer, scene) > 0.1
     # Not of the subtree: a child of one that receives none does.
-    floor.parent = box.parent = scene.add(receives_shadows=False)
+    floor.parent = box.parent = scene.add(receive_shadow=False)
     assert dark(renderer, scene) > 0.1
     floor.material = cc.BasicMaterial(color=(1, 1, 1))
     assert dark(renderer, scene) == 0
@@ -124,9 +124,9 @@ def test_shadows_belong_to_the_scene_and_not_to_the_picture(renderer):
     whole = renderer.capture(scene, **where).faces[3]
     assert 0.1 < (whole[..., 0] < 0.21).mean() < 1
     assert_identical(renderer.capture(scene, exclude=[box], **where).faces[3], whole)
-    box.in_probes = False
+    box.in_captures = False
     assert_identical(renderer.capture(scene, **where).faces[3], whole)
-    box.in_probes = True
+    box.in_captures = True
     box.material = cc.MirrorMaterial()
     box.environment = probe = cc.Probe(position=(-1.7, 1.2, 0), size=32, format="rgba32f")
     renderer.update(scene)
@@ -177,7 +177,7 @@ def test_what_a_map_does_not_hang_on(renderer, kind):
         lambda: setattr(light, "color", (1, 0.5, 0.2)),
         lambda: setattr(light, "intensity", 2),
         lambda: setattr(floor.material, "color", (1, 0, 0)),
-        lambda: setattr(floor, "receives_shadows", True),
+        lambda: setattr(floor, "receive_shadow", True),
         lambda: setattr(scene, "background", (0.1, 0.2, 0.3)),
         lambda: setattr(light, "shadow", cc.Shadow(128, bias=0.01)),
         lambda: setattr(light, "shadow", cc.Shadow(128, bias=0.01)),
@@ -362,7 +362,7 @@ def test_a_directional_map_holds_all_casters(renderer):
 def test_a_scene_without_casters_is_lit(renderer):
     scene, floor, box, light = hovering()
     for node in (floor, box):
-        node.casts_shadows = False
+        node.cast_shadow = False
     for kind in (
         light,
         cc.PointLight((0, 3, 0), shadow=True),

@@ -392,7 +392,7 @@ def test_extent_is_what_a_directional_map_covers(renderer):
     assert (np.abs(small[0] - plain[0]) > 0.05).mean() > 0.05
     np.testing.assert_allclose(small[1], plain[1], atol=1e-5)
     light.shadow = cc.Shadow(256, extent=4)
-    floor.casts_shadows = False  # now the casters' middle is between the boxes
+    floor.cast_shadow = False  # now the casters' middle is between the boxes
     light.shadow = cc.Shadow(256)
     assert (np.abs(picture(renderer, scene, views[1]) - plain[1]) > 0.05).mean() > 0.05
 

@@ -91,7 +91,7 @@ CHANGES = {
     "node moved": lambda s: setattr(s.nodes[0], "position", (3, 0.2, 0)),
     "node turned": lambda s: setattr(s.nodes[0], "rotation", cc.axis_angle((0, 1, 0), 20)),
     "node hidden": lambda s: setattr(s.nodes[0], "visible", False),
-    "node out of probes": lambda s: setattr(s.nodes[0], "in_probes", False),
+    "node out of probes": lambda s: setattr(s.nodes[0], "in_captures", False),
     "material": lambda s: setattr(s.nodes[0], "material", cc.BasicMaterial(color=(0, 0, 1))),
     "colour": lambda s: setattr(s.nodes[0].material, "color", (0, 0, 1)),
     "opacity": lambda s: setattr(s.nodes[0].material, "opacity", 0.5),

@@ -1,4 +1,4 @@
-"""visible, in_probes and exclude, over whole subtrees."""
+"""visible, in_captures and exclude, over whole subtrees."""
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def test_visible_false_hides_the_subtree_everywhere(any_path, tree, name, left):
 def test_in_probes_false_hides_the_subtree_in_captures_only(any_path, tree, name, left):
     scene, nodes = tree
     if name:
-        nodes[name].in_probes = False
+        nodes[name].in_captures = False
     assert in_frame(any_path, scene) == {1, 2, 3, 4}
     assert in_capture(any_path, scene) == left
 

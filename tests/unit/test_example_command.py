@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 import cubecam as cc
 from cubecam import examples
-from cubecam._sheet import contact_sheet
+from cubecam.cli.sheet import contact_sheet
 from tests.conftest import DEVICE
 
 names = pytest.mark.parametrize("name", examples.NAMES)

@@ -202,10 +202,10 @@ def test_mesh_and_material_are_shared_objects(scene, box):
 def test_flags_default_and_change(scene, box):
     node = scene.add(box)
     assert node.visible is True
-    assert node.in_probes is True
-    node.visible, node.in_probes = False, False
+    assert node.in_captures is True
+    node.visible, node.in_captures = False, False
     assert node.visible is False
-    assert node.in_probes is False
+    assert node.in_captures is False
 
 
 def test_environment_takes_none_a_cubemap_or_a_probe(scene, box):

@@ -22,7 +22,9 @@ def furnished():
         cc.Mesh.box(1), cc.PhongMaterial(color=(1, 0, 0)), parent=group, visible=False, name="box"
     )
     scene.add(
-        cc.Mesh.plane(1, 1), cc.BasicMaterial(map=np.full((2, 2, 3), 9, np.uint8)), in_probes=False
+        cc.Mesh.plane(1, 1),
+        cc.BasicMaterial(map=np.full((2, 2, 3), 9, np.uint8)),
+        in_captures=False,
     )
     ball = scene.add(
         cc.Mesh.sphere(0.5), cc.MirrorMaterial(tint=(1, 0.9, 0.8)), matrix=np.diag([2, 2, 2, 1])
@@ -43,7 +45,7 @@ def test_everything_is_kept(twin):
     np.testing.assert_allclose(point.color, [1, 0.5, 0.25])
     assert (point.intensity, point.decay) == (2, 1)
     for a, b in zip(scene.nodes, other.nodes, strict=True):
-        assert (a.id, a.name, a.visible, a.in_probes) == (b.id, b.name, b.visible, b.in_probes)
+        assert (a.id, a.name, a.visible, a.in_captures) == (b.id, b.name, b.visible, b.in_captures)
         np.testing.assert_array_equal(a.world_matrix, b.world_matrix)
         assert type(a.material) is type(b.material)
         if a.mesh is not None:

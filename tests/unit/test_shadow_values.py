@@ -188,33 +188,33 @@ def test_bad_spots(options, message):
 def test_flags_of_nodes():
     scene = cc.Scene()
     node = scene.add(cc.Mesh.box())
-    assert node.casts_shadows is True
-    assert node.receives_shadows is True
-    node.casts_shadows = False
-    node.receives_shadows = False
-    assert node.casts_shadows is False
-    assert node.receives_shadows is False
-    other = scene.add(cc.Mesh.box(), casts_shadows=False, receives_shadows=False, name="x")
-    assert not other.casts_shadows
-    assert not other.receives_shadows
+    assert node.cast_shadow is True
+    assert node.receive_shadow is True
+    node.cast_shadow = False
+    node.receive_shadow = False
+    assert node.cast_shadow is False
+    assert node.receive_shadow is False
+    other = scene.add(cc.Mesh.box(), cast_shadow=False, receive_shadow=False, name="x")
+    assert not other.cast_shadow
+    assert not other.receive_shadow
 
 
 @twins
 def test_a_nodes_twin_keeps_its_flags(twin):
     scene = cc.Scene()
-    scene.add(cc.Mesh.box(), casts_shadows=False)
-    scene.add(cc.Mesh.box(), receives_shadows=False)
+    scene.add(cc.Mesh.box(), cast_shadow=False)
+    scene.add(cc.Mesh.box(), receive_shadow=False)
     scene.add(cc.PointLight(shadow=cc.Shadow(64)))
     other = twin(scene)
-    assert [n.casts_shadows for n in other.nodes] == [False, True]
-    assert [n.receives_shadows for n in other.nodes] == [True, False]
+    assert [n.cast_shadow for n in other.nodes] == [False, True]
+    assert [n.receive_shadow for n in other.nodes] == [True, False]
     assert other.lights[0].shadow == cc.Shadow(64)
 
 
 def test_pickles_of_before_there_were_shadows():
     """A node's state was ten items long; those cast and receive."""
     scene = cc.Scene()
-    scene.add(cc.Mesh.box(), casts_shadows=False, receives_shadows=False, name="old")
+    scene.add(cc.Mesh.box(), cast_shadow=False, receive_shadow=False, name="old")
     state = scene.__reduce__()[2]
     ((number, parent, record),) = state["nodes"]
     assert len(record) == 13
@@ -222,5 +222,5 @@ def test_pickles_of_before_there_were_shadows():
     other = cc.Scene()
     other.__setstate__(state)
     assert other.nodes[0].name == "old"
-    assert other.nodes[0].casts_shadows
-    assert other.nodes[0].receives_shadows
+    assert other.nodes[0].cast_shadow
+    assert other.nodes[0].receive_shadow

@@ -1,6 +1,6 @@
 #include "cubecam/gl/devices.hpp"
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 #include "cubecam/gl/device_probe.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "cubecam/gl/egl.hpp"
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 #include "cubecam/gl/context.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "cubecam/gl/objects.hpp"
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 
 #include <algorithm>
 #include <array>

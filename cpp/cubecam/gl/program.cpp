@@ -1,6 +1,6 @@
 #include "cubecam/gl/program.hpp"
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/mat3x3.hpp>

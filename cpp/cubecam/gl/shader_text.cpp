@@ -1,5 +1,5 @@
 // The text side of programs: includes, options put ahead, and logs made readable. No OpenGL here.
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
 #include "cubecam/gl/program.hpp"
 
 #include <algorithm>

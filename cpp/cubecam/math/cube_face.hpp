@@ -1,7 +1,7 @@
 /// The one owner of the cube convention: face order, axes, texel centres. All else refers here.
 ///
 /// OpenGL 4.6 core profile, section 8.13, table 8.19 (first: ARB_texture_cube_map); r is the
-/// direction from the cube's centre, in world axes:
+/// direction from the cube's center, in world axes:
 ///
 ///     face   sc    tc    ma          s = (sc/|ma| + 1)/2
 ///     +X    -rz   -ry    rx          t = (tc/|ma| + 1)/2
@@ -47,7 +47,7 @@ inline constexpr std::array<const char*, face_count> face_names = {"+x", "-x", "
 
 /// World axes of a face: the direction of (s, t) is major + (2s - 1) s_axis + (2t - 1) t_axis.
 struct FaceAxes {
-    glm::vec3 major;   ///< towards the face's centre; the capture camera looks this way
+    glm::vec3 major;   ///< towards the face's center; the capture camera looks this way
     glm::vec3 s_axis;  ///< towards growing s, growing columns
     glm::vec3 t_axis;  ///< towards growing t, growing rows
 };
@@ -79,7 +79,7 @@ struct FaceUv {
     T t;  ///< 0 at row 0's border
 };
 
-/// Direction, from the cube's centre outwards, of (s, t) on a face. Not normalised: its largest
+/// Direction, from the cube's center outwards, of (s, t) on a face. Not normalised: its largest
 /// component is 1 for s and t within [0, 1].
 template <typename T>
 glm::vec<3, T> face_uv_to_direction(Face face, T s, T t) {
@@ -88,7 +88,7 @@ glm::vec<3, T> face_uv_to_direction(Face face, T s, T t) {
            (2 * t - 1) * glm::vec<3, T>(axes.t_axis);
 }
 
-/// The face that a direction (from the centre outwards, of any length but 0) meets, and where.
+/// The face that a direction (from the center outwards, of any length but 0) meets, and where.
 /// On an edge the first of x, y, z wins: GL leaves that open, and seamless lookups agree there.
 template <typename T>
 FaceUv<T> direction_to_face_uv(const glm::vec<3, T>& direction) {

@@ -1,7 +1,7 @@
 /// The panorama that the whole of docs/conventions.md calls "equirect": unmirrored (what stands to
-/// the right of the centre is to the right in the picture), row 0 at +Y, centre column named.
+/// the right of the center is to the right in the picture), row 0 at +Y, center column named.
 ///
-/// u = 1/2 + longitude / (2 pi), v = 1/2 - latitude / pi; longitude counts from the centre to the
+/// u = 1/2 + longitude / (2 pi), v = 1/2 - latitude / pi; longitude counts from the center to the
 /// right, latitude from the horizon up. Texel (row, col) of a (H, W) picture is the direction with
 /// u = (col + .5)/W, v = (row + .5)/H.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace cubecam {
 
-/// The world axis at the centre of the panorama. neg_z: camera forward, the default; pos_z:
+/// The world axis at the center of the panorama. neg_z: camera forward, the default; pos_z:
 /// OpenEXR, Mitsuba, OpenImageIO (y up); pos_x: three.js.
 enum class Center : int { neg_z, pos_z, pos_x, neg_x };
 
@@ -32,7 +32,7 @@ constexpr glm::vec<3, T> center_forward(Center center) {
     return {0, 0, -1};
 }
 
-/// What lies a quarter to the right of the centre: forward x up.
+/// What lies a quarter to the right of the center: forward x up.
 template <typename T>
 constexpr glm::vec<3, T> center_right(Center center) {
     const glm::vec<3, T> forward = center_forward<T>(center);

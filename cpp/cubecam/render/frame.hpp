@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cubecam/scene/format.hpp"
-#include "cubecam/scene/pixels.hpp"
+#include "cubecam/image/format.hpp"
+#include "cubecam/image/pixels.hpp"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #include "cubecam/render/readback.hpp"
 
-#include "cubecam/render/flip.hpp"
+#include "cubecam/image/flip.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -52,7 +52,7 @@ public:
     }
 
     PixelBuffer picture() {
-        Layers& layers = d_.graded                ? target_.graded_pass()
+        Layers& layers = d_.post_processed        ? target_.post_processed_pass()
                          : target_.multisampled() ? target_.resolved()
                                                   : target_.color_pass();
         if (d_.format == Format::rgb565) {

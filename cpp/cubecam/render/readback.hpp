@@ -1,8 +1,8 @@
 #pragma once
 
+#include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/render/frame.hpp"
-#include "cubecam/render/target.hpp"
-#include "cubecam/scene/cubemap.hpp"
+#include "cubecam/render/resources/target.hpp"
 
 #include <memory>
 

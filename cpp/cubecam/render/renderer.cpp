@@ -1,8 +1,8 @@
 #include "cubecam/render/renderer.hpp"
 
-#include "cubecam/error.hpp"
+#include "cubecam/core/error.hpp"
+#include "cubecam/render/graph/session.hpp"
 #include "cubecam/render/readback.hpp"
-#include "cubecam/render/session.hpp"
 #include "cubecam/render/stereo.hpp"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ struct Renderer::Gpu {
     }
 
     gl::Context context;
-    std::optional<GpuState> state;
+    std::optional<RendererState> state;
 };
 
 Renderer::Renderer(RendererOptions options) {
@@ -117,7 +117,7 @@ auto Renderer::run(Work&& work) {
     if (gpu_ == nullptr) throw ContextError("the renderer is closed: expected an open Renderer");
     const auto start = std::chrono::steady_clock::now();
     const gl::CurrentScope scope(gpu_->context);
-    GpuState& state = *gpu_->state;
+    RendererState& state = *gpu_->state;
     state.cache.sweep();
     state.probes.sweep();
     state.textures.sweep();
@@ -146,12 +146,12 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
     if (!options.color && !scene.effects.empty()) {
         throw std::invalid_argument("effects: expected none without a colour, got format None");
     }
-    return run([&](GpuState& gpu) {
+    return run([&](RendererState& gpu) {
         TargetDescription description = describe_target(
             gpu.context, false, options.width, options.height, options.samples, options.format,
             options.outputs, options.depth_format, options.color, static_cast<int>(cameras.size()));
-        const Finish finish{scene.effects, options.tonemap, options.encode};
-        set_finish(description, finish.effects.size(), finish.any());
+        const PostProcess post_process{scene.effects, options.tonemap, options.encode};
+        set_post_process(description, post_process.effects.size(), post_process.any());
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
             static_cast<double>(options.width) / static_cast<double>(options.height);
@@ -160,7 +160,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
             views.push_back(camera_view(matrices(camera, aspect)));
         }
         Session session(gpu, scene);
-        session.call().draw(views, target, [](const NodeSnapshot&) { return true; }, finish);
+        session.call().draw(views, target, [](const NodeSnapshot&) { return true; }, post_process);
         stats_ = session.stats;
         return read_frame(gpu.context.gl(), target);
     });
@@ -182,7 +182,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
                                            const CaptureOptions& options) {
     check(options);
     check_buffers(options);
-    return run([&](GpuState& gpu) {
+    return run([&](RendererState& gpu) {
         const TargetDescription description =
             describe_target(gpu.context, true, options.size, options.size, options.samples,
                             options.format, options.outputs, options.depth_format);
@@ -191,7 +191,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
             cube_views(options.position, options.near, options.far, options.eye);
         Session session(gpu, scene);
         session.call().draw(views, target, [&](const NodeSnapshot& node) {
-            return node.in_probes && !is_excluded(node, options.exclude);
+            return node.in_captures && !is_excluded(node, options.exclude);
         });
         stats_ = session.stats;
         return read_cube(gpu.context.gl(), target);
@@ -213,7 +213,7 @@ void Renderer::update(const SceneSnapshot& scene,
             throw std::invalid_argument(
                 "probes: expected probes that a visible node of the scene uses");
     }
-    run([&](GpuState& gpu) {
+    run([&](RendererState& gpu) {
         Session session(gpu, scene);
         session.call().force(indices);
         stats_ = session.stats;
@@ -233,7 +233,7 @@ ShadowPicture Renderer::shadow_map(const SceneSnapshot& scene,
     if (!found->value.shadow) {
         throw std::invalid_argument("light: expected one with a shadow, got one without");
     }
-    return run([&](GpuState& gpu) {
+    return run([&](RendererState& gpu) {
         Session session(gpu, scene);
         ShadowPicture picture;
         picture.size = found->value.shadow->size;
@@ -247,7 +247,7 @@ ShadowPicture Renderer::shadow_map(const SceneSnapshot& scene,
 }
 
 std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) {
-    return run([&](GpuState& gpu) {
+    return run([&](RendererState& gpu) {
         ProbeContents* contents = gpu.probes.find(probe);
         const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
         if (state == nullptr || state->target == nullptr) {
@@ -259,7 +259,7 @@ std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) 
 }
 
 Frame Renderer::texture(const std::shared_ptr<RenderTexture>& texture) {
-    return run([&](GpuState& gpu) {
+    return run([&](RendererState& gpu) {
         const TextureState* state = gpu.textures.find(texture);
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("render_texture: expected one that this renderer has "

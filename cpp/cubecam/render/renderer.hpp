@@ -1,10 +1,11 @@
 #pragma once
 
+#include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/gl/context.hpp"
 #include "cubecam/render/frame.hpp"
 #include "cubecam/render/options.hpp"
+#include "cubecam/render/resources/stats.hpp"
 #include "cubecam/scene/camera.hpp"
-#include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"

@@ -1,7 +1,7 @@
 #include "cubecam/scene/camera.hpp"
 
+#include "cubecam/core/checks.hpp"
 #include "cubecam/math/transform.hpp"
-#include "cubecam/scene/describe.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cubecam/scene/versioned.hpp"
+#include "cubecam/core/versioned.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,6 +1,6 @@
 #include "cubecam/scene/image_effect.hpp"
 
-#include "cubecam/scene/describe.hpp"
+#include "cubecam/core/checks.hpp"
 
 #include <utility>
 #include <variant>

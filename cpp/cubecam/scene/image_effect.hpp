@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cubecam/scene/user_shader.hpp"
-#include "cubecam/scene/versioned.hpp"
+#include "cubecam/core/versioned.hpp"
+#include "cubecam/materials/user_shader.hpp"
 
 namespace cubecam {
 

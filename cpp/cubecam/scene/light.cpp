@@ -1,6 +1,6 @@
 #include "cubecam/scene/light.hpp"
 
-#include "cubecam/scene/describe.hpp"
+#include "cubecam/core/checks.hpp"
 
 #include <cmath>
 #include <utility>

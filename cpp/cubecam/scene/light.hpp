@@ -1,7 +1,7 @@
 #pragma once
 
+#include "cubecam/core/versioned.hpp"
 #include "cubecam/scene/shadow.hpp"
-#include "cubecam/scene/versioned.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cubecam/scene/lookup.hpp"
-#include "cubecam/scene/material.hpp"
-#include "cubecam/scene/mesh.hpp"
+#include "cubecam/geometry/mesh.hpp"
+#include "cubecam/materials/material.hpp"
+#include "cubecam/materials/texture_source.hpp"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -38,11 +38,11 @@ struct NodeValue {
     std::shared_ptr<Material> material;  ///< set wherever there is a mesh
     CubeSource environment;              ///< none: the scene's
     bool visible = true;
-    bool in_probes = true;
+    bool in_captures = true;
     std::string name;
     std::int32_t render_order = 0;  ///< lower is drawn first, before distance
-    bool casts_shadows = true;      ///< false: nor does anything below it
-    bool receives_shadows = true;   ///< of its own surface
+    bool cast_shadow = true;        ///< false: nor does anything below it
+    bool receive_shadow = true;     ///< of its own surface
 };
 
 /// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the

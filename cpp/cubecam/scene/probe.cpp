@@ -1,7 +1,7 @@
 #include "cubecam/scene/probe.hpp"
 
-#include "cubecam/scene/describe.hpp"
-#include "cubecam/scene/revision.hpp"
+#include "cubecam/core/checks.hpp"
+#include "cubecam/core/revision.hpp"
 
 #include <string>
 #include <utility>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "cubecam/scene/depth_format.hpp"
-#include "cubecam/scene/format.hpp"
-#include "cubecam/scene/versioned.hpp"
+#include "cubecam/core/versioned.hpp"
+#include "cubecam/image/depth_format.hpp"
+#include "cubecam/image/format.hpp"
 #include "cubecam/scene/weak_nodes.hpp"
 
 #include <glm/glm.hpp>

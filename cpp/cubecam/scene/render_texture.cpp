@@ -1,7 +1,7 @@
 #include "cubecam/scene/render_texture.hpp"
 
+#include "cubecam/core/checks.hpp"
 #include "cubecam/scene/camera.hpp"
-#include "cubecam/scene/describe.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <string>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "cubecam/scene/depth_format.hpp"
-#include "cubecam/scene/format.hpp"
-#include "cubecam/scene/image.hpp"
+#include "cubecam/core/versioned.hpp"
+#include "cubecam/image/depth_format.hpp"
+#include "cubecam/image/format.hpp"
+#include "cubecam/image/image.hpp"
 #include "cubecam/scene/image_effect.hpp"
-#include "cubecam/scene/versioned.hpp"
 #include "cubecam/scene/weak_nodes.hpp"
 
 #include <cstdint>
@@ -61,7 +61,7 @@ public:
         });
     }
 
-    /// Gives up its scene, to be destroyed next: for free_unreachable.
+    /// Gives up its scene, to be destroyed next: for collect_cycles.
     void let_go();
 
 private:

@@ -1,6 +1,6 @@
 #include "cubecam/scene/scene.hpp"
 
-#include "cubecam/scene/describe.hpp"
+#include "cubecam/core/checks.hpp"
 
 #include <algorithm>
 #include <limits>

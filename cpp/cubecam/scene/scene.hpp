@@ -1,7 +1,7 @@
 #pragma once
 
+#include "cubecam/materials/texture_source.hpp"
 #include "cubecam/scene/light.hpp"
-#include "cubecam/scene/lookup.hpp"
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/snapshot.hpp"
 

@@ -12,7 +12,7 @@ struct Shadow {
     double near = 0.05;            ///< point and spot lights: nothing nearer casts, world units
     std::optional<double> far;     ///< point and spot lights: nothing farther casts; none: all does
     std::optional<double> extent;  ///< directional lights: world units a side of what the map
-                                   ///< covers, round the casters' centre; none: all casters
+                                   ///< covers, round the casters' center; none: all casters
 
     bool operator==(const Shadow&) const = default;
 };

@@ -49,15 +49,15 @@ public:
         return materials_.emplace(material, material->state()).first->second;
     }
 
-    FrozenCube freeze(const std::shared_ptr<CubeMap>& cube) {
+    CubeSnapshot snapshot_of(const std::shared_ptr<CubeMap>& cube) {
         auto& data = cubes_[cube];
         if (!data) data = cube->data();
         return {cube, data};
     }
 
-    FrozenMap freeze(const MapSource& source) {
+    MapSnapshot snapshot_of(const MapSource& source) {
         if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
-            return *image ? FrozenMap(*image) : FrozenMap();
+            return *image ? MapSnapshot(*image) : MapSnapshot();
         }
         const auto* texture = std::get_if<std::shared_ptr<RenderTexture>>(&source);
         if (!texture || !*texture) return {};
@@ -67,35 +67,36 @@ public:
         textures.push_back(read(*texture));
         // These may show further textures, so the list grows.
         std::vector<EffectSnapshot> effects;
-        for (const auto& effect : textures[index].value.effects) effects.push_back(freeze(*effect));
+        for (const auto& effect : textures[index].value.effects)
+            effects.push_back(snapshot_of(*effect));
         textures[index].effects = std::move(effects);
         return index;
     }
 
     /// An effect belongs to no scene, and so shows no probe.
-    EffectSnapshot freeze(const ImageEffect& effect) {
+    EffectSnapshot snapshot_of(const ImageEffect& effect) {
         auto [value, revision] = effect.state();
-        std::vector<FrozenTexture> frozen;
+        std::vector<TextureSourceSnapshot> frozen;
         for (const auto& [name, source] : value.inputs.textures) {
             if (const auto* map = std::get_if<MapSource>(&source)) {
-                frozen.emplace_back(freeze(*map));
+                frozen.emplace_back(snapshot_of(*map));
             } else {
                 const auto& cube = std::get<std::shared_ptr<CubeMap>>(std::get<CubeSource>(source));
-                frozen.emplace_back(FrozenSource(freeze(cube)));
+                frozen.emplace_back(CubeSourceSnapshot(snapshot_of(cube)));
             }
         }
         return {std::move(value), revision, std::move(frozen)};
     }
 
-    std::vector<TextureSnapshot> textures;
+    std::vector<RenderTextureSnapshot> textures;
     std::vector<std::shared_ptr<Scene>> others;  ///< scenes of textures, but for the first
 
 private:
-    TextureSnapshot read(const std::shared_ptr<RenderTexture>& texture) {
+    RenderTextureSnapshot read(const std::shared_ptr<RenderTexture>& texture) {
         RenderTextureValue value = texture->value();
         const auto [found, added] = numbers_.try_emplace(value.scene.get(), numbers_.size());
         if (added) others.push_back(value.scene);
-        TextureSnapshot snapshot{texture, std::move(value), {}, found->second, {}, {}};
+        RenderTextureSnapshot snapshot{texture, std::move(value), {}, found->second, {}, {}};
         snapshot.camera = snapshot.value.camera->value();
         for (const auto& excluded : snapshot.value.exclude) {
             const auto node = excluded.lock();
@@ -136,8 +137,8 @@ private:
     struct Place {
         glm::dmat4 world;
         bool visible;
-        bool in_probes;
-        bool casts_shadows;
+        bool in_captures;
+        bool cast_shadow;
         bool known = false;
     };
 
@@ -165,14 +166,14 @@ private:
             waiting_.pop_back();
             const Node& node = *nodes_[next];
             const NodeValue& value = node.value_;
-            Place place{matrix_of(value.placing), value.visible, value.in_probes,
-                        value.casts_shadows, true};
+            Place place{matrix_of(value.placing), value.visible, value.in_captures,
+                        value.cast_shadow, true};
             if (node.parent_) {
                 const Place& above = places_[index_of(*node.parent_)];
                 place.world = above.world * place.world;
                 place.visible = place.visible && above.visible;
-                place.in_probes = place.in_probes && above.in_probes;
-                place.casts_shadows = place.casts_shadows && above.casts_shadows;
+                place.in_captures = place.in_captures && above.in_captures;
+                place.cast_shadow = place.cast_shadow && above.cast_shadow;
             }
             places_[next] = place;
         }
@@ -201,18 +202,18 @@ private:
             transformed(bounds, place.world),
             value.mesh,
             material,
-            freeze(value.environment),
-            basic ? freeze(basic->cubemap) : FrozenSource(),
-            value.mesh->uvs() ? shared_.freeze(map_of(material.value)) : FrozenMap(),
-            shader ? freeze(shader->inputs) : std::vector<FrozenTexture>(),
+            snapshot_of(value.environment),
+            basic ? snapshot_of(basic->cubemap) : CubeSourceSnapshot(),
+            value.mesh->uvs() ? shared_.snapshot_of(map_of(material.value)) : MapSnapshot(),
+            shader ? snapshot_of(shader->inputs) : std::vector<TextureSourceSnapshot>(),
             moved && !shader->displacement,
-            place.in_probes,
+            place.in_captures,
             blend != Blend::opaque,
             blend,
             surface.depth_write.value_or(blend == Blend::opaque),
             {},
-            place.casts_shadows && blend == Blend::opaque,
-            value.receives_shadows,
+            place.cast_shadow && blend == Blend::opaque,
+            value.receive_shadow,
         };
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
             snapshot.ancestors.push_back(above->id());
@@ -221,9 +222,9 @@ private:
         to_.nodes.push_back(std::move(snapshot));
     }
 
-    FrozenSource freeze(const CubeSource& source) {
+    CubeSourceSnapshot snapshot_of(const CubeSource& source) {
         if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source); cube && *cube) {
-            return shared_.freeze(*cube);
+            return shared_.snapshot_of(*cube);
         }
         if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source); probe && *probe) {
             const auto [found, added] = probes_.try_emplace(probe->get(), to_.probes.size());
@@ -233,13 +234,13 @@ private:
         return {};
     }
 
-    std::vector<FrozenTexture> freeze(const ShaderInputs& inputs) {
-        std::vector<FrozenTexture> frozen;
+    std::vector<TextureSourceSnapshot> snapshot_of(const ShaderInputs& inputs) {
+        std::vector<TextureSourceSnapshot> frozen;
         for (const auto& [name, source] : inputs.textures) {
             if (const auto* map = std::get_if<MapSource>(&source)) {
-                frozen.emplace_back(shared_.freeze(*map));
+                frozen.emplace_back(shared_.snapshot_of(*map));
             } else {
-                frozen.emplace_back(freeze(std::get<CubeSource>(source)));
+                frozen.emplace_back(snapshot_of(std::get<CubeSource>(source)));
             }
         }
         return frozen;
@@ -276,7 +277,7 @@ private:
 SceneSnapshot Scene::snapshot(const Effects& effects) const {
     SharedReads shared(this);
     SceneSnapshot snapshot = snapshot_alone(shared);
-    for (const auto& effect : effects) snapshot.effects.push_back(shared.freeze(*effect));
+    for (const auto& effect : effects) snapshot.effects.push_back(shared.snapshot_of(*effect));
     // Each under its own mutex alone: two scenes that show each other would wait for each other.
     for (std::size_t i = 0; i < shared.others.size(); ++i) {
         const std::shared_ptr<const Scene> next = shared.others[i];  // the vector may grow
@@ -292,13 +293,13 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared) const {
     {
         const std::lock_guard lock(graph_->mutex);
         SnapshotBuilder builder(nodes_, graph_.get(), shared, snapshot);
-        if (environment_) snapshot.environment = shared.freeze(environment_);
+        if (environment_) snapshot.environment = shared.snapshot_of(environment_);
         if (const auto* color = std::get_if<glm::vec4>(&background_)) {
             snapshot.background = *color;
         } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background_)) {
-            snapshot.background = shared.freeze(*cube);
+            snapshot.background = shared.snapshot_of(*cube);
         } else if (environment_) {
-            snapshot.background = shared.freeze(environment_);
+            snapshot.background = shared.snapshot_of(environment_);
         } else {
             snapshot.background = glm::vec4(0.0F);
         }

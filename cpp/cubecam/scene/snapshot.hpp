@@ -1,11 +1,11 @@
 #pragma once
 
+#include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/geometry/mesh.hpp"
+#include "cubecam/materials/material.hpp"
 #include "cubecam/scene/camera.hpp"
-#include "cubecam/scene/cubemap.hpp"
 #include "cubecam/scene/image_effect.hpp"
 #include "cubecam/scene/light.hpp"
-#include "cubecam/scene/material.hpp"
-#include "cubecam/scene/mesh.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 
@@ -19,21 +19,21 @@
 namespace cubecam {
 
 /// A fixed cubemap as it was at the moment of the snapshot; `object` names the GPU's copy of it.
-struct FrozenCube {
+struct CubeSnapshot {
     std::shared_ptr<CubeMap> object;
     std::shared_ptr<const CubeMapData> data;
 };
 
 /// A cube lookup in a snapshot: none, a fixed cubemap, or the index of a probe in
 /// SceneSnapshot::probes.
-using FrozenSource = std::variant<std::monostate, FrozenCube, std::size_t>;
+using CubeSourceSnapshot = std::variant<std::monostate, CubeSnapshot, std::size_t>;
 
 /// A picture that a surface shows: none, a fixed one, or the index of a render texture in the
 /// `textures` of the scene that was asked for.
-using FrozenMap = std::variant<std::monostate, std::shared_ptr<const Image>, std::size_t>;
+using MapSnapshot = std::variant<std::monostate, std::shared_ptr<const Image>, std::size_t>;
 
 /// One of the textures of a user's shader.
-using FrozenTexture = std::variant<FrozenMap, FrozenSource>;
+using TextureSourceSnapshot = std::variant<MapSnapshot, CubeSourceSnapshot>;
 
 struct NodeSnapshot {
     std::int32_t id;
@@ -42,24 +42,25 @@ struct NodeSnapshot {
     Bounds world_bounds;
     std::shared_ptr<const Mesh> mesh;  ///< never null: groups are left out
     Material::State material;
-    FrozenSource environment;             ///< the node's own; none: the scene's
-    FrozenSource cubemap;                 ///< what a BasicMaterial shows
-    FrozenMap map;                        ///< none as well if the mesh has no uvs to place it by
-    std::vector<FrozenTexture> textures;  ///< of a ShaderMaterial, in the order of its inputs
-    bool unbounded;                       ///< its vertices may go anywhere: it is not culled
-    bool in_probes;                       ///< of the node and all above it
-    bool translucent;                     ///< blended over what is behind it
-    Blend blend;                          ///< as it is drawn
+    CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
+    CubeSourceSnapshot cubemap;      ///< what a BasicMaterial shows
+    MapSnapshot map;                 ///< none as well if the mesh has no uvs to place it by
+    std::vector<TextureSourceSnapshot>
+        textures;      ///< of a ShaderMaterial, in the order of its inputs
+    bool unbounded;    ///< its vertices may go anywhere: it is not culled
+    bool in_captures;  ///< of the node and all above it
+    bool translucent;  ///< blended over what is behind it
+    Blend blend;       ///< as it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
-    bool casts_shadows;                   ///< opaque, and so are it and all above it set
-    bool receives_shadows;
+    bool cast_shadow;                     ///< opaque, and so are it and all above it set
+    bool receive_shadow;
     std::int32_t render_order = 0;
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.
     /// Not so a mask that leaves no colour either: it is there for what is drawn after it.
-    bool drawn_late() const {
+    bool drawn_as_transparent() const {
         return translucent || (!depth_write && glm::any(material.value.surface.color_write));
     }
 };
@@ -74,7 +75,7 @@ struct LightSnapshot {
 struct EffectSnapshot {
     EffectValue value;
     std::uint64_t revision;
-    std::vector<FrozenTexture> textures;  ///< in the order of its inputs
+    std::vector<TextureSourceSnapshot> textures;  ///< in the order of its inputs
 };
 
 struct ProbeSnapshot {
@@ -84,7 +85,7 @@ struct ProbeSnapshot {
     std::vector<std::int32_t> excluded;  ///< ids; whole subtrees
 };
 
-struct TextureSnapshot {
+struct RenderTextureSnapshot {
     std::shared_ptr<RenderTexture> object;
     RenderTextureValue value;
     CameraValue camera;
@@ -95,8 +96,8 @@ struct TextureSnapshot {
 
 /// What a call draws: values copied, meshes and images shared. Nothing in it changes any more.
 struct SceneSnapshot {
-    FrozenSource environment;
-    std::variant<glm::vec4, FrozenCube> background;
+    CubeSourceSnapshot environment;
+    std::variant<glm::vec4, CubeSnapshot> background;
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in order of id
     std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>
@@ -107,7 +108,7 @@ struct SceneSnapshot {
     std::vector<EffectSnapshot> effects;  ///< of the frame
 
     /// Render textures that any of the scenes shows, each once, in the order of their first user.
-    std::vector<TextureSnapshot> textures;
+    std::vector<RenderTextureSnapshot> textures;
     /// The other scenes that those are drawn from, each once and as it was at one moment.
     std::vector<SceneSnapshot> others;
 

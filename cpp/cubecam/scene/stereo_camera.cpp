@@ -1,7 +1,7 @@
 #include "cubecam/scene/stereo_camera.hpp"
 
+#include "cubecam/core/checks.hpp"
 #include "cubecam/math/transform.hpp"
-#include "cubecam/scene/describe.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 

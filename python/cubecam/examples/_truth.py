@@ -110,7 +110,7 @@ def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> t
     incident, normal = directions[reflective], seen.normal[reflective]
     bounced = incident - 2 * _dot(normal, incident) * normal
     start = seen.position[reflective]
-    around = Geometry(node for node in nodes if node.in_probes and node.id not in mirrors)
+    around = Geometry(node for node in nodes if node.in_captures and node.id not in mirrors)
     light = _phong(scene, nodes, around.cast(start, bounced), start, np.asarray(background)[:3])
     weights = [mirrors[number] for number in seen.id[reflective]]
     tint = np.array([m.env_weight * m.tint[:3] for m in weights]).reshape(-1, 3)

@@ -60,7 +60,7 @@ def build(
     materials = cc.GlassMaterial(eta=eta, fresnel=fresnel), gold()
     # The balls do not see each other: how mirrors show mirrors is another question.
     glass, mirror = (
-        scene.add(ball, material, position=(x, 0, 0), scale=SCALE, in_probes=False)
+        scene.add(ball, material, position=(x, 0, 0), scale=SCALE, in_captures=False)
         for x, material in zip((-APART, APART), materials, strict=True)
     )
     probes = []

@@ -89,7 +89,7 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
     scene.add(teapot(), phong(TEAPOT[1]), position=PLACES[1])
     mesh, mirror = cc.Mesh.sphere(BALL), gold()
     # No ball is in a cubemap, whoever's it is: what differs is the place it is drawn from, and nothing else.
-    balls = tuple(scene.add(mesh, mirror, scale=SCALE, in_probes=False) for _ in range(3))
+    balls = tuple(scene.add(mesh, mirror, scale=SCALE, in_captures=False) for _ in range(3))
     probes = tuple(
         cc.Probe(size=probe_size, near=NEAR, far=FAR, format=probe_format, parent=ball)
         for ball in balls

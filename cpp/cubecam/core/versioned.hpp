@@ -1,0 +1,50 @@
+#pragma once
+
+#include "cubecam/core/revision.hpp"
+
+#include <cstdint>
+#include <mutex>
+#include <utility>
+
+namespace cubecam {
+
+/// A plain value behind a mutex, with the revision of its last real change.
+///
+/// Setting an equal value changes nothing: the renderer compares revisions to decide whether a
+/// picture it already holds is still true, so a needless new revision would be a needless redraw.
+template <class Value>
+class Versioned {
+public:
+    struct State {
+        Value value;
+        std::uint64_t revision;
+    };
+
+    explicit Versioned(Value value) : state_{std::move(value), next_revision()} {}
+
+    /// Value and revision as they were at one moment.
+    State state() const {
+        const std::lock_guard lock(mutex_);
+        return state_;
+    }
+
+    Value value() const { return state().value; }
+
+    /// Applies `change` to a copy; keeps it, under a new revision, only if it differs.
+    /// An exception thrown by `change` leaves the old value in place.
+    template <class Change>
+    void edit(Change&& change) {
+        const std::lock_guard lock(mutex_);
+        Value next = state_.value;
+        std::forward<Change>(change)(next);
+        if (!(next == state_.value)) {
+            state_ = State{std::move(next), next_revision()};
+        }
+    }
+
+private:
+    mutable std::mutex mutex_;
+    State state_;
+};
+
+}  // namespace cubecam

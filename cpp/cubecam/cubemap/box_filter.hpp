@@ -1,0 +1,110 @@
+/// The filter of all resampling: the average over a box along one axis. For the .cpp files of
+/// cubemaps only.
+#pragma once
+
+#include "cubecam/cubemap/cube_texels.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace cubecam {
+
+/// The width of a box in texels, at least 1, and its inverse.
+struct BoxWidth {
+    double texels;
+    double inverse;
+
+    explicit BoxWidth(double wide) : texels(std::max(wide, 1.0)), inverse(1 / texels) {}
+    BoxWidth(double wide, double one_by_wide)
+        : texels(std::max(wide, 1.0)), inverse(std::min(one_by_wide, 1.0)) {}
+};
+
+/// How many texels boxes reach over: two (width 1: linear interpolation), two or three (up to 2),
+/// any number. Loops are compiled for each, as the branch between would be mispredicted at every
+/// other texel.
+enum class Reach { linear, near, far };
+
+inline Reach reach_of(double texels) {
+    return texels <= 1 ? Reach::linear : texels <= 2 ? Reach::near : Reach::far;
+}
+
+/// Calls body(std::integral_constant<Reach, reach>).
+template <typename Body>
+decltype(auto) with_reach(Reach reach, const Body& body) {
+    if (reach == Reach::linear) return body(std::integral_constant<Reach, Reach::linear>{});
+    if (reach == Reach::near) return body(std::integral_constant<Reach, Reach::near>{});
+    return body(std::integral_constant<Reach, Reach::far>{});
+}
+
+/// A box over texels first ... first + inner + 1. The first weighs what the others leave. Where
+/// inner is 0 the second weighs `near`, else each of the inner ones does, and the last `last`.
+struct BoxTap {
+    std::int32_t first;
+    std::int32_t inner;
+    float near;
+    float last;
+
+    std::int32_t end() const { return first + inner + 2; }
+};
+
+/// As std::floor, for numbers that int can hold; without SSE 4.1 that is a call into the library.
+inline std::int32_t floor_to_int(double value) {
+    const auto towards_zero = static_cast<std::int32_t>(value);
+    return towards_zero - (value < towards_zero ? 1 : 0);
+}
+
+/// The box round `center`, where texel i covers i - 1/2 to i + 1/2. At width 1 it weighs its two
+/// texels as linear interpolation does.
+inline BoxTap box_tap(double center, const BoxWidth& width) {
+    // A border this near to a texel's is that border: no texel is read for the rounding's sake.
+    constexpr double snap = 1e-7;
+    const double begin = center + 0.5 - width.texels / 2;
+    const double end = center + 0.5 + width.texels / 2;
+    const std::int32_t first = floor_to_int(begin + snap);
+    const std::int32_t last = std::max(floor_to_int(end - snap), first + 1);
+    const auto rest = static_cast<float>(std::max(end - last, 0.0) * width.inverse);
+    const bool two = last == first + 1;
+    return {first, last - first - 1, two ? rest : static_cast<float>(width.inverse),
+            two ? 0.0f : rest};
+}
+
+/// Applies a tap to texels that `texel(0)`, `texel(1)`, ... give, counted from tap.first. Sums of
+/// differences, so that equal texels give exactly that texel; long boxes are summed in double.
+template <Reach reach, typename Texels>
+auto apply_tap(const BoxTap& tap, const Texels& texel) {
+    const auto first = texel(0);
+    if constexpr (reach == Reach::linear) {
+        return first + (texel(1) - first) * tap.near;
+    } else if constexpr (reach == Reach::near) {
+        return first + ((texel(1) - first) * tap.near + (texel(tap.inner + 1) - first) * tap.last);
+    } else {
+        using Texel = std::remove_cvref_t<decltype(first)>;
+        Texel sum = texel(1) - first;
+        if (tap.inner == 0) return first + sum * tap.near;
+        const Texel end = (texel(tap.inner + 1) - first) * tap.last;
+        if (tap.inner <= 8) {
+            for (int i = 2; i <= tap.inner; ++i) sum += texel(i) - first;
+            return first + (sum * tap.near + end);
+        }
+        if constexpr (std::is_same_v<Texel, float>) {
+            double total = 0;
+            for (int i = 1; i <= tap.inner; ++i) {
+                total += static_cast<double>(texel(i)) - static_cast<double>(first);
+            }
+            sum = static_cast<float>(total * static_cast<double>(tap.near));
+        } else {
+            typedef double Double4 __attribute__((vector_size(32)));
+            const Double4 wide_first = __builtin_convertvector(first, Double4);
+            Double4 total = {0, 0, 0, 0};
+            for (int i = 1; i <= tap.inner; ++i) {
+                total += __builtin_convertvector(texel(i), Double4) - wide_first;
+            }
+            sum = __builtin_convertvector(total * static_cast<double>(tap.near), Float4);
+        }
+        return first + (sum + end);
+    }
+}
+
+}  // namespace cubecam

@@ -1,0 +1,168 @@
+/// Texels of a cube with their neighbours beyond the edges, as floats. For the .cpp files of
+/// cubemaps only.
+#pragma once
+
+#include "cubecam/image/pixels.hpp"
+#include "cubecam/math/cube_edges.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+namespace cubecam {
+
+/// Four floats that compilers keep in one register (GCC and Clang).
+typedef float Float4 __attribute__((vector_size(16)));
+
+/// A texel of 1, 3 or 4 channels under way. The fourth lane of three channels is 0.
+template <int Channels>
+using Lane = std::conditional_t<Channels == 1, float, Float4>;
+
+inline float to_float(std::uint8_t value) { return unorm8_to_float(value); }
+inline float to_float(std::uint16_t value) { return half_to_float(value); }
+inline float to_float(float value) { return value; }
+
+template <int Channels, typename Pixel>
+Lane<Channels> load_texel(const Pixel* from) {
+    if constexpr (Channels == 1) {
+        return to_float(from[0]);
+    } else if constexpr (Channels == 3) {
+        return Float4{to_float(from[0]), to_float(from[1]), to_float(from[2]), 0.0f};
+    } else if constexpr (std::is_same_v<Pixel, float>) {
+        Float4 texel;
+        std::memcpy(&texel, from, sizeof texel);
+        return texel;
+    } else {
+        return Float4{to_float(from[0]), to_float(from[1]), to_float(from[2]), to_float(from[3])};
+    }
+}
+
+/// The same, faster, where another texel follows in memory: the fourth lane of three channels is
+/// then what comes next, and nobody's concern.
+template <int Channels, typename Pixel>
+Lane<Channels> load_texel_before_another(const Pixel* from) {
+    if constexpr (Channels == 3 && std::is_same_v<Pixel, float>) {
+        return load_texel<4>(from);
+    } else {
+        return load_texel<Channels>(from);
+    }
+}
+
+template <int Channels>
+void store_texel(Lane<Channels> texel, float* to) {
+    if constexpr (Channels == 1) {
+        *to = texel;
+    } else if constexpr (Channels == 3) {
+        typedef double Double2 __attribute__((vector_size(16)));
+        const double two = reinterpret_cast<Double2>(texel)[0];  // 8 bytes of register, 2 floats
+        std::memcpy(to, &two, sizeof two);
+        to[2] = texel[2];
+    } else {
+        std::memcpy(to, &texel, sizeof texel);
+    }
+}
+
+/// From a to b. Not a (1 - w) + b w: between equal texels this is exact.
+template <typename LaneType>
+LaneType mix_texels(LaneType a, LaneType b, float weight) {
+    return a + (b - a) * weight;
+}
+
+/// One level of a cube, read seamlessly (GL 4.6 section 8.14.2, "Seamless cube map filtering").
+template <typename Pixel, int Channels>
+struct CubeTexels {
+    const Pixel* pixels;  ///< [6][size][size][Channels]
+    int size;
+
+    const Pixel* at(Face face, int row, int column) const {
+        const auto n = static_cast<std::size_t>(size);
+        return pixels + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
+                         static_cast<std::size_t>(column)) *
+                            Channels;
+    }
+
+    Lane<Channels> inside(Face face, int row, int column) const {
+        return load_texel<Channels>(at(face, row, column));
+    }
+
+    bool contains(int index) const { return index >= 0 && index < size; }
+
+    /// Any row and column: beyond an edge the neighbour's texels, unfolded; where both are outside,
+    /// the average of the three texels that meet in that corner.
+    Lane<Channels> seamless(Face face, int row, int column) const {
+        const bool row_in = contains(row);
+        const bool column_in = contains(column);
+        if (row_in && column_in) return inside(face, row, column);
+        if (row_in || column_in) {
+            const TexelPlace place = texel_beyond_edge(face, row, column, size);
+            return inside(place.face, place.row, place.column);
+        }
+        const int near_row = row < 0 ? 0 : size - 1;
+        const int near_column = column < 0 ? 0 : size - 1;
+        const int next_row = row < 0 ? -1 : size;
+        const int next_column = column < 0 ? -1 : size;
+        const Lane<Channels> own = inside(face, near_row, near_column);
+        // Differences, so that three equal texels give exactly the fourth.
+        return own + ((seamless(face, next_row, near_column) - own) +
+                      (seamless(face, near_row, next_column) - own)) /
+                         3.0f;
+    }
+
+    Lane<Channels> bilinear(Face face, float s, float t) const {
+        return between(face, s * static_cast<float>(size) - 0.5f,
+                       t * static_cast<float>(size) - 0.5f);
+    }
+
+    /// The same at column x and row y, with texel centres at whole numbers: -1/2 to N - 1/2.
+    Lane<Channels> between(Face face, float x, float y) const {
+        // From -1/2 on: rounding towards 0 after adding 1 is rounding down.
+        const int column = static_cast<int>(x + 1.0f) - 1;
+        const int row = static_cast<int>(y + 1.0f) - 1;
+        const float right_weight = x - static_cast<float>(column);
+        const float bottom_weight = y - static_cast<float>(row);
+        // Not the last column: behind its last texel there may be no memory.
+        if (column >= 0 && row >= 0 && column + 2 < size && row + 1 < size) {
+            const auto load = [](const Pixel* from) {
+                return load_texel_before_another<Channels>(from);
+            };
+            const Pixel* upper = at(face, row, column);
+            const Pixel* lower = upper + static_cast<std::size_t>(size) * Channels;
+            return mix_texels(mix_texels(load(upper), load(upper + Channels), right_weight),
+                              mix_texels(load(lower), load(lower + Channels), right_weight),
+                              bottom_weight);
+        }
+        return between_faces(face, row, column, right_weight, bottom_weight);
+    }
+
+    [[gnu::noinline]] Lane<Channels> between_faces(Face face, int row, int column,
+                                                   float right_weight, float bottom_weight) const {
+        return mix_texels(
+            mix_texels(seamless(face, row, column), seamless(face, row, column + 1), right_weight),
+            mix_texels(seamless(face, row + 1, column), seamless(face, row + 1, column + 1),
+                       right_weight),
+            bottom_weight);
+    }
+};
+
+/// Calls body(std::integral_constant<int, C>) for the C that is `channels`.
+template <typename Body>
+decltype(auto) with_channels(int channels, const Body& body) {
+    if (channels == 1) return body(std::integral_constant<int, 1>{});
+    if (channels == 3) return body(std::integral_constant<int, 3>{});
+    if (channels == 4) return body(std::integral_constant<int, 4>{});
+    throw std::invalid_argument("channels: expected 1, 3 or 4, got " + std::to_string(channels));
+}
+
+/// Calls body(const Pixel*) with the pixels as what they are.
+template <typename Body>
+decltype(auto) with_pixels(DType dtype, const std::byte* pixels, const Body& body) {
+    if (dtype == DType::uint8) return body(reinterpret_cast<const std::uint8_t*>(pixels));
+    if (dtype == DType::float16) return body(reinterpret_cast<const std::uint16_t*>(pixels));
+    return body(reinterpret_cast<const float*>(pixels));
+}
+
+}  // namespace cubecam

@@ -1,0 +1,262 @@
+#include "cubecam/cubemap/cubemap.hpp"
+
+#include "cubecam/core/parallel.hpp"
+#include "cubecam/core/revision.hpp"
+#include "cubecam/cubemap/box_filter.hpp"
+#include "cubecam/cubemap/cube_texels.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace cubecam {
+
+namespace {
+
+void check_length(const char* name, std::size_t expected, std::size_t got) {
+    if (expected == got) return;
+    throw std::invalid_argument(std::string(name) + ": expected " + std::to_string(expected) +
+                                " values, got " + std::to_string(got));
+}
+
+void check_outputs(const CapturedOutputs& outputs, int size) {
+    const std::size_t texels =
+        face_count * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
+    if (outputs.distance) check_length("distance", texels, outputs.distance->size());
+    if (outputs.z) check_length("z", texels, outputs.z->size());
+    if (outputs.normal) check_length("normal", 3 * texels, outputs.normal->size());
+    if (outputs.position) check_length("position", 3 * texels, outputs.position->size());
+    if (outputs.id) check_length("id", texels, outputs.id->size());
+    if (outputs.depth) check_length("depth", texels, outputs.depth->size());
+    if (outputs.stencil) check_length("stencil", texels, outputs.stencil->size());
+}
+
+std::array<std::uint64_t, face_count> new_face_revisions() {
+    std::array<std::uint64_t, face_count> revisions;
+    for (std::uint64_t& revision : revisions) revision = next_revision();
+    return revisions;
+}
+
+/// By bytes, as NaN (the position of the background) equals itself there.
+template <typename T>
+bool same_values(const std::shared_ptr<const Buffer<T>>& a,
+                 const std::shared_ptr<const Buffer<T>>& b) {
+    if (a == b) return true;
+    return a && b && a->size() == b->size() &&
+           std::memcmp(a->data(), b->data(), a->size() * sizeof(T)) == 0;
+}
+
+PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType dtype) {
+    const int half = std::max(1, size / 2);
+    const auto from_values = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
+                             static_cast<std::size_t>(channels);
+    const auto to_values = static_cast<std::size_t>(half) * static_cast<std::size_t>(half) *
+                           static_cast<std::size_t>(channels);
+    PixelBuffer result(face_count * to_values * dtype_size(dtype));
+
+    std::vector<BoxTap> taps;
+    const double scale = static_cast<double>(size) / half;
+    for (int i = 0; i < half; ++i)
+        taps.push_back(box_tap((i + 0.5) * scale - 0.5, BoxWidth(scale)));
+
+    parallel_for(0, face_count, 1, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> row(static_cast<std::size_t>(half) * static_cast<std::size_t>(channels));
+        for (std::size_t face = begin; face < end; ++face) {
+            with_pixels(
+                dtype, pixels + face * from_values * dtype_size(dtype), [&](const auto* from) {
+                    for (int y = 0; y < half; ++y) {
+                        const BoxTap& down = taps[static_cast<std::size_t>(y)];
+                        for (int x = 0; x < half; ++x) {
+                            const BoxTap& across = taps[static_cast<std::size_t>(x)];
+                            for (int c = 0; c < channels; ++c) {
+                                row[static_cast<std::size_t>(x * channels + c)] =
+                                    apply_tap<Reach::far>(down, [&](int i) {
+                                        const auto* line =
+                                            from + static_cast<std::ptrdiff_t>(down.first + i) *
+                                                       size * channels;
+                                        return apply_tap<Reach::far>(across, [&](int j) {
+                                            return to_float(
+                                                line[(across.first + j) * channels + c]);
+                                        });
+                                    });
+                            }
+                        }
+                        floats_to_pixels(
+                            dtype, row.data(), row.size(),
+                            result.data() +
+                                (face * to_values + static_cast<std::size_t>(y) * row.size()) *
+                                    dtype_size(dtype));
+                    }
+                });
+        }
+    });
+    return result;
+}
+
+}  // namespace
+
+CubeMap::CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool mipmaps,
+                 CapturedOutputs outputs)
+    : outputs_(std::move(outputs)) {
+    if (size < 1) {
+        throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
+    }
+    if (channels != 1 && channels != 3 && channels != 4) {
+        throw std::invalid_argument("channels: expected 1, 3 or 4, got " +
+                                    std::to_string(channels));
+    }
+    CubeMapData data{size,           channels, dtype, mipmaps, nullptr, new_face_revisions(),
+                     next_revision()};
+    if (pixels.size() != face_count * data.face_bytes()) {
+        throw std::invalid_argument(
+            "pixels: expected " + std::to_string(face_count * data.face_bytes()) + " bytes (6 x " +
+            std::to_string(size) + " x " + std::to_string(size) + " x " + std::to_string(channels) +
+            " " + dtype_name(dtype) + "), got " + std::to_string(pixels.size()));
+    }
+    check_outputs(outputs_, size);
+    // Not make_shared<const ...>: set_face may write to it when nobody else holds it.
+    data.pixels = std::make_shared<PixelBuffer>(std::move(pixels));
+    data_ = std::make_shared<const CubeMapData>(std::move(data));
+}
+
+CubeMap::CubeMap(const CubeMap& other) {
+    const std::lock_guard lock(other.mutex_);
+    CubeMapData data = *other.data_;
+    data.face_revisions = new_face_revisions();
+    data.revision = next_revision();
+    data_ = std::make_shared<const CubeMapData>(std::move(data));
+    outputs_ = other.outputs_;
+    mip_chain_ = other.mip_chain_;
+}
+
+std::shared_ptr<const CubeMapData> CubeMap::data() const {
+    const std::lock_guard lock(mutex_);
+    return data_;
+}
+
+CapturedOutputs CubeMap::outputs() const {
+    const std::lock_guard lock(mutex_);
+    return outputs_;
+}
+
+void CubeMap::set_outputs(CapturedOutputs outputs) {
+    const std::lock_guard lock(mutex_);
+    check_outputs(outputs, data_->size);
+    outputs_ = std::move(outputs);
+}
+
+void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t bytes = data_->face_bytes();
+    if (pixels.size() != bytes) {
+        throw std::invalid_argument(
+            "pixels: expected " + std::to_string(bytes) + " bytes (" + std::to_string(data_->size) +
+            " x " + std::to_string(data_->size) + " x " + std::to_string(data_->channels) + " " +
+            dtype_name(data_->dtype) + "), got " + std::to_string(pixels.size()));
+    }
+    if (std::memcmp(data_->face_pixels(face).data(), pixels.data(), bytes) == 0) return;
+
+    CubeMapData next = *data_;
+    // Where nobody else holds this state, nor can come by it while we hold the mutex, its memory is
+    // written in place: six faces that arrive one by one then cost one copy, not six. Two owners
+    // here: data_ and next. The fence pairs with the release of whoever let go of it last.
+    const bool alone = data_.use_count() == 1 && next.pixels.use_count() == 2;
+    if (alone) {
+        std::atomic_thread_fence(std::memory_order_acquire);
+    } else {
+        next.pixels = std::make_shared<PixelBuffer>(*next.pixels);
+    }
+    auto* writable = const_cast<PixelBuffer*>(next.pixels.get());
+    std::memcpy(writable->data() + face_index(face) * bytes, pixels.data(), bytes);
+    next.face_revisions[face_index(face)] = next_revision();
+    next.revision = next_revision();
+    data_ = std::make_shared<const CubeMapData>(std::move(next));
+    mip_chain_.reset();
+}
+
+std::shared_ptr<const CubeMap::MipChain> CubeMap::mip_chain() const {
+    std::shared_ptr<const CubeMapData> state;
+    {
+        const std::lock_guard lock(mutex_);
+        if (mip_chain_) return mip_chain_;
+        state = data_;
+    }
+    auto chain = std::make_shared<const MipChain>(make_mip_chain(*state));
+    const std::lock_guard lock(mutex_);
+    if (data_ == state) mip_chain_ = chain;
+    return chain;
+}
+
+void CubeMap::sample(const float* directions, std::size_t count, const float* lods,
+                     std::size_t lod_count, float* to) const {
+    // One state for both: a set_face in between must not mix two.
+    const std::shared_ptr<const CubeMapData> state = data();
+    std::shared_ptr<const MipChain> chain;
+    if (state->mipmaps && lods) {
+        chain = mip_chain();
+        if (data() != state) chain = std::make_shared<const MipChain>(make_mip_chain(*state));
+    }
+    sample_cube(*state, chain.get(), directions, count, lods, lod_count, to);
+}
+
+bool CubeMap::same_contents(const CubeMap& other) const {
+    if (this == &other) return true;
+    const auto a = data();
+    const auto b = other.data();
+    const CapturedOutputs p = outputs();
+    const CapturedOutputs q = other.outputs();
+    return a->size == b->size && a->channels == b->channels && a->dtype == b->dtype &&
+           a->mipmaps == b->mipmaps && same_values<std::byte>(a->pixels, b->pixels) &&
+           same_values(p.distance, q.distance) && same_values(p.z, q.z) &&
+           same_values(p.normal, q.normal) && same_values(p.position, q.position) &&
+           same_values(p.id, q.id) && same_values(p.depth, q.depth) &&
+           same_values(p.stencil, q.stencil);
+}
+
+CubeMap::MipChain make_mip_chain(const CubeMapData& data) {
+    CubeMap::MipChain chain;
+    if (!data.mipmaps) return chain;
+    const std::byte* level = data.pixels->data();
+    for (int size = data.size; size > 1; size = std::max(1, size / 2)) {
+        chain.push_back(halve_faces(level, size, data.channels, data.dtype));
+        level = chain.back().data();
+    }
+    return chain;
+}
+
+void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const float* directions,
+                 std::size_t count, const float* lods, std::size_t lod_count, float* to) {
+    const auto top = static_cast<float>(data.mipmaps && chain ? chain->size() : 0);
+    with_channels(data.channels, [&](auto constant) {
+        constexpr int channels = decltype(constant)::value;
+        with_pixels(data.dtype, data.pixels->data(), [&](const auto* pixels) {
+            using Texels = CubeTexels<std::remove_cvref_t<decltype(*pixels)>, channels>;
+            std::vector<Texels> levels = {{pixels, data.size}};
+            for (std::size_t i = 0; i < static_cast<std::size_t>(top); ++i) {
+                levels.push_back({reinterpret_cast<decltype(pixels)>((*chain)[i].data()),
+                                  std::max(1, levels.back().size / 2)});
+            }
+            parallel_for(0, count, 1 << 14, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const float* d = directions + 3 * i;
+                    const FaceUv<float> uv = direction_to_face_uv(glm::vec3(d[0], d[1], d[2]));
+                    const float asked = lods ? lods[lod_count == 1 ? 0 : i] : 0.0f;
+                    const float lod = std::clamp(asked, 0.0f, top);
+                    const auto below = static_cast<std::size_t>(lod);
+                    const float weight = lod - static_cast<float>(below);
+                    Lane<channels> texel = levels[below].bilinear(uv.face, uv.s, uv.t);
+                    if (weight > 0) {
+                        texel = mix_texels(texel, levels[below + 1].bilinear(uv.face, uv.s, uv.t),
+                                           weight);
+                    }
+                    store_texel<channels>(texel, to + channels * i);
+                }
+            });
+        });
+    });
+}
+
+}  // namespace cubecam

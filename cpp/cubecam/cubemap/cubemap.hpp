@@ -1,0 +1,108 @@
+#pragma once
+
+#include "cubecam/image/pixels.hpp"
+#include "cubecam/math/cube_face.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace cubecam {
+
+/// One state of a cubemap. Nothing in it changes any more, so threads may share it.
+struct CubeMapData {
+    int size;      ///< N, texels along an edge
+    int channels;  ///< C: 1, 3 or 4
+    DType dtype;
+    bool mipmaps;                               ///< lookups are trilinear
+    std::shared_ptr<const PixelBuffer> pixels;  ///< [6][N][N][C], laid out as cube_face.hpp says
+    std::array<std::uint64_t, face_count> face_revisions;
+    std::uint64_t revision;  ///< of the whole: it changes whenever a face's does
+
+    std::size_t face_bytes() const {
+        return static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
+               static_cast<std::size_t>(channels) * dtype_size(dtype);
+    }
+    std::span<const std::byte> face_pixels(Face face) const {
+        return {pixels->data() + face_index(face) * face_bytes(), face_bytes()};
+    }
+};
+
+/// What a capture may hold beside colour; null where it was not asked for. Distances in world
+/// units.
+struct CapturedOutputs {
+    std::shared_ptr<const Buffer<float>>
+        distance;                                 ///< [6][N][N] length of the ray, +inf: background
+    std::shared_ptr<const Buffer<float>> z;       ///< [6][N][N] along the face's axis, +inf
+    std::shared_ptr<const Buffer<float>> normal;  ///< [6][N][N][3] world, towards the viewer; 0
+    std::shared_ptr<const Buffer<float>> position;        ///< [6][N][N][3] world; NaN
+    std::shared_ptr<const Buffer<std::int32_t>> id;       ///< [6][N][N] node ids; 0
+    std::shared_ptr<const Buffer<float>> depth;           ///< [6][N][N] window-space z, 0..1; 1
+    std::shared_ptr<const Buffer<std::uint8_t>> stencil;  ///< [6][N][N]; 0
+};
+
+/// Six faces that surround a point: a handle, safe to share between threads, on one CubeMapData
+/// after another. It knows no GL: the renderer keys its copy on this object and `face_revisions`.
+class CubeMap {
+public:
+    /// All six faces, in "gl" layout.
+    /// @throws std::invalid_argument unless size >= 1, channels is 1, 3 or 4 and the lengths of
+    ///         `pixels` and of each output match.
+    CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool mipmaps = false,
+            CapturedOutputs outputs = {});
+
+    /// A second, independent cubemap with the same contents, under revisions of its own. Pixels are
+    /// shared until one of the two changes.
+    CubeMap(const CubeMap& other);
+    CubeMap& operator=(const CubeMap&) = delete;
+
+    /// The state of this moment.
+    std::shared_ptr<const CubeMapData> data() const;
+
+    CapturedOutputs outputs() const;
+    /// For the bindings' unpickling. @throws as the constructor does.
+    void set_outputs(CapturedOutputs outputs);
+
+    /// Replaces one face ("gl" layout, this cube's size, channels and dtype). Only this face's
+    /// revision changes, and none at all when the pixels are the same.
+    /// @throws std::invalid_argument when the length does not match.
+    void set_face(Face face, std::span<const std::byte> pixels);
+
+    /// Looks up `count` directions (xyz each, from the center outwards, of any length but 0) and
+    /// writes count * channels floats, uint8 as value/255.
+    ///
+    /// The same numbers as GLSL textureLod with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (GL 4.6
+    /// section 8.14): texels beyond an edge are the neighbour's, the fourth of a corner is the
+    /// average of its other three. `lods`: null for level 0, else one (`lod_count` 1) or `count`
+    /// levels, trilinear between box-filtered ones; without mipmaps every level is level 0.
+    void sample(const float* directions, std::size_t count, const float* lods,
+                std::size_t lod_count, float* to) const;
+
+    /// Levels 1, 2, ... down to 1x1, each [6][M][M][C] in the cube's dtype, M = max(1, size >> l):
+    /// each texel the average of those of the level before that it covers (by area where a side
+    /// is odd). What `sample` uses, and what to upload, so that both give the same numbers.
+    /// Empty without mipmaps.
+    using MipChain = std::vector<PixelBuffer>;
+    std::shared_ptr<const MipChain> mip_chain() const;
+
+    /// The same contents bit for bit, captured outputs included; revisions do not count.
+    bool same_contents(const CubeMap& other) const;
+
+private:
+    mutable std::mutex mutex_;
+    std::shared_ptr<const CubeMapData> data_;
+    CapturedOutputs outputs_;
+    mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_, made on first use
+};
+
+/// Box-filtered levels of a state; see CubeMap::mip_chain.
+CubeMap::MipChain make_mip_chain(const CubeMapData& data);
+
+/// As CubeMap::sample, on one state; `chain` may be null.
+void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const float* directions,
+                 std::size_t count, const float* lods, std::size_t lod_count, float* to);
+
+}  // namespace cubecam

@@ -1,0 +1,423 @@
+#include "cubecam/core/parallel.hpp"
+#include "cubecam/cubemap/cubemap_resample.hpp"
+#include "cubecam/cubemap/resample_tile.hpp"
+#include "cubecam/math/fast_atan.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace cubecam {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr int tile_size = 64;  ///< whose sources fit a core's own cache
+constexpr std::size_t largest_block = std::size_t{1} << 20;  ///< texels: 16 MiB a thread
+
+/// A panorama of floats, its columns a ring, its rows going on over the poles.
+template <int Channels>
+struct EquirectTexels {
+    const float* pixels;
+    int width;
+    int height;
+    Center center;
+    int period;     ///< columns in a full turn: a border-sampled picture has its first one twice
+    double offset;  ///< column and row of an edge of the picture: -1/2, with borders 0
+    double rows;    ///< in half a turn
+
+    double column_of(double longitude) const {
+        return period * (0.5 + longitude / (2 * pi)) + offset;
+    }
+    double row_of(double latitude) const { return rows * (0.5 - latitude / pi) + offset; }
+
+    int wrap(int column) const {
+        if (column >= 0 && column < period) return column;  // mostly; a division takes longer
+        const int rest = column % period;
+        return rest < 0 ? rest + period : rest;
+    }
+
+    /// Beyond a pole the rows come back on the far side, half a turn away.
+    const float* row_texels(int& row, int& column) const {
+        const int last = height - 1;
+        const int mirror = offset < 0 ? 1 : 0;  // centres: row -1 is row 0 there; borders: row 1
+        if (row < 0 || row > last) {
+            row = row < 0 ? -mirror - row : 2 * last + mirror - row;
+            row = std::clamp(row, 0, last);
+            column += period / 2;
+        }
+        return pixels + static_cast<std::size_t>(row) * static_cast<std::size_t>(width) * Channels;
+    }
+
+    void read(int row, int begin, int end, Lane<Channels>* to) const {
+        int column = begin;
+        const float* line = row_texels(row, column);
+        for (int left = end - begin; left > 0;) {
+            const int start = wrap(column);
+            const int run = std::min(left, period - start);
+            const float* from = line + static_cast<std::ptrdiff_t>(start) * Channels;
+            if (row + 2 < height) {
+                prefetch(from + std::ptrdiff_t{2} * width * Channels,
+                         static_cast<std::size_t>(run) * Channels * sizeof(float));
+            }
+            for (int i = 1; i < run; ++i, from += Channels) {
+                *to++ = load_texel_before_another<Channels>(from);
+            }
+            *to++ = load_texel<Channels>(from);
+            column += run;
+            left -= run;
+        }
+    }
+
+    /// Where texels begin..end lie one after another with another one behind, else null.
+    const float* in_place(int row, int begin, int end) const {
+        int column = begin;
+        const float* line = row_texels(row, column);
+        column = wrap(column);
+        if (column + (end - begin) >= period) return nullptr;
+        const float* from = line + static_cast<std::ptrdiff_t>(column) * Channels;
+        if (row + 2 < height) {
+            prefetch(from + std::ptrdiff_t{2} * width * Channels,
+                     static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+        }
+        return from;
+    }
+
+    /// The average over a box of any size, without a copy.
+    Lane<Channels> box(const BoxTap& down, const BoxTap& across) const {
+        return apply_tap<Reach::far>(down, [&](int i) {
+            int row = down.first + i;
+            int column = across.first;
+            const float* line = row_texels(row, column);
+            return apply_tap<Reach::far>(across, [&](int j) {
+                return load_texel<Channels>(line + static_cast<std::ptrdiff_t>(wrap(column + j)) *
+                                                       Channels);
+            });
+        });
+    }
+};
+
+template <int Channels>
+class EquirectToCube {
+public:
+    EquirectToCube(const EquirectTexels<Channels>& source, int size, float* to)
+        : source_(source), size_(size), texel_(2.0 / size), to_(to) {
+        const glm::dvec3 forward = center_forward<double>(source.center);
+        center_azimuth_ = std::atan2(forward.x, forward.z);
+    }
+
+    /// Whether all numbers came out finite.
+    bool run() const {
+        std::atomic<bool> numbers{true};
+        // Tiles of one quarter of a face, and with each tile its mirror images, which share its
+        // angles.
+        const int half = (size_ + 1) / 2;
+        const int across = (half + tile_size - 1) / tile_size;
+        const int down = (size_ + tile_size - 1) / tile_size;
+        const int side_tiles = across * down;
+        const int tiles = side_tiles + across * across;
+        const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+            scratch.numbers = true;
+            for (int tile = static_cast<int>(begin); tile < static_cast<int>(end); ++tile) {
+                if (tile < side_tiles) {
+                    sides(tile / across * tile_size, tile % across * tile_size, half, scratch);
+                } else {
+                    const int pole = tile - side_tiles;
+                    poles(pole / across * tile_size, pole % across * tile_size, half, scratch);
+                }
+            }
+            if (!scratch.numbers) numbers = false;
+        };
+        parallel_for_with<Scratch>(0, static_cast<std::size_t>(tiles), 1, fill);
+        return numbers;
+    }
+
+private:
+    /// Memory that one tile after another uses.
+    struct Scratch {
+        TapList across;
+        TapList down;
+        TapList down_south;
+        FilteredRows<Channels> filtered;
+        SourceBlock<Channels> block;
+        Buffer<double> angles;
+        Buffer<BoxWidth> widths;
+        Lane<Channels> line[tile_size];
+        bool numbers;
+    };
+
+    /// Of a texel's center: -1 to 1 across the face.
+    double coordinate(int index) const { return (index + 0.5) * texel_ - 1; }
+
+    float* target(Face face, int row, int column) const {
+        const auto n = static_cast<std::size_t>(size_);
+        return to_ + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
+                      static_cast<std::size_t>(column)) *
+                         Channels;
+    }
+
+    /// Counted from the picture's center to the right: against the azimuth, which turns from +Z to
+    /// +X.
+    double longitude(double azimuth) const { return center_azimuth_ - azimuth; }
+
+    /// A tile of the left half of each side face, and its mirror image. With a the horizontal and y
+    /// the vertical coordinate on the face: longitude = +-atan(a), latitude = atan(y
+    /// cos(longitude)).
+    void sides(int row_begin, int column_begin, int half, Scratch& scratch) const {
+        TapList& across = scratch.across;
+        TapList& down = scratch.down;
+        FilteredRows<Channels>& filtered = scratch.filtered;
+        const int rows = std::min(tile_size, size_ - row_begin);
+        const int columns = std::min(tile_size, half - column_begin);
+        down.resize(static_cast<std::size_t>(rows * columns));
+        for (int j = 0; j < columns; ++j) {
+            const double a = coordinate(column_begin + j);
+            const double secant = std::sqrt(1 + a * a);
+            for (int i = 0; i < rows; ++i) {
+                const double t = coordinate(row_begin + i) / secant;  // downwards
+                const double square = 1 + t * t;
+                down.set(static_cast<std::size_t>(i * columns + j),
+                         source_.row_of(-fast_atan(t, std::sqrt(square))),
+                         BoxWidth(texel_ / (secant * square) * source_.rows / pi));
+            }
+        }
+        const Reach reach = reach_of(down.widest());
+        const auto read = [&](int row, int begin, int end, Lane<Channels>* to) {
+            source_.read(row, begin, end, to);
+        };
+        const auto in_place = [&](int row, int begin, int end) {
+            return source_.in_place(row, begin, end);
+        };
+        bool first = true;
+        for (const Face face : {Face::pos_x, Face::neg_x, Face::pos_z, Face::neg_z}) {
+            const glm::dvec3 major = face_axes(face).major;
+            const glm::dvec3 s_axis = face_axes(face).s_axis;
+            const double middle = longitude(std::atan2(major.x, major.z));
+            const double sense = glm::dot(s_axis, glm::cross(major, glm::dvec3(0, 1, 0)));
+            for (const bool mirrored : {false, true}) {
+                across.resize(static_cast<std::size_t>(columns));
+                for (int j = 0; j < columns; ++j) {
+                    const double a = coordinate(column_begin + j);
+                    const double turn = std::atan(a) * (mirrored ? -sense : sense);
+                    across.set(static_cast<std::size_t>(j), source_.column_of(middle + turn),
+                               BoxWidth(texel_ / (1 + a * a) * source_.period / (2 * pi)));
+                }
+                if (first) {
+                    filtered.fill(down, across, read, in_place);
+                } else {
+                    filtered.refill(across, read, in_place);
+                }
+                first = false;
+                const int at_column = mirrored ? size_ - 1 - column_begin : column_begin;
+                for (int i = 0; i < rows; ++i) {
+                    const auto count = static_cast<std::size_t>(columns);
+                    filtered.filter(reach, down, static_cast<std::size_t>(i) * count, 0, count,
+                                    scratch.line);
+                    scratch.numbers &=
+                        store_texels<Channels>(scratch.line, count, mirrored ? -1 : 1,
+                                               target(face, row_begin + i, at_column));
+                }
+            }
+        }
+    }
+
+    /// A tile of one quarter of +Y, and its mirror images on +Y and -Y. The box is laid along rows
+    /// and columns of the panorama: as high as the texel is along the meridian, as wide as across
+    /// it.
+    void poles(int row_begin, int column_begin, int half, Scratch& scratch) const {
+        TapList& across = scratch.across;
+        TapList& north = scratch.down;
+        TapList& south = scratch.down_south;
+        Buffer<double>& angles = scratch.angles;  // azimuths, in the quarter of positive x and z
+        Buffer<BoxWidth>& widths = scratch.widths;
+        SourceBlock<Channels>& block = scratch.block;
+        const int rows = std::min(tile_size, half - row_begin);
+        const int columns = std::min(tile_size, half - column_begin);
+        const auto count = static_cast<std::size_t>(rows * columns);
+        north.resize(count);
+        south.resize(count);
+        angles.resize(count);
+        widths.clear();
+        widths.reserve(count);
+        for (int row = row_begin; row < row_begin + rows; ++row) {
+            for (int column = column_begin; column < column_begin + columns; ++column) {
+                const double s = -coordinate(column);  // >= 0
+                const double t = -coordinate(row);
+                const double square = s * s + t * t;
+                const double radius = std::sqrt(square);
+                const BoxWidth high(texel_ / (1 + square) * source_.rows / pi);
+                const double from_pole = fast_atan(radius, std::sqrt(1 + square));
+                const double ratio = std::min(s, t) / std::max(std::max(s, t), 1e-300);
+                const double angle = fast_atan(ratio, std::sqrt(1 + ratio * ratio));
+                const std::size_t index = widths.size();
+                north.set(index, source_.row_of(pi / 2 - from_pole), high);
+                south.set(index, source_.row_of(from_pole - pi / 2), high);
+                angles[index] = s < t ? angle : pi / 2 - angle;
+                widths.emplace_back(std::min(texel_ / (2 * pi * radius), 1.0) * source_.period);
+            }
+        }
+        const bool even = source_.period % 2 == 0;  // half a turn on, the same taps do again
+        for (const bool acute : {false, true}) {
+            for (const bool positive_x : {true, false}) {
+                const bool positive_z = acute == positive_x;
+                const int shift = even && !positive_x ? source_.period / 2 : 0;
+                if (positive_x || !even) {
+                    across.resize(count);
+                    for (std::size_t i = 0; i < count; ++i) {
+                        const double azimuth = positive_z ? angles[i] : pi - angles[i];
+                        across.set(i, source_.column_of(longitude(positive_x ? azimuth : -azimuth)),
+                                   widths[i]);
+                    }
+                }
+                for (const Face face : {Face::pos_y, Face::neg_y}) {
+                    TapList& down = face == Face::pos_y ? north : south;
+                    const bool copied =
+                        down.range().size() * across.range().size() <= largest_block;
+                    if (copied) {
+                        block.fill(down, across,
+                                   [&](int row, int begin, int end, Lane<Channels>* to) {
+                                       source_.read(row, begin + shift, end + shift, to);
+                                   });
+                    }
+                    // x grows with the column; z with the row on +Y, against it on -Y.
+                    const bool last_rows = positive_z == (face == Face::pos_y);
+                    const int at_column = positive_x ? size_ - 1 - column_begin : column_begin;
+                    for (int i = 0; i < rows; ++i) {
+                        const int row = row_begin + i;
+                        const std::size_t begin = static_cast<std::size_t>(i * columns);
+                        const std::size_t end = begin + static_cast<std::size_t>(columns);
+                        if (copied) {
+                            filter_runs(block, down, across, widths, begin, end, scratch.line);
+                        } else {
+                            for (std::size_t k = begin; k < end; ++k) {
+                                scratch.line[k - begin] =
+                                    source_.box(down[k], shifted(across[k], shift));
+                            }
+                        }
+                        scratch.numbers &= store_texels<Channels>(
+                            scratch.line, end - begin, positive_x ? -1 : 1,
+                            target(face, last_rows ? size_ - 1 - row : row, at_column));
+                    }
+                }
+            }
+        }
+    }
+
+    static BoxTap shifted(BoxTap tap, int columns) {
+        tap.first += columns;
+        return tap;
+    }
+
+    /// Boxes grow towards the pole: runs of texels that reach equally far.
+    static void filter_runs(const SourceBlock<Channels>& block, const TapList& down,
+                            const TapList& across, const Buffer<BoxWidth>& widths,
+                            std::size_t begin, std::size_t end, Lane<Channels>* to) {
+        const auto reach_at = [&](std::size_t i) {
+            return reach_of(std::max(widths[i].texels, down.widest()));
+        };
+        for (std::size_t i = begin; i < end;) {
+            const Reach reach = reach_at(i);
+            std::size_t until = i + 1;
+            while (until < end && reach_at(until) == reach) ++until;
+            block.filter(reach, down, across, i, until - i, to + (i - begin));
+            i = until;
+        }
+    }
+
+    EquirectTexels<Channels> source_;
+    int size_;
+    double texel_;  ///< its width on a face that reaches from -1 to 1
+    double center_azimuth_;
+    float* to_;
+};
+
+void check_equirect(const EquirectPixels& from, int size) {
+    const bool borders = from.sampling == Sampling::borders;
+    const bool good = borders ? from.width >= 2 && from.height >= 2
+                              : from.height >= 1 && from.width == 2 * from.height;
+    if (!good) {
+        throw std::invalid_argument(std::string("equirect: expected a picture ") +
+                                    (borders ? "of at least 2 x 2" : "twice as wide as high") +
+                                    ", got width " + std::to_string(from.width) + " and height " +
+                                    std::to_string(from.height));
+    }
+    if (size < 1) {
+        throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
+    }
+}
+
+/// A copy in which inf is the largest number there is, or half floats have: inf - inf, which
+/// filters would come to, is NaN. Looked for only where a result was NaN, since most pictures have
+/// none.
+Buffer<float> without_infinities(const float* pixels, std::size_t values,
+                                 const EquirectPixels& from) {
+    float largest = 65504.0f;
+    for (std::size_t i = 0; i < values; ++i) {
+        if (std::isnan(pixels[i])) {
+            const auto channels = static_cast<std::size_t>(from.channels);
+            const auto row = channels * static_cast<std::size_t>(from.width);
+            throw std::invalid_argument(
+                "image: expected no NaN, got nan at [" + std::to_string(i / row) + ", " +
+                std::to_string(i % row / channels) + ", " + std::to_string(i % channels) + "]");
+        }
+        if (!std::isinf(pixels[i])) largest = std::max(largest, std::abs(pixels[i]));
+    }
+    Buffer<float> finite(values);
+    for (std::size_t i = 0; i < values; ++i) {
+        finite[i] = std::isinf(pixels[i]) ? std::copysign(largest, pixels[i]) : pixels[i];
+    }
+    return finite;
+}
+
+}  // namespace
+
+const float* as_floats(DType dtype, const std::byte* pixels, std::size_t count,
+                       Buffer<float>& kept) {
+    if (dtype == DType::float32) return reinterpret_cast<const float*>(pixels);
+    kept.resize(count);
+    parallel_for(0, count, std::size_t{1} << 18, [&](std::size_t begin, std::size_t end) {
+        pixels_to_floats(dtype, pixels + begin * dtype_size(dtype), end - begin,
+                         kept.data() + begin);
+    });
+    return kept.data();
+}
+
+PixelBuffer equirect_to_cube(const EquirectPixels& from, int size) {
+    check_equirect(from, size);
+    const bool borders = from.sampling == Sampling::borders;
+    const auto n = static_cast<std::size_t>(size);
+    const auto channels = static_cast<std::size_t>(from.channels);
+    const auto values =
+        static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height) * channels;
+    PixelBuffer result;
+    with_channels(from.channels, [&](auto constant) {
+        constexpr int count = decltype(constant)::value;
+        Buffer<float> kept;
+        EquirectTexels<count> source = {as_floats(from.dtype, from.pixels, values, kept),
+                                        from.width,
+                                        from.height,
+                                        from.center,
+                                        borders ? from.width - 1 : from.width,
+                                        borders ? 0.0 : -0.5,
+                                        borders ? from.height - 1.0 : from.height};
+        result.resize(face_count * n * n * channels * sizeof(float));
+        auto* const to = reinterpret_cast<float*>(result.data());
+        if (EquirectToCube<count>(source, size, to).run()) return;
+        const Buffer<float> finite = without_infinities(source.pixels, values, from);
+        source.pixels = finite.data();
+        EquirectToCube<count>(source, size, to).run();
+    });
+    return result;
+}
+
+int default_face_size(int equirect_width) {
+    const double least = std::max(1.0, std::ceil(equirect_width / pi));
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(least)));
+}
+
+}  // namespace cubecam

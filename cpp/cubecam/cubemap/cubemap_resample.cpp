@@ -1,0 +1,366 @@
+#include "cubecam/cubemap/cubemap_resample.hpp"
+
+#include "cubecam/core/parallel.hpp"
+#include "cubecam/cubemap/resample_tile.hpp"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+namespace cubecam {
+
+namespace {
+
+constexpr int panorama_tile = 64;  ///< whose sources fit a core's own cache
+
+/// One destination column of a panorama, as its side face sees it.
+struct PanoramaColumn {
+    Face face;
+    double across;  ///< horizontal coordinate on the face, -1 to 1 from left to right as seen in
+                    ///< GL's picture
+    double secant;  ///< of the longitude within the face
+    double cosine;  ///< its inverse
+    double x;       ///< the horizontal unit direction
+    double z;
+};
+
+template <int Channels>
+class CubeToEquirect {
+public:
+    CubeToEquirect(const CubeTexels<float, Channels>& cube, int width, Center center,
+                   Sampling sampling, float* to)
+        : cube_(cube), width_(width), height_(width / 2), to_(to) {
+        const bool borders = sampling == Sampling::borders;
+        constexpr double half_turn = std::numbers::pi;
+        const double offset = borders ? 0.0 : 0.5;
+        lon_step_ = 2 * half_turn / (borders ? width_ - 1 : width_);
+        lat_step_ = half_turn / (borders ? std::max(height_ - 1, 1) : height_);
+        const glm::dvec3 forward = center_forward<double>(center);
+        const glm::dvec3 right = center_right<double>(center);
+        for (int column = 0; column < width_; ++column) {
+            const double longitude = (column + offset) * lon_step_ - half_turn;
+            const glm::dvec3 d = std::sin(longitude) * right + std::cos(longitude) * forward;
+            columns_.push_back(make_column(d));
+        }
+        for (int row = 0; row < height_; ++row) {
+            const double latitude = half_turn / 2 - (row + offset) * lat_step_;
+            latitudes_.push_back(latitude);
+            pole_rows_.push_back(make_pole_row(latitude));
+        }
+        // A quarter turn on, another side face is seen just as the one before.
+        if (!borders && width_ % 8 == 0) turns_ = 4;
+    }
+
+    void run() const {
+        constexpr int tile = panorama_tile;
+        std::vector<std::pair<int, int>> spans;  // of columns that look at one side face
+        const int turn = width_ / turns_;
+        for (int begin = 0; begin < turn;) {
+            int end = begin + 1;
+            while (end < std::min(turn, begin + tile) && column(end).face == column(begin).face) {
+                ++end;
+            }
+            spans.emplace_back(begin, end);
+            begin = end;
+        }
+        const std::size_t bands = static_cast<std::size_t>((height_ + tile - 1) / tile);
+        parallel_for_with<Scratch>(
+            0, bands * spans.size(), 1, [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    const int row = static_cast<int>(i / spans.size()) * tile;
+                    const auto [first, last] = spans[i % spans.size()];
+                    fill_tile(row, std::min(row + tile, height_), first, last, scratch);
+                }
+            });
+    }
+
+private:
+    /// Memory that one tile after another uses.
+    struct Scratch {
+        TapList down;
+        TapList across;
+        FilteredRows<Channels> filtered;
+        Lane<Channels> line[panorama_tile];
+    };
+
+    const PanoramaColumn& column(int index) const {
+        return columns_[static_cast<std::size_t>(index)];
+    }
+    double latitude(int row) const { return latitudes_[static_cast<std::size_t>(row)]; }
+
+    /// One row of a panorama as +Y or -Y sees it, where the destination's texels are turned against
+    /// the face's: they are sampled there, as often each way as they are texels long.
+    struct PoleRow {
+        struct Sample {
+            float cosine;  ///< of the turn round the pole, times the radius
+            float sine;
+        };
+        std::vector<Sample> samples;
+    };
+
+    PoleRow make_pole_row(double latitude) const {
+        constexpr double half_turn = std::numbers::pi;
+        const double from_pole = half_turn / 2 - std::abs(latitude);
+        PoleRow row;
+        if (from_pole > 1) return row;  // the faces' corners are 0.955 from the poles
+        const double radius = std::tan(from_pole);
+        const double half_size = cube_.size / 2.0;
+        const int along = samples_for((1 + radius * radius) * lat_step_ * half_size);
+        const int around = samples_for(radius * lon_step_ * half_size);
+        for (int i = 0; i < along; ++i) {
+            const double r = std::tan(from_pole + ((i + 0.5) / along - 0.5) * lat_step_);
+            for (int j = 0; j < around; ++j) {
+                const double turn = ((j + 0.5) / around - 0.5) * lon_step_;
+                row.samples.push_back({static_cast<float>(r * std::cos(turn)),
+                                       static_cast<float>(r * std::sin(turn))});
+            }
+        }
+        return row;
+    }
+
+    static PanoramaColumn make_column(const glm::dvec3& d) {
+        const bool on_x = std::abs(d.x) >= std::abs(d.z);
+        const Face face =
+            on_x ? (d.x > 0 ? Face::pos_x : Face::neg_x) : (d.z > 0 ? Face::pos_z : Face::neg_z);
+        const double secant = 1 / (on_x ? std::abs(d.x) : std::abs(d.z));
+        const glm::dvec3 s_axis = face_axes(face).s_axis;
+        return {face, glm::dot(s_axis, d) * secant, secant, 1 / secant, d.x, d.z};
+    }
+
+    float* target(int row, int at_column) const {
+        return to_ + (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                      static_cast<std::size_t>(at_column)) *
+                         Channels;
+    }
+
+    /// A coordinate of -1 to 1 on a face, in texels with centres at whole numbers.
+    double texel_of(double coordinate) const { return ((coordinate + 1) * cube_.size - 1) / 2; }
+
+    /// Side faces meet a vertical line at t = tan(latitude) / cos(longitude), for which s is
+    /// constant: rows first, columns then. What looks over a side's edge is on +Y or -Y.
+    void fill_tile(int row_begin, int row_end, int begin, int end, Scratch& scratch) const {
+        TapList& down = scratch.down;
+        TapList& across = scratch.across;
+        FilteredRows<Channels>& filtered = scratch.filtered;
+        const double half_size = cube_.size / 2.0;
+        const auto columns = static_cast<std::size_t>(end - begin);
+        down.resize(static_cast<std::size_t>(row_end - row_begin) * columns);
+        across.resize(columns);
+        for (std::size_t j = 0; j < columns; ++j) {
+            const PanoramaColumn& c = column(begin + static_cast<int>(j));
+            across.set(j, texel_of(c.across),
+                       BoxWidth(c.secant * c.secant * lon_step_ * half_size));
+        }
+        std::size_t index = 0;
+        for (int row = row_begin; row < row_end; ++row) {
+            const double tangent = std::tan(latitude(row));
+            const double step = (1 + tangent * tangent) * lat_step_ * half_size;
+            const double inverse = 1 / step;
+            for (int j = begin; j < end; ++j, ++index) {
+                const PanoramaColumn& c = column(j);
+                const double height = tangent * c.secant;
+                if (std::abs(height) > 1) {
+                    down.set_absent(index);
+                } else {
+                    down.set(index, texel_of(-height),
+                             BoxWidth(step * c.secant, inverse * c.cosine));
+                }
+            }
+        }
+        for (int turn = 0; turn < turns_; ++turn) {
+            const int first = begin + turn * (width_ / turns_);
+            const Face face = column(first).face;
+            const auto read = [&](int row, int from, int to, Lane<Channels>* line) {
+                read_face_row(cube_, face, row, from, to, line);
+            };
+            const auto in_place = [&](int row, int from, int to) {
+                return face_row_in_place(cube_, face, row, from, to);
+            };
+            if (turn == 0) {
+                filtered.fill(down, across, read, in_place);
+            } else {
+                filtered.refill(across, read, in_place);
+            }
+            for (int row = row_begin; row < row_end; ++row) {
+                const std::size_t taps = static_cast<std::size_t>(row - row_begin) * columns;
+                fill_row(row, first, columns, taps, scratch);
+            }
+        }
+    }
+
+    /// `columns` texels of a row from column `first` on, whose taps in `down` begin at `taps`.
+    void fill_row(int row, int first, std::size_t columns, std::size_t taps,
+                  Scratch& scratch) const {
+        const TapList& down = scratch.down;
+        const Reach reach = reach_of(down.widest());
+        for (std::size_t j = 0; j < columns;) {
+            const bool pole = down.absent(taps + j);
+            std::size_t until = j + 1;
+            while (until < columns && down.absent(taps + until) == pole) ++until;
+            const int from = first + static_cast<int>(j);
+            if (pole) {
+                sample_pole(row, from, until - j, scratch.line);
+            } else {
+                scratch.filtered.filter(reach, down, taps + j, j, until - j, scratch.line);
+            }
+            store_texels<Channels>(scratch.line, until - j, 1, target(row, from));
+            j = until;
+        }
+    }
+
+    /// `count` texels of a row from column `first` on, which are on +Y or -Y.
+    void sample_pole(int row, int first, std::size_t count, Lane<Channels>* to) const {
+        const auto& samples = pole_rows_[static_cast<std::size_t>(row)].samples;
+        const bool up = latitude(row) > 0;
+        const float y = up ? 1.0f : -1.0f;
+        const Face face = up ? Face::pos_y : Face::neg_y;
+        const float half_texels = static_cast<float>(cube_.size) / 2.0f;
+        const float middle = half_texels - 0.5f;
+        const float weight = 1.0f / static_cast<float>(samples.size());
+        const PanoramaColumn* c = &column(first);
+        for (std::size_t j = 0; j < count; ++j, ++c) {
+            const auto column_x = static_cast<float>(c->x);
+            const auto column_z = static_cast<float>(c->z);
+            const auto look = [&](const auto& at) {
+                const float x = column_x * at.cosine - column_z * at.sine;
+                const float z = column_z * at.cosine + column_x * at.sine;
+                if (std::abs(x) > 1 || std::abs(z) > 1) [[unlikely]] {
+                    const FaceUv<float> uv = direction_to_face_uv(glm::vec3(x, y, z));
+                    return cube_.bilinear(uv.face, uv.s, uv.t);
+                }
+                return cube_.between(face, x * half_texels + middle, y * z * half_texels + middle);
+            };
+            const Lane<Channels> one = look(samples[0]);
+            if (samples.size() == 1) {
+                to[j] = one;
+                continue;
+            }
+            Lane<Channels> sum{};
+            for (std::size_t i = 1; i < samples.size(); ++i) sum += look(samples[i]) - one;
+            to[j] = one + sum * weight;
+        }
+    }
+
+    static int samples_for(double texels) {
+        return std::max(1, static_cast<int>(std::ceil(texels - 1e-6)));
+    }
+
+    CubeTexels<float, Channels> cube_;
+    int width_;
+    int height_;
+    double lon_step_;
+    double lat_step_;
+    std::vector<PanoramaColumn> columns_;
+    std::vector<double> latitudes_;
+    std::vector<PoleRow> pole_rows_;
+    int turns_ = 1;  ///< round the panorama after which all repeats but the faces: 4, or 1
+    float* to_;
+};
+
+/// The taps of one axis from faces of n texels to texels begin..end of faces of `size`, each
+/// `times`.
+void face_taps(int n, Sampling from, int size, Sampling to, int begin, int end, std::size_t times,
+               TapList& taps) {
+    const double reach = from == Sampling::borders ? n - 1.0 : n;  // texels from edge to edge
+    const double offset = from == Sampling::borders ? 0.0 : -0.5;
+    const double steps = to == Sampling::borders ? size - 1.0 : size;
+    const double start = to == Sampling::borders ? 0.0 : 0.5;
+    taps.resize(static_cast<std::size_t>(end - begin) * times);
+    std::size_t index = 0;
+    for (int i = begin; i < end; ++i) {
+        for (std::size_t j = 0; j < times; ++j) {
+            taps.set(index++, (i + start) / steps * reach + offset, BoxWidth(reach / steps));
+        }
+    }
+}
+
+void check_face_size(int size, Sampling sampling) {
+    const int least = sampling == Sampling::borders ? 2 : 1;
+    if (size < least) {
+        throw std::invalid_argument("size: expected at least " + std::to_string(least) + ", got " +
+                                    std::to_string(size));
+    }
+}
+
+}  // namespace
+
+Buffer<float> cube_to_equirect(const CubeMapData& cube, int width, Center center,
+                               Sampling sampling) {
+    if (width < 2 || width % 2 != 0) {
+        throw std::invalid_argument("width: expected an even number of at least 2, got " +
+                                    std::to_string(width));
+    }
+    Buffer<float> result;
+    with_channels(cube.channels, [&](auto constant) {
+        constexpr int channels = decltype(constant)::value;
+        Buffer<float> kept;
+        const float* faces = as_floats(cube.dtype, cube.pixels->data(),
+                                       cube.pixels->size() / dtype_size(cube.dtype), kept);
+        result.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
+                      channels);
+        CubeToEquirect<channels>({faces, cube.size}, width, center, sampling, result.data()).run();
+    });
+    return result;
+}
+
+PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to) {
+    check_face_size(cube.size, from);
+    check_face_size(size, to);
+    if (from == Sampling::borders && to == Sampling::borders) {
+        throw std::invalid_argument("sampling: expected centers on one side at least");
+    }
+    PixelBuffer result;
+    with_channels(cube.channels, [&](auto constant) {
+        constexpr int channels = decltype(constant)::value;
+        Buffer<float> kept;
+        const CubeTexels<float, channels> texels = {
+            as_floats(cube.dtype, cube.pixels->data(), cube.pixels->size() / dtype_size(cube.dtype),
+                      kept),
+            cube.size};
+        const auto n = static_cast<std::size_t>(size);
+        result.resize(face_count * n * n * channels * sizeof(float));
+        auto* const floats = reinterpret_cast<float*>(result.data());
+
+        struct Scratch {
+            TapList down;
+            TapList across;
+            FilteredRows<channels> filtered;
+            Buffer<Lane<channels>> line;
+        };
+        constexpr int band = 32;  // rows of a face at a time
+        const int bands = (size + band - 1) / band;
+        const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+            TapList& down = scratch.down;
+            face_taps(cube.size, from, size, to, 0, size, 1, scratch.across);
+            scratch.line.resize(n);
+            for (std::size_t i = begin; i < end; ++i) {
+                const Face face = all_faces[i / static_cast<std::size_t>(bands)];
+                const int first = static_cast<int>(i) % bands * band;
+                const int last = std::min(first + band, size);
+                face_taps(cube.size, from, size, to, first, last, n, down);
+                scratch.filtered.fill(
+                    down, scratch.across,
+                    [&](int row, int at, int until, Lane<channels>* line) {
+                        read_face_row(texels, face, row, at, until, line);
+                    },
+                    [&](int row, int at, int until) {
+                        return face_row_in_place(texels, face, row, at, until);
+                    });
+                float* target = floats + (face_index(face) * n + static_cast<std::size_t>(first)) *
+                                             n * channels;
+                for (std::size_t tap = 0; tap < down.size(); tap += n, target += n * channels) {
+                    scratch.filtered.filter(reach_of(down.widest()), down, tap, 0, n,
+                                            scratch.line.data());
+                    store_texels<channels>(scratch.line.data(), n, 1, target);
+                }
+            }
+        };
+        parallel_for_with<Scratch>(0, static_cast<std::size_t>(face_count * bands), 1, fill);
+    });
+    return result;
+}
+
+}  // namespace cubecam

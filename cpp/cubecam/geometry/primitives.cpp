@@ -1,0 +1,261 @@
+#include "cubecam/geometry/primitives.hpp"
+
+#include "cubecam/core/checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace cubecam::primitives {
+
+namespace {
+
+/// Enough for any picture; a count typed wrong must not eat the memory.
+constexpr std::int64_t most_vertices = std::int64_t{1} << 24;
+
+void expect_count(int count, int least, const char* name) {
+    expect(count >= least, std::string(name) + " of at least " + std::to_string(least),
+           std::to_string(count));
+}
+
+void expect_vertices(std::int64_t columns, std::int64_t rows) {
+    const std::int64_t vertices = columns * rows;
+    expect(vertices <= most_vertices,
+           "a mesh of at most " + std::to_string(most_vertices) + " vertices",
+           std::to_string(vertices));
+}
+
+/// (sine, cosine) of step / steps of a full turn. Quarter turns come out exact, and step = steps is
+/// bit for bit step = 0, so that bounds are round numbers and seams are closed.
+glm::dvec2 turn(int step, int steps) {
+    const std::int64_t quarter_steps = 4 * std::int64_t{step % steps};
+    if (quarter_steps % steps == 0) {
+        constexpr std::array<glm::dvec2, 4> quarters = {{{0, 1}, {1, 0}, {0, -1}, {-1, 0}}};
+        return quarters[static_cast<std::size_t>(quarter_steps / steps)];
+    }
+    const double angle = 2.0 * std::numbers::pi * (step % steps) / steps;
+    return {std::sin(angle), std::cos(angle)};
+}
+
+/// Gathers vertices, then triangles between them.
+class Builder {
+public:
+    std::uint32_t vertex(glm::dvec3 position, glm::dvec3 normal, glm::dvec2 uv) {
+        arrays_.positions.emplace_back(position);
+        arrays_.normals.emplace_back(glm::normalize(normal));
+        arrays_.uvs.emplace_back(uv);
+        return static_cast<std::uint32_t>(arrays_.positions.size() - 1);
+    }
+
+    void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        arrays_.triangles.emplace_back(a, b, c);
+    }
+
+    /// Corners counter-clockwise, seen from outside.
+    void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        triangle(a, b, c);
+        triangle(a, c, d);
+    }
+
+    Mesh mesh() { return Mesh(std::move(arrays_)); }
+
+private:
+    Mesh::Arrays arrays_;
+};
+
+/// The direction at a fraction of a turn round +Y that begins at -Z, passes +X where a viewer in
+/// front (at +Z) has the right-hand side, and so shows a picture unmirrored, its middle at +Z.
+glm::dvec3 around(int step, int steps) {
+    // Behind (step 0) is -Z; growing u turns to -X, then +Z, then +X.
+    const glm::dvec2 t = turn(step, steps);
+    return {0.0 - t.x, 0.0, 0.0 - t.y};
+}
+
+/// A disc across the Y axis at `height`, looking along `side` (+1 or -1) Y.
+void add_disc(Builder& builder, double radius, double height, double side, int segments) {
+    const glm::dvec3 normal(0.0, side, 0.0);
+    const auto center = builder.vertex({0.0, height, 0.0}, normal, {0.5, 0.5});
+    std::uint32_t last = 0;
+    for (int i = 0; i <= segments; ++i) {
+        const glm::dvec3 d = around(i % segments, segments);
+        // As on the plane: +X to the right; up in the picture is -Z from above, +Z from below.
+        const auto rim = builder.vertex({radius * d.x, height, radius * d.z}, normal,
+                                        {0.5 + 0.5 * d.x, 0.5 - 0.5 * side * d.z});
+        if (i > 0 && side > 0.0) builder.triangle(center, last, rim);
+        if (i > 0 && side < 0.0) builder.triangle(center, rim, last);
+        last = rim;
+    }
+}
+
+}  // namespace
+
+Mesh plane(double width, double depth) {
+    expect_positive(width, "width");
+    expect_positive(depth, "depth");
+    const double x = 0.5 * width;
+    const double z = 0.5 * depth;
+    const glm::dvec3 up(0.0, 1.0, 0.0);
+    Builder builder;
+    const auto a = builder.vertex({-x, 0.0, z}, up, {0.0, 0.0});
+    const auto b = builder.vertex({x, 0.0, z}, up, {1.0, 0.0});
+    const auto c = builder.vertex({x, 0.0, -z}, up, {1.0, 1.0});
+    const auto d = builder.vertex({-x, 0.0, -z}, up, {0.0, 1.0});
+    builder.quad(a, b, c, d);
+    return builder.mesh();
+}
+
+Mesh box(glm::dvec3 size) {
+    for (int axis = 0; axis < 3; ++axis) expect_positive(size[axis], "size");
+    // Normal, and what is up in the face's picture, seen from outside; right is up x normal.
+    constexpr std::array<std::pair<glm::dvec3, glm::dvec3>, 6> faces = {{
+        {{1, 0, 0}, {0, 1, 0}},
+        {{-1, 0, 0}, {0, 1, 0}},
+        {{0, 1, 0}, {0, 0, -1}},
+        {{0, -1, 0}, {0, 0, 1}},
+        {{0, 0, 1}, {0, 1, 0}},
+        {{0, 0, -1}, {0, 1, 0}},
+    }};
+    Builder builder;
+    for (const auto& [normal, up] : faces) {
+        const glm::dvec3 right = glm::cross(up, normal);
+        const auto corner = [&, &n = normal, &u = up](double s, double t) {
+            return builder.vertex(0.5 * size * (n + s * right + t * u), n,
+                                  {0.5 + 0.5 * s, 0.5 + 0.5 * t});
+        };
+        const auto a = corner(-1, -1);
+        const auto b = corner(1, -1);
+        const auto c = corner(1, 1);
+        const auto d = corner(-1, 1);
+        builder.quad(a, b, c, d);
+    }
+    return builder.mesh();
+}
+
+Mesh sphere(double radius, int segments, int rings) {
+    expect_positive(radius, "radius");
+    expect_count(segments, 3, "segments");
+    expect_count(rings, 2, "rings");
+    expect_vertices(std::int64_t{segments} + 1, std::int64_t{rings} + 1);
+    Builder builder;
+    for (int row = 0; row <= rings; ++row) {
+        // From the south pole up: half a turn is `rings` steps.
+        const glm::dvec2 polar = turn(row, 2 * rings);
+        const bool pole = row == 0 || row == rings;
+        for (int column = 0; column <= segments; ++column) {
+            const glm::dvec3 outward =
+                pole ? glm::dvec3(0.0, -polar.y, 0.0)
+                     : polar.x * around(column, segments) + glm::dvec3(0.0, -polar.y, 0.0);
+            // A pole's vertices belong to one triangle each: the middle of its stretch of picture.
+            const double shift = row == 0 ? -0.5 : row == rings ? 0.5 : 0.0;
+            const double u = std::clamp((column + shift) / segments, 0.0, 1.0);
+            builder.vertex(radius * outward, outward, {u, double(row) / rings});
+        }
+    }
+    const auto at = [&](int row, int column) {
+        return static_cast<std::uint32_t>(row) * (static_cast<std::uint32_t>(segments) + 1) +
+               static_cast<std::uint32_t>(column);
+    };
+    for (int row = 0; row < rings; ++row) {
+        for (int column = 0; column < segments; ++column) {
+            const auto a = at(row, column);
+            const auto b = at(row, column + 1);
+            const auto c = at(row + 1, column + 1);
+            const auto d = at(row + 1, column);
+            if (row == 0) {
+                builder.triangle(b, c, d);
+            } else if (row + 1 == rings) {
+                builder.triangle(a, b, d);
+            } else {
+                builder.quad(a, b, c, d);
+            }
+        }
+    }
+    return builder.mesh();
+}
+
+Mesh cylinder(double radius, double height, int segments) {
+    expect_positive(radius, "radius");
+    expect_positive(height, "height");
+    expect_count(segments, 3, "segments");
+    expect_vertices(std::int64_t{segments} + 1, 4);
+    const double half = 0.5 * height;
+    Builder builder;
+    std::uint32_t a = 0;
+    std::uint32_t d = 0;
+    for (int i = 0; i <= segments; ++i) {
+        const glm::dvec3 outward = around(i, segments);
+        const glm::dvec3 foot = radius * outward;
+        const double u = double(i) / segments;
+        const auto b = builder.vertex({foot.x, -half, foot.z}, outward, {u, 0.0});
+        const auto c = builder.vertex({foot.x, half, foot.z}, outward, {u, 1.0});
+        if (i > 0) builder.quad(a, b, c, d);
+        a = b;
+        d = c;
+    }
+    add_disc(builder, radius, half, 1.0, segments);
+    add_disc(builder, radius, -half, -1.0, segments);
+    return builder.mesh();
+}
+
+Mesh cone(double radius, double height, int segments) {
+    expect_positive(radius, "radius");
+    expect_positive(height, "height");
+    expect_count(segments, 3, "segments");
+    expect_vertices(std::int64_t{segments} + 1, 3);
+    const double half = 0.5 * height;
+    const auto slope = [&](glm::dvec3 outward) {
+        return height * outward + glm::dvec3(0.0, radius, 0.0);
+    };
+    Builder builder;
+    std::uint32_t a = 0;
+    for (int i = 0; i <= segments; ++i) {
+        const glm::dvec3 outward = around(i, segments);
+        const auto b = builder.vertex({radius * outward.x, -half, radius * outward.z},
+                                      slope(outward), {double(i) / segments, 0.0});
+        if (i > 0) {
+            // The apex once for each triangle, with the normal of that triangle's middle.
+            const glm::dvec3 middle = around(2 * i - 1, 2 * segments);
+            const auto apex =
+                builder.vertex({0.0, half, 0.0}, slope(middle), {(i - 0.5) / segments, 1.0});
+            builder.triangle(a, b, apex);
+        }
+        a = b;
+    }
+    add_disc(builder, radius, -half, -1.0, segments);
+    return builder.mesh();
+}
+
+Mesh torus(double radius, double tube, int segments, int sides) {
+    expect_positive(radius, "radius");
+    expect_positive(tube, "tube");
+    expect(tube < radius, "a tube thinner than the radius",
+           "tube " + describe(tube) + ", radius " + describe(radius));
+    expect_count(segments, 3, "segments");
+    expect_count(sides, 3, "sides");
+    expect_vertices(std::int64_t{segments} + 1, std::int64_t{sides} + 1);
+    Builder builder;
+    for (int side = 0; side <= sides; ++side) {
+        // From the inside, where the seam is, down, outside and up: v grows upwards outside.
+        const glm::dvec2 t = turn(side, sides);
+        for (int i = 0; i <= segments; ++i) {
+            const glm::dvec3 ring = around(i, segments);
+            const glm::dvec3 outward = -t.y * ring + glm::dvec3(0.0, -t.x, 0.0);
+            builder.vertex(radius * ring + tube * outward, outward,
+                           {double(i) / segments, double(side) / sides});
+        }
+    }
+    const auto columns = static_cast<std::uint32_t>(segments) + 1;
+    for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(sides); ++row) {
+        for (std::uint32_t column = 0; column + 1 < columns; ++column) {
+            const auto a = row * columns + column;
+            builder.quad(a, a + 1, a + 1 + columns, a + columns);
+        }
+    }
+    return builder.mesh();
+}
+
+}  // namespace cubecam::primitives

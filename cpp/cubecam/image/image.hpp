@@ -1,0 +1,55 @@
+#pragma once
+
+#include "cubecam/image/pixels.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+namespace cubecam {
+
+/// What a lookup outside 0..1 gives. glTF's names for the same: REPEAT, CLAMP_TO_EDGE.
+enum class Wrap : std::uint8_t { repeat, clamp };
+
+/// @throws std::invalid_argument for any other name.
+Wrap parse_wrap(std::string_view name);
+std::string_view to_string(Wrap wrap);
+
+/// A picture that a material shows: (height, width, channels), row 0 on top, uv (0, 0) its
+/// bottom-left.
+///
+/// Immutable: the renderer uploads it once, keyed by its revision, and threads may share it.
+class Image {
+public:
+    using Pixels = std::shared_ptr<const PixelBuffer>;
+
+    /// @throws std::invalid_argument when the pixel count does not match, a side is 0 or channels
+    /// is not 1, 3 or 4.
+    Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps, Wrap wrap);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int channels() const { return channels_; }
+    DType dtype() const { return dtype_; }
+    bool mipmaps() const { return mipmaps_; }
+    Wrap wrap() const { return wrap_; }
+    const Pixels& pixels() const { return pixels_; }
+    std::uint64_t revision() const { return revision_; }
+
+    /// Whether any texel has an alpha below one: what shows such an image is drawn as translucent.
+    bool translucent() const { return translucent_; }
+
+private:
+    Pixels pixels_;
+    int width_;
+    int height_;
+    int channels_;
+    DType dtype_;
+    bool mipmaps_;
+    Wrap wrap_;
+    bool translucent_;
+    std::uint64_t revision_;
+};
+
+}  // namespace cubecam

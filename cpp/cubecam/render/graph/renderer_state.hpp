@@ -1,0 +1,65 @@
+#pragma once
+
+#include "cubecam/gl/context.hpp"
+#include "cubecam/render/passes/post_process_pass.hpp"
+#include "cubecam/render/passes/shadow_pass.hpp"
+#include "cubecam/render/passes/surface_pass.hpp"
+#include "cubecam/render/resources/gpu_cache.hpp"
+#include "cubecam/render/resources/target_store.hpp"
+#include "cubecam/render/resources/weak_cache.hpp"
+#include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/render_texture.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace cubecam {
+
+/// What a renderer holds of a probe.
+struct ProbeState {
+    std::unique_ptr<Target> target;  ///< null: not drawn yet
+    std::uint64_t revision = 0;      ///< new whenever a face was drawn; 0: not drawn yet
+    std::int64_t calls = 0;          ///< that needed it, for every_n_frames
+    std::size_t next_face = 0;       ///< where faces_per_frame goes on
+};
+
+/// Contents of a probe, for each of the scenes that use it in one call: they see other things.
+/// Where only one does, as mostly, that is the first.
+class ProbeContents {
+public:
+    ProbeState& of(std::size_t rank) {
+        while (states_.size() <= rank) states_.push_back(std::make_unique<ProbeState>());
+        return *states_[rank];
+    }
+
+private:
+    std::vector<std::unique_ptr<ProbeState>> states_;
+};
+
+/// What a renderer holds of a render texture.
+struct TextureState {
+    std::unique_ptr<Target> target;  ///< null: not drawn yet
+    gl::Texture view;                ///< its colour, as materials look it up
+    Wrap wrap = Wrap::clamp;         ///< of `view`
+    std::uint64_t revision = 0;      ///< new whenever lookups may give something else
+};
+
+/// All of a renderer that lives and dies with its context.
+struct RendererState {
+    RendererState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
+        : context(its_context), cache(its_context), surface(its_context, cache, layering),
+          post_process(its_context.gl(), cache, surface.programs()),
+          shadows(its_context, cache, surface.programs()), targets(cache_bytes) {}
+
+    gl::Context& context;
+    GpuCache cache;
+    SurfacePass surface;
+    PostProcessPass post_process;
+    ShadowPass shadows;
+    TargetStore targets;
+    WeakCache<Probe, ProbeContents> probes;
+    WeakCache<RenderTexture, TextureState> textures;
+};
+
+}  // namespace cubecam

@@ -1,0 +1,39 @@
+#include "cubecam/render/passes/post_process_pass.hpp"
+
+#include <cstddef>
+
+namespace cubecam {
+
+void PostProcessPass::draw(const PostProcess& post_process,
+                           const std::vector<std::vector<BoundTexture>>& textures, Target& target,
+                           int layer, Stats& stats) {
+    gl_->Disable(GL_DEPTH_TEST);
+    gl_->Disable(GL_CULL_FACE);
+    gl_->Disable(GL_BLEND);
+    gl_->Viewport(0, 0, target.description().width, target.description().height);
+    GLuint source = target.color().id();
+    for (std::size_t i = 0; i < post_process.effects.size(); ++i) {
+        const EffectValue& effect = post_process.effects[i].value;
+        UserProgram& program = programs_->effect(effect.fragment);
+        program.use(effect.inputs, textures[i]);
+        const std::size_t to = i % 2;
+        draw_quad(target.scratch_pass(to).one(layer), source, program.program(), layer, stats);
+        source = target.scratch(to).id();
+    }
+    draw_quad(target.post_processed_pass().one(layer), source,
+              programs_->grade(post_process.tonemap, post_process.encode), layer, stats);
+}
+
+void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,
+                                int layer, Stats& stats) {
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    program.use();
+    program.set("u_layer", layer);
+    gl_->BindTextureUnit(0, source);
+    gl_->BindVertexArray(cache_->views_only().id());
+    gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    ++stats.draw_calls;
+    stats.triangles += 2;
+}
+
+}  // namespace cubecam

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "cubecam/render/passes/programs.hpp"
+#include "cubecam/render/passes/tonemap.hpp"
+#include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/render/resources/gpu_cache.hpp"
+#include "cubecam/render/resources/stats.hpp"
+#include "cubecam/render/resources/target.hpp"
+
+#include <vector>
+
+namespace cubecam {
+
+/// What becomes of a picture once its scene is drawn and resolved, in this order: effects, each in
+/// linear float over all pixels, then the tone curve, then the transfer function.
+struct PostProcess {
+    std::vector<EffectSnapshot> effects;
+    Tonemap tonemap = Tonemap::none;
+    Encode encode = Encode::none;
+
+    bool any() const {
+        return !effects.empty() || tonemap != Tonemap::none || encode != Encode::none;
+    }
+};
+
+/// Full-screen passes from a post-processed target's colour to the picture that is read.
+class PostProcessPass {
+public:
+    PostProcessPass(const GladGLContext& gl, GpuCache& cache, Programs& programs)
+        : gl_(&gl), cache_(&cache), programs_(&programs) {}
+
+    /// Of one layer. `textures`: what each effect looks up.
+    void draw(const PostProcess& post_process,
+              const std::vector<std::vector<BoundTexture>>& textures, Target& target, int layer,
+              Stats& stats);
+
+private:
+    void draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program, int layer,
+                   Stats& stats);
+
+    const GladGLContext* gl_;
+    GpuCache* cache_;
+    Programs* programs_;
+};
+
+}  // namespace cubecam

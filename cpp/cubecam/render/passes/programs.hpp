@@ -1,0 +1,66 @@
+#pragma once
+
+#include "cubecam/gl/program.hpp"
+#include "cubecam/materials/material.hpp"
+#include "cubecam/render/passes/tonemap.hpp"
+#include "cubecam/render/passes/user_program.hpp"
+#include "cubecam/render/resources/stats.hpp"
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+
+namespace cubecam {
+
+/// Lights beyond this many are refused: they lie in a uniform block of guaranteed size.
+inline constexpr std::size_t max_lights = 256;
+
+/// Which variant of surface.vert/.frag a draw call needs.
+struct SurfaceVariant {
+    std::size_t material = 0;  ///< index into MaterialParameters
+    bool map = false;
+    bool vertex_colors = false;
+    bool cube = false;  ///< a basic material that shows a cubemap
+    bool double_sided = false;
+    bool fresnel = false;
+    Blend blend = Blend::opaque;
+    bool dense = false;  ///< many small triangles: constants stay in their blocks
+    bool outputs = false;
+    int lights = 0;  ///< unrolled so many times; -1: a loop
+    bool decay = false;
+    bool moved = false;              ///< by a user's own vertex function
+    bool cone = false;               ///< some light is a spot light
+    int shadows = 0;                 ///< so many lights, the first ones, have shadows that it shows
+    std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each, two bits from the lowest on
+
+    auto operator<=>(const SurfaceVariant&) const = default;
+};
+
+/// Compiled programs, made when first needed.
+class Programs {
+public:
+    Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {}
+
+    const gl::Program& surface(const SurfaceVariant& variant);
+    /// With a user's source in it. @throws ShaderError that names the user's own lines.
+    UserProgram& surface(const SurfaceVariant& variant, const ShaderParameters& shader);
+    UserProgram& effect(const UserSource& fragment);
+    const gl::Program& skybox();
+    const gl::Program& shadow();
+    UserProgram& shadow(const ShaderParameters& shader, bool vertex_colors);
+    const gl::Program& grade(Tonemap tonemap, Encode encode);
+
+private:
+    gl::ShaderOptions layer_options() const;
+    gl::ShaderOptions surface_options(const SurfaceVariant& variant) const;
+
+    const GladGLContext* gl_;
+    bool layered_;
+    std::map<SurfaceVariant, gl::Program> surfaces_;
+    std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
+    UserPrograms users_;
+    gl::Program skybox_, shadow_;
+};
+
+}  // namespace cubecam

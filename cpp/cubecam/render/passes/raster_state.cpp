@@ -1,0 +1,66 @@
+#include "cubecam/render/passes/raster_state.hpp"
+
+#include "cubecam/render/passes/stencil_state.hpp"
+
+namespace cubecam {
+namespace {
+
+void set(const GladGLContext& gl, GLenum capability, bool on) {
+    if (on) {
+        gl.Enable(capability);
+    } else {
+        gl.Disable(capability);
+    }
+}
+
+/// Each as Blend says it; the fragment shader multiplies by alpha where a mode's source is
+/// multiplied (surface.frag).
+void set_blending(const GladGLContext& gl, Blend blend) {
+    if (blend == Blend::opaque) {
+        gl.Disablei(GL_BLEND, 0);
+        return;
+    }
+    gl.Enablei(GL_BLEND, 0);
+    switch (blend) {
+        case Blend::opaque: break;
+        case Blend::alpha:
+            gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE,
+                                 GL_ONE_MINUS_SRC_ALPHA);
+            break;
+        case Blend::alpha_keep:
+            gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+            break;
+        case Blend::additive: gl.BlendFunc(GL_ONE, GL_ONE); break;
+        case Blend::multiply: gl.BlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE); break;
+        case Blend::premultiplied: gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); break;
+    }
+}
+
+}  // namespace
+
+void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mirror) {
+    const SurfaceOptions& surface = node.material.value.surface;
+    set(gl, GL_CULL_FACE, !surface.double_sided);
+    // A node's matrix of negative determinant turns the winding, a mirrored view turns it again.
+    const bool turned = (glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror;
+    gl.FrontFace(turned ? GL_CW : GL_CCW);
+
+    // Depth is only written while the test is on.
+    gl.DepthFunc(surface.depth_test ? GL_GREATER : GL_ALWAYS);
+    gl.DepthMask(node.depth_write ? GL_TRUE : GL_FALSE);
+    const glm::bvec4& write = surface.color_write;
+    gl.ColorMaski(0, write.r, write.g, write.b, write.a);
+    set_blending(gl, node.blend);
+    set_stencil(gl, surface.stencil);
+}
+
+void reset_raster_state(const GladGLContext& gl) {
+    gl.Enable(GL_DEPTH_TEST);
+    gl.DepthFunc(GL_GREATER);
+    gl.DepthMask(GL_TRUE);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.Disable(GL_BLEND);
+    gl.Disable(GL_STENCIL_TEST);
+}
+
+}  // namespace cubecam

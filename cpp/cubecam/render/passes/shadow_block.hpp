@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cubecam/render/passes/shadow_view.hpp"
+
+#include <glad/gl.h>
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cubecam {
+
+/// Lights with a shadow beyond this many are refused: each takes a texture unit.
+inline constexpr std::size_t max_shadows = 16;
+
+/// The unit of the first light's map; the others follow.
+inline constexpr GLuint shadow_unit = 16;
+
+/// A light's shadow map, ready to be looked up.
+struct ShadowUse {
+    ShadowView view;
+    Shadow shadow;
+    GLuint texture = 0;
+    std::uint64_t revision = 0;  ///< new whenever a layer was drawn
+};
+
+/// An element of the uniform block `Shadows` of shaders/include/shadows.glsl, std140.
+struct ShadowBlock {
+    glm::vec4 rows[3]{};
+    glm::vec4 lens{};
+    glm::vec4 filter{};
+};
+
+/// `origin` is where the shaders' positions count from.
+ShadowBlock make_shadow_block(const ShadowUse& use, const glm::dvec3& origin);
+
+}  // namespace cubecam

@@ -1,0 +1,277 @@
+#include "cubecam/render/passes/shadow_pass.hpp"
+
+#include "cubecam/core/memory.hpp"
+#include "cubecam/core/revision.hpp"
+#include "cubecam/image/flip.hpp"
+#include "cubecam/render/graph/dependencies.hpp"
+#include "cubecam/render/passes/draw_block.hpp"
+#include "cubecam/render/resources/instance.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <stdexcept>
+#include <string>
+
+namespace cubecam {
+namespace {
+
+constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
+constexpr float nothing = 0.0F;  // depth is reversed
+
+void add_caster(Key& key, const NodeSnapshot& node, const ShadowPass::LookUp& look_up) {
+    key.add(node.world);
+    key.add(node.mesh->revision());
+    if (!moves_vertices(node)) return;
+    key.add(node.material.revision);
+    for (const BoundTexture& texture : look_up(node)) key.add(texture.revision);
+}
+
+/// Cheaper than the layers' keys, which want every caster culled against every view.
+Key whole_key(const SceneSnapshot& scene, const ShadowView& view,
+              const ShadowPass::LookUp& look_up) {
+    Key key;
+    key.add(view.views.front().view_projection);
+    key.add(view.views.front().position);
+    for (const NodeSnapshot& node : scene.nodes) {
+        if (node.cast_shadow) add_caster(key, node, look_up);
+    }
+    return key;
+}
+
+std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
+                            const DrawPlan& plan, const ShadowPass::LookUp& look_up) {
+    std::vector<Key> keys(view.views.size());
+    for (std::size_t v = 0; v < keys.size(); ++v) {
+        keys[v].add(view.views[v].view_projection);
+        keys[v].add(view.views[v].position);
+    }
+    for (const PlannedNode& planned : plan.opaque) {
+        const NodeSnapshot& node = scene.nodes[planned.node];
+        for (const PlannedNode::Visibility& visibility : planned.visibilities) {
+            add_caster(keys[visibility.view], node, look_up);
+        }
+    }
+    return keys;
+}
+
+}  // namespace
+
+ShadowPass::ShadowPass(const gl::Context& context, GpuCache& cache, Programs& programs)
+    : context_(&context), gl_(&context.gl()), cache_(&cache), programs_(&programs) {
+    const gl::Limits& limits = context.limits();
+    largest_ = std::min(
+        {limits.max_texture_size, limits.max_framebuffer_width, limits.max_framebuffer_height});
+    GLint units = 0;
+    gl_->GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
+    most_ = std::min(max_shadows,
+                     static_cast<std::size_t>(std::max(units - static_cast<int>(shadow_unit), 0)));
+}
+
+void ShadowPass::check(const SceneSnapshot& scene) const {
+    std::size_t count = 0;
+    for (const LightSnapshot& light : scene.lights) {
+        if (!light.value.shadow) continue;
+        ++count;
+        const int size = light.value.shadow->size;
+        if (size > largest_) {
+            throw std::invalid_argument("shadow: expected a size of at most " +
+                                        std::to_string(largest_) +
+                                        " texels (GL_MAX_TEXTURE_SIZE of " + context_->renderer() +
+                                        "), got " + std::to_string(size));
+        }
+    }
+    if (count > most_) {
+        throw std::invalid_argument(
+            "lights: expected at most " + std::to_string(most_) +
+            " with a shadow (each takes one of the GL_MAX_TEXTURE_IMAGE_UNITS of " +
+            context_->renderer() + "), got " + std::to_string(count));
+    }
+}
+
+std::vector<ShadowUse> ShadowPass::update(const SceneSnapshot& scene,
+                                          std::span<const std::size_t> ranks, const LookUp& look_up,
+                                          Stats& stats) {
+    std::vector<ShadowUse> uses;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightSnapshot& light = scene.lights[i];
+        if (light.value.shadow) uses.push_back(update(scene, light, ranks[i], look_up, stats));
+    }
+    return uses;
+}
+
+ShadowUse ShadowPass::update(const SceneSnapshot& scene, const LightSnapshot& light,
+                             std::size_t rank, const LookUp& look_up, Stats& stats) {
+    const int size = light.value.shadow->size;
+    ShadowView view = shadow_view(light.value, scene);
+    const std::size_t layers = view.views.size();
+    Map& map = maps_.get(light.object, [] { return Maps{}; })[rank];
+    if (map.size != size || map.keys.size() != layers) {
+        map = {};  // its memory first
+        map = make_map(size, layers);
+    }
+    Key whole = whole_key(scene, view, look_up);
+    if (map.whole != whole) draw(scene, view, look_up, map, stats);
+    map.whole = std::move(whole);
+    return {std::move(view), *light.value.shadow, map.depth.id(), map.revision};
+}
+
+void ShadowPass::draw(const SceneSnapshot& scene, const ShadowView& view, const LookUp& look_up,
+                      Map& map, Stats& stats) {
+    map.whole.reset();
+    const int size = map.size;
+    const DrawPlan plan = make_plan(scene, view.views, size, size,
+                                    [](const NodeSnapshot& node) { return node.cast_shadow; });
+    std::vector<Key> keys = layer_keys(scene, view, plan, look_up);
+    std::size_t drawn = 0;
+    for (std::size_t layer = 0; layer < keys.size(); ++layer) {
+        if (map.keys[layer] == keys[layer]) continue;
+        map.keys[layer].reset();
+        draw_layer(scene, view, plan, look_up, layer, map, stats);
+        ++drawn;
+    }
+    if (drawn == 0) return;
+    gl::check_gl(*gl_, "drawing a shadow map");
+    for (std::size_t layer = 0; layer < keys.size(); ++layer) map.keys[layer] = keys[layer];
+    map.revision = next_revision();
+    stats.shadow_views_drawn += static_cast<std::int64_t>(drawn);
+}
+
+ShadowPass::Map ShadowPass::make_map(int size, std::size_t layers) const {
+    const int count = static_cast<int>(layers);
+    const double bytes = 4.0 * size * size * count;
+    const std::string what = "a shadow map of " + std::to_string(count) + " x " +
+                             std::to_string(size) + " x " + std::to_string(size) + " texels";
+    if (context_->software()) check_memory(bytes, what);
+    Map map;
+    map.depth = gl::create_texture_2d_array(*gl_, map_format, size, size, count);
+    const GLuint id = map.depth.id();
+    gl_->TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_->TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_->TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl_->TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    map.layers.emplace(*gl_, std::vector<Layers::Attachment>{{GL_DEPTH_ATTACHMENT, id}}, count);
+    map.keys.resize(layers);
+    map.size = size;
+    return map;
+}
+
+void ShadowPass::draw_layer(const SceneSnapshot& scene, const ShadowView& view,
+                            const DrawPlan& plan, const LookUp& look_up, std::size_t layer,
+                            Map& map, Stats& stats) {
+    // All nodes of one mesh in one call: of a caster nothing but its matrix counts. Meshes come in
+    // the order of their first node.
+    std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::vector<std::vector<Instance>> nodes;
+    std::map<const Mesh*, std::size_t> places;
+    std::vector<const NodeSnapshot*> moved;
+    const View& from = view.views[layer];
+    for (const PlannedNode& planned : plan.opaque) {
+        const bool seen = std::any_of(planned.visibilities.begin(), planned.visibilities.end(),
+                                      [layer](const PlannedNode::Visibility& visibility) {
+                                          return visibility.view == layer;
+                                      });
+        if (!seen) continue;
+        const NodeSnapshot& node = scene.nodes[planned.node];
+        if (moves_vertices(node)) {
+            moved.push_back(&node);
+            continue;
+        }
+        const auto [place, added] = places.try_emplace(node.mesh.get(), meshes.size());
+        if (added) {
+            meshes.push_back(node.mesh);
+            nodes.emplace_back();
+        }
+        const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
+        nodes[place->second].push_back(make_instance(from, matrix, from.position, layer));
+    }
+    std::vector<Instance> instances;
+    for (const auto& of_mesh : nodes) {
+        instances.insert(instances.end(), of_mesh.begin(), of_mesh.end());
+    }
+    instances_ = gl::create_buffer(*gl_, instances.size() * sizeof(Instance), instances.data());
+
+    gl_->BindFramebuffer(GL_FRAMEBUFFER, map.layers->one(static_cast<int>(layer)));
+    gl_->Viewport(0, 0, map.size, map.size);
+    gl_->Enable(GL_SCISSOR_TEST);
+    gl_->Scissor(0, 0, map.size, map.size);
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->DepthFunc(GL_GREATER);
+    gl_->DepthMask(GL_TRUE);
+    gl_->Disable(GL_BLEND);
+    gl_->Disable(GL_CULL_FACE);  // a surface stops light from either side
+    gl_->ClearBufferfv(GL_DEPTH, 0, &nothing);
+    if (view.kind == ShadowView::Kind::parallel) {
+        gl_->Scissor(1, 1, map.size - 2, map.size - 2);  // see shadow_view.cpp, empty_border
+    }
+    programs_->shadow().use();
+    GLuint first = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const GpuMesh& mesh = cache_->mesh(meshes[m]);
+        const auto count = static_cast<GLsizei>(nodes[m].size());
+        gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
+                                     sizeof(Instance));
+        gl_->BindVertexArray(mesh.array.id());
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT,
+                                               nullptr, count, first);
+        first += static_cast<GLuint>(count);
+        ++stats.draw_calls;
+        stats.triangles += std::int64_t{mesh.index_count / 3} * count;
+    }
+    for (const NodeSnapshot* node : moved) draw_moved(*node, from, look_up, layer, stats);
+}
+
+void ShadowPass::draw_moved(const NodeSnapshot& node, const View& from, const LookUp& look_up,
+                            std::size_t layer, Stats& stats) {
+    const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
+    const glm::dmat4 matrix = glm::translate(from.view_projection, from.position);
+    const Instance instance = make_instance(from, reverse_depth(matrix), from.position, layer);
+    const DrawBlock block = make_draw_block(node, from.position, glm::vec3(1.0F));
+    instances_ = gl::create_buffer(*gl_, sizeof(instance), &instance);
+    block_ = gl::create_buffer(*gl_, sizeof(block), &block);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, draw_binding, block_.id());
+    UserProgram& program = programs_->shadow(shader, node.mesh->colors() != nullptr);
+    program.use(shader.inputs, look_up(node));
+    program.program().use();
+    const GpuMesh& mesh = cache_->mesh(node.mesh);
+    gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
+                                 sizeof(Instance));
+    gl_->BindVertexArray(mesh.array.id());
+    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr,
+                                           1, 0);
+    ++stats.draw_calls;
+    stats.triangles += mesh.index_count / 3;
+}
+
+Buffer<float> ShadowPass::read(const ShadowUse& use) {
+    const auto size = static_cast<std::size_t>(use.shadow.size);
+    Buffer<float> values(use.view.views.size() * size * size);
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    for (std::size_t layer = 0; layer < use.view.views.size(); ++layer) {
+        gl_->GetTextureSubImage(use.texture, 0, 0, 0, static_cast<GLint>(layer), use.shadow.size,
+                                use.shadow.size, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
+                                static_cast<GLsizei>(size * size * sizeof(float)),
+                                values.data() + layer * size * size);
+    }
+    gl::check_gl(*gl_, "reading a shadow map");
+    const bool parallel = use.view.kind == ShadowView::Kind::parallel;
+    for (float& value : values) {
+        const auto held = static_cast<double>(value);
+        if (value == nothing) {
+            value = std::numeric_limits<float>::infinity();
+        } else if (parallel) {
+            value = static_cast<float>((held - use.view.offset) / use.view.scale - use.view.near);
+        } else {
+            value = static_cast<float>(use.view.scale / (held - use.view.offset));
+        }
+    }
+    if (use.view.kind == ShadowView::Kind::cube) return values;
+    Buffer<float> picture(values.size());
+    flip_rows(reinterpret_cast<const std::byte*>(values.data()),
+              reinterpret_cast<std::byte*>(picture.data()), size * sizeof(float), size);
+    return picture;
+}
+
+}  // namespace cubecam

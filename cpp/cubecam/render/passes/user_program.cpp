@@ -1,0 +1,324 @@
+#include "cubecam/render/passes/user_program.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+namespace cubecam {
+namespace {
+
+constexpr std::size_t most_programs = 64;
+
+/// Units below are the scene's own (shaders/README.md).
+constexpr GLuint first_user_unit = 32;
+
+/// What shaders/ declares itself.
+constexpr std::array<std::string_view, 5> own_uniforms = {"u_map", "u_cube", "u_frame", "u_layer",
+                                                          "u_shadow_maps"};
+
+/// How a GLSL type is filled: `rows` x `columns` numbers, in GLSL's name.
+struct Shape {
+    GLenum type;
+    const char* name;
+    int rows;     ///< components of a vector
+    int columns;  ///< 1 but for matrices
+    enum class Scalar { real, whole, natural, truth } scalar;
+};
+
+constexpr Shape shapes[] = {
+    {GL_FLOAT, "float", 1, 1, Shape::Scalar::real},
+    {GL_FLOAT_VEC2, "vec2", 2, 1, Shape::Scalar::real},
+    {GL_FLOAT_VEC3, "vec3", 3, 1, Shape::Scalar::real},
+    {GL_FLOAT_VEC4, "vec4", 4, 1, Shape::Scalar::real},
+    {GL_FLOAT_MAT2, "mat2", 2, 2, Shape::Scalar::real},
+    {GL_FLOAT_MAT3, "mat3", 3, 3, Shape::Scalar::real},
+    {GL_FLOAT_MAT4, "mat4", 4, 4, Shape::Scalar::real},
+    {GL_INT, "int", 1, 1, Shape::Scalar::whole},
+    {GL_INT_VEC2, "ivec2", 2, 1, Shape::Scalar::whole},
+    {GL_INT_VEC3, "ivec3", 3, 1, Shape::Scalar::whole},
+    {GL_INT_VEC4, "ivec4", 4, 1, Shape::Scalar::whole},
+    {GL_UNSIGNED_INT, "uint", 1, 1, Shape::Scalar::natural},
+    {GL_UNSIGNED_INT_VEC2, "uvec2", 2, 1, Shape::Scalar::natural},
+    {GL_UNSIGNED_INT_VEC3, "uvec3", 3, 1, Shape::Scalar::natural},
+    {GL_UNSIGNED_INT_VEC4, "uvec4", 4, 1, Shape::Scalar::natural},
+    {GL_BOOL, "bool", 1, 1, Shape::Scalar::truth},
+    {GL_BOOL_VEC2, "bvec2", 2, 1, Shape::Scalar::truth},
+    {GL_BOOL_VEC3, "bvec3", 3, 1, Shape::Scalar::truth},
+    {GL_BOOL_VEC4, "bvec4", 4, 1, Shape::Scalar::truth},
+};
+
+/// Null for what holds no numbers.
+const Shape* find_shape(GLenum type) {
+    const auto* found = std::find_if(std::begin(shapes), std::end(shapes),
+                                     [type](const Shape& shape) { return shape.type == type; });
+    return found == std::end(shapes) ? nullptr : found;
+}
+
+/// Of a type that holds numbers.
+const Shape& shape_of(GLenum type) {
+    const Shape* shape = find_shape(type);
+    return shape == nullptr ? shapes[0] : *shape;
+}
+
+const char* sampler_name(GLenum type) {
+    if (type == GL_SAMPLER_2D) return "sampler2D";
+    if (type == GL_SAMPLER_CUBE) return "samplerCube";
+    return nullptr;
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& expected,
+                         const std::string& got) {
+    throw std::invalid_argument(name + ": expected " + expected + ", got " + got);
+}
+
+std::string text_of(const std::vector<int>& shape) {
+    if (shape.empty()) return "a number";
+    std::string text = "shape (";
+    for (const int length : shape) text += std::to_string(length) + ", ";
+    text.resize(text.size() - (shape.size() == 1 ? 1 : 2));
+    return text + ")";
+}
+
+/// The value's numbers, if their shape is the declared type's: (), (rows,), (rows, columns), with
+/// the number of elements ahead for an array.
+std::vector<double> fitted(const std::string& name, const UniformValue& value, const Shape& shape,
+                           bool array, int count) {
+    std::vector<int> wanted;
+    if (shape.rows > 1) wanted.push_back(shape.rows);
+    if (shape.columns > 1) wanted.push_back(shape.columns);
+    std::vector<int> got = value.shape;
+    bool enough = true;
+    if (array) {
+        enough = !got.empty() && got.front() >= count;
+        if (!got.empty()) got.erase(got.begin());
+    } else if (wanted.empty() && got == std::vector<int>{1}) {
+        got.clear();  // one number in brackets
+    }
+    if (!enough || got != wanted) {
+        std::vector<int> whole = wanted;
+        if (array) whole.insert(whole.begin(), count);
+        refuse("uniform " + name,
+               text_of(whole) + " for a " + shape.name +
+                   (array ? "[" + std::to_string(count) + "]" : ""),
+               text_of(value.shape));
+    }
+    for (const double number : value.numbers) {
+        if (shape.scalar == Shape::Scalar::real || shape.scalar == Shape::Scalar::truth) continue;
+        const double least = shape.scalar == Shape::Scalar::natural ? 0.0 : -2147483648.0;
+        const double most = shape.scalar == Shape::Scalar::natural ? 4294967295.0 : 2147483647.0;
+        if (number == std::floor(number) && number >= least && number <= most) continue;
+        refuse("uniform " + name, std::string("whole numbers for an ") + shape.name,
+               std::to_string(number));
+    }
+    std::vector<double> numbers = value.numbers;
+    if (array) numbers.resize(static_cast<std::size_t>(count * shape.rows * shape.columns));
+    return numbers;
+}
+
+}  // namespace
+
+UserProgram::UserProgram(gl::Program program, std::string text)
+    : program_(std::move(program)), text_(std::move(text)) {
+    find_uniforms();
+}
+
+void UserProgram::find_uniforms() {
+    const GladGLContext& gl = program_.gl();
+    GLint count = 0;
+    GLint longest = 0;
+    gl.GetProgramiv(program_.id(), GL_ACTIVE_UNIFORMS, &count);
+    gl.GetProgramiv(program_.id(), GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+    std::string name(static_cast<std::size_t>(std::max(longest, 1)), '\0');
+    for (GLint i = 0; i < count; ++i) {
+        GLsizei length = 0;
+        Uniform uniform{};
+        gl.GetActiveUniform(program_.id(), static_cast<GLuint>(i), longest, &length, &uniform.count,
+                            &uniform.type, name.data());
+        uniform.name = name.substr(0, static_cast<std::size_t>(length));
+        uniform.location = gl.GetUniformLocation(program_.id(), uniform.name.c_str());
+        if (uniform.location < 0) continue;  // in a block
+        uniform.array = uniform.name.ends_with("[0]");
+        if (uniform.array) uniform.name.resize(uniform.name.size() - 3);
+        if (std::find(own_uniforms.begin(), own_uniforms.end(), uniform.name) !=
+            own_uniforms.end()) {
+            continue;
+        }
+        if (find_shape(uniform.type) != nullptr) {
+            uniform.initial = initial_of(uniform);
+            uniform.current = uniform.initial;
+        } else if (sampler_name(uniform.type) == nullptr || uniform.array) {
+            refuse("uniform " + uniform.name,
+                   "a float, int, uint or bool, a vector or square matrix of them, a sampler2D or "
+                   "a samplerCube",
+                   "another type, or an array of samplers");
+        }
+        uniforms_.push_back(std::move(uniform));
+    }
+}
+
+/// What `uniform float x = 2.0;` says, matrices row by row.
+std::vector<double> UserProgram::initial_of(const Uniform& uniform) const {
+    const GladGLContext& gl = program_.gl();
+    const Shape& shape = shape_of(uniform.type);
+    std::vector<double> numbers;
+    for (int element = 0; element < uniform.count; ++element) {
+        const GLint location =
+            uniform.array
+                ? gl.GetUniformLocation(
+                      program_.id(), (uniform.name + "[" + std::to_string(element) + "]").c_str())
+                : uniform.location;
+        std::array<double, 16> values{};
+        if (location < 0) {
+            // Nothing was said of it.
+        } else if (shape.scalar == Shape::Scalar::real) {
+            std::array<float, 16> read{};
+            gl.GetUniformfv(program_.id(), location, read.data());
+            std::copy(read.begin(), read.end(), values.begin());
+        } else if (shape.scalar == Shape::Scalar::natural) {
+            std::array<GLuint, 16> read{};
+            gl.GetUniformuiv(program_.id(), location, read.data());
+            std::copy(read.begin(), read.end(), values.begin());
+        } else {
+            std::array<GLint, 16> read{};
+            gl.GetUniformiv(program_.id(), location, read.data());
+            std::copy(read.begin(), read.end(), values.begin());
+        }
+        for (int row = 0; row < shape.rows; ++row) {
+            for (int column = 0; column < shape.columns; ++column) {
+                numbers.push_back(values[static_cast<std::size_t>(column * shape.rows + row)]);
+            }
+        }
+    }
+    return numbers;
+}
+
+void UserProgram::check_known(const std::string& name) const {
+    // "lamps[2].color" is declared where "lamps" is.
+    if (mentions(text_, name.substr(0, name.find_first_of(".[")))) return;
+    std::string known;
+    for (const Uniform& uniform : uniforms_) known += (known.empty() ? "" : ", ") + uniform.name;
+    refuse("uniform " + name,
+           known.empty() ? "none, since the source declares none" : "one of " + known,
+           "a name that the source does not know");
+}
+
+void UserProgram::use(const ShaderInputs& inputs, std::span<const BoundTexture> textures) {
+    const GladGLContext& gl = program_.gl();
+    for (const auto& [name, value] : inputs.uniforms) check_known(name);
+    for (const auto& [name, source] : inputs.textures) check_known(name);
+    for (Uniform& uniform : uniforms_) {
+        if (const char* sampler = sampler_name(uniform.type)) {
+            const auto found = inputs.textures.find(uniform.name);
+            if (found == inputs.textures.end()) {
+                refuse("texture " + uniform.name, std::string("one for the ") + sampler, "none");
+            }
+            const bool cube = std::holds_alternative<CubeSource>(found->second);
+            if (cube != (uniform.type == GL_SAMPLER_CUBE)) {
+                refuse("texture " + uniform.name,
+                       cube ? "an Image for the sampler2D"
+                            : "a CubeMap or Probe for the samplerCube",
+                       cube ? "a cubemap" : "an Image");
+            }
+            const auto index =
+                static_cast<std::size_t>(std::distance(inputs.textures.begin(), found));
+            const GLuint unit = first_user_unit + static_cast<GLuint>(index);
+            gl.ProgramUniform1i(program_.id(), uniform.location, static_cast<GLint>(unit));
+            gl.BindTextureUnit(unit, textures[index].texture);
+            continue;
+        }
+        const auto found = inputs.uniforms.find(uniform.name);
+        if (found == inputs.uniforms.end()) {
+            set(uniform, uniform.initial);
+        } else {
+            set(uniform, fitted(uniform.name, found->second, shape_of(uniform.type), uniform.array,
+                                uniform.count));
+        }
+    }
+}
+
+void UserProgram::set(Uniform& uniform, const std::vector<double>& numbers) {
+    if (numbers == uniform.current) return;
+    const GladGLContext& gl = program_.gl();
+    const Shape& shape = shape_of(uniform.type);
+    const GLuint id = program_.id();
+    const GLint at = uniform.location;
+    const GLsizei n = uniform.count;
+    if (shape.scalar == Shape::Scalar::real) {
+        const std::vector<float> values(numbers.begin(), numbers.end());
+        const float* v = values.data();
+        switch (uniform.type) {
+            case GL_FLOAT: gl.ProgramUniform1fv(id, at, n, v); break;
+            case GL_FLOAT_VEC2: gl.ProgramUniform2fv(id, at, n, v); break;
+            case GL_FLOAT_VEC3: gl.ProgramUniform3fv(id, at, n, v); break;
+            case GL_FLOAT_VEC4: gl.ProgramUniform4fv(id, at, n, v); break;
+            case GL_FLOAT_MAT2: gl.ProgramUniformMatrix2fv(id, at, n, GL_TRUE, v); break;
+            case GL_FLOAT_MAT3: gl.ProgramUniformMatrix3fv(id, at, n, GL_TRUE, v); break;
+            default: gl.ProgramUniformMatrix4fv(id, at, n, GL_TRUE, v); break;
+        }
+    } else if (shape.scalar == Shape::Scalar::natural) {
+        const std::vector<GLuint> values(numbers.begin(), numbers.end());
+        const GLuint* v = values.data();
+        switch (shape.rows) {
+            case 1: gl.ProgramUniform1uiv(id, at, n, v); break;
+            case 2: gl.ProgramUniform2uiv(id, at, n, v); break;
+            case 3: gl.ProgramUniform3uiv(id, at, n, v); break;
+            default: gl.ProgramUniform4uiv(id, at, n, v); break;
+        }
+    } else {
+        std::vector<GLint> values;
+        for (const double number : numbers) {
+            values.push_back(shape.scalar == Shape::Scalar::truth ? GLint{number != 0.0}
+                                                                  : static_cast<GLint>(number));
+        }
+        const GLint* v = values.data();
+        switch (shape.rows) {
+            case 1: gl.ProgramUniform1iv(id, at, n, v); break;
+            case 2: gl.ProgramUniform2iv(id, at, n, v); break;
+            case 3: gl.ProgramUniform3iv(id, at, n, v); break;
+            default: gl.ProgramUniform4iv(id, at, n, v); break;
+        }
+    }
+    uniform.current = numbers;
+}
+
+UserProgram& UserPrograms::get(const GladGLContext& gl,
+                               std::initializer_list<std::string_view> files,
+                               const gl::ShaderOptions& options,
+                               std::initializer_list<Part> parts) {
+    // All that the program is made of, compared in full.
+    std::string key;
+    const auto add = [&key](std::string_view text) { key.append(text).push_back('\0'); };
+    for (const std::string_view file : files) add(file);
+    for (const std::string& extension : options.extensions) add(extension);
+    for (const auto& [name, value] : options.defines) add(name + "=" + value);
+    std::string text;
+    for (const Part& part : parts) {
+        add(part.source->text);
+        add(part.source->path);
+        text += part.source->text + "\n";
+    }
+    const auto found = std::find_if(programs_.begin(), programs_.end(),
+                                    [&key](const auto& held) { return held.first == key; });
+    if (found != programs_.end()) {
+        programs_.splice(programs_.begin(), programs_, found);
+        return programs_.front().second;
+    }
+
+    std::vector<gl::ShaderSource> sources(gl::embedded_shaders().begin(),
+                                          gl::embedded_shaders().end());
+    for (gl::ShaderSource& source : sources) {
+        for (const Part& part : parts) {
+            if (source.name != part.file) continue;
+            source.text = part.source->text;
+            source.title = part.source->path.empty() ? part.title : part.source->path;
+        }
+    }
+    UserProgram made(gl::Program(gl, files, options, sources), std::move(text));
+    if (programs_.size() == most_programs) programs_.pop_back();
+    programs_.emplace_front(std::move(key), std::move(made));
+    return programs_.front().second;
+}
+
+}  // namespace cubecam

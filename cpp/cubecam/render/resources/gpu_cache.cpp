@@ -1,0 +1,218 @@
+#include "cubecam/render/resources/gpu_cache.hpp"
+
+#include "cubecam/image/flip.hpp"
+#include "cubecam/image/pixels.hpp"
+#include "cubecam/render/resources/instance.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace cubecam {
+namespace {
+
+struct TextureFormat {
+    GLenum internal;
+    GLenum format;
+    GLenum type;
+};
+
+TextureFormat texture_format(DType dtype, int channels) {
+    const GLenum format = channels == 1 ? GL_RED : channels == 3 ? GL_RGB : GL_RGBA;
+    switch (dtype) {
+        case DType::uint8:
+            return {static_cast<GLenum>(channels == 1   ? GL_R8
+                                        : channels == 3 ? GL_RGB8
+                                                        : GL_RGBA8),
+                    format, GL_UNSIGNED_BYTE};
+        case DType::float16:
+            return {static_cast<GLenum>(channels == 1   ? GL_R16F
+                                        : channels == 3 ? GL_RGB16F
+                                                        : GL_RGBA16F),
+                    format, GL_HALF_FLOAT};
+        case DType::float32: break;
+    }
+    return {static_cast<GLenum>(channels == 1   ? GL_R32F
+                                : channels == 3 ? GL_RGB32F
+                                                : GL_RGBA32F),
+            format, GL_FLOAT};
+}
+
+void check_side(const gl::Context& context, const char* what, int side, int largest,
+                const char* limit) {
+    if (side <= largest) return;
+    throw std::invalid_argument(std::string(what) + ": expected at most " +
+                                std::to_string(largest) + " pixels a side (" + limit + " of " +
+                                context.renderer() + "), got " + std::to_string(side));
+}
+
+void set_filters(const GladGLContext& gl, GLuint texture, bool mipmaps, GLenum wrap) {
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
+                         mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap));
+    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
+}
+
+/// One channel is grey, as everywhere in this library.
+void set_swizzle(const GladGLContext& gl, GLuint texture, int channels) {
+    if (channels != 1) return;
+    const GLint grey[] = {GL_RED, GL_RED, GL_RED, GL_ONE};
+    gl.TextureParameteriv(texture, GL_TEXTURE_SWIZZLE_RGBA, grey);
+}
+
+void set_attribute(const GladGLContext& gl, GLuint array, GLuint index, GLuint buffer,
+                   GLint components, std::size_t offset) {
+    gl.EnableVertexArrayAttrib(array, index);
+    gl.VertexArrayAttribFormat(array, index, components, GL_FLOAT, GL_FALSE,
+                               static_cast<GLuint>(offset));
+    gl.VertexArrayAttribBinding(array, index, buffer);
+}
+
+void set_view_attributes(const GladGLContext& gl, GLuint array) {
+    for (GLuint column = 0; column < 4; ++column) {
+        set_attribute(gl, array, attribute::view_matrix + column, vertex_buffer::views, 4,
+                      offsetof(Instance, matrix) + column * sizeof(glm::vec4));
+    }
+    set_attribute(gl, array, attribute::view_eye, vertex_buffer::views, 4, offsetof(Instance, eye));
+    set_attribute(gl, array, attribute::view_position, vertex_buffer::views, 4,
+                  offsetof(Instance, position));
+    set_attribute(gl, array, attribute::view_forward, vertex_buffer::views, 4,
+                  offsetof(Instance, forward));
+    gl.VertexArrayBindingDivisor(array, vertex_buffer::views, 1);
+}
+
+GpuMesh upload_mesh(const GladGLContext& gl, const Mesh& mesh) {
+    const auto& positions = *mesh.positions();
+    const auto& normals = *mesh.normals();
+    const bool has_uvs = mesh.uvs() != nullptr;
+    const bool has_colors = mesh.colors() != nullptr;
+    const std::size_t stride = 6 + (has_uvs ? 2 : 0) + (has_colors ? 4 : 0);
+
+    std::vector<float> packed(positions.size() * stride);
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        float* to = packed.data() + v * stride;
+        const auto put = [&to](const auto& value) {
+            for (int i = 0; i < value.length(); ++i) *to++ = value[i];
+        };
+        put(positions[v]);
+        put(normals[v]);
+        if (has_uvs) put((*mesh.uvs())[v]);
+        if (has_colors) put((*mesh.colors())[v]);
+    }
+
+    GpuMesh result;
+    result.array = gl::create_vertex_array(gl);
+    result.vertices = gl::create_buffer(gl, packed.size() * sizeof(float), packed.data());
+    result.indices = gl::create_buffer(gl, mesh.triangles()->size() * sizeof(glm::uvec3),
+                                       mesh.triangles()->data());
+    result.index_count = static_cast<GLsizei>(mesh.triangles()->size() * 3);
+
+    const GLuint array = result.array.id();
+    gl.VertexArrayVertexBuffer(array, vertex_buffer::mesh, result.vertices.id(), 0,
+                               static_cast<GLsizei>(stride * sizeof(float)));
+    gl.VertexArrayElementBuffer(array, result.indices.id());
+    set_attribute(gl, array, attribute::position, vertex_buffer::mesh, 3, 0);
+    set_attribute(gl, array, attribute::normal, vertex_buffer::mesh, 3, 3 * sizeof(float));
+    if (has_uvs) set_attribute(gl, array, attribute::uv, vertex_buffer::mesh, 2, 6 * sizeof(float));
+    if (has_colors)
+        set_attribute(gl, array, attribute::color, vertex_buffer::mesh, 4,
+                      (stride - 4) * sizeof(float));
+    set_view_attributes(gl, array);
+    return result;
+}
+
+/// GL's texel (0, 0) is a picture's bottom-left: rows go up in the reverse of their order in
+/// memory.
+std::vector<std::byte> bottom_row_first(const Image& image) {
+    const std::size_t row = static_cast<std::size_t>(image.width()) *
+                            static_cast<std::size_t>(image.channels()) * dtype_size(image.dtype());
+    const auto rows = static_cast<std::size_t>(image.height());
+    std::vector<std::byte> flipped(row * rows);
+    flip_rows(image.pixels()->data(), flipped.data(), row, rows);
+    return flipped;
+}
+
+GpuTexture upload_image(const GladGLContext& gl, const Image& image) {
+    const TextureFormat format = texture_format(image.dtype(), image.channels());
+    const std::vector<std::byte> pixels = bottom_row_first(image);
+    GpuTexture result{gl::create_texture_2d(gl, format.internal, image.width(), image.height(),
+                                            image.mipmaps() ? 0 : 1),
+                      image.mipmaps()};
+    const GLuint id = result.texture.id();
+    gl.TextureSubImage2D(id, 0, 0, 0, image.width(), image.height(), format.format, format.type,
+                         pixels.data());
+    if (image.mipmaps()) gl.GenerateTextureMipmap(id);
+    set_filters(gl, id, image.mipmaps(),
+                image.wrap() == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    set_swizzle(gl, id, image.channels());
+    return result;
+}
+
+}  // namespace
+
+GpuCache::GpuCache(const gl::Context& context)
+    : context_(&context), gl_(&context.gl()), views_only_(gl::create_vertex_array(context.gl())) {
+    set_view_attributes(*gl_, views_only_.id());
+    // Every row is uploaded as numpy holds it, without padding.
+    gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+const GpuMesh& GpuCache::mesh(const std::shared_ptr<const Mesh>& mesh) {
+    return meshes_.get(mesh, [&] { return upload_mesh(*gl_, *mesh); });
+}
+
+const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image) {
+    return images_.get(image, [&] {
+        check_side(*context_, "map", std::max(image->width(), image->height()),
+                   context_->limits().max_texture_size, "GL_MAX_TEXTURE_SIZE");
+        return upload_image(*gl_, *image);
+    });
+}
+
+const GpuTexture& GpuCache::cube(const CubeSnapshot& cube) {
+    const CubeMapData& data = *cube.data;
+    const TextureFormat format = texture_format(data.dtype, data.channels);
+    GpuCube& entry = cubes_.get(cube.object, [&] {
+        check_side(*context_, "cubemap", data.size, context_->limits().max_cube_map_texture_size,
+                   "GL_MAX_CUBE_MAP_TEXTURE_SIZE");
+        const int levels = data.mipmaps ? gl::mip_levels(data.size, data.size) : 1;
+        GpuCube made{
+            {gl::create_texture_cube(*gl_, format.internal, data.size, levels), data.mipmaps}, {}};
+        set_filters(*gl_, made.texture.texture.id(), data.mipmaps, GL_CLAMP_TO_EDGE);
+        set_swizzle(*gl_, made.texture.texture.id(), data.channels);
+        return made;
+    });
+    const GLuint id = entry.texture.texture.id();
+    const auto upload = [&](int level, std::size_t face, int size, const std::byte* pixels) {
+        gl_->TextureSubImage3D(id, level, 0, 0, static_cast<GLint>(face), size, size, 1,
+                               format.format, format.type, pixels);
+    };
+    const bool changed = entry.face_revisions != data.face_revisions;
+    // The CPU's levels, so that CubeMap::sample and a shader see the same numbers.
+    const CubeMap::MipChain chain =
+        data.mipmaps && changed ? make_mip_chain(data) : CubeMap::MipChain{};
+    for (std::size_t face = 0; face < all_faces.size(); ++face) {
+        if (entry.face_revisions[face] == data.face_revisions[face]) continue;
+        upload(0, face, data.size, data.face_pixels(all_faces[face]).data());
+        for (std::size_t level = 1; level <= chain.size(); ++level) {
+            const PixelBuffer& pixels = chain[level - 1];
+            const int size = std::max(1, data.size >> level);
+            upload(static_cast<int>(level), face, size,
+                   pixels.data() + face * (pixels.size() / all_faces.size()));
+        }
+        entry.face_revisions[face] = data.face_revisions[face];
+    }
+    if (changed) gl::check_gl(*gl_, "uploading a cubemap");
+    return entry.texture;
+}
+
+void GpuCache::sweep() {
+    meshes_.sweep();
+    images_.sweep();
+    cubes_.sweep();
+}
+
+}  // namespace cubecam

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/geometry/mesh.hpp"
+#include "cubecam/gl/context.hpp"
+#include "cubecam/gl/objects.hpp"
+#include "cubecam/image/image.hpp"
+#include "cubecam/render/resources/weak_cache.hpp"
+#include "cubecam/scene/snapshot.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace cubecam {
+
+/// Vertex attribute numbers, `layout(location =)` in the shaders. Those of a view advance once an
+/// instance: on llvmpipe that costs a fraction of a lookup in a storage buffer by gl_InstanceID
+/// (docs/adr/0002).
+namespace attribute {
+inline constexpr GLuint position = 0;
+inline constexpr GLuint normal = 1;
+inline constexpr GLuint uv = 2;
+inline constexpr GLuint color = 3;
+inline constexpr GLuint view_matrix = 4;  ///< four columns
+inline constexpr GLuint view_eye = 8;
+inline constexpr GLuint view_position = 9;
+inline constexpr GLuint view_forward = 10;
+}  // namespace attribute
+
+/// Binding points of vertex buffers in every vertex array.
+namespace vertex_buffer {
+inline constexpr GLuint mesh = 0;
+inline constexpr GLuint views = 1;
+}  // namespace vertex_buffer
+
+struct GpuMesh {
+    gl::VertexArray array;
+    gl::Buffer vertices;
+    gl::Buffer indices;
+    GLsizei index_count = 0;
+};
+
+struct GpuTexture {
+    gl::Texture texture;
+    bool mipmaps = false;
+};
+
+/// Copies on the GPU of the meshes, images and cubemaps that were drawn.
+class GpuCache {
+public:
+    explicit GpuCache(const gl::Context& context);
+
+    const GpuMesh& mesh(const std::shared_ptr<const Mesh>& mesh);
+    /// @throws std::invalid_argument for a picture beyond the driver's limit, naming it; so does
+    /// cube().
+    const GpuTexture& image(const std::shared_ptr<const Image>& image);
+    /// Uploads only the faces that changed since the last time.
+    const GpuTexture& cube(const CubeSnapshot& cube);
+
+    /// A vertex array that has only the attributes of a view: for a skybox.
+    const gl::VertexArray& views_only() const { return views_only_; }
+
+    void sweep();
+
+private:
+    struct GpuCube {
+        GpuTexture texture;
+        std::array<std::uint64_t, 6> face_revisions{};
+    };
+
+    const gl::Context* context_;
+    const GladGLContext* gl_;
+    gl::VertexArray views_only_;
+    WeakCache<const Mesh, GpuMesh> meshes_;
+    WeakCache<const Image, GpuTexture> images_;
+    WeakCache<CubeMap, GpuCube> cubes_;
+};
+
+}  // namespace cubecam

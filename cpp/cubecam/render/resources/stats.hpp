@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+
+namespace cubecam {
+
+/// What the last call did.
+struct Stats {
+    std::int64_t views_drawn =
+        0;  ///< pictures drawn: frames, faces of captures and probes, textures
+    std::int64_t views_skipped = 0;  ///< pictures that were still true
+    std::int64_t draw_calls = 0;
+    std::int64_t triangles = 0;           ///< sent to the GPU, each view counted
+    std::int64_t probes_updated = 0;      ///< probes of which at least one face was drawn
+    std::int64_t textures_updated = 0;    ///< render textures that were drawn
+    std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps, of which a point light has six
+    double milliseconds = 0.0;            ///< the whole call, reading back included
+};
+
+}  // namespace cubecam

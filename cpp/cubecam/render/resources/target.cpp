@@ -1,0 +1,276 @@
+#include "cubecam/render/resources/target.hpp"
+
+#include "cubecam/core/error.hpp"
+#include "cubecam/core/memory.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+namespace cubecam {
+namespace {
+
+struct OutputFormat {
+    Slot slot;
+    bool Outputs::* wanted;
+    GLenum format;
+    std::size_t bytes;
+};
+
+// Normal and position take four channels: GL need not render to three.
+constexpr OutputFormat output_formats[] = {
+    {Slot::distance, &Outputs::distance, GL_R32F, 4},
+    {Slot::z, &Outputs::z, GL_R32F, 4},
+    {Slot::normal, &Outputs::normal, GL_RGBA32F, 16},
+    {Slot::position, &Outputs::position, GL_RGBA32F, 16},
+    {Slot::id, &Outputs::id, GL_R32I, 4},
+};
+
+GLenum attachment(Slot slot) { return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot); }
+
+GLenum gl_format(Format format) {
+    switch (format) {
+        case Format::rgba8: return GL_RGBA8;
+        case Format::rgba16f: return GL_RGBA16F;
+        case Format::rgba32f: return GL_RGBA32F;
+        case Format::rgb565: return GL_RGB565;
+    }
+    return GL_RGBA32F;
+}
+
+GLenum gl_format(DepthFormat format) {
+    switch (format) {
+        case DepthFormat::none: return GL_NONE;
+        case DepthFormat::depth_component16: return GL_DEPTH_COMPONENT16;
+        case DepthFormat::depth_component24: return GL_DEPTH_COMPONENT24;
+        case DepthFormat::depth_component32f: return GL_DEPTH_COMPONENT32F;
+        case DepthFormat::depth24_stencil8: return GL_DEPTH24_STENCIL8;
+        case DepthFormat::depth32f_stencil8: return GL_DEPTH32F_STENCIL8;
+        case DepthFormat::stencil_index8: return GL_STENCIL_INDEX8;
+    }
+    return GL_NONE;
+}
+
+GLenum depth_attachment(DepthFormat format) {
+    if (!has_stencil(format)) return GL_DEPTH_ATTACHMENT;
+    return has_depth(format) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT;
+}
+
+bool is_color(GLenum point) {
+    return point >= GL_COLOR_ATTACHMENT0 &&
+           point < GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot_count);
+}
+
+/// A driver may offer fewer samples for one format than for others.
+void check_samples(const gl::Context& context, GLenum format, std::string_view name,
+                   std::int64_t samples) {
+    GLint most = 0;  // the first of a descending list
+    context.gl().GetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, format, GL_SAMPLES, 1, &most);
+    if (samples <= std::max(most, 1)) return;
+    throw std::invalid_argument("samples: expected 1 to " + std::to_string(std::max(most, 1)) +
+                                " (GL_SAMPLES of " + std::string(name) + " on " +
+                                context.renderer() + "), got " + std::to_string(samples));
+}
+
+}  // namespace
+
+TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
+                                  std::int64_t height, std::int64_t samples, Format format,
+                                  Outputs outputs, DepthFormat depth_format, bool color,
+                                  int views) {
+    const gl::Limits& limits = context.limits();
+    const auto on = [&context](const char* limit) {
+        return std::string(" (") + limit + " of " + context.renderer() + ")";
+    };
+    const std::string got =
+        cube ? std::to_string(width) : std::to_string(width) + " x " + std::to_string(height);
+    const int largest = std::min({cube ? limits.max_cube_map_texture_size : limits.max_texture_size,
+                                  limits.max_framebuffer_width, limits.max_framebuffer_height});
+    if (width < 1 || height < 1 || width > largest || height > largest) {
+        throw std::invalid_argument(
+            "size: expected 1 to " + std::to_string(largest) + " pixels" +
+            on(cube ? "GL_MAX_CUBE_MAP_TEXTURE_SIZE" : "GL_MAX_TEXTURE_SIZE") + ", got " + got);
+    }
+    if (samples < 1 || samples > limits.max_samples) {
+        throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
+                                    on("GL_MAX_SAMPLES") + ", got " + std::to_string(samples));
+    }
+    if (samples > 1 && color) {
+        check_samples(context, gl_format(format), to_string(format), samples);
+        if (depth_format != DepthFormat::none) {
+            check_samples(context, gl_format(depth_format), to_string(depth_format), samples);
+        }
+    }
+    TargetDescription description;
+    description.cube = cube;
+    description.width = static_cast<int>(width);
+    description.height = static_cast<int>(height);
+    description.samples = color ? static_cast<int>(samples) : 1;
+    description.format = color ? format : Format::rgba8;
+    description.outputs = outputs;
+    description.color = color;
+    description.depth_format = depth_format;
+    description.views = views;
+    // A software driver takes its textures from main memory.
+    if (context.software()) check_memory(static_cast<double>(description.bytes()), got + " pixels");
+    return description;
+}
+
+void set_post_process(TargetDescription& description, std::size_t effects, bool post_processed) {
+    description.post_processed = post_processed || effects > 0;
+    description.effects = static_cast<int>(std::min<std::size_t>(effects, 2));
+}
+
+std::size_t TargetDescription::bytes() const {
+    const std::size_t drawn = color ? texel_size(post_processed ? Format::rgba32f : format) : 0;
+    const std::size_t depth = texel_size(depth_format);
+    std::size_t texel = drawn + depth;
+    if (samples > 1) texel += static_cast<std::size_t>(samples) * (drawn + depth);
+    if (post_processed) texel += texel_size(format);
+    texel += static_cast<std::size_t>(effects) * drawn;
+    if (mipmaps) texel += drawn / 3;
+    for (const OutputFormat& output : output_formats) {
+        if (outputs.*output.wanted) texel += output.bytes;
+    }
+    return texel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+           static_cast<std::size_t>(layers());
+}
+
+Layers::Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers)
+    : gl_(&gl), attachments_(std::move(attachments)), one_(static_cast<std::size_t>(layers)) {}
+
+gl::Framebuffer Layers::make(std::optional<int> layer) const {
+    gl::Framebuffer framebuffer = gl::create_framebuffer(*gl_);
+    GLenum draw_buffers[slot_count];
+    std::fill(std::begin(draw_buffers), std::end(draw_buffers), GLenum{GL_NONE});
+    for (const Attachment& a : attachments_) {
+        if (layer) {
+            gl_->NamedFramebufferTextureLayer(framebuffer.id(), a.point, a.texture, a.level,
+                                              *layer);
+        } else {
+            gl_->NamedFramebufferTexture(framebuffer.id(), a.point, a.texture, a.level);
+        }
+        if (is_color(a.point)) draw_buffers[a.point - GL_COLOR_ATTACHMENT0] = a.point;
+    }
+    gl_->NamedFramebufferDrawBuffers(framebuffer.id(), slot_count, draw_buffers);
+    const auto first = std::find_if(std::begin(draw_buffers), std::end(draw_buffers),
+                                    [](GLenum buffer) { return buffer != GL_NONE; });
+    gl_->NamedFramebufferReadBuffer(framebuffer.id(),
+                                    first == std::end(draw_buffers) ? GLenum{GL_NONE} : *first);
+    gl::check_framebuffer(*gl_, framebuffer, "making a render target");
+    return framebuffer;
+}
+
+GLuint Layers::all() {
+    if (!all_) all_ = make(std::nullopt);
+    return all_.id();
+}
+
+GLuint Layers::one(int layer) {
+    gl::Framebuffer& framebuffer = one_[static_cast<std::size_t>(layer)];
+    if (!framebuffer) framebuffer = make(layer);
+    return framebuffer.id();
+}
+
+Target::Target(const gl::Context& context, const TargetDescription& description)
+    : gl_(&context.gl()), description_(description) {
+    keys.resize(static_cast<std::size_t>(description.layers()));
+
+    const GLenum color_format =
+        gl_format(description.post_processed ? Format::rgba32f : description.format);
+    const int levels =
+        description.mipmaps ? gl::mip_levels(description.width, description.height) : 1;
+    const GLenum depth_format = gl_format(description.depth_format);
+    const GLenum depth_point = depth_attachment(description.depth_format);
+    if (description.color) {
+        color_ = make_texture(context, color_format, description.post_processed ? 1 : levels);
+    }
+    if (depth_format != GL_NONE) depth_ = make_texture(context, depth_format, 1);
+    if (description.mipmaps && !description.post_processed) {
+        gl_->TextureParameteri(color_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    }
+
+    std::vector<Layers::Attachment> color_pass;
+    std::vector<Layers::Attachment> output_pass;
+    if (color_) color_pass.push_back({attachment(Slot::color), color_.id()});
+    if (depth_) output_pass.push_back({depth_point, depth_.id()});
+    for (const OutputFormat& output : output_formats) {
+        if (!(description.outputs.*output.wanted)) continue;
+        gl::Texture& texture = outputs_[static_cast<std::size_t>(output.slot)];
+        texture = make_texture(context, output.format, 1);
+        output_pass.push_back({attachment(output.slot), texture.id()});
+    }
+    if (multisampled()) {
+        sample_color_ = gl::create_texture_2d_multisample_array(
+            *gl_, color_format, description.samples, description.width, description.height,
+            description.layers());
+        resolved_.emplace(*gl_, color_pass, description.layers());
+        color_pass = {{attachment(Slot::color), sample_color_.id()}};
+        if (depth_format != GL_NONE) {
+            sample_depth_ = gl::create_texture_2d_multisample_array(
+                *gl_, depth_format, description.samples, description.width, description.height,
+                description.layers());
+            color_pass.push_back({depth_point, sample_depth_.id()});
+        }
+        if (description.outputs.any())
+            output_pass_.emplace(*gl_, output_pass, description.layers());
+    } else {
+        color_pass.insert(color_pass.end(), output_pass.begin(), output_pass.end());
+    }
+    color_pass_.emplace(*gl_, color_pass, description.layers());
+    if (description.post_processed) {
+        post_processed_ = make_texture(context, gl_format(description.format), levels);
+        post_processed_pass_.emplace(
+            *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), post_processed_.id()}},
+            description.layers());
+    }
+    for (int turn = 0; turn < description.effects; ++turn) {
+        scratch_[turn] = make_texture(context, color_format, 1);
+        scratch_pass_[turn].emplace(
+            *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), scratch_[turn].id()}},
+            description.layers());
+    }
+    gl::check_gl(*gl_, "making a render target");
+    check_complete();
+}
+
+void Target::check_complete() {
+    try {
+        for (auto* pass : {&color_pass_, &output_pass_, &resolved_, &post_processed_pass_}) {
+            if (*pass) (*pass)->one(0);
+        }
+    } catch (const GlError& error) {
+        if (error.code() != GL_FRAMEBUFFER_UNSUPPORTED &&
+            error.code() != GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT) {
+            throw;
+        }
+        const auto* driver = reinterpret_cast<const char*>(gl_->GetString(GL_RENDERER));
+        throw std::invalid_argument(
+            std::string("format, depth_format: expected a pair that ") + driver +
+            " can draw into, got " +
+            std::string(description_.color ? to_string(description_.format) : "None") + " and " +
+            std::string(to_string(description_.depth_format)) + ": " + error.what());
+    }
+}
+
+gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
+    // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2).
+    gl::Texture texture =
+        description_.cube
+            ? gl::create_texture_cube(context.gl(), format, description_.width, levels)
+            : gl::create_texture_2d_array(context.gl(), format, description_.width,
+                                          description_.height, description_.views, levels);
+    // Probes and effects look them up.
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+void Target::resolve(int layer) {
+    gl_->BlitNamedFramebuffer(color_pass_->one(layer), resolved_->one(layer), 0, 0,
+                              description_.width, description_.height, 0, 0, description_.width,
+                              description_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+}  // namespace cubecam

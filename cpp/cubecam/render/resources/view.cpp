@@ -1,0 +1,49 @@
+#include "cubecam/render/resources/view.hpp"
+
+#include "cubecam/math/cube_face.hpp"
+#include "cubecam/math/transform.hpp"
+
+namespace cubecam {
+namespace {
+
+View make_view(const Matrices& matrices) {
+    const glm::dmat4 world = glm::inverse(matrices.view);
+    glm::dmat4 turned = matrices.view;
+    turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
+
+    View view;
+    view.view = matrices.view;
+    view.view_projection = matrices.projection * matrices.view;
+    view.far_to_world = glm::inverse(matrices.projection * turned);
+    view.position = glm::dvec3(world[3]);
+    view.eye = view.position;
+    view.forward = -glm::normalize(glm::dvec3(world[2]));
+    view.parallel = is_parallel(matrices.projection);
+    if (view.parallel) {
+        // The near plane is where clip z is -w: p22 z + p32 = -p33, and the camera looks along -z.
+        const glm::dmat4& p = matrices.projection;
+        view.near = (p[3][3] + p[3][2]) / p[2][2];
+    }
+    return view;
+}
+
+}  // namespace
+
+View camera_view(const Matrices& matrices) { return make_view(matrices); }
+
+std::vector<View> cube_views(glm::dvec3 position, double near, double far,
+                             std::optional<glm::dvec3> eye) {
+    std::vector<View> views;
+    views.reserve(face_count);
+    for (const Face face : all_faces) {
+        View view = make_view(
+            {look_along(position, glm::dvec3(face_forward(face)), glm::dvec3(face_up(face))),
+             perspective(90.0, 1.0, near, far)});
+        view.position = position;  // exactly, not by way of an inverse
+        view.eye = eye.value_or(position);
+        views.push_back(view);
+    }
+    return views;
+}
+
+}  // namespace cubecam

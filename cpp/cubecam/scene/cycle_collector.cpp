@@ -1,0 +1,148 @@
+#include "cubecam/scene/cycle_collector.hpp"
+
+#include "cubecam/scene/render_texture.hpp"
+#include "cubecam/scene/scene.hpp"
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <variant>
+
+namespace cubecam {
+
+namespace {
+
+/// Objects of one kind, each held once, and how many of the others here hold them.
+template <class Object>
+struct Held {
+    struct Entry {
+        std::shared_ptr<Object> object;
+        long inside = 0;
+        bool reached = false;
+    };
+    std::map<const Object*, Entry> entries;
+
+    /// Whether it is new.
+    bool add(const std::shared_ptr<Object>& object) {
+        return entries.try_emplace(object.get(), Entry{object}).second;
+    }
+    void count(const Object* object) {
+        const auto found = entries.find(object);
+        if (found != entries.end()) ++found->second.inside;
+    }
+    /// Marks it; whether it was not marked yet.
+    bool reach(const Object* object) {
+        const auto found = entries.find(object);
+        return found != entries.end() && !std::exchange(found->second.reached, true);
+    }
+    /// Calls `visit` for each that something outside holds.
+    template <class Visit>
+    void for_each_root(Visit&& visit) const {
+        for (const auto& [object, entry] : entries) {
+            if (entry.object.use_count() > entry.inside + 1) visit(object);
+        }
+    }
+};
+
+std::vector<std::shared_ptr<RenderTexture>> textures_of(const Material& material) {
+    const MaterialValue value = material.value();
+    std::vector<std::shared_ptr<RenderTexture>> textures;
+    const auto add = [&textures](const MapSource& map) {
+        const auto* texture = std::get_if<std::shared_ptr<RenderTexture>>(&map);
+        if (texture && *texture) textures.push_back(*texture);
+    };
+    add(map_of(value));
+    if (const auto* shader = std::get_if<ShaderParameters>(&value.parameters)) {
+        for (const auto& [name, source] : shader->inputs.textures) {
+            if (const auto* map = std::get_if<MapSource>(&source)) add(*map);
+        }
+    }
+    return textures;
+}
+
+/// What has more references than come from the others here is held from outside; so is all that it
+/// leads to. The rest is not (T. W. Christopher, "Reference Count Garbage Collection", Software:
+/// Practice and Experience 14(6), 1984).
+class Search {
+public:
+    explicit Search(const std::vector<std::weak_ptr<RenderTexture>>& textures) {
+        for (const auto& weak : textures) {
+            if (const auto texture = weak.lock()) textures_.add(texture);
+        }
+        for (const auto& [texture, entry] : textures_.entries) scenes_.add(texture->value().scene);
+        for (const auto& [scene, entry] : scenes_.entries) {
+            for (const auto& node : scene->nodes()) {
+                nodes_.add(node);
+                if (const auto material = node->value().material) materials_.add(material);
+            }
+        }
+        for (const auto& [texture, entry] : textures_.entries) {
+            scenes_.count(texture->value().scene.get());
+        }
+        for (const auto& [node, entry] : nodes_.entries) {
+            nodes_.count(node);  // by its scene
+            nodes_.count(node->parent().get());
+            materials_.count(node->value().material.get());
+        }
+        for (const auto& [material, entry] : materials_.entries) {
+            for (const auto& texture : textures_of(*material)) textures_.count(texture.get());
+        }
+    }
+
+    void free() {
+        scenes_.for_each_root([this](const Scene* scene) { reach(scene); });
+        nodes_.for_each_root([this](const Node* node) { reach(node); });
+        materials_.for_each_root([this](const Material* material) { reach(material); });
+        textures_.for_each_root([this](const RenderTexture* texture) { reach(texture); });
+        while (!open_.empty()) {
+            const Any next = open_.back();
+            open_.pop_back();
+            std::visit([this](const auto* object) { follow(object); }, next);
+        }
+        for (auto& [texture, entry] : textures_.entries) {
+            if (!entry.reached) entry.object->let_go();
+        }
+    }
+
+private:
+    using Any = std::variant<const Scene*, const Node*, const Material*, const RenderTexture*>;
+
+    void reach(const Scene* scene) {
+        if (scenes_.reach(scene)) open_.emplace_back(scene);
+    }
+    void reach(const Node* node) {
+        if (nodes_.reach(node)) open_.emplace_back(node);
+    }
+    void reach(const Material* material) {
+        if (materials_.reach(material)) open_.emplace_back(material);
+    }
+    void reach(const RenderTexture* texture) {
+        if (textures_.reach(texture)) open_.emplace_back(texture);
+    }
+
+    void follow(const Scene* scene) {
+        for (const auto& node : scene->nodes()) reach(node.get());
+    }
+    void follow(const Node* node) {
+        reach(node->parent().get());
+        reach(node->value().material.get());
+    }
+    void follow(const Material* material) {
+        for (const auto& texture : textures_of(*material)) reach(texture.get());
+    }
+    void follow(const RenderTexture* texture) { reach(texture->value().scene.get()); }
+
+    Held<Scene> scenes_;
+    Held<Node> nodes_;
+    Held<Material> materials_;
+    Held<RenderTexture> textures_;
+    std::vector<Any> open_;
+};
+
+}  // namespace
+
+void collect_cycles(const std::vector<std::weak_ptr<RenderTexture>>& textures) {
+    Search(textures).free();
+}
+
+}  // namespace cubecam

@@ -1,0 +1,67 @@
+"""Names of layouts and of the six files of a cubemap."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TypeAlias
+
+from .files import PathLike, as_path
+
+Source: TypeAlias = PathLike | Sequence[PathLike]
+
+# What {face} in a name stands for, in the order of the faces. The first is written, all are read.
+FACE_NAMES = (
+    ("px", "nx", "py", "ny", "pz", "nz"),
+    ("posx", "negx", "posy", "negy", "posz", "negz"),
+    ("pos-x", "neg-x", "pos-y", "neg-y", "pos-z", "neg-z"),
+)
+CONVENTIONS = ("gl", "inside", "three")
+CENTERS = ("-z", "+z", "+x", "-x")
+LAYOUTS = ("cross", "vertical_cross", "row", "column", "equirect", "openexr", "faces")
+
+
+def layout_name(layout: str | None) -> str | None:
+    if layout is None:
+        return None
+    name = str(layout).lower().replace("-", "_").replace(" ", "_")
+    name = "cross" if name == "horizontal_cross" else name
+    if name not in LAYOUTS:
+        raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {layout!r}")
+    return name
+
+
+def check_names(convention: str | None, center: str | None) -> None:
+    """Refuse unknown names, those that will not be needed as well: a typo must not pass."""
+    if convention is not None and str(convention).lower() not in CONVENTIONS:
+        raise ValueError(
+            f"convention: expected one of {', '.join(CONVENTIONS)}, got {convention!r}"
+        )
+    if center is not None and str(center).lower() not in CENTERS:
+        raise ValueError(f"center: expected one of {', '.join(CENTERS)}, got {center!r}")
+
+
+def check_openexr(convention: str | None) -> None:
+    if convention not in (None, "inside"):
+        raise ValueError(
+            f'an OpenEXR environment cube is "inside" by definition, got convention {convention!r}'
+        )
+
+
+def six_paths(path: Source, for_reading: bool) -> list[Path] | None:
+    """Give the six files that a list or a name with {face} means, None for a single path."""
+    if isinstance(path, Sequence) and not isinstance(path, (str, bytes)):
+        if len(path) != 6:
+            raise ValueError(f"expected six paths in the order +X -X +Y -Y +Z -Z, got {len(path)}")
+        return [as_path(item) for item in path]
+    name = str(as_path(path))
+    if "{face}" not in name:
+        return None
+    choices = [[Path(name.replace("{face}", face)) for face in names] for names in FACE_NAMES]
+    if not for_reading:
+        return choices[0]
+    for paths in choices:
+        if any(item.exists() for item in paths):
+            return paths
+    tried = ", ".join(str(paths[0]) for paths in choices)
+    raise FileNotFoundError(2, f"no such files; {{face}} was tried as in {tried}", name)

@@ -1,0 +1,130 @@
+"""Cubemaps to files: the method `CubeMap.save`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .._core import CubeMap
+from . import formats
+from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
+from .files import as_path, write_files
+from .pixels import Array
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def save_cubemap(
+    cube: CubeMap,
+    path: Source,
+    layout: str | None = None,
+    convention: str | None = None,
+    width: int | None = None,
+    center: str = "-z",
+    srgb: bool = False,
+    half: bool = False,
+) -> None:
+    """Write a cubemap as one picture or six files. The method `CubeMap.save`.
+
+    Parameters
+    ----------
+    path : path, sequence of six paths, or a name with {face}
+        The extension names the kind of file, as in `save_image`. {face} becomes px nx py ny pz nz.
+    layout : str, optional
+        "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
+        "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
+        samples on the borders and the `envmap` attribute, .exr only.
+    convention : {"gl", "inside", "three"}, optional
+        How the faces are stored; "gl" by default ("inside" for "openexr").
+    width : int, optional
+        Of an equirect, in pixels, even; 4 times the face size by default.
+    center : {"-z", "+z", "+x", "-x"}
+        The direction in the middle of an equirect.
+    srgb, half : bool
+        As in `save_image`.
+
+    Raises
+    ------
+    OSError
+        A folder is missing or may not be written, or the disk is full. The old files stay as they were.
+    ValueError
+        Unknown names, options that do not go together, numbers that the file cannot hold.
+
+    Notes
+    -----
+    Cells of a cross that no face covers are 0. A cubemap of float16 goes to EXR as half.
+
+    Examples
+    --------
+    >>> import cubecam as cc, tempfile, pathlib
+    >>> folder = pathlib.Path(tempfile.mkdtemp())
+    >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=32)
+    >>> cube.save(folder / "probe.exr", layout="cross", convention="inside")
+    >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
+    True
+    """
+    wanted = layout_name(layout)
+    check_names(convention, center)
+    paths = six_paths(path, for_reading=False)
+    if paths is not None and len(set(paths)) < 6:
+        raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
+    if width is not None and wanted != "equirect":
+        raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
+    half = half or cube.dtype == np.float16
+    if paths is not None:
+        if wanted not in (None, "faces"):
+            raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
+        faces = _storable(cube, paths).to_convention(convention or "gl")
+        write_files(
+            {
+                target: formats.encode(target, face, srgb, half)
+                for target, face in zip(paths, faces, strict=True)
+            }
+        )
+        return
+    if wanted == "faces":
+        raise ValueError(
+            f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
+        )
+    target = as_path(path)
+    attributes: dict[str, Any] = {}
+    source = _storable(cube, [target])
+    if wanted == "equirect":
+        picture = source.to_equirect(width, center)
+    elif wanted == "openexr":
+        if target.suffix.lower() != ".exr":
+            raise ValueError(
+                f'layout "openexr": expected a file name that ends in .exr, got {target.name!r}'
+            )
+        check_openexr(convention)
+        picture = source.to_layout("openexr", "inside")
+        # OpenImageIO makes the envmap attribute of it, and rejects a number set by that name.
+        attributes["textureformat"] = "CubeFace Environment"
+    else:
+        picture = source.to_layout(wanted or "cross", convention or "gl")
+    write_files({target: formats.encode(target, picture, srgb, half, attributes)})
+
+
+def arrange(values: Array, layout: str, convention: str) -> Array:
+    """Lay out six faces of any numbers, (6, N, N) or (6, N, N, C), as `CubeMap.to_layout` does with colours.
+
+    Ids, and positions with their NaN, are not colours and no CubeMap takes them; so each number travels
+    as its four bytes.
+    """
+    channels = values[..., None] if values.ndim == 3 else values
+    pictures = []
+    for channel in np.moveaxis(channels, -1, 0):
+        texels = np.ascontiguousarray(channel)[..., None].view(np.uint8)
+        picture = CubeMap(texels).to_layout(layout, convention)
+        pictures.append(np.ascontiguousarray(picture).view(values.dtype))
+    return np.concatenate(pictures, axis=-1)
+
+
+def _storable(cube: CubeMap, targets: list[Path]) -> CubeMap:
+    """Leave out an alpha of 1 for files that hold none; before cells that no face covers add their 0."""
+    if cube.channels != 4 or all(formats.holds_alpha(target) for target in targets):
+        return cube
+    faces = cube.faces
+    return CubeMap(faces[..., :3]) if formats.is_opaque(faces) else cube

@@ -1,0 +1,215 @@
+"""Cubemap files to `CubeMap`: six faces, crosses, rows, columns, panoramas and OpenEXR cubes.
+
+Which texel goes where is the core's knowledge (docs/conventions.md); this file knows names, files and attributes.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .._core import CubeMap, ImageError
+from . import formats, oiio
+from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
+from .files import existing_file
+from .pixels import Array, to_float32
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from .oiio import Picture
+
+__all__ = ["load_cubemap", "load_environment"]
+
+
+def load_cubemap(
+    path: Source,
+    layout: str | None = None,
+    convention: str | None = None,
+    size: int | None = None,
+    center: str | None = None,
+    srgb: bool = False,
+    mipmaps: bool = False,
+) -> CubeMap:
+    """Read a cubemap from six files or one.
+
+    Parameters
+    ----------
+    path : path, sequence of six paths, or a name with {face}
+        Six paths are in the order +X -X +Y -Y +Z -Z. In a name such as "park/{face}.jpg", {face} stands for
+        px nx py ny pz nz, posx negx ..., or pos-x neg-x ..., whichever files there are.
+    layout : str, optional
+        "cross", "vertical_cross", "row", "column", "equirect", "openexr", or "faces" for six files. None tells it
+        from the shape: 4:3, 3:4, 6:1, 1:6, 2:1.
+    convention : {"gl", "inside", "three"}, optional
+        How the faces are stored; no file tells, so the default is "gl", but for OpenEXR environment cubes, which
+        are "inside". A panorama has no faces and needs none.
+    size : int, optional
+        Texels along an edge of a face. None: as stored; for a panorama the power of two that loses nothing.
+    center : {"-z", "+z", "+x", "-x"}, optional
+        The direction in the middle of a panorama: "-z" by default, but for OpenEXR panoramas, which are "+z".
+    srgb : bool
+        Decode files of 8 and 16 bits to linear float32, as `load_image` does.
+    mipmaps : bool
+        Let lookups in the result be trilinear.
+
+    Returns
+    -------
+    CubeMap
+        uint8 from 8 bits, float16 from half, else float32; float32 where it had to be resampled (panorama, OpenEXR
+        cube, size).
+
+    Raises
+    ------
+    OSError
+        A file is missing (FileNotFoundError), or may not be read.
+    ImageError
+        A file is not a picture, or ends early.
+    ValueError
+        A shape that is no cubemap's, faces that are not square or not of one size, unknown names.
+
+    Notes
+    -----
+    An EXR file whose `envmap` attribute says so is read by OpenEXR's rule: samples lie on the borders. Such
+    files are resampled; all others are taken texel by texel.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cube = cc.load_cubemap(cc.sample_data("city.exr"), size=64)
+    >>> cube.faces.shape
+    (6, 64, 64, 3)
+    """
+    wanted = layout_name(layout)
+    check_names(convention, center)
+    paths = six_paths(path, for_reading=True)
+    if paths is not None:
+        if wanted not in (None, "faces"):
+            raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
+        cube = CubeMap(_read_faces(paths, srgb), convention=convention or "gl", mipmaps=mipmaps)
+    else:
+        if wanted == "faces":
+            raise ValueError(
+                f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
+            )
+        found = existing_file(path)
+        picture = oiio.read(found)
+        try:
+            cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps)
+        except ValueError as error:
+            raise ValueError(f"{found}: {error}") from error
+    return cube if size is None or cube.size == size else cube.resize(size)
+
+
+def load_environment(
+    path: Source,
+    size: int | None = None,
+    center: str | None = None,
+    convention: str | None = None,
+    layout: str | None = None,
+    srgb: bool = False,
+    mipmaps: bool = False,
+) -> CubeMap:
+    """Read what surrounds a scene: an equirectangular photograph, or any file that `load_cubemap` reads.
+
+    Parameters
+    ----------
+    path : path, sequence of six paths, or a name with {face}
+        A picture twice as wide as high is a panorama, row 0 straight up; other shapes are cubemaps.
+    size : int, optional
+        Texels along an edge of a face; None: the next power of two from width / pi, which loses nothing.
+    center : {"-z", "+z", "+x", "-x"}, optional
+        The direction in the middle of the panorama: "-z", straight ahead, by default.
+    convention, layout, srgb, mipmaps
+        As in `load_cubemap`.
+
+    Returns
+    -------
+    CubeMap
+        Linear and unclipped: lamps keep their thousands.
+
+    Raises
+    ------
+    OSError, ImageError, ValueError
+        As `load_cubemap`.
+
+    Notes
+    -----
+    Numbers are the file's. Lossy EXR compression (DWA) leaves some below 0 round lamps, also in the sample
+    photographs; where that shows, use `CubeMap(numpy.maximum(cube.faces, 0))`.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> studio = cc.load_environment(cc.sample_data("studio.exr"))
+    >>> studio.size, bool(studio.faces.max() > 1000)
+    (256, True)
+    """
+    return load_cubemap(path, layout, convention, size, center, srgb, mipmaps)
+
+
+def _read_faces(paths: list[Path], srgb: bool) -> Array:
+    """Read six square pictures of one size; differing channels and types meet in the richest."""
+    faces = []
+    for path in paths:
+        picture = oiio.read(existing_file(path))
+        faces.append(_colours(formats.decode(picture.pixels, srgb)))
+    shapes = [face.shape[1::-1] for face in faces]
+    for path, shape in zip(paths, shapes, strict=True):
+        if shape[0] != shape[1] or shape != shapes[0]:
+            raise ValueError(
+                f"expected six square faces of one size, got {shapes[0][0]} x {shapes[0][1]} in {paths[0]} "
+                f"and {shape[0]} x {shape[1]} in {path}"
+            )
+    if len({face.dtype for face in faces}) > 1:
+        faces = [to_float32(face) for face in faces]
+    channels = max(face.shape[2] for face in faces)
+    return np.stack([_with_channels(face, channels) for face in faces])
+
+
+def _with_channels(face: Array, channels: int) -> Array:
+    if face.shape[2] == 1 and channels > 1:
+        face = np.repeat(face, 3, axis=2)
+    if face.shape[2] == 3 and channels == 4:
+        one = 255 if face.dtype == np.uint8 else 1
+        face = np.concatenate([face, np.full_like(face[..., :1], one)], axis=2)
+    return face
+
+
+def _colours(pixels: Array) -> Array:
+    if pixels.dtype.kind == "u" and pixels.dtype != np.uint8:
+        raise ImageError(f"expected colours, got {pixels.dtype} whole numbers: an id map?")
+    return pixels
+
+
+def _from_picture(
+    picture: Picture,
+    srgb: bool,
+    layout: str | None,
+    convention: str | None,
+    size: int | None,
+    center: str | None,
+    mipmaps: bool,
+) -> CubeMap:
+    pixels = _colours(formats.decode(picture.pixels, srgb))
+    height, width = pixels.shape[:2]
+    if picture.environment == "cube" and layout is None:
+        layout = "openexr"
+    if layout == "openexr":
+        check_openexr(convention)
+        return CubeMap.from_layout(pixels, layout="openexr", convention="inside", mipmaps=mipmaps)
+    if layout == "equirect" or (
+        layout is None and (width == 2 * height or picture.environment == "latlong")
+    ):
+        borders = picture.environment == "latlong"
+        return CubeMap.from_equirect(
+            pixels,
+            size=size,
+            center=center or ("+z" if borders else "-z"),
+            mipmaps=mipmaps,
+            sampling="borders" if borders else "centers",
+        )
+    return CubeMap.from_layout(
+        pixels, layout=layout, convention=convention or "gl", mipmaps=mipmaps
+    )

@@ -1,0 +1,181 @@
+"""Pictures: files to arrays and back. Row 0 is on top; numbers are raw unless `srgb=True` says otherwise."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import oiio
+from .files import PathLike, as_path, existing_file, write_files
+from .formats import FORMATS, decode, encode, fit_samples, is_opaque
+from .pixels import Array, check_picture
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["load_image", "save_animation", "save_image"]
+
+
+def load_image(path: PathLike, srgb: bool = False) -> Array:
+    """Read a picture as it is stored.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        EXR, HDR, PNG, JPEG, TIFF, WebP and what else OpenImageIO reads; the contents decide, not the name.
+    srgb : bool
+        True decodes files of 8 and 16 bits from the sRGB curve (IEC 61966-2-1) to linear float32; alpha is
+        not touched. Files of floating-point numbers are linear already and stay as they are.
+
+    Returns
+    -------
+    ndarray (H, W, C)
+        C is 1, 3 or 4, row 0 on top. uint8 for 8 bits (float32 of value/255 decoded with `srgb`), float32 of
+        value/65535 for 16 bits, float16 for half, float32 for float, uint32 for an EXR of whole numbers.
+        Grey with alpha and palettes come as colour. PNG colour is not multiplied by alpha. The array is yours.
+
+    Raises
+    ------
+    OSError
+        No file of that name (FileNotFoundError), or it may not be read.
+    ImageError
+        The contents are not a picture, or end early.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> studio = cc.load_image(cc.sample_data("studio.exr"))
+    >>> studio.shape, studio.dtype.name, float(studio.max())
+    ((256, 512, 3), 'float16', 3730.0)
+    """
+    return decode(oiio.read(existing_file(path)).pixels, srgb)
+
+
+def save_image(path: PathLike, pixels: Any, srgb: bool = False, half: bool = False) -> None:
+    """Write an array as a picture; the extension names the kind of file.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Ends in .exr, .hdr, .png, .jpg, .tif, .webp, .bmp or .tga.
+    pixels : array_like (H, W) or (H, W, C), C of 1, 3 or 4
+        Real numbers, row 0 on top.
+    srgb : bool
+        True encodes linear colour with the sRGB curve for files of 8 and 16 bits (uint8 is taken as
+        value/255). EXR, HDR and float TIFF hold linear numbers and are never encoded.
+    half : bool
+        True stores an EXR with 16 bits a number, half the bytes, three digits, up to 65504.
+
+    Raises
+    ------
+    OSError
+        The folder is missing or may not be written, or the disk is full. The old file stays as it was.
+    ValueError
+        An extension that is not in the list, a shape that is no picture, numbers that the file cannot hold.
+    TypeError
+        bool, complex, object or text.
+
+    Notes
+    -----
+    ========================  =========================================================================
+    file                      numbers
+    ========================  =========================================================================
+    EXR                       float16 as half, float32 as float (NaN and infinity too), uint8 as half of
+                              value/255, other whole numbers exactly, as 32-bit unsigned: id maps
+    HDR                       float32, three channels of a shared exponent: one per cent; below 0 becomes 0;
+                              infinity and NaN are refused
+    PNG, JPEG, ...            uint8 as it is; floats clipped to 0..1 and rounded to 0..255; NaN is refused
+    PNG, TIFF                 uint16 as it is; other whole numbers 0..65535 as they are, in 16 bits: id maps
+    TIFF                      floats as float32
+    ========================  =========================================================================
+
+    One channel is written as grey where the file can, else as three equal ones (HDR, WebP). HDR, JPEG and BMP
+    hold no alpha: a fourth channel is left out where it is 1 throughout, and refused otherwise. WebP
+    forgets the colour where alpha is 0. JPEG is written at quality 95 without colour subsampling.
+
+    Examples
+    --------
+    >>> import cubecam as cc, numpy as np, tempfile, pathlib
+    >>> folder = pathlib.Path(tempfile.mkdtemp())
+    >>> depth = np.array([[1.5, np.inf]], dtype=np.float32)
+    >>> cc.save_image(folder / "depth.exr", depth)
+    >>> cc.load_image(folder / "depth.exr")[..., 0]
+    array([[1.5, inf]], dtype=float32)
+    """
+    target = as_path(path)
+    write_files({target: encode(target, pixels, srgb=srgb, half=half)})
+
+
+def save_animation(
+    path: PathLike, frames: Iterable[Any], fps: float = 25, srgb: bool = False
+) -> None:
+    """Write pictures as an animation that repeats for ever.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        Ends in .png (APNG: all colours, opened by every browser), .gif (256 colours) or .webp (lossless).
+    frames : iterable of array_like (H, W) or (H, W, C)
+        As for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored as
+        one that lasts as long.
+    fps : float
+        Frames a second, above 0 and up to 100. A GIF's frames last a whole number of hundredths of a second.
+    srgb : bool
+        True encodes linear colour with the sRGB curve.
+
+    Raises
+    ------
+    OSError
+        As for `save_image`.
+    ValueError
+        No frame, frames of unequal sizes, another extension, fps out of range.
+
+    Examples
+    --------
+    >>> import cubecam as cc, numpy as np, tempfile, pathlib
+    >>> frames = [np.full((4, 6, 3), level, dtype=np.uint8) for level in (0, 128, 255)]
+    >>> cc.save_animation(pathlib.Path(tempfile.mkdtemp()) / "grey.png", frames, fps=10)
+    """
+    from PIL import Image as Picture
+
+    target = as_path(path)
+    extension = target.suffix.lower()
+    if extension not in (".png", ".apng", ".gif", ".webp"):
+        raise ValueError(
+            f"expected a file name that ends in .png, .gif or .webp, got {target.name!r}"
+        )
+    if not 0 < fps <= 100:
+        raise ValueError(f"fps: expected a number above 0 and up to 100, got {fps}")
+    pictures: list[Any] = []
+    for index, frame in enumerate(frames):
+        pixels = fit_samples(
+            check_picture(frame, f"frames[{index}]"), FORMATS[".webp"], extension, srgb, False
+        )
+        pixels = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels
+        if extension == ".gif" or (pixels.shape[2] == 4 and is_opaque(pixels)):
+            pixels = pixels[..., :3]
+        pictures.append(Picture.fromarray(np.ascontiguousarray(pixels)))
+    if not pictures:
+        raise ValueError("frames: expected at least one picture, got none")
+    if len({picture.size for picture in pictures}) > 1:
+        raise ValueError(
+            f"frames: expected one size, got {sorted({picture.size for picture in pictures})}"
+        )
+    data = io.BytesIO()
+    if len({picture.mode for picture in pictures}) > 1:
+        pictures = [picture.convert("RGBA") for picture in pictures]
+    duration = 10 * max(1, round(100 / fps)) if extension == ".gif" else 1000 / fps
+    kind = {".gif": "GIF", ".webp": "WEBP"}.get(extension, "PNG")
+    options: dict[str, Any] = {"lossless": True} if kind == "WEBP" else {}
+    pictures[0].save(
+        data,
+        format=kind,
+        save_all=True,
+        append_images=pictures[1:],
+        duration=duration,
+        loop=0,
+        **options,
+    )
+    write_files({target: data.getvalue()})

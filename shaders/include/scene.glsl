@@ -1,0 +1,76 @@
+// What the GLSL of a ShaderMaterial has at hand. The documentation of cubecam.ShaderMaterial lists these names: they are
+// an interface, and stay.
+#ifdef MATERIAL_SHADER
+
+// The node's matrix, from the mesh's space to the world, and what turns its normals there (to any length).
+mat4 model_matrix() {
+    mat4 model = u_model;
+    model[3].xyz += u_origin.xyz;
+    return model;
+}
+mat3 normal_matrix() { return mat3(u_normal_matrix); }
+
+#ifdef VERTEX_STAGE
+// Where the picture is seen from, in the world.
+vec3 eye_position() { return a_view_eye.xyz + u_origin.xyz; }
+
+struct Vertex {
+    vec3 position;  // the mesh's space, as all of these
+    vec3 normal;
+    vec2 uv;
+    vec4 color;
+};
+#include "include/user_vertex.glsl"
+#else
+vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
+
+// The environment at a chosen level of detail; 0 is the finest.
+vec3 environment_lod(vec3 direction_world, float level) { return textureLod(u_cube, direction_world, level).rgb; }
+
+// 1, the ambient light that Phong's model has of its own, plus the scene's ambient lights.
+vec3 ambient_light() { return u_ambient.rgb; }
+
+int light_count() { return u_counts.x; }
+
+struct LightSample {
+    vec3 direction;  // world, unit length, from the surface to the light
+    vec3 radiance;   // linear: colour, intensity, falloff, the cone of a spot light, what shadows leave of it
+};
+
+// What light number `index` sends to a surface; the surface's angle to it does not count yet.
+LightSample sample_light(int index, Surface surface) {
+    Light light = u_lights[index];
+    vec3 to_light = light.position.xyz - surface.from_origin * light.position.w;
+    float distance_squared = dot(to_light, to_light);
+    vec3 direction = to_light * inversesqrt(max(distance_squared, 1e-36));
+    float share = light.position.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.color.a);
+    share *= cone_share(light.cone, -direction) * light_visibility(index, surface.from_origin, surface.normal);
+    return LightSample(direction, light.color.rgb * share);
+}
+
+// As PhongMaterial has it.
+vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess) {
+    vec3 result = ka * color * ambient_light();
+    for (int i = 0; i < light_count(); ++i) {
+        LightSample light = sample_light(i, surface);
+        float n_dot_l = dot(surface.normal, light.direction);
+        if (n_dot_l <= 0.0) continue;
+        float r_dot_v = dot(reflect(-light.direction, surface.normal), -surface.incident);
+        result += (kd * color * n_dot_l + ks * pow(clamp(r_dot_v, 0.0, 1.0), shininess)) * light.radiance;
+    }
+    return result;
+}
+
+// F0 + (1 - F0) (1 - cos)^5, from a surface's normal and the way it is seen (Schlick, 1994).
+float schlick(Surface surface, float f0) {
+    float m = 1.0 - clamp(-dot(surface.incident, surface.normal), 0.0, 1.0);
+    return f0 + (1.0 - f0) * (m * m) * (m * m) * m;
+}
+
+#include "include/user_fragment.glsl"
+
+// shade() may give a colour, or a colour and an alpha.
+vec4 with_alpha(vec3 color) { return vec4(color, 1.0); }
+vec4 with_alpha(vec4 color) { return color; }
+#endif
+#endif

@@ -1,0 +1,22 @@
+// An ImageEffect: one pass over a finished picture in linear float. The documentation of cubecam.ImageEffect lists these
+// names: they are an interface, and stay.
+layout(binding = 0) uniform sampler2DArray u_frame;
+layout(location = 0) uniform int u_layer;
+layout(location = 0) out vec4 o_color;
+
+// Pixels: width, height.
+ivec2 frame_size() { return textureSize(u_frame, 0).xy; }
+
+// The picture at uv, (0, 0) being its bottom-left corner and (1, 1) its top-right: bilinear, borders repeat beyond.
+vec4 frame(vec2 uv) { return textureLod(u_frame, vec3(uv, u_layer), 0.0); }
+
+// One pixel as it is, (0, 0) being the bottom-left one; borders repeat beyond.
+vec4 frame_pixel(ivec2 pixel) { return texelFetch(u_frame, ivec3(clamp(pixel, ivec2(0), frame_size() - 1), u_layer), 0); }
+
+#include "include/user_fragment.glsl"
+
+// effect() may give a colour with its alpha, or a colour alone, to keep the picture's alpha.
+vec4 with_alpha(vec4 color) { return color; }
+vec4 with_alpha(vec3 color) { return vec4(color, frame_pixel(ivec2(gl_FragCoord.xy)).a); }
+
+void main() { o_color = with_alpha(effect(gl_FragCoord.xy / vec2(frame_size()))); }

@@ -1,0 +1,6 @@
+// What casts shadows, for one light. Here a_view_matrix goes from the mesh's own space to clip space at once.
+#include "include/view.glsl"
+
+layout(location = 0) in vec3 a_position;
+
+void main() { gl_Position = a_view_matrix * vec4(a_position, 1.0); }

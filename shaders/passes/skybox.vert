@@ -1,0 +1,14 @@
+// The background as one quad on the far plane. Here a_view_matrix takes clip space to the world, translation left
+// out, so walking does not move the sky.
+#include "include/view.glsl"
+
+out vec4 v_near;
+out vec4 v_far;
+
+void main() {
+    vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
+    v_near = a_view_matrix * vec4(corner, -1.0, 1.0);
+    v_far = a_view_matrix * vec4(corner, 1.0, 1.0);
+    gl_Position = vec4(corner, 0.0, 1.0);  // depth is reversed: 0 is the far plane
+    route_to_layer();
+}

@@ -1,0 +1,77 @@
+// Every mesh, for every view. One source and an invariant position: layered and one-pass drawing give equal bytes.
+#define STAGE out
+#define VERTEX_STAGE
+#include "include/view.glsl"
+#include "include/draw.glsl"
+#include "include/lights.glsl"
+#include "include/surface.glsl"
+
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec2 a_uv;
+layout(location = 3) in vec4 a_color;
+
+invariant gl_Position;
+
+#include "include/scene.glsl"
+
+void main() {
+#ifdef MATERIAL_SHADER
+    vec4 color = vec4(1.0);
+#ifdef HAS_VERTEX_COLORS
+    color = a_color;
+#endif
+    Vertex own = Vertex(a_position, a_normal, a_uv, color);
+#ifdef HAS_USER_VERTEX
+    vertex(own);
+#endif
+#define a_position own.position
+#define a_normal own.normal
+#define a_uv own.uv
+#define a_color own.color
+#endif
+    vec4 position_world = u_model * vec4(a_position, 1.0);
+    gl_Position = a_view_matrix * position_world;
+    route_to_layer();
+    v_position = position_world.xyz;
+    v_normal = mat3(u_normal_matrix) * a_normal;
+#ifdef SHADOW_COUNT
+    v_height = dot(v_position, v_normal);
+#endif
+    v_eye = a_view_eye;
+#ifndef DENSE
+    v_material = u_material;
+#endif
+#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
+    v_uv = a_uv;
+#endif
+#ifdef HAS_VERTEX_COLORS
+    v_color = a_color;
+#endif
+#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
+    v_position_object = a_position;
+#endif
+#ifdef MATERIAL_SHADER
+    v_normal_object = a_normal;
+#endif
+#ifdef TRANSLUCENT
+    v_alpha = u_alpha;
+#endif
+#if defined(LIGHT_COUNT) && !defined(DENSE)
+#if LIGHT_COUNT > 0
+    for (int i = 0; i < LIGHT_COUNT; ++i) {
+        v_light_position[i] = u_lights[i].position;
+        v_light_color[i] = u_lights[i].color;
+#ifdef LIGHT_CONE
+        v_light_cone[i] = u_lights[i].cone;
+#endif
+    }
+#endif
+#endif
+#ifdef OUTPUTS
+    v_view_position = a_view_position;
+    v_view_forward = a_view_forward.xyz;
+    v_node_id = u_node_id;
+    v_origin = u_origin.xyz;
+#endif
+}

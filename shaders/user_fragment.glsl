@@ -1,1 +1,0 @@
-// Stands for the source of a ShaderMaterial or an ImageEffect, which takes its place (cpp/cubecam/render/user_program.cpp).
