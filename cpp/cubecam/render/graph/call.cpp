@@ -50,11 +50,9 @@ Call::Call(Session& session, const SceneSnapshot& scene, std::size_t number,
 
 std::vector<std::size_t> Call::needs_of(const DrawPlan& plan) const {
     std::vector<std::size_t> needs;
-    for (const auto* nodes : {&plan.opaque, &plan.transparent}) {
-        for (const PlannedNode& planned : *nodes) {
-            session_.numbers.add_needs(scene_, number_, scene_.nodes[planned.node], needs);
-        }
-    }
+    plan.for_each([&](const PlannedNode& planned) {
+        session_.numbers.add_needs(scene_, number_, scene_.nodes[planned.node], needs);
+    });
     if (receives_any(plan)) session_.numbers.add_shadow_needs(scene_, number_, needs);
     return unique(std::move(needs));
 }
@@ -101,11 +99,9 @@ NodeTextures Call::look_up(const NodeSnapshot& node, std::optional<std::size_t> 
 std::vector<NodeTextures> Call::look_up_all(const DrawPlan& plan,
                                             std::optional<std::size_t> in_probe) {
     std::vector<NodeTextures> lookups(scene_.nodes.size());
-    for (const auto* nodes : {&plan.opaque, &plan.transparent}) {
-        for (const PlannedNode& planned : *nodes) {
-            lookups[planned.node] = look_up(scene_.nodes[planned.node], in_probe);
-        }
-    }
+    plan.for_each([&](const PlannedNode& planned) {
+        lookups[planned.node] = look_up(scene_.nodes[planned.node], in_probe);
+    });
     return lookups;
 }
 
@@ -203,6 +199,8 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
     common.add(scene_.lights.size());
     for (const LightSnapshot& light : scene_.lights) add_light(common, light.value);
     const Key shadows = shadows_ ? key_of(*shadows_) : Key();
+    std::vector<std::size_t> counts(views.size(), 0);
+    for (const Visibility& visibility : plan.visibilities) ++counts[visibility.view];
 
     std::vector<PictureKey> keys(views.size());
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -214,24 +212,35 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
         key.add(view.position);
         key.add(view.eye);
         key.add(view.near);
+        keys[v].shadows = shadows;
+        keys[v].nodes.reserve(counts[v]);
     }
-    for (const auto* nodes : {&plan.opaque, &plan.transparent}) {
-        for (const PlannedNode& planned : *nodes) {
-            const NodeSnapshot& node = scene_.nodes[planned.node];
-            Key key;
-            key.add(node.world);
-            key.add(node.mesh->revision());
-            key.add(node.material.revision);
-            const NodeTextures& found = lookups[planned.node];
-            key.add(found.cube.revision);
-            key.add(found.map.revision);
-            for (const BoundTexture& texture : found.textures) key.add(texture.revision);
-            if (receive_shadow(node)) key.add(shadows);
-            for (const PlannedNode::Visibility& visibility : planned.visibilities) {
-                keys[visibility.view].nodes.push_back({node.id, key, visibility.bounds});
+    plan.for_each([&](const PlannedNode& planned) {
+        const NodeSnapshot& node = scene_.nodes[planned.node];
+        const NodeTextures& found = lookups[planned.node];
+        NodeKey key{node.id,
+                    receive_shadow(node),
+                    {},
+                    node.revision,
+                    node.world,
+                    node.mesh->revision(),
+                    node.material.revision,
+                    0,
+                    0};
+        for (const Visibility& visibility : plan.visible_in(planned)) {
+            PictureKey& picture = keys[visibility.view];
+            key.bounds = visibility.bounds;
+            key.first_texture = static_cast<std::uint32_t>(picture.textures.size());
+            picture.textures.push_back(found.cube.revision);
+            picture.textures.push_back(found.map.revision);
+            for (const BoundTexture& texture : found.textures) {
+                picture.textures.push_back(texture.revision);
             }
+            key.texture_count =
+                static_cast<std::uint32_t>(picture.textures.size()) - key.first_texture;
+            picture.nodes.push_back(key);
         }
-    }
+    });
     return keys;
 }
 

@@ -50,7 +50,7 @@ std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
     }
     for (const PlannedNode& planned : plan.opaque) {
         const NodeSnapshot& node = scene.nodes[planned.node];
-        for (const PlannedNode::Visibility& visibility : planned.visibilities) {
+        for (const Visibility& visibility : plan.visible_in(planned)) {
             add_caster(keys[visibility.view], node, look_up);
         }
     }
@@ -169,10 +169,10 @@ void ShadowPass::draw_layer(const SceneSnapshot& scene, const ShadowView& view,
     std::vector<const NodeSnapshot*> moved;
     const View& from = view.views[layer];
     for (const PlannedNode& planned : plan.opaque) {
-        const bool seen = std::any_of(planned.visibilities.begin(), planned.visibilities.end(),
-                                      [layer](const PlannedNode::Visibility& visibility) {
-                                          return visibility.view == layer;
-                                      });
+        const auto visibilities = plan.visible_in(planned);
+        const bool seen =
+            std::any_of(visibilities.begin(), visibilities.end(),
+                        [layer](const Visibility& visibility) { return visibility.view == layer; });
         if (!seen) continue;
         const NodeSnapshot& node = scene.nodes[planned.node];
         if (moves_vertices(node)) {
