@@ -259,8 +259,19 @@ void test_circles_of_strict_pictures_are_refused_by_name() {
     world.labelled = [](const PictureId& id) { return id.object != 0; };
     CHECK_EQUAL(refusal(world, {make_id(frame, 0)}),
                 "The texture1 shows itself: texture1#1 -> texture2#2 -> texture1#1; advice");
+    // The fewest names: by way of two probes without a label rather than by one texture.
+    world.possible = [](const PictureId& id) -> Ids {
+        if (id == make_id(texture, 1)) return {make_id(probe, 7), make_id(texture, 2)};
+        if (id == make_id(probe, 7)) return {make_id(probe, 8)};
+        return {make_id(texture, 1)};
+    };
+    CHECK_EQUAL(refusal(world, {make_id(texture, 1)}),
+                "The texture1 shows itself: texture1#1 -> texture2#2 -> texture1#1; advice");
+    world.labelled = [](const PictureId& id) { return id.kind != probe; };
+    CHECK_EQUAL(refusal(world, {make_id(texture, 1)}),
+                "The texture1 shows itself: texture1#1 -> texture1#1; advice");
     world.labelled = [](const PictureId&) { return false; };
-    CHECK_EQUAL(refusal(world, {make_id(frame, 0)}), "a picture shows itself; advice");
+    CHECK_EQUAL(refusal(world, {make_id(texture, 1)}), "a picture shows itself; advice");
 }
 
 void test_what_is_possible_decides_and_not_what_is_planned() {

@@ -1,6 +1,7 @@
 #include "cubecam/render/graph/picture_graph.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -8,24 +9,31 @@
 namespace cubecam {
 namespace {
 
-/// The shortest way from a picture back to itself, which stands at the front only.
+/// The way from a picture back to itself, which stands at the front only, that leads through the
+/// fewest pictures with a name.
 std::vector<std::size_t> shortest_circle(const std::vector<std::vector<std::size_t>>& edges,
-                                         std::size_t start) {
+                                         const std::vector<std::string>& names, std::size_t start) {
     constexpr std::size_t not_reached = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> from(edges.size(), not_reached);
-    std::vector<std::size_t> reached{start};
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-        for (const std::size_t shown : edges[reached[i]]) {
+    std::deque<std::size_t> open{start};
+    while (!open.empty()) {
+        const std::size_t next = open.front();
+        open.pop_front();
+        for (const std::size_t shown : edges[next]) {
             if (shown == start) {
                 std::vector<std::size_t> way;
-                for (std::size_t at = reached[i]; at != start; at = from[at]) way.push_back(at);
+                for (std::size_t at = next; at != start; at = from[at]) way.push_back(at);
                 way.push_back(start);
                 std::reverse(way.begin(), way.end());
                 return way;
             }
             if (from[shown] != not_reached) continue;
-            from[shown] = reached[i];
-            reached.push_back(shown);
+            from[shown] = next;
+            if (names[shown].empty()) {
+                open.push_front(shown);  // no step of the chain that is named
+            } else {
+                open.push_back(shown);
+            }
         }
     }
     return {};
@@ -94,10 +102,11 @@ void PictureGraph::refuse_circles(const std::vector<PictureId>& roots, const std
 
 std::string PictureGraph::message(const Edges& edges, std::size_t start) {
     constexpr std::size_t most_named = 12;
+    std::vector<std::string> names;
+    for (const PictureId& id : edges.ids) names.push_back(at(id).label(1));
     std::vector<const Picture*> named;
-    for (const std::size_t place : shortest_circle(edges.of, start)) {
-        const Picture& picture = at(edges.ids[place]);
-        if (!picture.label(1).empty()) named.push_back(&picture);
+    for (const std::size_t place : shortest_circle(edges.of, names, start)) {
+        if (!names[place].empty()) named.push_back(&at(edges.ids[place]));
     }
     if (named.empty()) return "a picture shows itself";
     const std::string first = named.front()->label(1);
