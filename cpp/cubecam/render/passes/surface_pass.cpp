@@ -1,11 +1,11 @@
 #include "cubecam/render/passes/surface_pass.hpp"
 
 #include "cubecam/math/transform.hpp"
-#include "cubecam/render/graph/dependencies.hpp"
 #include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/draw_block.hpp"
 #include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/resources/instance.hpp"
+#include "cubecam/scene/snapshot_queries.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
