@@ -42,7 +42,7 @@ struct NodeSnapshot {
     glm::dmat4 world;
     Bounds bounds;  ///< of all that its vertices may reach, in the mesh's own space
     Bounds world_bounds;
-    std::shared_ptr<const Mesh> mesh;  ///< never null: groups are left out
+    std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
     Material::State material;
     CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
     CubeSourceSnapshot cubemap;      ///< what a BasicMaterial shows
