@@ -310,7 +310,7 @@ MUTATIONS = [
     Mutation(
         "key: what a mirror shows forgotten",
         CALL,
-        "key.add(found.cube.revision);",
+        "key.add(found.environment.revision);",
         "",
         PROBES,
     ),
@@ -332,7 +332,7 @@ MUTATIONS = [
     Mutation(
         "key: what a map shows forgotten",
         CALL,
-        "key.add(found.map.revision);",
+        "for (const BoundTexture& texture : found.textures) key.add(texture.revision);",
         "",
         RENDER_TEXTURES,
     ),
@@ -665,8 +665,8 @@ MUTATIONS = [
     Mutation(
         "shadow: hangs on all textures",
         NEEDS,
-        "if (mentions(shader.vertex.text, name)) found.push_back(place);",
-        "found.push_back(place);",
+        "if (mentions(traits.user_code->vertex->text, traits.textures[place].name)) {",
+        "{",
         ("tests/gl/test_render_texture_circles.py",),
     ),
 ]

@@ -91,7 +91,7 @@ BoundTexture Call::look_up(const TextureSourceSnapshot& texture,
 }
 
 NodeTextures Call::look_up(const NodeSnapshot& node, std::optional<std::size_t> in_probe) {
-    NodeTextures found{look_up(source_of(scene_, node), in_probe), session_.look_up(node.map), {}};
+    NodeTextures found{look_up(environment_of(scene_, node), in_probe), {}};
     for (const TextureSourceSnapshot& texture : node.textures) {
         found.textures.push_back(look_up(texture, in_probe));
     }
@@ -223,8 +223,7 @@ std::vector<PictureKey> Call::keys_of(std::span<const View> views, const DrawPla
             key.add(node.mesh->revision());
             key.add(node.material.revision);
             const NodeTextures& found = lookups[planned.node];
-            key.add(found.cube.revision);
-            key.add(found.map.revision);
+            key.add(found.environment.revision);
             for (const BoundTexture& texture : found.textures) key.add(texture.revision);
             if (receive_shadow(node)) key.add(shadows);
             for (const PlannedNode::Visibility& visibility : planned.visibilities) {
