@@ -158,8 +158,12 @@ void Call::draw_probe(std::size_t index) {
     if (!work.due) return;
     ProbeState& state = *work.state;
     TargetDescription description =
-        describe_target(gpu_.context, true, probe.value.size, probe.value.size, probe.value.samples,
-                        probe.value.format, {}, probe.value.depth_format);
+        describe_target(gpu_.context, {.shape = TargetShape::cube(),
+                                       .width = probe.value.size,
+                                       .height = probe.value.size,
+                                       .samples = probe.value.samples,
+                                       .format = probe.value.format,
+                                       .depth_format = probe.value.depth_format});
     description.mipmaps = probe.value.mipmaps;
     std::optional<Budget> budget;
     if (state.target == nullptr || state.target->description() != description) {

@@ -5,6 +5,7 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 #include "cubecam/render/passes/surface_pass.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
+#include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
 #include "cubecam/scene/probe.hpp"
@@ -50,7 +51,8 @@ struct RendererState {
     RendererState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
           post_process(its_context.gl(), cache, surface.programs()),
-          shadows(its_context, cache, surface.programs()), targets(cache_bytes) {}
+          shadows(its_context, cache, surface.programs()), targets(cache_bytes),
+          results(std::make_shared<ResultPool>(cache_bytes)) {}
 
     gl::Context& context;
     GpuCache cache;
@@ -58,6 +60,7 @@ struct RendererState {
     PostProcessPass post_process;
     ShadowPass shadows;
     TargetStore targets;
+    std::shared_ptr<ResultPool> results;  ///< shared: results that outlive the renderer look for it
     WeakCache<Probe, ProbeContents> probes;
     WeakCache<RenderTexture, TextureState> textures;
 };

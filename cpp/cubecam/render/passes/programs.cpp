@@ -1,10 +1,13 @@
 #include "cubecam/render/passes/programs.hpp"
 
+#include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 
 #include <array>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace cubecam {
 namespace {
@@ -12,6 +15,11 @@ namespace {
 /// In the order of MaterialParameters.
 constexpr std::array<const char*, std::variant_size_v<MaterialParameters>> material_defines = {
     "MATERIAL_BASIC", "MATERIAL_PHONG", "MATERIAL_MIRROR", "MATERIAL_GLASS", "MATERIAL_SHADER"};
+
+void add_defines(gl::ShaderOptions& options,
+                 const std::vector<std::pair<std::string, std::string>>& defines) {
+    options.defines.insert(options.defines.end(), defines.begin(), defines.end());
+}
 
 }  // namespace
 
@@ -39,7 +47,6 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant) const
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
     define(variant.blend == Blend::multiply, "BLEND_MULTIPLY");
     define(variant.blend == Blend::premultiplied, "BLEND_PREMULTIPLIED");
-    define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
     define(variant.cone, "LIGHT_CONE");
     define(variant.dense, "DENSE");
@@ -58,21 +65,25 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant) const
 const gl::Program& Programs::surface(const SurfaceVariant& variant) {
     const auto found = surfaces_.find(variant);
     if (found != surfaces_.end()) return found->second;
+    gl::ShaderOptions options = surface_options(variant);
+    add_defines(options, output_defines(variant.outputs));
     return surfaces_
-        .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"},
-                                      surface_options(variant)))
+        .emplace(variant,
+                 gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options))
         .first->second;
 }
 
 UserProgram& Programs::surface(const SurfaceVariant& variant, const ShaderParameters& shader) {
-    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"},
-                      surface_options(variant),
-                      {{"include/user_fragment.glsl", "fragment", &shader.fragment},
+    gl::ShaderOptions options = surface_options(variant);
+    const UserSource fragment = place_outputs(shader.fragment, variant.outputs);
+    add_defines(options, output_defines(variant.outputs, declared_outputs(shader.fragment)));
+    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                      {{"include/user_fragment.glsl", "fragment", &fragment},
                        {"include/user_vertex.glsl", "vertex", &shader.vertex}});
 }
 
 UserProgram& Programs::effect(const UserSource& fragment) {
-    return users_.get(*gl_, {"passes/tonemap.vert", "passes/effect.frag"}, {},
+    return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
                       {{"include/user_fragment.glsl", "fragment", &fragment}});
 }
 
@@ -114,7 +125,7 @@ const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
     if (encode == Encode::srgb) options.defines.emplace_back("ENCODE_SRGB", "1");
     return grades_
         .emplace(std::pair{tonemap, encode},
-                 gl::Program(*gl_, {"passes/tonemap.vert", "passes/tonemap.frag"}, options))
+                 gl::Program(*gl_, {"passes/full_screen.vert", "passes/tonemap.frag"}, options))
         .first->second;
 }
 
