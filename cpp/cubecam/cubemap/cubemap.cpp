@@ -112,7 +112,12 @@ CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffe
     check_outputs(outputs_, size);
     // Not memory of const: set_face may write to it when nobody else holds it.
     data.pixels = std::move(pixels);
+    set_data(std::move(data));
+}
+
+void CubeMap::set_data(CubeMapData data) {
     data_ = std::make_shared<const CubeMapData>(std::move(data));
+    revision_.set(data_->revision);
 }
 
 CubeMap::CubeMap(const CubeMap& other) {
@@ -120,7 +125,7 @@ CubeMap::CubeMap(const CubeMap& other) {
     CubeMapData data = *other.data_;
     data.face_revisions = new_face_revisions();
     data.revision = next_revision();
-    data_ = std::make_shared<const CubeMapData>(std::move(data));
+    set_data(std::move(data));
     outputs_ = other.outputs_;
     mip_chain_ = other.mip_chain_;
 }
@@ -155,7 +160,7 @@ void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
     std::memcpy(writable->data() + face_index(face) * bytes, pixels.data(), bytes);
     next.face_revisions[face_index(face)] = next_revision();
     next.revision = next_revision();
-    data_ = std::make_shared<const CubeMapData>(std::move(next));
+    set_data(std::move(next));
     mip_chain_.reset();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/revision.hpp"
 #include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/cube_face.hpp"
@@ -55,6 +56,8 @@ public:
 
     /// The state of this moment.
     std::shared_ptr<const CubeMapData> data() const;
+    /// That of the state, which can be read without waiting for anyone.
+    const Revision& revision() const { return revision_; }
 
     /// What a capture holds besides colour, [6][N][N][channels]. Set once, by the constructor.
     const OutputList& outputs() const { return outputs_; }
@@ -85,8 +88,11 @@ public:
     bool same_contents(const CubeMap& other) const;
 
 private:
+    void set_data(CubeMapData data);
+
     mutable std::mutex mutex_;
     std::shared_ptr<const CubeMapData> data_;
+    Revision revision_;  ///< of data_
     OutputList outputs_;
     mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_, made on first use
 };
