@@ -20,7 +20,7 @@ bool shows_through(const MapSource& map) {
 }
 
 /// Whether any alpha of a surface is below one.
-bool shows_through(const MaterialValue& material, const Mesh& mesh) {
+bool shows_through(const MaterialValue& material, const MeshData& mesh) {
     if (translucent(material)) return true;
     const auto by_vertices_or_map = [&](const auto& parameters) {
         return (parameters.vertex_colors && mesh.translucent_colors()) ||
@@ -72,6 +72,15 @@ public:
             materials_.emplace(material, material->state()).first->second;
         seen_.push_back({&material->revision(), state.revision});
         return state;
+    }
+
+    const std::shared_ptr<const MeshData>& data_of(const std::shared_ptr<Mesh>& mesh) {
+        auto& data = meshes_[mesh];
+        if (!data) {
+            data = mesh->data();
+            seen_.push_back({&mesh->revision(), data->revision()});
+        }
+        return data;
     }
 
     LightValue value_of(const Light& light) {
@@ -150,6 +159,7 @@ private:
     }
 
     std::unordered_map<std::shared_ptr<Material>, Material::State> materials_;
+    std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> meshes_;
     std::unordered_map<std::shared_ptr<CubeMap>, std::shared_ptr<const CubeMapData>> cubes_;
     std::unordered_map<const RenderTexture*, std::size_t> indices_;  // into `textures`
     std::unordered_map<const Scene*, std::size_t> numbers_;
@@ -232,13 +242,14 @@ private:
     void add(const Node& node, const Place& place) {
         const NodeValue& value = node.value_;
         const Material::State& material = shared_.state_of(value.material);
+        const std::shared_ptr<const MeshData>& mesh = shared_.data_of(value.mesh);
         const auto* basic = std::get_if<BasicParameters>(&material.value.parameters);
         const SurfaceOptions& surface = material.value.surface;
         const Blend blend = surface.blend.value_or(
-            shows_through(material.value, *value.mesh) ? Blend::alpha : Blend::opaque);
+            shows_through(material.value, *mesh) ? Blend::alpha : Blend::opaque);
         const auto* shader = std::get_if<ShaderParameters>(&material.value.parameters);
         const bool moved = shader && shader->moves_vertices();
-        Bounds bounds = value.mesh->bounds();
+        Bounds bounds = mesh->bounds();
         if (moved) {
             const double reach = shader->displacement.value_or(0.0F);
             bounds.low -= reach;
@@ -251,11 +262,11 @@ private:
             bounds,
             {},
             {},
-            value.mesh,
+            mesh,
             material,
             snapshot_of(value.environment),
             basic ? snapshot_of(basic->cubemap) : CubeSourceSnapshot(),
-            value.mesh->uvs() ? shared_.snapshot_of(map_of(material.value)) : MapSnapshot(),
+            mesh->uvs() ? shared_.snapshot_of(map_of(material.value)) : MapSnapshot(),
             shader ? snapshot_of(shader->inputs) : std::vector<TextureSourceSnapshot>(),
             moved && !shader->displacement,
             place.in_captures,

@@ -45,7 +45,7 @@ struct NodeSnapshot {
     /// How far a vertex can be from the node's origin along each axis of the world, every term of
     /// the matrix product taken as positive: what rounding errors grow with.
     glm::dvec3 reach;
-    std::shared_ptr<const Mesh> mesh;  ///< never null: groups are left out
+    std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
     Material::State material;
     CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
     CubeSourceSnapshot cubemap;      ///< what a BasicMaterial shows

@@ -174,7 +174,7 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                 instances.push_back(views[r]);
             }
             if (item.regions.empty()) continue;
-            item.mesh = &cache_->mesh(node.mesh);
+            item.mesh = &cache_->mesh(*node.mesh);
             const DrawBlock block = make_draw_block(node, origin, ambient_);
             blocks.resize(blocks.size() + stride);
             std::memcpy(blocks.data() + item.block, &block, sizeof(block));
@@ -397,7 +397,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
                                      0, sizeof(Instance));
         gl_->BindVertexArray(item.mesh->array.id());
         gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, item.mesh->index_count,
-                                               GL_UNSIGNED_INT, nullptr, count, first);
+                                               item.mesh->index_type, nullptr, count, first);
         ++stats.draw_calls;
         stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
     }
