@@ -236,9 +236,9 @@ MUTATIONS = [
     ),
     Mutation(
         "depth: reversed as it is stored",
-        "cpp/cubecam/render/readback.cpp",
-        "value = 1.0F - value;",
-        "value = value;",
+        "cpp/cubecam/render/resources/repack.hpp",
+        "values[i] = values[i] == clear ? 1.0F : 1.0F - values[i];",
+        "values[i] = values[i];",
         FORMATS,
     ),
     Mutation(

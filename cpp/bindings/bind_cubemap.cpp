@@ -8,15 +8,18 @@
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
 #include "cubecam/cubemap/cubemap_resample.hpp"
+#include "cubecam/render/resources/outputs.hpp"
 
 #include <pybind11/native_enum.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace py = pybind11;
 
@@ -300,50 +303,82 @@ CubePtr resize(const CubeMap& cube, int size) {
                                      narrow_pixels(std::move(faces), state->dtype), state->mipmaps);
 }
 
-template <typename T>
-py::object output_view(const CubeMap& cube, std::shared_ptr<const Buffer<T>> values,
-                       int components) {
-    if (!values) return py::none();
+py::array output_view(const CubeMap& cube, const OutputValues& output) {
     const int n = cube.data()->size;
     std::vector<py::ssize_t> shape = {6, n, n};
-    if (components > 1) shape.push_back(components);
-    return readonly_view(std::move(values), std::move(shape));
+    if (output.channels > 1) shape.push_back(output.channels);
+    return readonly_view(numpy_dtype(output.type), std::move(shape), output.values->data(),
+                         output.values);
 }
 
-template <typename T>
-std::shared_ptr<const Buffer<T>> copy_output(const py::object& value, const char* name, int size,
-                                             bool vector) {
-    if (value.is_none()) return nullptr;
-    const auto array = value.cast<py::array_t<T, py::array::c_style | py::array::forcecast>>();
-    const std::string n = std::to_string(size);
-    check_shape(array, name, "(6, " + n + ", " + n + (vector ? ", 3)" : ")"));
-    return std::make_shared<const Buffer<T>>(array.data(), array.data() + array.size());
+py::object output_of(const CubeMap& cube, std::string_view name) {
+    const OutputValues* output = find_output(cube.outputs(), name);
+    return output == nullptr ? py::object(py::none()) : py::object(output_view(cube, *output));
 }
+
+py::typing::Dict<py::str, py::array> outputs_of(const CubeMap& cube) {
+    py::typing::Dict<py::str, py::array> outputs;
+    for (const OutputValues& output : cube.outputs()) {
+        outputs[py::str(output.name)] = output_view(cube, output);
+    }
+    return outputs;
+}
+
+/// What outputs_of gave, of a cube of this size. Names that the table does not have are those of
+/// users' materials, float32 with one to four channels.
+OutputList copy_outputs(const py::dict& arrays, int size) {
+    OutputList outputs;
+    for (const auto& [key, value] : arrays) {
+        OutputValues output;
+        output.name = key.cast<std::string>();
+        const auto* row = std::find_if(output_table.begin(), output_table.end(),
+                                       [&](const OutputRow& r) { return r.name == output.name; });
+        py::array array = value.cast<py::array>();
+        output.channels =
+            array.ndim() == 4 ? static_cast<int>(std::clamp<py::ssize_t>(array.shape(3), 1, 4)) : 1;
+        if (row != output_table.end()) {
+            output.channels = row->channels;
+            output.type = row->type;
+        }
+        std::string shape = "(6";
+        for (int i = 0; i < 2; ++i) shape += ", " + std::to_string(size);
+        if (output.channels > 1) shape += ", " + std::to_string(output.channels);
+        check_shape(array, output.name.c_str(), shape + ")");
+        array =
+            py::module_::import("numpy").attr("ascontiguousarray")(array, numpy_dtype(output.type));
+        output.values = std::make_shared<PixelBuffer>(copy_pixels(
+            static_cast<const std::byte*>(array.data()), static_cast<std::size_t>(array.nbytes())));
+        outputs.push_back(std::move(output));
+    }
+    return outputs;
+}
+
+constexpr std::size_t cube_parts = 3;
 
 py::tuple get_state(const CubeMap& cube) {
-    const CapturedOutputs outputs = cube.outputs();
-    return py::make_tuple(
-        faces_view(cube), cube.data()->mipmaps, output_view(cube, outputs.distance, 1),
-        output_view(cube, outputs.z, 1), output_view(cube, outputs.normal, 3),
-        output_view(cube, outputs.position, 3), output_view(cube, outputs.id, 1),
-        output_view(cube, outputs.depth, 1), output_view(cube, outputs.stencil, 1));
+    return py::make_tuple(faces_view(cube), cube.data()->mipmaps, outputs_of(cube));
 }
 
 /// NaN is let through: what was rendered may hold it, and what was pickled must come back.
 CubePtr from_state(const py::tuple& state) {
-    if (state.size() != 9) throw py::value_error("CubeMap: expected a state of 9 parts");
+    if (state.size() != cube_parts) {
+        throw py::value_error("CubeMap: expected a pickle of this version of cubecam, got one of "
+                              "another version");
+    }
     const PixelArray pixels = pixel_array(state[0], "faces", "(6, N, N, C)", Values::any);
     const int size = to_size(pixels.shape(1), "faces");
-    CapturedOutputs outputs = {copy_output<float>(state[2], "distance", size, false),
-                               copy_output<float>(state[3], "z", size, false),
-                               copy_output<float>(state[4], "normal", size, true),
-                               copy_output<float>(state[5], "position", size, true),
-                               copy_output<std::int32_t>(state[6], "id", size, false),
-                               copy_output<float>(state[7], "depth", size, false),
-                               copy_output<std::uint8_t>(state[8], "stencil", size, false)};
     return std::make_shared<CubeMap>(size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
                                      copy_pixels(pixels.data(), pixels.bytes()),
-                                     state[1].cast<bool>(), std::move(outputs));
+                                     state[1].cast<bool>(),
+                                     copy_outputs(state[2].cast<py::dict>(), size));
+}
+
+std::string captured_doc(const OutputRow& row) {
+    return "ndarray (6, N, N" + (row.channels > 1 ? ", " + std::to_string(row.channels) : "") +
+           ") " + output_type_name(row.type) +
+           ", read-only, of a capture that requested it, or "
+           "None: " +
+           std::string(row.meaning) + ".";
 }
 
 py::tuple reduce(const py::object& self) {
@@ -390,26 +425,13 @@ void bind_cubemap(py::module_& module) {
             "numpy.dtype: uint8, float16 or float32.")
         .def_property_readonly(
             "mipmaps", [](const CubeMap& c) { return c.data()->mipmaps; },
-            "Whether lookups are trilinear, bool.")
-        .def_property_readonly(
-            "distance", [](const CubeMap& c) { return output_view(c, c.outputs().distance, 1); },
-            docs::distance)
-        .def_property_readonly(
-            "z", [](const CubeMap& c) { return output_view(c, c.outputs().z, 1); }, docs::z)
-        .def_property_readonly(
-            "normal", [](const CubeMap& c) { return output_view(c, c.outputs().normal, 3); },
-            docs::normal)
-        .def_property_readonly(
-            "position", [](const CubeMap& c) { return output_view(c, c.outputs().position, 3); },
-            docs::position)
-        .def_property_readonly(
-            "id", [](const CubeMap& c) { return output_view(c, c.outputs().id, 1); }, docs::id)
-        .def_property_readonly(
-            "depth", [](const CubeMap& c) { return output_view(c, c.outputs().depth, 1); },
-            docs::depth)
-        .def_property_readonly(
-            "stencil", [](const CubeMap& c) { return output_view(c, c.outputs().stencil, 1); },
-            docs::stencil);
+            "Whether lookups are trilinear, bool.");
+    for (const OutputRow& row : output_table) {
+        cube.def_property_readonly(
+            row.name.data(), [name = row.name](const CubeMap& c) { return output_of(c, name); },
+            captured_doc(row).c_str());
+    }
+    cube.def_property_readonly("outputs", &outputs_of, docs::outputs);
 
     cube.def("set_face", &set_face, py::arg("face"), py::arg("pixels"),
              py::arg("convention") = "gl", docs::set_face)

@@ -275,25 +275,12 @@ Examples
 (6, 2, 2, 3)
 )doc";
 
-inline constexpr const char* distance =
-    "Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is "
-    "nothing, or None. Read-only.";
-inline constexpr const char* z = "Captured distance along each face's axis, ndarray (6, N, N) "
-                                 "float32 in world units, +inf where "
-                                 "there is nothing, or None. Read-only.";
-inline constexpr const char* normal = "Captured world shading normals towards the viewer, ndarray "
-                                      "(6, N, N, 3) float32, 0 where there "
-                                      "is nothing, or None. Read-only.";
-inline constexpr const char* position =
-    "Captured world positions, ndarray (6, N, N, 3) float32, NaN where there is nothing, or None. "
-    "Read-only.";
-inline constexpr const char* id =
-    "Captured `node.id`, ndarray (6, N, N) int32, 0 where there is nothing, or None. Read-only.";
-inline constexpr const char* depth =
-    "Captured window-space z, ndarray (6, N, N) float32: 0 at the near plane, 1 at the far plane "
-    "and "
-    "where there is nothing, as fine as ``depth_format`` keeps it; or None. Read-only.";
-inline constexpr const char* stencil =
-    "Captured stencil buffer, ndarray (6, N, N) uint8, 0 where nothing wrote, or None. Read-only.";
+inline constexpr const char* outputs =
+    R"doc(dict of str to ndarray: what a capture holds besides `faces`, by name. Read-only arrays.
+
+Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and (6, N, N) for float; 0 where the node
+that is seen does not write them.
+)doc";
 
 }  // namespace cubecam::docs

@@ -24,7 +24,7 @@
 namespace cubecam {
 namespace {
 
-Outputs to_outputs(py::handle value) {
+RequestedOutputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
     std::vector<std::string> names;
     if (!py::isinstance<py::iterable>(value)) {
@@ -121,7 +121,8 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
                                  py::handle size, double near, double far, py::handle exclude,
                                  py::handle outputs, const std::optional<std::string>& format,
                                  py::handle samples, py::handle eye,
-                                 const std::optional<std::string>& depth_format) {
+                                 const std::optional<std::string>& depth_format,
+                                 const std::string& depth_order) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -136,6 +137,7 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
     options.format = parse_format(*format);
     options.samples = to_int(samples, "samples");
     options.depth_format = bindings::to_depth_format(depth_format);
+    options.depth_order = parse_depth_order(depth_order);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     const auto snapshot = scene.snapshot();
     const py::gil_scoped_release release;
@@ -189,8 +191,10 @@ layered : bool or None
     Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
     the same bytes on llvmpipe.
 cache_bytes : int
-    GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. Default
-    256 MiB.
+    GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. At most as
+    much main memory is kept of results that were let go, for the next ones of their size; what eight calls found no
+    use for is freed, and all of it by :meth:`close`. Default 256 MiB; ``stats.pictures_not_kept`` tells whether a
+    picture is larger than that.
 debug : bool
     Ask for a debug context, whose errors tell more.
 
@@ -231,7 +235,8 @@ camera : Camera or StereoCamera
 size : (int, int)
     (width, height), pixels.
 outputs : sequence of str
-    Besides colour: any of "distance", "z", "normal", "position", "id", and of "depth" and "stencil", what those
+    Besides colour: any of "distance", "z", "normal", "position", "id", of the outputs that the GLSL of a
+    :class:`ShaderMaterial` of a visible node declares, and of "depth" and "stencil", what those
     buffers hold in the end.
 format : str or None
     "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
@@ -277,7 +282,7 @@ Examples
              py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f",
              py::arg("samples") = 1, py::arg("eye") = py::none(),
-             py::arg("depth_format") = "depth_component32f",
+             py::arg("depth_format") = "depth_component32f", py::arg("depth_order") = "nearest",
              R"(Draw what surrounds a point into a cubemap.
 
 Parameters
@@ -292,7 +297,8 @@ near, far : float
 exclude : sequence of Node
     Left out, with all below them.
 outputs : sequence of str
-    Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil".
+    Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil", and of the outputs that
+    the GLSL of a :class:`ShaderMaterial` of a visible node declares.
 format : str
     "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
 samples : int
@@ -301,6 +307,11 @@ eye : array_like (3,) or None
     From where highlights and mirrors are seen; None: from ``position``.
 depth_format : str or None
     The depth and stencil buffer, see :meth:`render`.
+depth_order : str
+    "nearest", or "farthest": colour and outputs are those of the farthest opaque surface along each ray between
+    ``near`` and ``far``, the background where there is none. Single-sided materials show their front faces alone, so
+    the far side of a body counts with ``double_sided=True``. Of translucent nodes shows what is farther still. It
+    wants a depth buffer.
 
 Returns
 -------

@@ -1204,12 +1204,12 @@ class CubeMap:
     @property
     def depth(self) -> typing.Any:
         """
-        Captured window-space z, ndarray (6, N, N) float32: 0 at the near plane, 1 at the far plane and where there is nothing, as fine as ``depth_format`` keeps it; or None. Read-only.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
         """
     @property
     def distance(self) -> typing.Any:
         """
-        Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
     def dtype(self) -> numpy.dtype[typing.Any]:
@@ -1226,7 +1226,7 @@ class CubeMap:
     @property
     def id(self) -> typing.Any:
         """
-        Captured `node.id`, ndarray (6, N, N) int32, 0 where there is nothing, or None. Read-only.
+        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of what is seen; 0 background.
         """
     @property
     def mipmaps(self) -> bool:
@@ -1236,12 +1236,21 @@ class CubeMap:
     @property
     def normal(self) -> typing.Any:
         """
-        Captured world shading normals towards the viewer, ndarray (6, N, N, 3) float32, 0 where there is nothing, or None. Read-only.
+        ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world shading normal, unit length, towards the viewer; 0 background.
+        """
+    @property
+    def outputs(self) -> dict[str, numpy.ndarray]:
+        """
+        dict of str to ndarray: what a capture holds besides `faces`, by name. Read-only arrays.
+
+        Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+        float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and (6, N, N) for float; 0 where the node
+        that is seen does not write them.
         """
     @property
     def position(self) -> typing.Any:
         """
-        Captured world positions, ndarray (6, N, N, 3) float32, NaN where there is nothing, or None. Read-only.
+        ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world position; NaN background.
         """
     @property
     def size(self) -> int:
@@ -1251,12 +1260,12 @@ class CubeMap:
     @property
     def stencil(self) -> typing.Any:
         """
-        Captured stencil buffer, ndarray (6, N, N) uint8, 0 where nothing wrote, or None. Read-only.
+        ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: what the stencil buffer holds in the end; 0 background.
         """
     @property
     def z(self) -> typing.Any:
         """
-        Captured distance along each face's axis, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: distance along the camera's axis, or a face's, world units; +inf background.
         """
 
 class Image:
@@ -2328,7 +2337,13 @@ class ShaderMaterial(Material):
 
     Notes
     -----
-    What the source has at hand; names that begin with ``u_``, ``v_``, ``a_`` or ``gl_`` are taken.
+    Outputs of one's own: ``out vec4 heat;`` in `fragment`, of float, vec2, vec3 or vec4 and without a
+    layout, is a buffer that ``outputs=("heat",)`` requests and ``frame.outputs["heat"]`` and
+    ``cube.outputs["heat"]`` hold: float32, 0 where the node that is seen does not write it. Only opaque nodes
+    that leave depth write them, and colour and these outputs together are limited by the driver's draw
+    buffers (8 as a rule). Without a request it is a variable.
+
+    What the source has at hand; names that begin with ``u_``, ``v_``, ``a_``, ``o_`` or ``gl_`` are taken.
 
     In both stages: ``mat4 model_matrix()`` (mesh to world), ``mat3 normal_matrix()`` (its inverse
     transpose, to any length), ``vec3 eye_position()`` (world; of perspective views).
@@ -2369,6 +2384,19 @@ class ShaderMaterial(Material):
     >>> gold.uniforms["share"] = .5
     >>> sorted(gold.uniforms)
     ['color', 'share']
+
+    An output of its own, how far above the floor a surface lies:
+
+    >>> marked = cc.ShaderMaterial('''
+    ...     out float height;
+    ...     vec3 shade(Surface surface) { height = surface.position.y; return surface.color.rgb; }
+    ... ''')
+    >>> scene = cc.Scene()
+    >>> box = scene.add(cc.Mesh.box(2), marked, position=(0, 3, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     cube = renderer.capture(scene, size=4, outputs=("height",))
+    >>> cube.outputs["height"].shape, float(cube.outputs["height"].max())
+    ((6, 4, 4), 2.0)
     """
     def __init__(
         self: ShaderMaterial,
@@ -3696,6 +3724,11 @@ class Stats:
         float: the whole call, reading back included.
         """
     @property
+    def pictures_not_kept(self) -> int:
+        """
+        int: frames and captures whose buffers take more than the renderer's ``cache_bytes``, so that the next call must draw them again.
+        """
+    @property
     def probes_updated(self) -> int:
         """
         int: probes of which at least one face was drawn.
@@ -3818,7 +3851,7 @@ class Frame:
     """
     A rendered picture: arrays with row 0 on top, each the caller's own.
 
-    What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
+    What was not requested by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
     `stencil` are what those buffers hold in the end.
 
     Examples
@@ -3849,7 +3882,7 @@ class Frame:
     @property
     def distance(self) -> typing.Any:
         """
-        ndarray (H, W) float32: length of the ray, world units; +inf where nothing was hit. In an orthographic picture it counts from the near plane.
+        ndarray (H, W) float32: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
     def id(self) -> typing.Any:
@@ -3860,6 +3893,15 @@ class Frame:
     def normal(self) -> typing.Any:
         """
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
+        """
+    @property
+    def outputs(self) -> dict[str, numpy.ndarray]:
+        """
+        dict of str to ndarray: the outputs that were requested, by name.
+
+        Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+        float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for float; 0 where the node that
+        is seen does not write them.
         """
     @property
     def position(self) -> typing.Any:
@@ -3874,12 +3916,12 @@ class Frame:
     @property
     def stencil(self) -> typing.Any:
         """
-        ndarray (H, W) uint8: 0 background.
+        ndarray (H, W) uint8: what the stencil buffer holds in the end; 0 background.
         """
     @property
     def z(self) -> typing.Any:
         """
-        ndarray (H, W) float32: distance along the camera's axis, world units; +inf background.
+        ndarray (H, W) float32: distance along the camera's axis, or a face's, world units; +inf background.
         """
 
 class Renderer:
@@ -3899,8 +3941,10 @@ class Renderer:
         Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
         the same bytes on llvmpipe.
     cache_bytes : int
-        GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. Default
-        256 MiB.
+        GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. At most as
+        much main memory is kept of results that were let go, for the next ones of their size; what eight calls found no
+        use for is freed, and all of it by :meth:`close`. Default 256 MiB; ``stats.pictures_not_kept`` tells whether a
+        picture is larger than that.
     debug : bool
         Ask for a debug context, whose errors tell more.
 
@@ -3947,6 +3991,7 @@ class Renderer:
         samples: typing.Any = 1,
         eye: typing.Any = None,
         depth_format: str | None = "depth_component32f",
+        depth_order: str = "nearest",
     ) -> CubeMap:
         """
         Draw what surrounds a point into a cubemap.
@@ -3963,7 +4008,8 @@ class Renderer:
         exclude : sequence of Node
             Left out, with all below them.
         outputs : sequence of str
-            Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil".
+            Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil", and of the outputs that
+            the GLSL of a :class:`ShaderMaterial` of a visible node declares.
         format : str
             "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
         samples : int
@@ -3972,6 +4018,11 @@ class Renderer:
             From where highlights and mirrors are seen; None: from ``position``.
         depth_format : str or None
             The depth and stencil buffer, see :meth:`render`.
+        depth_order : str
+            "nearest", or "farthest": colour and outputs are those of the farthest opaque surface along each ray between
+            ``near`` and ``far``, the background where there is none. Single-sided materials show their front faces alone, so
+            the far side of a body counts with ``double_sided=True``. Of translucent nodes shows what is farther still. It
+            wants a depth buffer.
 
         Returns
         -------
@@ -4032,7 +4083,8 @@ class Renderer:
         size : (int, int)
             (width, height), pixels.
         outputs : sequence of str
-            Besides colour: any of "distance", "z", "normal", "position", "id", and of "depth" and "stencil", what those
+            Besides colour: any of "distance", "z", "normal", "position", "id", of the outputs that the GLSL of a
+            :class:`ShaderMaterial` of a visible node declares, and of "depth" and "stencil", what those
             buffers hold in the end.
         format : str or None
             "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
@@ -4163,6 +4215,11 @@ class Renderer:
 def _restore_frame(state: tuple) -> Frame:
     """
     For unpickling.
+    """
+
+def _shaded_outputs() -> list[str]:
+    """
+    Names of the outputs that shaders write, for the command line.
     """
 
 def axis_angle(

@@ -36,14 +36,15 @@ vec4 with_alpha(vec4 color) { return color; }
 
 layout(location = 0) out vec4 o_color;
 #ifdef OUTPUTS
-layout(location = 1) out float o_distance;
-layout(location = 2) out float o_z;
-layout(location = 3) out vec4 o_normal;
-layout(location = 4) out vec4 o_position;
-layout(location = 5) out int o_id;
+// `o_<name>` of each row of output_table (cpp/cubecam/render/resources/outputs.hpp): an output of the program where it
+// is requested, else a variable.
+OUTPUT_DECLARATIONS
 #endif
 
 void main() {
+#ifdef OUTPUT_ZEROS
+    OUTPUT_ZEROS  // of the outputs that users' sources declare
+#endif
     Surface surface;
     surface.from_origin = v_position;
     surface.position_object = vec3(0.0);
@@ -94,8 +95,8 @@ void main() {
     float z = dot(from_view, v_view_forward);
     o_z = z;
     o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;
-    o_normal = vec4(surface.normal, 0.0);
-    o_position = vec4(v_position + v_origin, 1.0);
+    o_normal = surface.normal;
+    o_position = v_position + v_origin;
     o_id = v_node_id;
 #endif
 }

@@ -1,12 +1,15 @@
 #include "cubecam/render/passes/programs.hpp"
 
+#include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace cubecam {
 namespace {
@@ -53,6 +56,11 @@ void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
     if (position) options.defines.emplace_back("USES_POSITION_OBJECT", "1");
 }
 
+void add_defines(gl::ShaderOptions& options,
+                 const std::vector<std::pair<std::string, std::string>>& defines) {
+    options.defines.insert(options.defines.end(), defines.begin(), defines.end());
+}
+
 }  // namespace
 
 gl::ShaderOptions Programs::layer_options() const {
@@ -86,7 +94,6 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
     define(variant.blend == Blend::multiply, "BLEND_MULTIPLY");
     define(variant.blend == Blend::premultiplied, "BLEND_PREMULTIPLIED");
-    define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
     define(variant.cone, "LIGHT_CONE");
     define(variant.dense, "DENSE");
@@ -107,25 +114,29 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
     const auto found = surfaces_.find(variant);
     if (found != surfaces_.end()) return found->second;
     const UserSource include = include_of(*variant.kind);
+    gl::ShaderOptions options = surface_options(variant, material);
+    add_defines(options, output_defines(variant.outputs));
     return surfaces_
-        .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"},
-                                      surface_options(variant, material),
-                                      substituted({{material_include, "", &include}})))
+        .emplace(variant,
+                 gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                             substituted({{material_include, "", &include}})))
         .first->second;
 }
 
 UserProgram& Programs::user_surface(const SurfaceVariant& variant, const MaterialTraits& material) {
     const UserCode& user = *material.user_code;
     const UserSource include = include_of(*variant.kind);
-    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"},
-                      surface_options(variant, material),
-                      {{"include/user_fragment.glsl", "fragment", user.fragment},
+    gl::ShaderOptions options = surface_options(variant, material);
+    const UserSource fragment = place_outputs(*user.fragment, variant.outputs);
+    add_defines(options, output_defines(variant.outputs, declared_outputs(*user.fragment)));
+    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                      {{"include/user_fragment.glsl", "fragment", &fragment},
                        {"include/user_vertex.glsl", "vertex", user.vertex},
                        {material_include, "", &include}});
 }
 
 UserProgram& Programs::effect(const UserSource& fragment) {
-    return users_.get(*gl_, {"passes/tonemap.vert", "passes/effect.frag"}, {},
+    return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
                       {{"include/user_fragment.glsl", "fragment", &fragment}});
 }
 
@@ -168,7 +179,7 @@ const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
     if (encode == Encode::srgb) options.defines.emplace_back("ENCODE_SRGB", "1");
     return grades_
         .emplace(std::pair{tonemap, encode},
-                 gl::Program(*gl_, {"passes/tonemap.vert", "passes/tonemap.frag"}, options))
+                 gl::Program(*gl_, {"passes/full_screen.vert", "passes/tonemap.frag"}, options))
         .first->second;
 }
 

@@ -4,6 +4,7 @@
 #include "cubecam/materials/material.hpp"
 #include "cubecam/render/passes/tonemap.hpp"
 #include "cubecam/render/passes/user_program.hpp"
+#include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/stats.hpp"
 
 #include <compare>
@@ -25,8 +26,8 @@ struct SurfaceVariant {
     bool double_sided = false;
     Blend blend = Blend::opaque;
     bool dense = false;  ///< many small triangles: constants stay in their blocks
-    bool outputs = false;
-    int lights = 0;  ///< unrolled so many times; -1: a loop
+    Outputs outputs;     ///< that it writes; without those read from depth and stencil buffers
+    int lights = 0;      ///< unrolled so many times; -1: a loop
     bool decay = false;
     bool moved = false;              ///< by a user's own vertex function
     bool cone = false;               ///< some light is a spot light

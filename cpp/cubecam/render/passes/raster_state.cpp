@@ -38,7 +38,8 @@ void set_blending(const GladGLContext& gl, Blend blend) {
 
 }  // namespace
 
-void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mirror) {
+void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mirror,
+                      const DepthState& depth) {
     const SurfaceOptions& surface = node.material.value.surface;
     set(gl, GL_CULL_FACE, !surface.double_sided);
     // A node's matrix of negative determinant turns the winding, a mirrored view turns it again.
@@ -46,7 +47,7 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
     gl.FrontFace(turned ? GL_CW : GL_CCW);
 
     // Depth is only written while the test is on.
-    gl.DepthFunc(surface.depth_test ? GL_GREATER : GL_ALWAYS);
+    gl.DepthFunc(surface.depth_test ? depth.closer : GLenum{GL_ALWAYS});
     gl.DepthMask(node.depth_write ? GL_TRUE : GL_FALSE);
     const glm::bvec4& write = surface.color_write;
     gl.ColorMaski(0, write.r, write.g, write.b, write.a);
@@ -54,9 +55,9 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
     set_stencil(gl, surface.stencil);
 }
 
-void reset_raster_state(const GladGLContext& gl) {
+void reset_raster_state(const GladGLContext& gl, const DepthState& depth) {
     gl.Enable(GL_DEPTH_TEST);
-    gl.DepthFunc(GL_GREATER);
+    gl.DepthFunc(depth.closer);
     gl.DepthMask(GL_TRUE);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.Disable(GL_BLEND);

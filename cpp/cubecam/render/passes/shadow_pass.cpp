@@ -18,7 +18,8 @@ namespace cubecam {
 namespace {
 
 constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
-constexpr float nothing = 0.0F;  // depth is reversed
+constexpr DepthState depth_test = depth_state(DepthOrder::nearest);
+constexpr float nothing = depth_test.clear;
 
 }  // namespace
 
@@ -109,7 +110,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Scissor(0, 0, map.size, map.size);
     gl_->Enable(GL_DEPTH_TEST);
-    gl_->DepthFunc(GL_GREATER);
+    gl_->DepthFunc(depth_test.closer);
     gl_->DepthMask(GL_TRUE);
     gl_->Disable(GL_BLEND);
     gl_->Disable(GL_CULL_FACE);  // a surface stops light from either side

@@ -3,6 +3,7 @@
 #include "cubecam/math/transform.hpp"
 #include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/draw_block.hpp"
+#include "cubecam/render/passes/full_screen_pass.hpp"
 #include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/resources/instance.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
@@ -213,6 +214,9 @@ void SurfacePass::draw(const PassInput& input, Target& target, Stats& stats) {
     const glm::dvec3& origin = input.views[input.regions.front().view].position;
     upload_lights(input.scene.lights, origin);
     upload_shadows(input.shadows, origin);
+    outputs_ = description.outputs.without_buffered();
+    output_count_ = outputs_.by_slot().size();
+    depth_ = depth_state(description.depth_order);
     const Prepared prepared = prepare(input);
     gl_->Viewport(0, 0, description.width, description.height);
     // Never off: how pixels come out may not hang on the rectangle, but may on the test itself
@@ -232,7 +236,8 @@ void SurfacePass::draw_layers(const PassInput& input, const Prepared& prepared, 
                               Layers& layers, bool color, bool outputs, Stats& stats) {
     const auto* plain = std::get_if<glm::vec4>(&input.background);
     const ClearValues values{plain != nullptr ? *plain : glm::vec4(0.0F), color, outputs};
-    const bool by_texture = target.description().cube && !(color && target.multisampled());
+    const bool by_texture =
+        target.description().shape.has_faces() && !(color && target.multisampled());
     // Transparent nodes write no shaded outputs, but may write what is read of the buffers.
     const bool transparent = color || target.description().outputs.buffered();
     if (by_texture) {
@@ -294,23 +299,23 @@ bool SurfacePass::use_layers(const PassInput& input, const Prepared& prepared,
 void SurfacePass::draw_all(const PassInput& input, const Prepared& prepared,
                            std::optional<std::size_t> region, bool color, bool outputs,
                            bool transparent, Stats& stats) {
-    reset_raster_state(*gl_);
+    reset_raster_state(*gl_, depth_);
     const bool mirror = mirrored(input.views[input.regions[region.value_or(0)].view]);
     const bool painted = input.plan.depth_mode == DepthMode::by_order;
     if (color && painted) draw_background(input, prepared, region, stats);
     draw_items(prepared.opaque, region, mirror, outputs, stats);
-    reset_raster_state(*gl_);
+    reset_raster_state(*gl_, depth_);
     if (painted || !transparent) return;
 
     write_outputs(false);
     if (color) draw_background(input, prepared, region, stats);
     draw_items(prepared.transparent, region, mirror, false, stats);
-    reset_raster_state(*gl_);
+    reset_raster_state(*gl_, depth_);
 }
 
 void SurfacePass::write_outputs(bool write) {
     const GLboolean mask = write ? GL_TRUE : GL_FALSE;
-    for (int slot = 1; slot < slot_count; ++slot) {
+    for (std::size_t slot = 1; slot <= output_count_; ++slot) {
         gl_->ColorMaski(static_cast<GLuint>(slot), mask, mask, mask, mask);
     }
 }
@@ -332,7 +337,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
     variant.vertex_colors =
         traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
     variant.double_sided = material.surface.double_sided;
-    variant.outputs = outputs;
+    if (outputs) variant.outputs = outputs_;
     variant.blend = node.blend == Blend::alpha_keep ? Blend::alpha : node.blend;
     variant.dense = node.mesh->triangles()->size() >= dense_triangles;
     if (traits.user_code) {
@@ -398,7 +403,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         if (bound != &program) program.use();
         bound = &program;
 
-        set_raster_state(*gl_, *item.node, mirror);
+        set_raster_state(*gl_, *item.node, mirror, depth_);
         // Of what leaves no depth nothing says that it is the nearest.
         if (outputs) write_outputs(item.node->depth_write);
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
@@ -419,18 +424,14 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
 }
 
 void SurfacePass::draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats) {
-    const GLuint array = cache_->views_only().id();
-    gl_->DepthFunc(GL_GEQUAL);  // the quad lies on the far plane, where the buffer was cleared to
+    gl_->DepthFunc(depth_.untouched);  // the quad lies where the buffer was cleared to
     gl_->DepthMask(GL_FALSE);
     gl_->Disable(GL_CULL_FACE);
+    programs_.skybox().set("u_depth", depth_.clear);
     programs_.skybox().use();
     gl_->BindTextureUnit(cube_unit, cube);
-    gl_->VertexArrayVertexBuffer(array, vertex_buffer::views, instances_.id(), 0, sizeof(Instance));
-    gl_->BindVertexArray(array);
-    gl_->DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
-                                         first_instance);
-    ++stats.draw_calls;
-    stats.triangles += static_cast<std::int64_t>(2 * count);
+    draw_full_screen(*gl_, *cache_,
+                     {instances_.id(), first_instance, static_cast<std::int64_t>(count)}, stats);
 }
 
 }  // namespace cubecam

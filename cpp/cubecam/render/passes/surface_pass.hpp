@@ -110,6 +110,9 @@ private:
     std::uint32_t shadow_kinds_ = 0;  ///< see SurfaceVariant
     bool light_decay_ = false;
     bool light_cone_ = false;
+    Outputs outputs_;               ///< of the target that is drawn into, the shaded ones
+    std::size_t output_count_ = 0;  ///< of outputs_
+    DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of that target
 };
 
 }  // namespace cubecam
