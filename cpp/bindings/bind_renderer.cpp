@@ -383,7 +383,7 @@ ValueError
             "shadow_map",
             [](Renderer& self, const Scene& scene, const std::shared_ptr<Light>& light) {
                 const auto snapshot = scene.snapshot();
-                ShadowPicture picture;
+                ShadowDistances picture;
                 {
                     const py::gil_scoped_release release;
                     picture = self.shadow_map(*snapshot, light);

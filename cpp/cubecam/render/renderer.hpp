@@ -33,7 +33,7 @@ struct RendererInfo {
 };
 
 /// What a light sees of what casts shadows.
-struct ShadowPicture {
+struct ShadowDistances {
     int size = 0;
     int layers = 0;
     Buffer<float> distances;
@@ -85,7 +85,7 @@ public:
     /// order of a cube's faces: from the light, for a directional one from where the casters'
     /// bounds begin; infinite where nothing casts. Row 0 is on top, of a cube's faces t = 0.
     /// @throws std::invalid_argument for a light that is not in the scene or has no shadow.
-    ShadowPicture shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
+    ShadowDistances shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
 
     Stats stats() const;
     const RendererInfo& info() const { return info_; }

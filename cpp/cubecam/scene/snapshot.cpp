@@ -37,6 +37,17 @@ bool shows_through(const MaterialValue& material, const MeshData& mesh) {
 
 }  // namespace
 
+/// Places a node in the world.
+void put(NodeSnapshot& node, const glm::dmat4& world) {
+    node.world = world;
+    node.world_bounds = transformed(node.bounds, world);
+    const glm::dvec3 local = glm::max(glm::abs(node.bounds.low), glm::abs(node.bounds.high));
+    node.reach = glm::dvec3(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        node.reach += glm::abs(glm::dvec3(world[axis])) * local[axis];
+    }
+}
+
 /// The node of an id, or null. Nodes stand in order of id, and mostly none is missing.
 const NodeSnapshot* find_node(const std::vector<NodeSnapshot>& nodes, std::int32_t id) {
     if (nodes.empty()) return nullptr;
@@ -249,7 +260,8 @@ private:
             next_revision(),
             place.world,
             bounds,
-            transformed(bounds, place.world),
+            {},
+            {},
             mesh,
             material,
             snapshot_of(value.environment),
@@ -265,6 +277,7 @@ private:
             place.cast_shadow && blend == Blend::opaque,
             value.receive_shadow,
         };
+        put(snapshot, place.world);
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
             snapshot.ancestors.push_back(above->id());
         }
@@ -382,8 +395,7 @@ void Scene::follow_moves(SceneSnapshot& snapshot) const {
         const NodeSnapshot* at = find_node(nodes, node.id());
         if (at == nullptr) return;  // a group, or invisible
         NodeSnapshot& moved = nodes[static_cast<std::size_t>(at - nodes.data())];
-        moved.world = node.locked_world_matrix();
-        moved.world_bounds = transformed(moved.bounds, moved.world);
+        put(moved, node.locked_world_matrix());
         moved.revision = next_revision();
     };
     for (Node* moved : graph_->moved) {

@@ -42,6 +42,9 @@ struct NodeSnapshot {
     glm::dmat4 world;
     Bounds bounds;  ///< of all that its vertices may reach, in the mesh's own space
     Bounds world_bounds;
+    /// How far a vertex can be from the node's origin along each axis of the world, every term of
+    /// the matrix product taken as positive: what rounding errors grow with.
+    glm::dvec3 reach;
     std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
     Material::State material;
     CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
@@ -58,6 +61,9 @@ struct NodeSnapshot {
     bool cast_shadow;                     ///< opaque, and so are it and all above it set
     bool receive_shadow;
     std::int32_t render_order = 0;
+    /// Opaque nodes of one crowd look the same to the renderer, their matrices and their materials'
+    /// numbers aside: they are drawn together. From 1 in order of the first id; 0: in none.
+    std::uint32_t crowd = 0;
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.
