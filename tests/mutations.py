@@ -669,4 +669,40 @@ MUTATIONS = [
         "{",
         ("tests/gl/test_render_texture_circles.py",),
     ),
+    # Meshes set anew.
+    Mutation(
+        "snapshot: an updated mesh goes unseen",
+        "cpp/cubecam/scene/snapshot.cpp",
+        "seen_.push_back({&mesh->revision(), data->revision()});",
+        "",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: a stream set anew is not uploaded",
+        "cpp/cubecam/render/resources/gpu_cache.cpp",
+        "if (to.writable && to.bytes == bytes) {",
+        "if (to.bytes == bytes) {",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: a stream that went stays",
+        "cpp/cubecam/render/resources/gpu_cache.cpp",
+        "gl.DisableVertexArrayAttrib(array, place.attribute);",
+        "",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: 16 bits for one vertex too many",
+        "cpp/cubecam/render/resources/gpu_cache.cpp",
+        "if (data.positions()->size() > std::size_t{1} << 16) {",
+        "if (data.positions()->size() > (std::size_t{1} << 16) + 1) {",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "mesh: smooth normals stay behind",
+        "cpp/cubecam/geometry/mesh_data.cpp",
+        "} else if (moved && smooth_) {",
+        "} else if (moved && !smooth_) {",
+        ("tests/unit/test_meshes.py",),
+    ),
 ]

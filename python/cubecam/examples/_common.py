@@ -57,7 +57,7 @@ def _city() -> Picture:
 
 @functools.cache
 def bunny(size: float = ACTOR) -> cc.Mesh:
-    """Give the bunny, centred, its largest extent `size` world units. Meshes never change: one serves all."""
+    """Give the bunny, centred, its largest extent `size` world units. One serves all: no program sets its vertices."""
     return cc.load_mesh(cc.sample_data("bunny.obj"), size=size)
 
 
