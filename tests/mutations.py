@@ -33,6 +33,9 @@ STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
+DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
+NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
+RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 
 CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
@@ -668,6 +671,69 @@ MUTATIONS = [
         "if (mentions(traits.user_code->vertex->text, traits.textures[place].name)) {",
         "{",
         ("tests/gl/test_render_texture_circles.py",),
+    ),
+    Mutation(
+        "farthest: cleared as for the nearest",
+        "cpp/cubecam/render/resources/depth_order.hpp",
+        "DepthState{GL_LESS, GL_LEQUAL, 1.0F}",
+        "DepthState{GL_LESS, GL_LEQUAL, 0.0F}",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "farthest: the sky over everything",
+        "shaders/passes/skybox.vert",
+        "vec4(corner, u_depth, 1.0)",
+        "vec4(corner, 0.0, 1.0)",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "farthest: depth of the background",
+        "cpp/cubecam/render/resources/repack.hpp",
+        "values[i] == clear ? 1.0F : 1.0F - values[i]",
+        "1.0F - values[i]",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "users' outputs: left as the node before wrote them",
+        "cpp/cubecam/render/passes/output_declarations.cpp",
+        "set_zero(name, output.channels);",
+        "",
+        NAMED_OUTPUTS,
+    ),
+    Mutation(
+        "users' outputs: all at one place",
+        "cpp/cubecam/render/resources/outputs.cpp",
+        "{output.name, shaded.size() + 1, output.channels, OutputType::float32, 0.0F}",
+        "{output.name, 1, output.channels, OutputType::float32, 0.0F}",
+        NAMED_OUTPUTS,
+    ),
+    Mutation(
+        "results: memory is kept for ever",
+        "cpp/cubecam/render/resources/result_pool.cpp",
+        "held_.back().call + patience < call_",
+        "held_.back().call + 1000 * patience < call_",
+        RESULT_MEMORY,
+    ),
+    Mutation(
+        "results: without a bound",
+        "cpp/cubecam/render/resources/result_pool.cpp",
+        "while (bytes_ > capacity_) {",
+        "while (false) {",
+        RESULT_MEMORY,
+    ),
+    Mutation(
+        "rgb565: rounded down",
+        "cpp/cubecam/render/resources/repack.hpp",
+        "((p & 31) * 527 + 23) >> 6",
+        "((p & 31) * 527) >> 6",
+        FORMATS,
+    ),
+    Mutation(
+        "stats: what just fits is told as too large",
+        "cpp/cubecam/render/resources/target_store.hpp",
+        "target->description().bytes() > capacity_;",
+        "target->description().bytes() >= capacity_;",
+        STATS,
     ),
     # Meshes set anew.
     Mutation(
