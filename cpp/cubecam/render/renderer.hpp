@@ -56,19 +56,19 @@ public:
     Frame render(const SceneSnapshot& scene, const CameraValue& camera,
                  const FrameOptions& options);
     Frame render(const Scene& scene, const Camera& camera, const FrameOptions& options) {
-        return render(scene.snapshot(), camera.value(), options);
+        return render(*scene.snapshot(), camera.value(), options);
     }
 
     /// Both eyes' pictures as one; each eye's `aspect` is that of its part.
     Frame render(const SceneSnapshot& scene, const StereoValue& camera,
                  const FrameOptions& options);
     Frame render(const Scene& scene, const StereoCamera& camera, const FrameOptions& options) {
-        return render(scene.snapshot(), camera.value(), options);
+        return render(*scene.snapshot(), camera.value(), options);
     }
 
     std::shared_ptr<CubeMap> capture(const SceneSnapshot& scene, const CaptureOptions& options);
     std::shared_ptr<CubeMap> capture(const Scene& scene, const CaptureOptions& options) {
-        return capture(scene.snapshot(), options);
+        return capture(*scene.snapshot(), options);
     }
 
     /// Draws probes now, whatever their policy says: those given, or all that the scene's visible

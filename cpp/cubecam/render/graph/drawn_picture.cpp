@@ -41,11 +41,9 @@ Key key_of(std::span<const ShadowUse> shadows) {
 
 std::vector<NodeTextures> DrawnPicture::look_up_all() {
     std::vector<NodeTextures> lookups(scene.nodes.size());
-    for (const auto* nodes : {&plan.opaque, &plan.transparent}) {
-        for (const PlannedNode& planned : *nodes) {
-            lookups[planned.node] = lookup.find(scene.nodes[planned.node]);
-        }
-    }
+    plan.for_each([&](const PlannedNode& planned) {
+        lookups[planned.node] = lookup.find(scene.nodes[planned.node]);
+    });
     return lookups;
 }
 
@@ -66,6 +64,8 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
     common.add(scene.lights.size());
     for (const LightSnapshot& light : scene.lights) add_light(common, light.value);
     const Key shadow_key = key_of(shadows);
+    std::vector<std::size_t> counts(views.size(), 0);
+    for (const Visibility& visibility : plan.visibilities) ++counts[visibility.view];
 
     std::vector<PictureKey> keys(views.size());
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -77,24 +77,35 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
         key.add(view.position);
         key.add(view.eye);
         key.add(view.near);
+        keys[v].shadows = shadow_key;
+        keys[v].nodes.reserve(counts[v]);
     }
-    for (const auto* nodes : {&plan.opaque, &plan.transparent}) {
-        for (const PlannedNode& planned : *nodes) {
-            const NodeSnapshot& node = scene.nodes[planned.node];
-            Key key;
-            key.add(node.world);
-            key.add(node.mesh->revision());
-            key.add(node.material.revision);
-            const NodeTextures& found = lookups[planned.node];
-            key.add(found.cube.revision);
-            key.add(found.map.revision);
-            for (const BoundTexture& texture : found.textures) key.add(texture.revision);
-            if (receive_shadow(node)) key.add(shadow_key);
-            for (const PlannedNode::Visibility& visibility : planned.visibilities) {
-                keys[visibility.view].nodes.push_back({node.id, key, visibility.bounds});
+    plan.for_each([&](const PlannedNode& planned) {
+        const NodeSnapshot& node = scene.nodes[planned.node];
+        const NodeTextures& found = lookups[planned.node];
+        NodeKey key{node.id,
+                    receive_shadow(node),
+                    {},
+                    node.revision,
+                    node.world,
+                    node.mesh->revision(),
+                    node.material.revision,
+                    0,
+                    0};
+        for (const Visibility& visibility : plan.visible_in(planned)) {
+            PictureKey& picture = keys[visibility.view];
+            key.bounds = visibility.bounds;
+            key.first_texture = static_cast<std::uint32_t>(picture.textures.size());
+            picture.textures.push_back(found.cube.revision);
+            picture.textures.push_back(found.map.revision);
+            for (const BoundTexture& texture : found.textures) {
+                picture.textures.push_back(texture.revision);
             }
+            key.texture_count =
+                static_cast<std::uint32_t>(picture.textures.size()) - key.first_texture;
+            picture.nodes.push_back(key);
         }
-    }
+    });
     return keys;
 }
 

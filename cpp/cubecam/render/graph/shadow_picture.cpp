@@ -36,7 +36,7 @@ std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
     }
     for (const PlannedNode& planned : plan.opaque) {
         const NodeSnapshot& node = scene.nodes[planned.node];
-        for (const PlannedNode::Visibility& visibility : planned.visibilities) {
+        for (const Visibility& visibility : plan.visible_in(planned)) {
             add_caster(keys[visibility.view], node, lookup);
         }
     }

@@ -80,10 +80,10 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
     for (const PlannedNode& planned : input.plan.opaque) {
-        const bool seen = std::any_of(planned.visibilities.begin(), planned.visibilities.end(),
-                                      [layer](const PlannedNode::Visibility& visibility) {
-                                          return visibility.view == layer;
-                                      });
+        const auto visibilities = input.plan.visible_in(planned);
+        const bool seen =
+            std::any_of(visibilities.begin(), visibilities.end(),
+                        [layer](const Visibility& visibility) { return visibility.view == layer; });
         if (!seen) continue;
         const NodeSnapshot& node = input.scene.nodes[planned.node];
         if (moves_vertices(node)) {

@@ -160,12 +160,13 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                       static_cast<GLuint>(instances.size()),
                       static_cast<GLintptr>(blocks.size()),
                       &input.lookups[planned.node]};
-            auto visibility = planned.visibilities.begin();
+            const auto visibilities = input.plan.visible_in(planned);
+            auto visibility = visibilities.begin();
             for (std::size_t r = 0; r < input.regions.size(); ++r) {
                 const Region& region = input.regions[r];
-                while (visibility != planned.visibilities.end() && visibility->view < region.view)
+                while (visibility != visibilities.end() && visibility->view < region.view)
                     ++visibility;
-                if (visibility == planned.visibilities.end()) break;
+                if (visibility == visibilities.end()) break;
                 if (visibility->view != region.view || !visibility->bounds.overlaps(region.rect))
                     continue;
                 item.regions.push_back(r);

@@ -1,0 +1,89 @@
+"""Build the compiled module of another version of this repository, to compare it with the present one.
+
+    python scripts/build_version.py f890032 /tmp/before     the module then lies in /tmp/before/python/cubecam
+
+A program uses that version with ``PYTHONPATH=/tmp/before/python``. The interpreter that runs this script must
+have the packages that building needs (``scripts/packages.py build run``).
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def module_of(folder: Path) -> Path | None:
+    """Give the compiled module of a tree, or None if it has none."""
+    return next((folder / "python" / "cubecam").glob("_core*.so"), None)
+
+
+def build(revision: str, folder: Path) -> Path:
+    """Write a revision's files to a folder and compile its module there.
+
+    Parameters
+    ----------
+    revision : str
+        What git calls it: a commit, a tag or a branch.
+    folder : Path
+        Made if it does not exist. If its module is there already, nothing is built.
+
+    Returns
+    -------
+    Path
+        What PYTHONPATH must name to use that version.
+    """
+    package = folder / "python"
+    if module_of(folder) is not None:
+        return package
+    folder.mkdir(parents=True, exist_ok=True)
+    archive = folder / "version.tar"
+    run("git", "-C", str(ROOT), "archive", "--output", str(archive.resolve()), revision)
+    with tarfile.open(archive) as file:
+        file.extractall(folder)
+    archive.unlink()
+    compile_module(folder)
+    return package
+
+
+def compile_module(folder: Path) -> None:
+    """Compile a tree's module and copy it beside its Python files."""
+    import pybind11
+
+    tools = Path(sys.executable).parent
+    cmake = shutil.which("cmake", path=f"{tools}{os.pathsep}{os.environ.get('PATH', '')}")
+    ninja = shutil.which("ninja", path=f"{tools}{os.pathsep}{os.environ.get('PATH', '')}")
+    if cmake is None or ninja is None:
+        raise SystemExit("expected cmake and ninja: run scripts/packages.py build")
+    objects = folder / "build" / "version"
+    run(
+        cmake,
+        *("-S", str(folder), "-B", str(objects), "-G", "Ninja"),
+        f"-DCMAKE_MAKE_PROGRAM={ninja}",
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DCUBECAM_BUILD_MODULE=ON",
+        f"-DPython_EXECUTABLE={sys.executable}",
+        f"-Dpybind11_DIR={pybind11.get_cmake_dir()}",
+    )
+    jobs = str(len(os.sched_getaffinity(0)))
+    run(cmake, "--build", str(objects), "--target", "_core", "--parallel", jobs)
+    built = next(objects.rglob("_core*.so"))
+    shutil.copy2(built, folder / "python" / "cubecam")
+
+
+def run(*command: str) -> None:
+    """Run a command; its output is shown only if it fails."""
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"{' '.join(command)} failed:\n{done.stdout}\n{done.stderr}")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        raise SystemExit(__doc__)
+    print(build(sys.argv[1], Path(sys.argv[2])))
