@@ -10,15 +10,15 @@ from .. import wave
 
 
 class Wave:
-    """One node; its mesh is made anew for each frame."""
+    """One node, whose mesh is set anew for each frame."""
 
     def __init__(self) -> None:
         self.scene = cc.Scene(background=wave.CLEAR)
         self.scene.add(cc.PointLight(position=wave.LIGHT))
         positions, normals = wave.arrays(0)
-        self.triangles = wave.triangles()
-        self.node = self.scene.add(
-            cc.Mesh(positions, self.triangles, normals=normals),
+        self.mesh = cc.Mesh(positions, wave.triangles(), normals=normals)
+        self.scene.add(
+            self.mesh,
             cc.PhongMaterial(
                 color=wave.COLOR, ka=wave.KA, kd=wave.KD, ks=wave.KS, shininess=wave.SHININESS
             ),
@@ -32,7 +32,7 @@ class Wave:
         self.positions, self.normals = wave.arrays(index)
 
     def move(self, index: int) -> None:
-        self.node.mesh = cc.Mesh(self.positions, self.triangles, normals=self.normals)
+        self.mesh.update(positions=self.positions, normals=self.normals)
 
     def draw(self, index: int) -> np.ndarray:
         """(H, W, 4) uint8, row 0 on top."""

@@ -30,7 +30,6 @@ __all__: list[str] = [
     "ImageEffect",
     "ImageError",
     "Light",
-    "Limits",
     "Material",
     "Mesh",
     "MeshError",
@@ -43,15 +42,14 @@ __all__: list[str] = [
     "Probe",
     "RenderTexture",
     "Renderer",
-    "RendererInfo",
     "Scene",
     "ShaderError",
     "ShaderMaterial",
     "Shadow",
     "SpotLight",
-    "Stats",
     "Stencil",
     "StereoCamera",
+    "__version__",
     "axis_angle",
     "devices",
 ]
@@ -1338,7 +1336,10 @@ class Image:
 
 class Mesh:
     """
-    Indexed triangles. A mesh never changes, so that scenes and renderers share it.
+    Indexed triangles, which any number of nodes, scenes and renderers share.
+
+    The vertices may be set anew: `update` sets several arrays at once. The number of vertices and the
+    triangles stay.
 
     Parameters
     ----------
@@ -1609,8 +1610,6 @@ class Mesh:
         >>> cc.Mesh.torus(1, .25).bounds[1].tolist()
         [1.25, 0.25, 1.25]
         """
-    def __copy__(self) -> typing.Any: ...
-    def __deepcopy__(self, memo: dict) -> typing.Any: ...
     def __init__(
         self: Mesh,
         positions: numpy.typing.ArrayLike,
@@ -1646,6 +1645,61 @@ class Mesh:
         >>> cc.Mesh.box((1, 2, 4)).resized(1).bounds[1].tolist()
         [0.125, 0.25, 0.5]
         """
+    def update(
+        self: Mesh,
+        *,
+        positions: numpy.typing.ArrayLike | None = None,
+        normals: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        colors: numpy.typing.ArrayLike | None = None,
+    ) -> None:
+        """
+        Set vertices anew: several arrays at once, which one picture shows together.
+
+        All nodes of the mesh show the new values in the next picture; only what is given is uploaded to the
+        GPU again. Any call with an array counts as a change, even if all numbers are the same: comparing
+        them would cost more than it saves. Other threads may draw meanwhile: a picture shows the mesh
+        before or after an update, never part of it. Arrays that the mesh handed out before keep their
+        values.
+
+        Parameters
+        ----------
+        positions : array_like (V, 3), optional
+            Object-space positions, finite. None: they stay.
+        normals : array_like (V, 3), optional
+            Outward normals of any length. None: they stay if they were given at some time; if all are
+            smooth ones that the mesh computed, they are computed anew with new positions.
+        uvs : array_like (V, 2), optional
+            Texture coordinates. None: they stay.
+        colors : array_like (V, 3) or (V, 4), optional
+            Linear RGB or RGBA; uint8 stands for value/255. None: they stay.
+
+        Raises
+        ------
+        TypeError
+            For arrays of bool, complex, object or str.
+        ValueError
+            For another number of vertices, NaN, infinity or an alpha outside 0 to 1. The mesh then stays
+            as it was.
+
+        Examples
+        --------
+        A sheet that waves:
+
+        >>> import cubecam as cc
+        >>> import numpy as np
+        >>> x, z = np.meshgrid(np.linspace(-1, 1, 20), np.linspace(-1, 1, 20))
+        >>> i = np.arange(19 * 20).reshape(19, 20)[:, :-1].ravel()
+        >>> triangles = np.concatenate([np.c_[i, i + 20, i + 21], np.c_[i, i + 21, i + 1]])
+        >>> mesh = cc.Mesh(np.c_[x.ravel(), 0 * x.ravel(), z.ravel()], triangles)
+        >>> scene = cc.Scene()
+        >>> sheet = scene.add(mesh)
+        >>> for time in np.linspace(0, 1, 3):
+        ...     y = 0.2 * np.sin(3 * x + time)
+        ...     mesh.update(positions=np.c_[x.ravel(), y.ravel(), z.ravel()])
+        >>> mesh.bounds[1].round(2).tolist()
+        [1.0, 0.2, 1.0]
+        """
     @property
     def bounds(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1655,7 +1709,11 @@ class Mesh:
     def colors(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
         ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
+
+        May be set. None: no colours.
         """
+    @colors.setter
+    def colors(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def indices(self) -> numpy.typing.NDArray[numpy.uint32]:
         """
@@ -1665,17 +1723,29 @@ class Mesh:
     def normals(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (V, 3) float32: unit vectors; a read-only view.
+
+        May be set. None: smooth ones, computed now and whenever the positions are set without normals.
         """
+    @normals.setter
+    def normals(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def positions(self) -> numpy.typing.NDArray[numpy.float32]:
         """
-        ndarray (V, 3) float32: a read-only view.
+        ndarray (V, 3) float32: where the vertices are; a read-only view.
+
+        May be set; the normals then behave as `update` says. An array handed out before keeps its values.
         """
+    @positions.setter
+    def positions(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
+
+        May be set. None: no texture coordinates.
         """
+    @uvs.setter
+    def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
 
 class Stencil:
     """
@@ -1949,6 +2019,161 @@ class BasicMaterial(Material):
     @vertex_colors.setter
     def vertex_colors(self, arg1: bool) -> None: ...
 
+class GlassMaterial(Material):
+    """
+    Glass: F * environment(R) + (1 - F) * tint * environment(T).
+
+    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
+    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
+    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+
+    Parameters
+    ----------
+    eta : float
+        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
+    fresnel : bool
+        False: T alone.
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is refracted.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
+    >>> water.fresnel
+    True
+    """
+    def __init__(
+        self: GlassMaterial,
+        eta: typing.SupportsFloat | typing.SupportsIndex = 0.65789473,
+        fresnel: bool = True,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    @property
+    def eta(self) -> float:
+        """
+        float: refractive index outside divided by the one inside.
+        """
+    @eta.setter
+    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fresnel(self) -> bool:
+        """
+        bool: whether part of the light is reflected; False: all is refracted.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: bool) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is refracted.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class MirrorMaterial(Material):
+    """
+    A mirror: env_weight * tint * environment(R) + color_weight * color.
+
+    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
+    the scene's, a CubeMap or a Probe.
+
+    Parameters
+    ----------
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is reflected.
+    env_weight : float
+        Weight of what is reflected, not negative.
+    color : array_like (3,) or (4,)
+        Linear RGB or RGBA that the surface adds.
+    color_weight : float
+        Its weight, not negative.
+    fresnel : float, optional
+        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
+        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+        Rendering", 1994). None: it is not.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
+    >>> gold.env_weight, gold.fresnel
+    (0.78, None)
+    """
+    def __init__(
+        self: MirrorMaterial,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        color: numpy.typing.ArrayLike = (0, 0, 0),
+        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def color_weight(self) -> float:
+        """
+        float: weight of the mirror's own colour.
+        """
+    @color_weight.setter
+    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def env_weight(self) -> float:
+        """
+        float: weight of what is reflected.
+        """
+    @env_weight.setter
+    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fresnel(self) -> float | None:
+        """
+        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is reflected.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
 class PhongMaterial(Material):
     """
     Phong's reflection model.
@@ -2056,161 +2281,6 @@ class PhongMaterial(Material):
         """
     @vertex_colors.setter
     def vertex_colors(self, arg1: bool) -> None: ...
-
-class MirrorMaterial(Material):
-    """
-    A mirror: env_weight * tint * environment(R) + color_weight * color.
-
-    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
-    the scene's, a CubeMap or a Probe.
-
-    Parameters
-    ----------
-    tint : array_like (3,) or (4,)
-        Linear RGB or RGBA, times what is reflected.
-    env_weight : float
-        Weight of what is reflected, not negative.
-    color : array_like (3,) or (4,)
-        Linear RGB or RGBA that the surface adds.
-    color_weight : float
-        Its weight, not negative.
-    fresnel : float, optional
-        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
-        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
-        Rendering", 1994). None: it is not.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
-
-    Raises
-    ------
-    ValueError
-        For a value out of its range or not finite.
-
-    Examples
-    --------
-    >>> import cubecam as cc
-    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
-    >>> gold.env_weight, gold.fresnel
-    (0.78, None)
-    """
-    def __init__(
-        self: MirrorMaterial,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
-        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        color: numpy.typing.ArrayLike = (0, 0, 0),
-        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
-        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        double_sided: bool = False,
-        blend: str | None = None,
-        depth_write: bool | None = None,
-        depth_test: bool = True,
-        color_write: bool | tuple[bool, bool, bool, bool] = True,
-        stencil: Stencil | None = None,
-    ) -> None: ...
-    @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, read-only.
-        """
-    @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
-    @property
-    def color_weight(self) -> float:
-        """
-        float: weight of the mirror's own colour.
-        """
-    @color_weight.setter
-    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def env_weight(self) -> float:
-        """
-        float: weight of what is reflected.
-        """
-    @env_weight.setter
-    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def fresnel(self) -> float | None:
-        """
-        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
-        """
-    @fresnel.setter
-    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
-    @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, times what is reflected.
-        """
-    @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
-
-class GlassMaterial(Material):
-    """
-    Glass: F * environment(R) + (1 - F) * tint * environment(T).
-
-    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
-    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
-    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
-
-    Parameters
-    ----------
-    eta : float
-        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
-    fresnel : bool
-        False: T alone.
-    tint : array_like (3,) or (4,)
-        Linear RGB or RGBA, times what is refracted.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
-
-    Raises
-    ------
-    ValueError
-        For a value out of its range or not finite.
-
-    Examples
-    --------
-    >>> import cubecam as cc
-    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
-    >>> water.fresnel
-    True
-    """
-    def __init__(
-        self: GlassMaterial,
-        eta: typing.SupportsFloat | typing.SupportsIndex = 0.6578947368421053,
-        fresnel: bool = True,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
-        *,
-        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        double_sided: bool = False,
-        blend: str | None = None,
-        depth_write: bool | None = None,
-        depth_test: bool = True,
-        color_write: bool | tuple[bool, bool, bool, bool] = True,
-        stencil: Stencil | None = None,
-    ) -> None: ...
-    @property
-    def eta(self) -> float:
-        """
-        float: refractive index outside divided by the one inside.
-        """
-    @eta.setter
-    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def fresnel(self) -> bool:
-        """
-        bool: whether part of the light is reflected; False: all is refracted.
-        """
-    @fresnel.setter
-    def fresnel(self, arg1: bool) -> None: ...
-    @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, times what is refracted.
-        """
-    @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
 
 class ShaderMaterial(Material):
     """

@@ -39,7 +39,7 @@ using Placing = std::variant<Transform, glm::dmat4>;
 /// Everything a node is but its place in the tree.
 struct NodeValue {
     Placing placing;
-    std::shared_ptr<const Mesh> mesh;    ///< null: a group
+    std::shared_ptr<Mesh> mesh;          ///< null: a group
     std::shared_ptr<Material> material;  ///< set wherever there is a mesh
     CubeSource environment;              ///< none: the scene's
     bool visible = true;

@@ -74,9 +74,9 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
 void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& map, Stats& stats) {
     // All nodes of one mesh in one call: of a caster nothing but its matrix counts. Meshes come in
     // the order of their first node.
-    std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::vector<const MeshData*> meshes;
     std::vector<std::vector<Instance>> nodes;
-    std::map<const Mesh*, std::size_t> places;
+    std::map<const MeshData*, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
     for (const PlannedNode& planned : input.plan.opaque) {
@@ -92,7 +92,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         }
         const auto [place, added] = places.try_emplace(node.mesh.get(), meshes.size());
         if (added) {
-            meshes.push_back(node.mesh);
+            meshes.push_back(node.mesh.get());
             nodes.emplace_back();
         }
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
@@ -120,12 +120,12 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     programs_->shadow().use();
     GLuint first = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const GpuMesh& mesh = cache_->mesh(meshes[m]);
+        const GpuMesh& mesh = cache_->mesh(*meshes[m]);
         const auto count = static_cast<GLsizei>(nodes[m].size());
         gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
                                      sizeof(Instance));
         gl_->BindVertexArray(mesh.array.id());
-        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT,
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
                                                nullptr, count, first);
         first += static_cast<GLuint>(count);
         ++stats.draw_calls;
@@ -137,21 +137,23 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
 void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
                             Stats& stats) {
     const View& from = input.view.views[layer];
-    const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
+    const MaterialTraits& material = node.material.value.traits();
     const glm::dmat4 matrix = glm::translate(from.view_projection, from.position);
     const Instance instance = make_instance(from, reverse_depth(matrix), from.position, layer);
-    const DrawBlock block = make_draw_block(node, from.position, glm::vec3(1.0F));
+    const DrawBlock block = make_draw_block(node, from.position);
     instances_ = gl::create_buffer(*gl_, sizeof(instance), &instance);
     block_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, draw_binding, block_.id());
-    UserProgram& program = programs_->shadow(shader, node.mesh->colors() != nullptr);
-    program.use(shader.inputs, input.look_up(node));
+    UserProgram& program = programs_->user_shadow(material, node.mesh->colors() != nullptr);
+    const std::vector<BoundTexture> textures = input.look_up(node);
+    program.use(*material.user_code->inputs,
+                std::span(textures).subspan(material.user_code->first_texture));
     program.program().use();
-    const GpuMesh& mesh = cache_->mesh(node.mesh);
+    const GpuMesh& mesh = cache_->mesh(*node.mesh);
     gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
                                  sizeof(Instance));
     gl_->BindVertexArray(mesh.array.id());
-    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr,
+    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type, nullptr,
                                            1, 0);
     ++stats.draw_calls;
     stats.triangles += mesh.index_count / 3;
