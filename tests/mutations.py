@@ -212,15 +212,15 @@ MUTATIONS = [
     Mutation(
         "translucent: near to far",
         "cpp/cubecam/render/passes/draw_plan.cpp",
-        "return a.distance > b.distance;",
-        "return a.distance < b.distance;",
+        "key.distance = -key.distance;",
+        "",
         ALPHA,
     ),
     Mutation(
         "translucent: higher order first",
         "cpp/cubecam/render/passes/draw_plan.cpp",
-        "a.order < b.order : before(a, b)",
-        "a.order > b.order : before(a, b)",
+        "SortKey key{node.render_order, 0,",
+        "SortKey key{-node.render_order, 0,",
         ("tests/gl/test_render_order.py",),
     ),
     Mutation(
@@ -275,8 +275,8 @@ MUTATIONS = [
     Mutation(
         "culling: too eager",
         "cpp/cubecam/math/frustum.hpp",
-        "return corners == 8;",
-        "return corners >= 6;",
+        "plane.offset + glm::dot(plane.reach, half);",
+        "plane.offset + 0.0 * glm::dot(plane.reach, half);",
         STATS + CAPTURE,
     ),
     # What a picture depends on.
@@ -285,15 +285,15 @@ MUTATIONS = [
     ),
     Mutation(
         "key: the node's matrix forgotten",
-        DRAWN,
-        "key.add(node.world);",
-        "",
+        "cpp/cubecam/render/resources/picture_key.cpp",
+        "a.material != b.material || a.world != b.world",
+        "a.material != b.material",
         STATS,
     ),
     Mutation(
         "damage: where a node was is left as it is",
         "cpp/cubecam/render/resources/picture_key.cpp",
-        "if (found != old.end()) add(found->second->bounds);",
+        "found.add(a.bounds);",
         "",
         ("tests/gl/test_damage.py",),
     ),
@@ -533,8 +533,8 @@ MUTATIONS = [
     ),
     Mutation(
         "key: shadow maps forgotten",
-        DRAWN,
-        "if (receive_shadow(node)) key.add(shadow_key);",
+        "cpp/cubecam/render/resources/picture_key.cpp",
+        "if (a.receives_shadows && !same_shadows) return false;",
         "",
         SHADOW_MAPS,
     ),

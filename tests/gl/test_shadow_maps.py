@@ -386,6 +386,35 @@ def test_shadow_map_refuses_what_has_none(renderer):
         renderer.shadow_map(scene, scene.nodes[0])
 
 
+def test_a_map_shows_casters_where_a_render_texture_moves_them(renderer):
+    """The texture is brought up to date first, also when the map alone is read."""
+    moved = """uniform sampler2D t;
+    void vertex(inout Vertex v) { v.position.x += textureLod(t, vec2(0.5), 0.0).r; }"""
+    red = cc.Scene(background=(0.25, 0, 0, 1))
+    texture = cc.RenderTexture(red, cc.PerspectiveCamera(), (4, 4), "rgba32f")
+    material = cc.ShaderMaterial(
+        "vec3 shade(Surface s) { return vec3(1); }", moved, textures={"t": texture}
+    )
+    lamp = cc.PointLight((0, 3, 0), shadow=cc.Shadow(32))
+    scene = cc.Scene()
+    scene.add(lamp)
+    scene.add(cc.Mesh.box(0.8), material)
+    for x, drawn in ((0.25, 1), (0.25, 0), (-0.5, 1)):
+        red.background = (x, 0, 0, 1)
+        got = renderer.shadow_map(scene, lamp)
+        assert (renderer.stats.textures_updated, renderer.stats.shadow_views_drawn > 0) == (
+            drawn,
+            drawn == 1,
+        )
+        plain = cc.Scene()
+        plain.add(lamp)
+        plain.add(cc.Mesh.box(0.8), position=(x, 0, 0))
+        want = renderer.shadow_map(plain, lamp)
+        assert np.isfinite(want).any()
+        assert_close(1 / got, 1 / want, "float32_maths")
+        renderer.shadow_map(scene, lamp)
+
+
 # Limits.
 
 
