@@ -432,8 +432,8 @@ MUTATIONS = [
     Mutation(
         "P4: eta upside down",
         "python/cubecam/examples/reflection_and_refraction.py",
-        "eta=eta, fresnel=False",
-        "eta=1 / eta, fresnel=False",
+        "ior=1 / eta, fresnel=False",
+        "ior=eta, fresnel=False",
         ("tests/programs/test_p04_reflection_and_refraction.py",),
     ),
     Mutation(
