@@ -39,6 +39,8 @@ Raises
 ------
 ValueError
     For an unknown word.
+TypeError
+    For what is no word.
 
 Notes
 -----

@@ -113,7 +113,7 @@ assert "MixMaterial" in cc.__all__
 first, second = np.zeros((2, 1, 1, 3), np.float32)
 first[:], second[:] = (1, .5, 0), (0, .25, 1)
 made = pickle.loads(pickle.dumps(cc.MixMaterial(first=first, second=second, share=.25)))
-assert np.array_equal(made.first.array, first) and np.array_equal(made.second.array, second)
+assert np.array_equal(made.first.pixels, first) and np.array_equal(made.second.pixels, second)
 scene = cc.Scene(background=(0, 0, 0, 1))
 scene.add(cc.Mesh.box((4, 4, .1)), made, position=(0, 0, -1))
 with cc.Renderer(device={device!r}) as renderer:
