@@ -279,6 +279,48 @@ MUTATIONS = [
         "plane.offset + 0.0 * glm::dot(plane.reach, half);",
         STATS + CAPTURE,
     ),
+    Mutation(
+        "materials: every texture in the first unit",
+        "cpp/cubecam/render/passes/programs.cpp",
+        "std::to_string(first_material_unit + i)",
+        "std::to_string(first_material_unit)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "materials: the alpha of maps forgotten",
+        "cpp/cubecam/scene/snapshot.cpp",
+        "return texture.alpha_counts && map",
+        "return false && texture.alpha_counts && map",
+        ALPHA,
+    ),
+    Mutation(
+        "glass: the inverse of ior forgotten",
+        "cpp/cubecam/materials/glass.hpp",
+        "glm::vec4(glm::vec3(tint), 1.0F / ior)",
+        "glm::vec4(glm::vec3(tint), ior)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "phong: the model's own ambient light forgotten",
+        "cpp/cubecam/materials/phong.hpp",
+        "(1.0F + ambient)",
+        "ambient",
+        PHONG,
+    ),
+    Mutation(
+        "blend: the alpha's factor is the colour's",
+        RASTER,
+        "gl_factor(factors.src_alpha)",
+        "gl_factor(factors.src)",
+        ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "blend: the equation of the node before stays",
+        RASTER,
+        "gl.BlendEquation(free ? gl_equation(factors.equation) : GL_FUNC_ADD);",
+        "if (free) gl.BlendEquation(gl_equation(factors.equation));",
+        ("tests/gl/test_blending.py",),
+    ),
     # What a picture depends on.
     Mutation(
         "key: lights forgotten", DRAWN, "add_light(common, light.value);", "(void)light;", STATS
@@ -435,8 +477,8 @@ MUTATIONS = [
     Mutation(
         "P4: eta upside down",
         "python/cubecam/examples/reflection_and_refraction.py",
-        "eta=eta, fresnel=False",
-        "eta=1 / eta, fresnel=False",
+        "ior=1 / eta, fresnel=False",
+        "ior=eta, fresnel=False",
         ("tests/programs/test_p04_reflection_and_refraction.py",),
     ),
     Mutation(

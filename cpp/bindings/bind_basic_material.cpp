@@ -34,7 +34,7 @@ TypeError
 Examples
 --------
 >>> import cubecam as cc
->>> cc.BasicMaterial((1, 0, 0, .5))
+>>> cc.BasicMaterial(color=(1, 0, 0, .5))
 BasicMaterial(color=(1, 0, 0, 0.5))
 )doc";
 

@@ -38,7 +38,8 @@ blend=None              how its colour S, of alpha a, joins what is there alread
                         "multiply": (1 - a + a S) D, alpha stays D's;
                         "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
                         is multiplied by their alpha already; opacity and the colour's alpha
-                        multiply both.
+                        multiply both;
+                        a `Blend`: as its factors say.
                         None: "alpha" where anything is translucent, else "opaque"
 depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
                         "opaque"

@@ -58,7 +58,7 @@ A disc as a window: invisible itself, it lets the red plane behind it show withi
 >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
 ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
 >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
->>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
+>>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil("equal", 1))
 >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
 >>> with cc.Renderer() as renderer:
 ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),

@@ -16,6 +16,7 @@ void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
+void bind_blend(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
 void bind_material(pybind11::module_& module);
 void bind_image_effect(pybind11::module_& module);
@@ -81,6 +82,7 @@ PYBIND11_MODULE(_core, module) {
     bind_cubemap(module);
     bind_image(module);
     bind_mesh(module);
+    bind_blend(module);
     bind_stencil(module);
     bind_material(module);
     bind_image_effect(module);

@@ -15,6 +15,7 @@ import numpy.typing
 __all__: list[str] = [
     "AmbientLight",
     "BasicMaterial",
+    "Blend",
     "Camera",
     "ContextError",
     "CubeMap",
@@ -1757,6 +1758,96 @@ class Mesh:
     @uvs.setter
     def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
 
+class Blend:
+    """
+    Blending by OpenGL's own factors, for any material as ``blend=``.
+
+    With S what the surface gives and D what is there, the colour becomes src * S + dst * D, and the alpha
+    src_alpha * S + dst_alpha * D. The colour of S is not multiplied by its alpha; its alpha is the product
+    of opacity and the alphas of colour and map. Formats with limits clamp S, and the result, to 0..1. A
+    surface with a `Blend` is drawn as every blended one is: after the background, far to near, and leaving
+    no depth unless ``depth_write=True``. A Blend never changes; compared by its values.
+
+    Parameters
+    ----------
+    src : str
+        What multiplies S: "zero", "one", "src_color", "one_minus_src_color", "dst_color",
+        "one_minus_dst_color", "src_alpha", "one_minus_src_alpha", "dst_alpha", "one_minus_dst_alpha" or
+        "src_alpha_saturate", which is min(alpha of S, 1 - alpha of D) for colours and 1 for alphas.
+    dst : str
+        What multiplies D.
+    src_alpha, dst_alpha : str, optional
+        The same for the alphas, where "src_color" is the alpha of S. None takes the colour's.
+    equation : {"add", "subtract", "reverse_subtract", "min", "max"}
+        "add" as above; "subtract": src * S - dst * D; "reverse_subtract": dst * D - src * S; "min" and
+        "max" of S and D, channel by channel, whatever the factors.
+
+    Raises
+    ------
+    ValueError
+        For an unknown word.
+
+    Notes
+    -----
+    OpenGL 4.5, section 17.3.6.
+
+    Examples
+    --------
+    The plain pair of many tutorials, which blends the alpha as if it were a colour:
+
+    >>> import cubecam as cc
+    >>> pair = cc.Blend("src_alpha", "one_minus_src_alpha")
+    >>> scene = cc.Scene(background=(0, 0, 1, 1))
+    >>> pane = scene.add(cc.Mesh.box((9, 9, .1)), cc.BasicMaterial(color=(1, 0, 0), opacity=.5, blend=pair))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(8, 8),
+    ...                             format="rgba32f")
+    >>> frame.color[4, 4].tolist()
+    [0.5, 0.0, 0.5, 0.75]
+    """
+    def __eq__(self: Blend, other: Blend) -> bool: ...
+    def __hash__(self: Blend) -> int: ...
+    def __init__(
+        self: Blend,
+        src: str,
+        dst: str,
+        *,
+        src_alpha: str | None = None,
+        dst_alpha: str | None = None,
+        equation: str = "add",
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Blend) -> str: ...
+    def __setstate__(self: Blend, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def dst(self) -> str:
+        """
+        str: what multiplies the colour that is there.
+        """
+    @property
+    def dst_alpha(self) -> str:
+        """
+        str: what multiplies the alpha that is there.
+        """
+    @property
+    def equation(self) -> str:
+        """
+        str: what becomes of both products.
+        """
+    @property
+    def src(self) -> str:
+        """
+        str: what multiplies the surface's colour.
+        """
+    @property
+    def src_alpha(self) -> str:
+        """
+        str: what multiplies the surface's alpha.
+        """
+
 class Stencil:
     """
     A stencil test, and what drawing does to the stencil buffer.
@@ -1805,7 +1896,7 @@ class Stencil:
     >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
     ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
     >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
-    >>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
+    >>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil("equal", 1))
     >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
     >>> with cc.Renderer() as renderer:
     ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),
@@ -1884,7 +1975,8 @@ class Material:
                             "multiply": (1 - a + a S) D, alpha stays D's;
                             "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
                             is multiplied by their alpha already; opacity and the colour's alpha
-                            multiply both.
+                            multiply both;
+                            a `Blend`: as its factors say.
                             None: "alpha" where anything is translucent, else "opaque"
     depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
                             "opaque"
@@ -1905,12 +1997,12 @@ class Material:
         For unpickling.
         """
     @property
-    def blend(self) -> str | None:
+    def blend(self) -> str | Blend | None:
         """
-        str or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply" or "premultiplied"; see `Material`. None: "alpha" where anything is translucent, else "opaque".
+        str, Blend or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied" or a `Blend`; see `Material`. None: "alpha" where anything is translucent, else "opaque".
         """
     @blend.setter
-    def blend(self, arg1: str | None) -> None: ...
+    def blend(self, arg1: str | Blend | None) -> None: ...
     @property
     def color_write(self) -> tuple[bool, bool, bool, bool]:
         """
@@ -1982,19 +2074,19 @@ class BasicMaterial(Material):
     Examples
     --------
     >>> import cubecam as cc
-    >>> cc.BasicMaterial((1, 0, 0, .5))
+    >>> cc.BasicMaterial(color=(1, 0, 0, .5))
     BasicMaterial(color=(1, 0, 0, 0.5))
     """
     def __init__(
         self: BasicMaterial,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2039,8 +2131,9 @@ class GlassMaterial(Material):
 
     Parameters
     ----------
-    eta : float
-        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
+    ior : float
+        Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
+        water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
     fresnel : bool
         False: T alone.
     tint : array_like (3,) or (4,)
@@ -2056,31 +2149,24 @@ class GlassMaterial(Material):
     Examples
     --------
     >>> import cubecam as cc
-    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
-    >>> water.fresnel
-    True
+    >>> water = cc.GlassMaterial(ior=1.33, tint=(.8, .9, 1))
+    >>> water
+    GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
     """
     def __init__(
         self: GlassMaterial,
-        eta: typing.SupportsFloat | typing.SupportsIndex = 0.65789473,
+        *,
+        ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
         tint: numpy.typing.ArrayLike = (1, 1, 1),
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
     ) -> None: ...
-    @property
-    def eta(self) -> float:
-        """
-        float: refractive index outside divided by the one inside.
-        """
-    @eta.setter
-    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def fresnel(self) -> bool:
         """
@@ -2088,6 +2174,13 @@ class GlassMaterial(Material):
         """
     @fresnel.setter
     def fresnel(self, arg1: bool) -> None: ...
+    @property
+    def ior(self) -> float:
+        """
+        float: refractive index inside divided by the one outside.
+        """
+    @ior.setter
+    def ior(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tint(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -2113,9 +2206,9 @@ class MirrorMaterial(Material):
         Linear RGB or RGBA that the surface adds.
     color_weight : float
         Its weight, not negative.
-    fresnel : float, optional
-        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
-        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+    f0 : float, optional
+        The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
+        f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
         Rendering", 1994). None: it is not.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
         As of every `Material`.
@@ -2129,20 +2222,20 @@ class MirrorMaterial(Material):
     --------
     >>> import cubecam as cc
     >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
-    >>> gold.env_weight, gold.fresnel
+    >>> gold.env_weight, gold.f0
     (0.78, None)
     """
     def __init__(
         self: MirrorMaterial,
+        *,
         tint: numpy.typing.ArrayLike = (1, 1, 1),
         env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         color: numpy.typing.ArrayLike = (0, 0, 0),
         color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
+        f0: typing.SupportsFloat | typing.SupportsIndex | None = None,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2170,12 +2263,12 @@ class MirrorMaterial(Material):
     @env_weight.setter
     def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def fresnel(self) -> float | None:
+    def f0(self) -> float | None:
         """
-        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
+        float or None: the reflectance seen head-on, from 0 to 1; None reflects evenly.
         """
-    @fresnel.setter
-    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @f0.setter
+    def f0(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
     def tint(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -2226,6 +2319,7 @@ class PhongMaterial(Material):
     """
     def __init__(
         self: PhongMaterial,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
@@ -2233,10 +2327,9 @@ class PhongMaterial(Material):
         shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
         map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         vertex_colors: bool = False,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2359,7 +2452,8 @@ class ShaderMaterial(Material):
     ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
     ``environment_lod(direction, level)`` at a level of its mipmaps.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
-    the light) and ``radiance``; ``vec3 ambient_light()``.
+    the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
+    ambient lights.
     ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
     ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
 
@@ -2402,14 +2496,14 @@ class ShaderMaterial(Material):
     def __init__(
         self: ShaderMaterial,
         fragment: str | typing.Any | None,
+        *,
         vertex: str | typing.Any | None = None,
         uniforms: dict[str, typing.Any] | None = None,
         textures: dict[str, typing.Any] | None = None,
         displacement: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,

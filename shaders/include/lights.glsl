@@ -9,7 +9,7 @@ struct Light {
 
 layout(std140, binding = 1) uniform Lights {
     ivec4 u_counts;   // x: number of lights
-    vec4 u_ambient;   // rgb: 1, the models' own ambient light, plus the scene's
+    vec4 u_ambient;   // rgb: the scene's ambient lights
     Light u_lights[MAX_LIGHTS];
 };
 

@@ -161,7 +161,7 @@ def test_rgb565_values_are_the_quantised_ones(any_path):
         color = np.array([level // 2 / 31, level / 63, 1 - level // 2 / 31])
         off = color + 0.3 / 63 * (-1) ** level  # not on a level, and on this side of the boundary
         scene = cc.Scene(background=np.clip(off, 0, 1))
-        box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color), position=(0.2, 0.1, -2))
+        box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=color), position=(0.2, 0.1, -2))
         cube = any_path.capture(scene, size=8, format="rgb565", outputs=("id",))
         want = np.where(cube.id[..., None] == box.id, as_565(color), as_565(off))
         assert cube.faces.dtype == np.uint8
@@ -188,7 +188,7 @@ def test_rgb565_has_no_alpha(renderer):
         0,
         255,
     ]
-    pane = cc.BasicMaterial((0, 0, 1), opacity=16 / 31, double_sided=True)
+    pane = cc.BasicMaterial(color=(0, 0, 1), opacity=16 / 31, double_sided=True)
     scene.add(cc.Mesh.plane(9, 9), pane, position=(0, -1, 0))
     faces = renderer.capture(scene, size=2, format="rgb565").faces
     np.testing.assert_array_equal(faces[3, 0, 0], as_565(np.array([15, 0, 16]) / 31))
@@ -315,8 +315,10 @@ def test_other_outputs_do_not_hang_on_the_depth_format(renderer, depth_format):
 def test_sixteen_bits_cannot_tell_far_things_apart(renderer):
     """Two walls a hundredth of a unit apart, 50 units away: a step there is far more."""
     scene = cc.Scene()
-    far = scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial((1, 0, 0)), position=(0, 0, -51))
-    scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial((0, 1, 0)), position=(0, 0, -50.99))
+    far = scene.add(
+        cc.Mesh.box((99, 99, 1)), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, -51)
+    )
+    scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial(color=(0, 1, 0)), position=(0, 0, -50.99))
     far.render_order = -1
     camera = cc.PerspectiveCamera(fov=60, near=0.1, far=1000)
     seen = {
@@ -473,7 +475,7 @@ def test_the_painter_in_captures_and_probes(new_renderer, depth_format):
 
 def test_the_sky_is_behind_the_painter(renderer):
     scene = cc.Scene(background=cc.CubeMap(smooth_environment(8)))
-    scene.add(cc.Mesh.box(1), cc.BasicMaterial((1, 0, 0)), position=(0, 0, -3))
+    scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, -3))
     camera = cc.PerspectiveCamera(fov=50)
     a, b = (
         renderer.render(scene, camera, (32, 24), depth_format=name).color

@@ -220,7 +220,7 @@ def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
         cc.RenderTexture(room, flat_camera(9, 6), (9, 6), "rgba32f", name=name)
         for name in ("left", "right")
     )
-    room.add(quad(2, 2), cc.BasicMaterial((0, 1, 0)), position=(6, 4, -1))
+    room.add(quad(2, 2), cc.BasicMaterial(color=(0, 1, 0)), position=(6, 4, -1))
     a = room.add(quad(4, 3), cc.BasicMaterial(map=left))
     b = room.add(quad(4, 3), cc.BasicMaterial(map=right), position=(5, 0, 0))
     left.exclude = [a]
@@ -341,7 +341,7 @@ def from_aside(renderer, scene):
 def test_by_the_shadow_of_what_it_moves(any_path):
     """Left out of the texture it still casts there; not so without its shadow, or where none is received."""
     scene, floor, above = lamp_and_floor()
-    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, MOVED, textures={"t": above}))
+    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, vertex=MOVED, textures={"t": above}))
     above.exclude = [box]
     text = 'RenderTexture "above" shows itself: "above" -> "above"' + BY_SHADOW
     with pytest.raises(ValueError, match="shows itself") as error:
@@ -361,7 +361,7 @@ def test_a_probe_by_the_shadow_of_what_it_moves(renderer):
     scene, _, _ = lamp_and_floor()
     probe = cc.Probe(position=(0, 1, 0), size=8)
     box = scene.add(
-        cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, MOVED_BY_CUBE, textures={"t": probe})
+        cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, vertex=MOVED_BY_CUBE, textures={"t": probe})
     )
     way = f"the probe of node {box.id}"
     with pytest.raises(ValueError, match="shows itself") as error:
@@ -377,7 +377,9 @@ def test_what_only_colours_a_moved_caster_is_no_circle(any_path, kind):
     coordinate = "s.uv" if kind == "sampler2D" else "s.normal"
     fragment = f"uniform {kind} t; vec3 shade(Surface s) {{ return texture(t, {coordinate}).rgb; }}"
     wave = "void vertex(inout Vertex v) { v.position.y += 0.1; }"
-    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(fragment, wave, textures={"t": source}))
+    box = scene.add(
+        cc.Mesh.box(0.8), cc.ShaderMaterial(fragment, vertex=wave, textures={"t": source})
+    )
     above.exclude = [box]
     first = from_aside(any_path, scene)
     assert_identical(from_aside(any_path, scene), first)

@@ -62,7 +62,9 @@ def test_it_holds_what_a_frame_of_its_scene_shows(any_path, fmt, samples):
     inner_scene = cc.Scene(background=(0.2, 0.4, 0.1, 0.5))
     inner_scene.add(cc.PointLight(position=(3, 4, 5)))
     inner_scene.add(cc.Mesh.sphere(1), cc.PhongMaterial(color=(1, 0.3, 0.2)), position=(0.3, 0, 0))
-    inner_scene.add(cc.Mesh.box(0.7), cc.BasicMaterial((0, 1, 0, 0.5)), position=(-0.6, 0.2, 1))
+    inner_scene.add(
+        cc.Mesh.box(0.7), cc.BasicMaterial(color=(0, 1, 0, 0.5)), position=(-0.6, 0.2, 1)
+    )
     camera = cc.PerspectiveCamera(fov=50, position=(0, 1, 4), target=(0, 0, 0))
     texture = cc.RenderTexture(inner_scene, camera, size=(20, 14), format=fmt, samples=samples)
     look(any_path, screen_scene(texture)[0])
@@ -254,7 +256,7 @@ def test_setting_equal_values_changes_nothing(renderer):
 def test_only_the_pixels_that_show_it_are_drawn_again(renderer):
     texture = flat_texture(PICTURE)
     scene, _ = screen_scene(texture)
-    far = scene.add(cc.Mesh.box(0.5), cc.BasicMaterial((1, 0, 0)), position=(30, 3, 0))
+    far = scene.add(cc.Mesh.box(0.5), cc.BasicMaterial(color=(1, 0, 0)), position=(30, 3, 0))
     look(renderer, scene, 40, 6)
     texture.scene.background = (0, 1, 0)
     look(renderer, scene, 40, 6)
@@ -290,8 +292,8 @@ def test_exclude_covers_subtrees_and_forgets_the_dead(renderer):
     texture = flat_texture(PICTURE)
     inner_scene = texture.scene
     cover = inner_scene.add(position=(0, 0, 1))
-    inner_scene.add(quad(9, 3), cc.BasicMaterial((1, 0, 0)), parent=cover)
-    other = inner_scene.add(quad(9, 1), cc.BasicMaterial((0, 1, 0)), position=(0, 5, 1))
+    inner_scene.add(quad(9, 3), cc.BasicMaterial(color=(1, 0, 0)), parent=cover)
+    other = inner_scene.add(quad(9, 1), cc.BasicMaterial(color=(0, 1, 0)), position=(0, 5, 1))
     scene, _ = screen_scene(texture)
     texture.exclude = [cover, scene.nodes[0]]  # a node of another scene is none of its own
     want = PICTURE.copy()
@@ -432,7 +434,9 @@ def test_probes_and_mirrors_show_this_frames_texture(any_path):
 
 def test_a_textures_scene_may_hold_mirrors_with_probes(any_path, new_renderer):
     inner_scene = cc.Scene(background=(0.1, 0.2, 0.3))
-    box = inner_scene.add(cc.Mesh.box(0.5), cc.BasicMaterial((1, 0, 0)), position=(1.2, 0, 0.8))
+    box = inner_scene.add(
+        cc.Mesh.box(0.5), cc.BasicMaterial(color=(1, 0, 0)), position=(1.2, 0, 0.8)
+    )
     ball = inner_scene.add(cc.Mesh.sphere(0.6), cc.MirrorMaterial())
     ball.environment = cc.Probe(size=16, format="rgba32f")
     camera = cc.PerspectiveCamera(fov=50, position=(0, 0.5, 3), target=(0, 0, 0))
@@ -521,7 +525,7 @@ def test_one_probe_in_two_scenes_of_a_call_is_true_to_each(renderer, new_rendere
 def monitor_room():
     """A room, and a monitor in it that shows the room without the monitor."""
     scene = cc.Scene(background=(0.1, 0.1, 0.3))
-    box = scene.add(cc.Mesh.box(0.6), cc.BasicMaterial((1, 0.2, 0)), position=(-0.8, 0, 0))
+    box = scene.add(cc.Mesh.box(0.6), cc.BasicMaterial(color=(1, 0.2, 0)), position=(-0.8, 0, 0))
     texture = cc.RenderTexture(
         scene,
         cc.PerspectiveCamera(fov=60, position=(0.5, 1, 3), target=(0, 0, 0)),

@@ -32,7 +32,7 @@ def card(scene, rect, z, color, stencil, order, **more):
     x0, y0, x1, y1 = rect
     return scene.add(
         cc.Mesh.plane(x1 - x0, y1 - y0),
-        cc.BasicMaterial(color, stencil=stencil, **more),
+        cc.BasicMaterial(color=color, stencil=stencil, **more),
         position=((x0 + x1) / 2, (y0 + y1) / 2, z),
         rotation=UPRIGHT,
         render_order=order,
@@ -140,14 +140,14 @@ def disc_and_plane(func, depth_first=-1):
         cc.Mesh.icosphere(0.8, subdivisions=3),
         (0.2, 1, 0.3),
         material=cc.BasicMaterial(
-            (0.2, 1, 0.3), stencil=cc.Stencil(reference=5, depth_pass="replace")
+            color=(0.2, 1, 0.3), stencil=cc.Stencil(reference=5, depth_pass="replace")
         ),
         position=(0.3, -0.2, -1),
     ).render_order = depth_first
     world.box(
         (2.4, 2, 0.2),
         (1, 0.2, 0.1),
-        material=cc.BasicMaterial((1, 0.2, 0.1), stencil=cc.Stencil(func, 5)),
+        material=cc.BasicMaterial(color=(1, 0.2, 0.1), stencil=cc.Stencil(func, 5)),
         position=(-0.3, 0.1, 0.6),
         degrees=20,
     )
@@ -198,7 +198,7 @@ def test_a_window_leaves_nothing_of_itself(any_path, samples):
         stencil=cc.Stencil(reference=5, depth_pass="replace"),
     )
     world.mesh(cc.Mesh.icosphere(0.8, subdivisions=3), material=hole, position=(-0.4, -0.2, 1.2))
-    seen = cc.BasicMaterial((1, 0.2, 0.1), stencil=cc.Stencil("equal", 5))
+    seen = cc.BasicMaterial(color=(1, 0.2, 0.1), stencil=cc.Stencil("equal", 5))
     world.box((2.4, 2, 0.2), (1, 0.2, 0.1), material=seen, position=(0.3, 0.1, 0), degrees=20)
     world.scene.nodes[0].render_order = -1
     frame = any_path.render(

@@ -179,7 +179,8 @@ def test_a_thing_that_one_eye_sees(renderer):
     """Eyes that look away from each other: each has its own nodes in its key."""
     scene = cc.Scene()
     nodes = [
-        scene.add(cc.Mesh.box(1), cc.BasicMaterial((1, 0, 0)), position=(x, 0, 0)) for x in (-9, 9)
+        scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0, 0)), position=(x, 0, 0))
+        for x in (-9, 9)
     ]
     eyes = cc.StereoCamera(
         *[cc.PerspectiveCamera(fov=40, position=(0, 0, 0.1), target=(x, 0, 0)) for x in (-9, 9)]

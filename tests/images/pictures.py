@@ -30,7 +30,7 @@ def draw_materials(renderer):
         cc.BasicMaterial(color=(0.9, 0.3, 0.1)),
         cc.PhongMaterial(color=(0.2, 0.5, 0.9)),
         cc.MirrorMaterial(tint=(1, 0.9, 0.7)),
-        cc.GlassMaterial(),
+        cc.GlassMaterial(ior=1.52),
     ]
     for index, material in enumerate(materials):
         scene.add(

@@ -65,7 +65,7 @@ def test_numbers_of_the_document():
     material = program.ball.material
     assert (material.env_weight, material.color_weight) == (0.78, 0.3)
     np.testing.assert_allclose(material.color[:3], GOLD)
-    assert material.fresnel is None
+    assert material.f0 is None
 
 
 def test_one_round(renderer):

@@ -42,7 +42,7 @@ def test_frames(renderer, frame, eta):
 
 def test_numbers():
     program = example.build()
-    assert program.glass.material.eta == pytest.approx(1 / 1.52)
+    assert program.glass.material.ior == pytest.approx(1.52)
     assert not program.glass.material.fresnel
     assert [probe.size for probe in program.probes] == [256, 256]
     assert [probe.format for probe in program.probes] == ["rgba8", "rgba8"]

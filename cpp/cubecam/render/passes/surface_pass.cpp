@@ -39,7 +39,7 @@ struct LightBlock {
 
 struct LightsBlock {
     glm::ivec4 counts{0};
-    glm::vec4 ambient{1.0F};
+    glm::vec4 ambient{0.0F};
     LightBlock lights[max_lights];
 };
 
@@ -69,7 +69,7 @@ SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering l
 
 void SurfacePass::upload_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin) {
     LightsBlock block;
-    ambient_ = glm::vec3(1.0F);
+    ambient_ = glm::vec3(0.0F);
     light_count_ = 0;
     light_decay_ = false;
     light_cone_ = false;
@@ -338,7 +338,9 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
         traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
     variant.double_sided = material.surface.double_sided;
     if (outputs) variant.outputs = outputs_;
-    variant.blend = node.blend == Blend::alpha_keep ? Blend::alpha : node.blend;
+    // These want nothing else of the shader than "alpha" does.
+    const bool as_alpha = node.blend == Blend::alpha_keep || node.blend == Blend::factors;
+    variant.blend = as_alpha ? Blend::alpha : node.blend;
     variant.dense = node.mesh->triangles()->size() >= dense_triangles;
     if (traits.user_code) {
         variant.moved = traits.moves_vertices();

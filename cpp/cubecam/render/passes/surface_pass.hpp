@@ -104,7 +104,7 @@ private:
     Layering layering_;
     gl::Texture black_;  ///< a cube of one texel: what is reflected where there is no environment
     gl::Buffer instances_, blocks_, lights_, shadows_;
-    glm::vec3 ambient_{1.0F};
+    glm::vec3 ambient_{0.0F};  ///< of the ambient lights
     std::size_t light_count_ = 0;
     std::size_t shadow_count_ = 0;    ///< of the lights, which come first
     std::uint32_t shadow_kinds_ = 0;  ///< see SurfaceVariant
