@@ -389,8 +389,8 @@ MUTATIONS = [
     Mutation(
         "openexr cube copied, not resampled",
         "python/cubecam/io/cubemap_save.py",
-        'picture = source.to_layout("openexr", "inside")',
-        'picture = source.to_layout("column", "inside")',
+        'picture = source.to_layout("openexr", dtype=resampled)',
+        'picture = source.to_layout("column", convention="inside")',
         ("tests/unit/test_cubemap_files.py",),
     ),
     Mutation(

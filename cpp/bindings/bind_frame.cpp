@@ -37,7 +37,8 @@ py::tuple state_of(const PyFrame& frame) {
                           frame.normal, frame.position, frame.id, frame.depth, frame.stencil);
 }
 
-PyFrame frame_from(const py::tuple& state) {
+PyFrame frame_from(const py::tuple& closed) {
+    const py::tuple state = bindings::opened_state(closed);
     PyFrame frame;
     frame.width = state[0].cast<int>();
     frame.height = state[1].cast<int>();
@@ -104,7 +105,7 @@ Examples
              })
         .def("__reduce__", [](const PyFrame& frame) -> py::tuple {
             const py::object restore = py::module_::import("cubecam._core").attr("_restore_frame");
-            return py::make_tuple(restore, py::make_tuple(state_of(frame)));
+            return py::make_tuple(restore, py::make_tuple(bindings::closed_state(state_of(frame))));
         });
     m.def("_restore_frame", &frame_from, py::arg("state"), "For unpickling.");
 }

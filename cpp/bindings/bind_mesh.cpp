@@ -127,7 +127,7 @@ void bind_mesh(pybind11::module_& module) {
     namespace py = pybind11;
 
     auto mesh = declare<Mesh>(module, "Mesh", mesh_doc);
-    mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"),
+    mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"), py::kw_only(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none());
     bind_primitives(mesh);
@@ -165,8 +165,7 @@ void bind_mesh(pybind11::module_& module) {
     mesh.def("__repr__", &represent_mesh);
     mesh.def("__reduce__", [](const py::object& self) {
         return reduced(self,
-                       py::make_tuple(self.attr("positions"), self.attr("indices"),
-                                      self.attr("normals"), self.attr("uvs"), self.attr("colors")));
+                       attributes_of(self, "positions", "indices", "normals", "uvs", "colors"));
     });
     // What never changes need not be copied.
     mesh.def("__copy__", [](const py::object& self) { return self; });

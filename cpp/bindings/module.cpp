@@ -1,4 +1,5 @@
 // The extension module cubecam._core.
+#include "arguments.hpp"
 #include "objects.hpp"
 
 #include "cubecam/scene/node.hpp"
@@ -9,6 +10,7 @@
 #include <pybind11/pybind11.h>
 
 // One a topic, each in the file of its name.
+void bind_pickling(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
@@ -51,6 +53,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which has all of it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    bind_pickling(module);
     bind_errors(module);
     bind_device(module);
     // Signatures name the classes that are declared by then, and these lead to each other.
@@ -75,4 +78,5 @@ PYBIND11_MODULE(_core, module) {
     bind_scene(module);
     bind_renderer(module);
     refuse_pickling(module);
+    cubecam::bindings::explain_all_arguments(module);
 }

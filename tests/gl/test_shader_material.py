@@ -128,10 +128,12 @@ LIGHTS = {
 
 def product_light(light):
     if isinstance(light, shading.Point):
-        return cc.PointLight(light.position, light.color, light.intensity, light.decay)
+        return cc.PointLight(
+            light.position, color=light.color, intensity=light.intensity, decay=light.decay
+        )
     if isinstance(light, shading.Directional):
-        return cc.DirectionalLight(light.travels, light.color, light.intensity)
-    return cc.AmbientLight(light.color, light.intensity)
+        return cc.DirectionalLight(light.travels, color=light.color, intensity=light.intensity)
+    return cc.AmbientLight(color=light.color, intensity=light.intensity)
 
 
 @pytest.mark.parametrize("lights", LIGHTS.values(), ids=LIGHTS)
