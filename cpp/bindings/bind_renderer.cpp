@@ -338,6 +338,8 @@ Raises
 ------
 ValueError
     For a probe that no visible node uses.
+ContextError
+    After :meth:`close`, or in a forked process.
 )")
         .def(
             "read_probe",
@@ -348,10 +350,34 @@ ValueError
             py::arg("probe"),
             R"(What a probe holds now, in the probe's format.
 
+Parameters
+----------
+probe : Probe
+    One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+Returns
+-------
+CubeMap
+    A copy; uint8, float16 or float32, faces (6, size, size, 4).
+
 Raises
 ------
 ValueError
     If this renderer has not drawn it yet.
+ContextError
+    After :meth:`close`, or in a forked process.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene(background="teal")
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+>>> ball.environment = cc.Probe(size=8)
+>>> with cc.Renderer() as renderer:
+...     renderer.update_probes(scene)
+...     held = renderer.read_probe(ball.environment)
+>>> held.faces.shape, held.sample((1, 0, 0)).round(3).tolist()
+((6, 8, 8, 4), [0.0, 0.216, 0.216, 1.0])
 )")
         .def(
             "read_texture",
