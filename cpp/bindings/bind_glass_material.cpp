@@ -21,7 +21,7 @@ ior : float
     water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
 fresnel : bool
     False: T alone.
-tint : array_like (3,) or (4,)
+tint : array_like (3,) or (4,), or str
     Linear RGB or RGBA, times what is refracted.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.

@@ -22,8 +22,8 @@ constexpr const char* material_doc =
     R"doc(Base of the materials: how a surface answers light.
 
 A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
-numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
-opaque is blended over what lies behind it.
+numbers, linear, or the name of a CSS colour or "#rrggbb", which say sRGB; a fourth number, from 0 to
+1, multiplies `opacity`. What is not fully opaque is blended over what lies behind it.
 
 Every material takes these by keyword, and has them as attributes:
 

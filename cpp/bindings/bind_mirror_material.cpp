@@ -15,11 +15,11 @@ the scene's, a CubeMap or a Probe.
 
 Parameters
 ----------
-tint : array_like (3,) or (4,)
+tint : array_like (3,) or (4,), or str
     Linear RGB or RGBA, times what is reflected.
 env_weight : float
     Weight of what is reflected, not negative.
-color : array_like (3,) or (4,)
+color : array_like (3,) or (4,), or str
     Linear RGB or RGBA that the surface adds.
 color_weight : float
     Its weight, not negative.

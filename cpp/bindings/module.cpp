@@ -1,4 +1,5 @@
 // The extension module cubecam._core.
+#include "arguments.hpp"
 #include "objects.hpp"
 
 #include "cubecam/scene/node.hpp"
@@ -11,6 +12,7 @@
 #include <string>
 
 // One a topic, each in the file of its name.
+void bind_pickling(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
@@ -71,6 +73,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which has all of it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    bind_pickling(module);
     bind_errors(module);
     bind_device(module);
     // Signatures name the classes that are declared by then, and these lead to each other.
@@ -97,4 +100,5 @@ PYBIND11_MODULE(_core, module) {
     bind_renderer(module);
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
+    cubecam::bindings::explain_all_arguments(module);
 }

@@ -290,7 +290,7 @@ class Probe:
 
     It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
     to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
-    (``renderer.cubemap(probe)``) and draws again only the faces that would come out different. Nodes
+    (``renderer.read_probe(probe)``) and draws again only the faces that would come out different. Nodes
     that use a probe are left out of it.
 
     Parameters
@@ -309,7 +309,7 @@ class Probe:
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     update : {"on_change", "once", "manual"} or int
         "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
-        by ``renderer.update``. n: on every n-th call that needs it.
+        by ``renderer.update_probes``. n: on every n-th call that needs it.
     exclude : iterable of Node
         What it does not see, whole subtrees, beside the nodes that use it.
     parent : Node, optional
@@ -338,6 +338,7 @@ class Probe:
     def __init__(
         self: Probe,
         position: numpy.typing.ArrayLike = (0, 0, 0),
+        *,
         size: typing.SupportsInt | typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
@@ -447,7 +448,7 @@ class RenderTexture:
 
     It is only a description, and may serve any number of materials in any number of scenes: give it as
     the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
-    (``renderer.texture(render_texture)``), brings them up to date before what shows them, and draws
+    (``renderer.read_texture(render_texture)``), brings them up to date before what shows them, and draws
     them again only if the picture would come out different.
 
     Parameters
@@ -507,7 +508,7 @@ class RenderTexture:
     ...         hand.rotation = cc.axis_angle((0, 0, 1), -degrees)
     ...         frame = renderer.render(scene, camera, size=(64, 48))  # shows the hand as it is now
     ...     drawn = renderer.stats.textures_updated
-    ...     picture = renderer.texture(face)
+    ...     picture = renderer.read_texture(face)
     >>> picture.shape, drawn
     ((64, 64, 4), 1)
     """
@@ -515,6 +516,7 @@ class RenderTexture:
         self: RenderTexture,
         scene: Scene,
         camera: Camera,
+        *,
         size: tuple[int, int] = (512, 512),
         format: str = "rgba8",
         samples: int = 1,
@@ -619,9 +621,9 @@ class Scene:
     ----------
     environment : CubeMap, optional
         What mirrors and glass show; see `load_environment`.
-    background : array_like (3,) or (4,), or CubeMap, optional
-        What is seen where nothing is: a linear colour, or a cubemap as skybox. None: the environment
-        if there is one, else transparent black.
+    background : array_like (3,) or (4,), str, or CubeMap, optional
+        What is seen where nothing is: a colour, or a cubemap as skybox. Numbers are linear; a CSS name or
+        "#rrggbb" says sRGB and is decoded. None: the environment if there is one, else transparent black.
 
     Raises
     ------
@@ -652,6 +654,7 @@ class Scene:
         """
     def __init__(
         self: Scene,
+        *,
         environment: CubeMap | None = None,
         background: numpy.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
@@ -872,10 +875,12 @@ class CubeMap:
     @staticmethod
     def from_equirect(
         image: typing.Any,
+        *,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
-        mipmaps: bool = False,
         sampling: str = "centers",
+        mipmaps: bool = False,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         A cube from a panorama.
@@ -892,31 +897,43 @@ class CubeMap:
             Of a face; by default the next power of two from W / pi, which loses nothing.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
             The axis at the center column.
-        mipmaps : bool, default False
-            Of the new cube.
         sampling : {"centers", "borders"}, default "centers"
             Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) will do.
+        mipmaps : bool, default False
+            Of the new cube.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            float32.
+            In `dtype`, rounded as `to_equirect` does.
+
+        Raises
+        ------
+        ValueError
+            An image that is not twice as wide as high, NaN, a size below 1, an unknown center or sampling,
+            another dtype.
+        TypeError
+            An image of bool, complex, text, or integers other than uint8.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-        CubeMap(size=64, channels=3, dtype=float32, mipmaps=False)
+        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
         """
     @staticmethod
     def from_layout(
         image: typing.Any,
+        *,
         layout: str | None = None,
         convention: str = "gl",
-        mipmaps: bool = False,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
+        mipmaps: bool = False,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         A cube from one picture of all faces, the inverse of `to_layout`.
@@ -929,15 +946,17 @@ class CubeMap:
             vertical_cross, 6:1 row, 1:6 column, 2:1 equirect. Shape never tells the convention.
         convention : {"gl", "inside", "three"}, default "gl"
             Of the faces in `image`.
-        mipmaps : bool, default False
-            Of the new cube.
         size, center
             As in `from_equirect`, for "equirect" only.
+        mipmaps : bool, default False
+            Of the new cube.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            In the dtype of `image`; float32 from "equirect" and "openexr".
+            In `dtype`, rounded as `to_equirect` does.
 
         Raises
         ------
@@ -959,7 +978,7 @@ class CubeMap:
         """
     def __getstate__(self: CubeMap) -> tuple: ...
     def __init__(
-        self: CubeMap, faces: typing.Any, convention: str = "gl", mipmaps: bool = False
+        self: CubeMap, faces: typing.Any, *, convention: str = "gl", mipmaps: bool = False
     ) -> None: ...
     def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
     def __reduce__(self) -> tuple: ...
@@ -973,19 +992,32 @@ class CubeMap:
         """
         An independent cubemap with the same contents.
         """
-    def resize(self: CubeMap, size: typing.SupportsInt | typing.SupportsIndex) -> CubeMap:
+    def resize(
+        self: CubeMap,
+        size: typing.SupportsInt | typing.SupportsIndex,
+        *,
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> CubeMap:
         """
         The same cube with faces of another size.
 
         Parameters
         ----------
         size : int
-            Shrinking averages the area of each texel; enlarging is bilinear and seamless.
+            Texels along an edge. Shrinking averages the area of each texel; enlarging is bilinear and
+            seamless.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
         CubeMap
-            Of the same dtype and mipmaps, without captured outputs.
+            In `dtype`, rounded as `to_equirect` does, with the same mipmaps, without captured outputs.
+
+        Raises
+        ------
+        ValueError
+            A size below 1, or another dtype.
 
         Examples
         --------
@@ -994,7 +1026,7 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
         """
-    def sample(self: CubeMap, directions: typing.Any, lod: typing.Any = 0.0) -> numpy.ndarray:
+    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> numpy.ndarray:
         """
         Look directions up, seamlessly and bilinearly.
 
@@ -1032,6 +1064,7 @@ class CubeMap:
     def save(
         self,
         path: str | os.PathLike[str] | collections.abc.Sequence[str | os.PathLike[str]],
+        *,
         layout: str | None = None,
         convention: str | None = None,
         width: int | None = None,
@@ -1080,7 +1113,7 @@ class CubeMap:
         True
         """
     def set_face(
-        self: CubeMap, face: typing.Any, pixels: typing.Any, convention: str = "gl"
+        self: CubeMap, face: typing.Any, pixels: typing.Any, *, convention: str = "gl"
     ) -> None:
         """
         Replace one face.
@@ -1125,7 +1158,8 @@ class CubeMap:
         Returns
         -------
         ndarray (6, N, N, C) in `dtype`
-            A copy, yours to write. ``CubeMap(array, convention)`` gives this cube back exactly.
+            A copy, yours to write. ``CubeMap(array, convention=convention)`` gives this cube
+            back exactly.
 
         Examples
         --------
@@ -1137,9 +1171,11 @@ class CubeMap:
         """
     def to_equirect(
         self: CubeMap,
+        *,
         width: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         sampling: str = "centers",
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> numpy.ndarray:
         """
         The panorama that this cube holds.
@@ -1156,20 +1192,36 @@ class CubeMap:
         sampling : {"centers", "borders"}, default "centers"
             Where samples lie. "borders": the first and last row and column lie on the edges, as in
             OpenEXR's latitude-longitude maps.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
-        ndarray (width / 2, width, C) float32
-            Yours to write. uint8 as value/255.
+        ndarray (width / 2, width, C) in `dtype`
+            Yours to write. Filtered in float32, with uint8 as value/255, then rounded to nearest; uint8 holds
+            0 to 1, and what lies outside becomes 0 or 255; float16 holds up to 65504, and what is more
+            becomes inf.
+
+        Raises
+        ------
+        ValueError
+            A width that is not even and positive, an unknown center or sampling, another dtype.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
-        >>> cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z").shape
-        (32, 64, 4)
+        >>> panorama = cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z")
+        >>> panorama.shape, panorama.dtype.name
+        ((32, 64, 4), 'float16')
         """
-    def to_layout(self: CubeMap, layout: str = "cross", convention: str = "gl") -> numpy.ndarray:
+    def to_layout(
+        self: CubeMap,
+        layout: str = "cross",
+        *,
+        convention: str = "gl",
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> numpy.ndarray:
         """
         One picture of all faces.
 
@@ -1184,17 +1236,25 @@ class CubeMap:
         convention : {"gl", "inside", "three"}, default "gl"
             Of the faces in it; the second cell is +Z, for "inside" -Z. Not looked at for "equirect" and
             "openexr", which have their own.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
-        ndarray (H, W, C)
-            In `dtype` (cells without a face are 0), float32 where resampled. Yours to write.
+        ndarray (H, W, C) in `dtype`
+            Yours to write; cells without a face are 0. In another dtype than the cube's, and where resampled,
+            numbers are rounded as `to_equirect` does.
+
+        Raises
+        ------
+        ValueError
+            An unknown layout or convention, or another dtype.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
-        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", "inside").shape
+        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", convention="inside").shape
         (24, 32, 3)
         """
     @property
@@ -1305,7 +1365,7 @@ class Image:
     def __copy__(self) -> typing.Any: ...
     def __deepcopy__(self, memo: dict) -> typing.Any: ...
     def __init__(
-        self: Image, pixels: numpy.typing.ArrayLike, mipmaps: bool = False, wrap: str = "repeat"
+        self: Image, pixels: numpy.typing.ArrayLike, *, mipmaps: bool = False, wrap: str = "repeat"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Image) -> str: ...
@@ -1624,6 +1684,7 @@ class Mesh:
         self: Mesh,
         positions: numpy.typing.ArrayLike,
         indices: numpy.typing.ArrayLike,
+        *,
         normals: numpy.typing.ArrayLike | None = None,
         uvs: numpy.typing.ArrayLike | None = None,
         colors: numpy.typing.ArrayLike | None = None,
@@ -1896,7 +1957,7 @@ class Stencil:
     >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
     ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
     >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
-    >>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil("equal", 1))
+    >>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil(func="equal", reference=1))
     >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
     >>> with cc.Renderer() as renderer:
     ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),
@@ -1908,6 +1969,7 @@ class Stencil:
     def __hash__(self: Stencil) -> int: ...
     def __init__(
         self: Stencil,
+        *,
         func: str = "always",
         reference: int = 0,
         read_mask: int = 255,
@@ -2641,6 +2703,7 @@ class ImageEffect:
     def __init__(
         self: ImageEffect,
         fragment: str | typing.Any | None,
+        *,
         uniforms: dict[str, typing.Any] | None = None,
         textures: dict[str, typing.Any] | None = None,
     ) -> None: ...
@@ -2756,13 +2819,14 @@ class Shadow:
     >>> lamp = cc.PointLight(position=(0, 3, 0), shadow=cc.Shadow(size=512, radius=2))
     >>> lamp.shadow
     Shadow(size=512, radius=2, bias=0, near=0.05, far=None, extent=None)
-    >>> lamp.shadow == cc.Shadow(512, 2)
+    >>> lamp.shadow == cc.Shadow(size=512, radius=2)
     True
     """
     def __eq__(self: Shadow, other: typing.Any) -> typing.Any: ...
     def __hash__(self: Shadow) -> int: ...
     def __init__(
         self: Shadow,
+        *,
         size: typing.SupportsInt | typing.SupportsIndex = 1024,
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         bias: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -2833,8 +2897,9 @@ class PointLight(Light):
     ----------
     position : array_like (3,)
         World space.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     decay : float
@@ -2858,6 +2923,7 @@ class PointLight(Light):
     def __init__(
         self: PointLight,
         position: numpy.typing.ArrayLike = (0, 0, 0),
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -2903,8 +2969,9 @@ class SpotLight(Light):
     penumbra : float
         Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
         it fades from the axis on. Between the cosines of the two angles it is smoothstep.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     decay : float
@@ -2927,6 +2994,7 @@ class SpotLight(Light):
         self: SpotLight,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         direction: numpy.typing.ArrayLike = (0, -1, 0),
+        *,
         angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
         penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         color: numpy.typing.ArrayLike = (1, 1, 1),
@@ -2988,8 +3056,9 @@ class DirectionalLight(Light):
     direction : array_like (3,)
         The way the light travels, in world space, of any length but 0; kept normalised. Straight down
         by default.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     shadow : Shadow, bool or None
@@ -3009,6 +3078,7 @@ class DirectionalLight(Light):
     def __init__(
         self: DirectionalLight,
         direction: numpy.typing.ArrayLike = (0, -1, 0),
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
@@ -3036,8 +3106,9 @@ class AmbientLight(Light):
 
     Parameters
     ----------
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
 
@@ -3054,6 +3125,7 @@ class AmbientLight(Light):
     """
     def __init__(
         self: AmbientLight,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
@@ -3090,7 +3162,7 @@ class Camera:
     0.5
     """
     def __init__(
-        self: Camera, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
+        self: Camera, *, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Camera) -> str: ...
@@ -3164,6 +3236,7 @@ class PerspectiveCamera(Camera):
     """
     def __init__(
         self: PerspectiveCamera,
+        *,
         fov: typing.SupportsFloat | typing.SupportsIndex = 60.0,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         target: numpy.typing.ArrayLike | None = None,
@@ -3203,7 +3276,7 @@ class PerspectiveCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
-    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+    def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the scene were turned in the hand.
 
@@ -3233,7 +3306,7 @@ class PerspectiveCamera(Camera):
         --------
         >>> import cubecam as cc
         >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-        >>> camera.orbit(30)
+        >>> camera.orbit(yaw=30)
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
@@ -3435,6 +3508,7 @@ class OrthographicCamera(Camera):
     """
     def __init__(
         self: OrthographicCamera,
+        *,
         height: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         target: numpy.typing.ArrayLike | None = None,
@@ -3473,7 +3547,7 @@ class OrthographicCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
-    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+    def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the scene were turned in the hand.
 
@@ -3503,7 +3577,7 @@ class OrthographicCamera(Camera):
         --------
         >>> import cubecam as cc
         >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-        >>> camera.orbit(30)
+        >>> camera.orbit(yaw=30)
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
@@ -3699,6 +3773,7 @@ class StereoCamera:
     @staticmethod
     def off_axis(
         camera: Camera,
+        *,
         separation: typing.SupportsFloat | typing.SupportsIndex = 0.065,
         convergence: typing.SupportsFloat | typing.SupportsIndex | None = None,
         layout: str = "anaglyph",
@@ -3740,6 +3815,7 @@ class StereoCamera:
     @staticmethod
     def toe_in(
         camera: Camera,
+        *,
         degrees: typing.SupportsFloat | typing.SupportsIndex = 4.0,
         layout: str = "anaglyph",
     ) -> StereoCamera:
@@ -3776,7 +3852,7 @@ class StereoCamera:
         [1.414, 0.0, 1.414]
         """
     def __init__(
-        self: StereoCamera, left: Camera, right: Camera, layout: str = "anaglyph"
+        self: StereoCamera, left: Camera, right: Camera, *, layout: str = "anaglyph"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: StereoCamera) -> str: ...
@@ -4066,6 +4142,7 @@ class Renderer:
     def __exit__(self: Renderer, *args) -> None: ...
     def __init__(
         self: Renderer,
+        *,
         device: typing.Any = "auto",
         layered: typing.Any = None,
         cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
@@ -4078,6 +4155,7 @@ class Renderer:
         scene: Scene,
         position: typing.Any = (0.0, 0.0, 0.0),
         size: typing.Any = 256,
+        *,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         exclude: typing.Any = (),
@@ -4144,9 +4222,52 @@ class Renderer:
         """
         Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.
         """
-    def cubemap(self: Renderer, probe: Probe) -> CubeMap:
+    def read_probe(self: Renderer, probe: Probe) -> CubeMap:
         """
         What a probe holds now, in the probe's format.
+
+        Parameters
+        ----------
+        probe : Probe
+            One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+        Returns
+        -------
+        CubeMap
+            A copy; uint8, float16 or float32, faces (6, size, size, 4).
+
+        Raises
+        ------
+        ValueError
+            If this renderer has not drawn it yet.
+        ContextError
+            After :meth:`close`, or in a forked process.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background="teal")
+        >>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+        >>> ball.environment = cc.Probe(size=8)
+        >>> with cc.Renderer() as renderer:
+        ...     renderer.update_probes(scene)
+        ...     held = renderer.read_probe(ball.environment)
+        >>> held.faces.shape, held.dtype.name
+        ((6, 8, 8, 4), 'float16')
+        """
+    def read_texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
+        """
+        What a render texture holds now, in its format.
+
+        Parameters
+        ----------
+        render_texture : RenderTexture
+            One that a picture of this renderer has shown.
+
+        Returns
+        -------
+        ndarray (H, W, 4)
+            uint8, float16 or float32, row 0 on top; the caller's own.
 
         Raises
         ------
@@ -4158,6 +4279,7 @@ class Renderer:
         scene: Scene,
         camera: Camera | StereoCamera,
         size: typing.Any,
+        *,
         outputs: typing.Any = (),
         format: str | None = "rgba8",
         samples: typing.Any = 1,
@@ -4257,26 +4379,7 @@ class Renderer:
         >>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
         ((1, 32, 32), 0.0, 3.5)
         """
-    def texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
-        """
-        What a render texture holds now, in its format.
-
-        Parameters
-        ----------
-        render_texture : RenderTexture
-            One that a picture of this renderer has shown.
-
-        Returns
-        -------
-        ndarray (H, W, 4)
-            uint8, float16 or float32, row 0 on top; the caller's own.
-
-        Raises
-        ------
-        ValueError
-            If this renderer has not drawn it yet.
-        """
-    def update(self: Renderer, scene: Scene, probes: typing.Any = None) -> None:
+    def update_probes(self: Renderer, scene: Scene, *, probes: typing.Any = None) -> None:
         """
         Draw probes now, whatever their ``update`` says.
 
@@ -4290,6 +4393,8 @@ class Renderer:
         ------
         ValueError
             For a probe that no visible node uses.
+        ContextError
+            After :meth:`close`, or in a forked process.
         """
     @property
     def closed(self) -> bool:
@@ -4306,6 +4411,11 @@ class Renderer:
         """
         Stats: of the last call.
         """
+
+def _check_pickle(format: typing.Any) -> None:
+    """
+    For unpickling: raises TypeError for a format that is not this version's.
+    """
 
 def _restore_frame(state: tuple) -> Frame:
     """
@@ -4366,4 +4476,4 @@ def devices() -> list[Device]:
         If there is no EGL library, or in a process forked after EGL was opened.
     """
 
-__version__: str = "0.1.0"
+__version__: str = "0.2.0"

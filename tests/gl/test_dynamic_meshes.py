@@ -37,7 +37,7 @@ class Stage:
     def __init__(self, mesh, picture):
         self.mesh = mesh
         self.scene = cc.Scene(background=(0.1, 0.2, 0.3, 1))
-        self.scene.add(cc.PointLight(position=(1, 4, 2), shadow=cc.Shadow(32)))
+        self.scene.add(cc.PointLight(position=(1, 4, 2), shadow=cc.Shadow(size=32)))
         self.scene.add(cc.Mesh.plane(8, 8), cc.PhongMaterial(), position=(0, -1, 0))
         painted = cc.PhongMaterial(vertex_colors=True, double_sided=True)
         shown = cc.PhongMaterial(map=picture, double_sided=True)

@@ -213,7 +213,7 @@ def test_rgb565_probe_is_looked_up(renderer):
     frame = renderer.render(scene, camera, (8, 8), format="rgba32f", outputs=("id",))
     levels = np.round(np.array([0.4, 0.5, 0.6]) * [31, 63, 31]) / [31, 63, 31]
     np.testing.assert_allclose(frame.color[4, 4, :3], levels, atol=1e-2)
-    assert (renderer.cubemap(ball.environment).faces == as_565(np.array([0.4, 0.5, 0.6]))).all()
+    assert (renderer.read_probe(ball.environment).faces == as_565(np.array([0.4, 0.5, 0.6]))).all()
 
 
 # Depth.
@@ -469,8 +469,8 @@ def test_the_painter_in_captures_and_probes(new_renderer, depth_format):
     assert (cubes[0].faces != with_depth).any()
     ball = world.scene.add(cc.Mesh.sphere(0.1), cc.MirrorMaterial())
     ball.environment = cc.Probe(size=24, format="rgba32f", depth_format=depth_format)
-    layered.update(world.scene)
-    assert_identical(layered.cubemap(ball.environment).faces, cubes[0].faces)
+    layered.update_probes(world.scene)
+    assert_identical(layered.read_probe(ball.environment).faces, cubes[0].faces)
 
 
 def test_the_sky_is_behind_the_painter(renderer):
@@ -639,7 +639,7 @@ def test_render_textures_have_them_too(renderer, options):
     outer.add(cc.Mesh.plane(2, 2), cc.BasicMaterial(map=texture), position=(0, -1, 0))
     camera = cc.PerspectiveCamera(fov=50, position=(0, 3, 0), target=(0, -1, 0), up=(0, 0, -1))
     renderer.render(outer, camera, (20, 20))
-    held = renderer.texture(texture)
+    held = renderer.read_texture(texture)
     want = renderer.render(scene, inner_camera, (40, 30), **options).color
     assert_identical(getattr(held, "color", held), want)
     twin = pickle.loads(pickle.dumps(texture))

@@ -128,10 +128,12 @@ LIGHTS = {
 
 def product_light(light):
     if isinstance(light, shading.Point):
-        return cc.PointLight(light.position, light.color, light.intensity, light.decay)
+        return cc.PointLight(
+            light.position, color=light.color, intensity=light.intensity, decay=light.decay
+        )
     if isinstance(light, shading.Directional):
-        return cc.DirectionalLight(light.travels, light.color, light.intensity)
-    return cc.AmbientLight(light.color, light.intensity)
+        return cc.DirectionalLight(light.travels, color=light.color, intensity=light.intensity)
+    return cc.AmbientLight(color=light.color, intensity=light.intensity)
 
 
 @pytest.mark.parametrize("lights", LIGHTS.values(), ids=LIGHTS)
@@ -191,8 +193,8 @@ def test_schlick_and_ambient(renderer):
 def test_ambient_light_is_the_sum_of_the_scenes_ambient_lights(renderer):
     def shown(expression):
         scene = cc.Scene()
-        scene.add(cc.AmbientLight((0.5, 0.25, 0), intensity=0.5))
-        scene.add(cc.AmbientLight((0, 0.5, 1)))
+        scene.add(cc.AmbientLight(color=(0.5, 0.25, 0), intensity=0.5))
+        scene.add(cc.AmbientLight(color=(0, 0.5, 1)))
         source = f"vec3 shade(Surface surface) {{ return {expression}; }}"
         scene.add(cc.Mesh.plane(8, 8), cc.ShaderMaterial(source), rotation=UPRIGHT)
         camera = cc.OrthographicCamera(height=4, position=(0, 0, 3))

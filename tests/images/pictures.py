@@ -63,7 +63,7 @@ def draw_capture(renderer):
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(bunny(), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(0, 0, -2))
     cube = renderer.capture(scene, size=32, format="rgba8", samples=4)
-    return cube.to_layout("cross", "inside")
+    return cube.to_layout("cross", convention="inside")
 
 
 def draw_translucent(renderer):

@@ -124,7 +124,7 @@ BAD = {
     "color of 2": (cc.BasicMaterial, {"color": (1, 1)}, ValueError, "color"),
     "color of 5": (cc.PhongMaterial, {"color": (1, 1, 1, 1, 1)}, ValueError, "color"),
     "color nan": (cc.PhongMaterial, {"color": (1, np.nan, 1)}, ValueError, "color"),
-    "color text": (cc.PhongMaterial, {"color": "red"}, TypeError, "color"),
+    "color text": (cc.PhongMaterial, {"color": "rde"}, ValueError, "did you mean 'red'"),
     "color bool": (cc.PhongMaterial, {"color": (True, False, False)}, TypeError, "color"),
     "shininess": (cc.PhongMaterial, {"shininess": -1}, ValueError, "shininess"),
     "ka inf": (cc.PhongMaterial, {"ka": np.inf}, ValueError, "ka"),

@@ -44,14 +44,15 @@ def photographs(images: Any = None) -> list[Picture]:
     ]
 
 
-def surroundings(images: Any = None, mipmaps: bool = False) -> cc.CubeMap:
+def surroundings(images: Any = None, *, mipmaps: bool = False) -> cc.CubeMap:
     """Give the six photographs as a cubemap."""
     return cc.CubeMap(photographs(images), convention="gl", mipmaps=mipmaps)
 
 
 @functools.cache
 def _city() -> Picture:
-    cube = cc.load_environment(cc.sample_data("city.exr"), size=PHOTOGRAPH)
+    # Tone mapping rounds to 8 bits; nothing is rounded before.
+    cube = cc.load_environment(cc.sample_data("city.exr"), size=PHOTOGRAPH, dtype="float32")
     return np.stack([for_screen(face) for face in cube.faces])
 
 

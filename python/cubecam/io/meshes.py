@@ -43,7 +43,7 @@ class _Part:
     colors: npt.NDArray[np.float64] | None
 
 
-def load_mesh(path: PathLike, size: float | None = None) -> Mesh:
+def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     """Read a mesh file.
 
     Parameters
