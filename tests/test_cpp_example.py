@@ -13,7 +13,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close
-from tests.conftest import DEVICE
+from tests.helpers import DEVICE
 
 ROOT = Path(__file__).parents[1]
 

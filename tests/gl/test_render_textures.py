@@ -9,7 +9,6 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.conftest import DEVICE
 from tests.gl.flat import (
     CORNERS,
     flat_camera,
@@ -22,7 +21,7 @@ from tests.gl.flat import (
     tiles,
 )
 from tests.gl.world import World, inner, perspective, triangles_of
-from tests.helpers import run_python
+from tests.helpers import DEVICE, run_python
 from tests.reference.sampling import sample_image
 
 PICTURE = random_picture(1)
@@ -177,7 +176,7 @@ def test_alpha_counts_only_where_the_material_is_translucent(renderer):
     assert (color[2:] == [0, 0, 1, 1]).all()
 
 
-def test_it_multiplies_colours_and_phong_takes_it_too(renderer):
+def test_it_multiplies_colors_and_phong_takes_it_too(renderer):
     texture = flat_texture(PICTURE)
     scene, node = screen_scene(texture)
     node.material.color = (0.5, 2, 0.25)

@@ -86,12 +86,12 @@ def test_uv_and_vertex_colors(renderer):
     node = scene.add(quad, cc.ShaderMaterial("vec3 shade(Surface s) { return vec3(s.uv, 0.0); }"))
     camera = cc.OrthographicCamera(height=2, position=(0, 0, 1))
     got = renderer.render(scene, camera, (8, 8), format="rgba32f").color
-    centres = (np.arange(8) + 0.5) / 8
-    assert_close(got[..., 0], np.broadcast_to(centres, (8, 8)), "shaded")
-    assert_close(got[..., 1], np.broadcast_to(centres[::-1, None], (8, 8)), "shaded")
+    centers = (np.arange(8) + 0.5) / 8
+    assert_close(got[..., 0], np.broadcast_to(centers, (8, 8)), "shaded")
+    assert_close(got[..., 1], np.broadcast_to(centers[::-1, None], (8, 8)), "shaded")
     node.material = cc.ShaderMaterial("vec3 shade(Surface s) { return s.color.rgb * s.color.a; }")
     got = renderer.render(scene, camera, (8, 8), format="rgba32f").color
-    t = np.broadcast_to(centres[::-1, None], (8, 8))
+    t = np.broadcast_to(centers[::-1, None], (8, 8))
     assert_close(got[..., 0], (1 - t) * (1 - t / 2), "shaded")
     node.mesh = cc.Mesh.box((2, 2, 0.1))
     got = renderer.render(scene, camera, (8, 8), format="rgba32f").color
@@ -666,9 +666,9 @@ def test_reload_of_text_is_told():
 
 
 @pytest.mark.parametrize(
-    "twin", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"]
+    "copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"]
 )
-def test_twins(twin, renderer, tmp_path):
+def test_copies(copied, renderer, tmp_path):
     path = tmp_path / "a.frag"
     path.write_text(
         "uniform vec3 x; uniform sampler2D t; vec3 shade(Surface s) { return x * texture(t, s.uv).g; }"
@@ -682,7 +682,7 @@ def test_twins(twin, renderer, tmp_path):
         blend="alpha",
         opacity=0.5,
     )
-    other = twin(material)
+    other = copied(material)
     assert_identical(flat(renderer, material), flat(renderer, other))
     assert (other.displacement, other.blend, other.opacity) == (0.5, "alpha", 0.5)
     assert other.vertex == material.vertex
@@ -699,9 +699,9 @@ def test_a_material_whose_probe_leads_back_to_it_pickles():
     )
     node = scene.add(cc.Mesh.box(), material)
     material.textures["r"] = cc.Probe(parent=node, exclude=[node])
-    twin_scene, twin = pickle.loads(pickle.dumps((scene, material)))
-    assert twin_scene.nodes[0].material is twin
-    assert twin.textures["r"].parent is twin_scene.nodes[0]
+    copied_scene, copied = pickle.loads(pickle.dumps((scene, material)))
+    assert copied_scene.nodes[0].material is copied
+    assert copied.textures["r"].parent is copied_scene.nodes[0]
 
 
 def test_inputs_are_mappings():

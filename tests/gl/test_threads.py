@@ -8,8 +8,8 @@ import numpy as np
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.conftest import DEVICE
 from tests.gl.world import room, smooth_environment
+from tests.helpers import DEVICE
 
 
 def mirror_scene(seed):

@@ -83,7 +83,7 @@ def test_depth_of_16_bits_is_the_quantised_window_depth(drawn, frame):
 
 
 @frames
-def test_colours_of_16_bits_are_the_quantised_ones(drawn, frame):
+def test_colors_of_16_bits_are_the_quantised_ones(drawn, frame):
     _, parts, *_ = drawn(frame)
     levels = np.array([31, 63, 31])
     steps = parts["rgb565"][..., :3] / 255 * levels

@@ -5,8 +5,18 @@ import pytest
 
 from cubecam.examples import dynamic_refraction as example
 from tests.compare import assert_close
-from tests.programs.oracle import Look, lit, looked_up, mesh, moved, near_enough, scaled, unbroken
-from tests.programs.test_p14_dynamic_reflection import GOLD, stage
+from tests.programs.oracle import (
+    GOLD,
+    Look,
+    lit,
+    looked_up,
+    mesh,
+    moved,
+    near_enough,
+    scaled,
+    stage,
+    unbroken,
+)
 from tests.reference import raycast, shading
 
 SIZE, FACE = (96, 96), 40

@@ -9,7 +9,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.helpers import channel_counts, dtypes, faces, twins
+from tests.helpers import channel_counts, copies, dtypes, faces
 from tests.reference.cube_faces import FACE_NAMES
 from tests.reference.pattern import face_pattern, random_faces
 
@@ -126,11 +126,11 @@ def test_equality_compares_contents():
     assert cube != "cube"
 
 
-@twins
+@copies
 @pytest.mark.parametrize("mipmaps", [False, True])
-def test_twins_are_equal_and_independent(twin, mipmaps, rng):
+def test_copies_are_equal_and_independent(make_copy, mipmaps, rng):
     cube = cc.CubeMap(random_faces(rng, 4, 3, np.float16), mipmaps=mipmaps)
-    other = twin(cube)
+    other = make_copy(cube)
     assert other == cube
     assert other.mipmaps is mipmaps
     other.set_face(2, np.zeros((4, 4, 3), np.float16))

@@ -31,7 +31,7 @@ def test_a_picture_of_directions_becomes_a_cube_of_directions(center):
     assert np.abs(got.faces - unit_texel_directions(32)).max() < 5e-3
 
 
-def test_minus_z_is_the_default_centre():
+def test_minus_z_is_the_default_center():
     got = cc.CubeMap(direction_pattern(32)).to_equirect(width=128)
     np.testing.assert_allclose(got[31:33, 63:65].mean((0, 1)), [0, 0, -1], atol=2e-2)
     np.testing.assert_allclose(got[31:33, 95:97].mean((0, 1)), [1, 0, 0], atol=2e-2)
@@ -128,7 +128,7 @@ def test_mean_light_is_kept(rng):
 
 
 @pytest.mark.parametrize("bad", ["+y", "front", "", "z"])
-def test_unknown_centres_are_refused(bad):
+def test_unknown_centers_are_refused(bad):
     with pytest.raises(ValueError, match="center"):
         cc.CubeMap(direction_pattern(4)).to_equirect(center=bad)
     with pytest.raises(ValueError, match="center"):

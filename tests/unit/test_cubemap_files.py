@@ -161,7 +161,7 @@ def test_environment_of_a_panorama_has_the_default_size():
     assert cube.faces.max() > 100  # lamps are not clipped
 
 
-def test_environment_centre_turns_the_picture():
+def test_environment_center_turns_the_picture():
     a = cc.load_environment(cc.sample_data("studio.exr"), size=32, center="-z")
     b = cc.load_environment(cc.sample_data("studio.exr"), size=32, center="+z")
     np.testing.assert_allclose(b.faces[4], a.faces[5], rtol=1e-3, atol=1e-3)

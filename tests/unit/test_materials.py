@@ -39,7 +39,7 @@ def test_glass_defaults():
     np.testing.assert_array_equal(material.tint[:3], [1, 1, 1])
 
 
-def test_fourth_number_of_a_colour():
+def test_fourth_number_of_a_color():
     np.testing.assert_allclose(cc.BasicMaterial(color=(1, 0, 0, 0.25)).color, [1, 0, 0, 0.25])
 
 
@@ -153,11 +153,11 @@ def test_setters_refuse_the_same_and_keep_the_old(case):
     np.testing.assert_array_equal(np.array(getattr(thing, name)), before)
 
 
-def test_colours_handed_out_are_read_only():
+def test_colors_handed_out_are_read_only():
     with pytest.raises(ValueError, match="read-only"):
         cc.BasicMaterial().color[0] = 0
 
 
 def test_unknown_arguments_are_refused():
     with pytest.raises(TypeError):
-        cc.PhongMaterial(colour=(1, 0, 0))
+        cc.PhongMaterial(color=(1, 0, 0))

@@ -5,7 +5,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close
-from tests.helpers import twins
+from tests.helpers import copies
 
 CLOSED = {
     "box": (lambda: cc.Mesh.box((1, 2, 3)), 6.0),
@@ -78,7 +78,7 @@ def test_uvs_fill_the_unit_square_and_jump_nowhere(make):
 
 
 @every
-def test_bounds_are_centred(make):
+def test_bounds_are_centered(make):
     positions = make().positions
     np.testing.assert_allclose(positions.min(0) + positions.max(0), 0, atol=2e-2)
 
@@ -165,12 +165,12 @@ def test_arrays_are_read_only():
             array[0] = 0
 
 
-@twins
-def test_twins(twin):
+@copies
+def test_copies(make_copy):
     mesh = cc.Mesh(
         [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], uvs=np.eye(3)[:, :2], colors=np.eye(3)
     )
-    other = twin(mesh)
+    other = make_copy(mesh)
     for name in ("positions", "indices", "normals", "uvs", "colors"):
         np.testing.assert_array_equal(getattr(other, name), getattr(mesh, name))
 
@@ -206,7 +206,7 @@ def test_sample_meshes(name, vertices, triangles):
 
 
 @pytest.mark.parametrize("size", [1, 2.5])
-def test_size_centres_and_scales(size):
+def test_size_centers_and_scales(size):
     positions = cc.load_mesh(cc.sample_data("bunny.obj"), size=size).positions
     low, high = positions.min(0), positions.max(0)
     np.testing.assert_allclose(low + high, 0, atol=1e-5)
