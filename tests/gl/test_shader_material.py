@@ -12,6 +12,7 @@ from tests.compare import assert_close, assert_identical
 from tests.gl.world import World, inner_smooth, perspective, smooth_environment
 from tests.reference import shading
 from tests.reference import transforms as ref
+from tests.reference.cube_faces import texel_directions
 from tests.reference.sampling import sample_faces
 
 UPRIGHT = cc.axis_angle((1, 0, 0), 90)
@@ -186,6 +187,38 @@ def test_schlick_and_ambient(renderer):
     assert_close(constant(renderer, "schlick(surface, 0.25)"), [0.25] * 3, "shaded")
     assert constant(renderer, "ambient_light()").tolist() == [1, 1, 1]
     assert constant(renderer, "float(light_count())").tolist() == [0, 0, 0]
+
+
+@pytest.mark.parametrize(("level", "row", "column"), [(0, 2, 5), (1, 1, 2), (3, 0, 0)])
+def test_a_level_of_the_environment_is_looked_up_in_its_direction(
+    any_path, rng, level, row, column
+):
+    """In the middle of a texel that level shows the texel alone, the average of its block of the finest."""
+    faces = rng.random((6, 8, 8, 3)).astype(np.float32)
+    size = 8 >> level
+    want = faces.reshape(6, size, 8 // size, size, 8 // size, 3).mean((2, 4))[:, row, column]
+    scene = cc.Scene(environment=cc.CubeMap(faces, mipmaps=True))
+    source = """
+    uniform vec3 direction; uniform float level;
+    vec3 shade(Surface s) { return environment_lod(direction, level); }"""
+    material = cc.ShaderMaterial(source, uniforms={"level": float(level)})
+    scene.add(cc.Mesh.box(1), material, position=(0, 0, -3))
+    for face, direction in enumerate(texel_directions(size)[:, row, column]):
+        material.uniforms["direction"] = direction
+        color = any_path.render(scene, FRONT, (1, 1), format="rgba32f").color[0, 0, :3]
+        np.testing.assert_allclose(color, want[face], atol=2e-3)
+
+
+@pytest.mark.parametrize("eye", [None, (2, -3, 5)])
+def test_the_vertex_stage_knows_the_eye_of_a_capture(any_path, eye):
+    source = "in vec3 seen_from; vec3 shade(Surface s) { return seen_from; }"
+    vertex = "out vec3 seen_from; void vertex(inout Vertex v) { seen_from = eye_position(); }"
+    scene = cc.Scene()
+    scene.add(cc.Mesh.box(4), cc.ShaderMaterial(source, vertex=vertex, double_sided=True))
+    position = (0.5, 0.25, -0.75)
+    cube = any_path.capture(scene, position, 4, eye=eye)
+    want = np.broadcast_to(np.array(position if eye is None else eye, np.float32), (6, 4, 4, 3))
+    np.testing.assert_allclose(cube.faces[..., :3], want, atol=1e-5)
 
 
 def test_matrices_and_eye(renderer):

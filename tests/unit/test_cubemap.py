@@ -168,3 +168,22 @@ def test_pickle_keeps_no_revision():
     for face, pixels in enumerate(face_pattern(4)):
         b.set_face(face, pixels)
     assert pickle.dumps(a) == pickle.dumps(b)
+
+
+def test_the_picture_of_a_cube_is_unmirrored_seen_from_within():
+    """Right of -Z in the middle is +X, above it +Y; each pixel shows what lies in its direction."""
+    from cubecam.pictures import cube_picture
+
+    size = 4
+    cube = cc.CubeMap(face_pattern(size))
+    picture = cube_picture(cube)
+    x, y = np.meshgrid(
+        (np.arange(size) + 0.5) / size * 2 - 1, 1 - (np.arange(size) + 0.5) / size * 2
+    )
+    one = np.ones_like(x)
+    cells = {(1, 1): (x, y, -one), (1, 2): (one, y, x), (1, 0): (-one, y, -x), (1, 3): (-x, y, one)}
+    cells |= {(0, 1): (x, one, y), (2, 1): (x, -one, -y)}
+    for (row, column), direction in cells.items():
+        cell = picture[row * size : (row + 1) * size, column * size : (column + 1) * size]
+        want = np.rint(cube.sample(np.stack(direction, axis=-1)) * 255)
+        np.testing.assert_array_equal(cell[..., :3], want[..., :3], f"row {row}, column {column}")

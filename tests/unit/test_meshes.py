@@ -247,6 +247,38 @@ def test_glb_places_its_nodes(tmp_path):
     np.testing.assert_allclose([positions.min(0)[0], positions.max(0)[0]], [-0.5, 4.5])
 
 
+TRANSFORMS = {
+    "stretched": np.diag([3.0, 1, 1, 1]),
+    "mirrored": np.diag([-1.0, 1, 1, 1]),
+    "mirrored and sheared": np.array(
+        [[-2, 0.5, 0, 1], [0, 1, 0.3, 2], [0.2, 0, 0.7, 3], [0, 0, 0, 1.0]]
+    ),
+}
+
+
+@pytest.mark.parametrize("matrix", TRANSFORMS.values(), ids=TRANSFORMS)
+def test_normals_of_a_glb_node_go_by_the_inverse_transpose(tmp_path, matrix):
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=1)
+    places = np.array(ball.vertices)
+    scene = trimesh.Scene()
+    scene.add_geometry(
+        trimesh.Trimesh(places, ball.faces, vertex_normals=places, process=False), transform=matrix
+    )
+    (tmp_path / "a.glb").write_bytes(trimesh.exchange.gltf.export_glb(scene, include_normals=True))
+    mesh = cc.load_mesh(tmp_path / "a.glb")
+    linear = matrix[:3, :3]
+    # Each vertex of the unit ball is its own normal.
+    on_ball = (np.asarray(mesh.positions) - matrix[:3, 3]) @ np.linalg.inv(linear).T
+    want = on_ball @ np.linalg.inv(linear)
+    want /= np.linalg.norm(want, axis=1, keepdims=True)
+    np.testing.assert_allclose(mesh.normals, want, atol=1e-5)
+    a, b, c = np.moveaxis(corners(mesh), 1, 0)
+    faced = np.cross(b - a, c - a)
+    assert (np.einsum("ij,ij->i", faced, want[np.asarray(mesh.indices)[:, 0]]) > 0).all()
+
+
 def test_a_mesh_without_triangles_is_a_mesh_error(tmp_path):
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\n")
     with pytest.raises(cc.MeshError, match=r"a\.obj"):
