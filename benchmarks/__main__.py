@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from . import equirect, machine, reflection, startup
+from . import equirect, machine, marks, reflection, startup
 from .processes import ROOT
 from .results import Section, print_sections
 
@@ -27,11 +27,19 @@ def _arguments() -> argparse.Namespace:
         "--only",
         action="append",
         metavar="NAME",
-        choices=["p14-teapot", "p14-knot", "equirect", "startup"],
-        help="p14-teapot, p14-knot, equirect or startup; may be given several times",
+        choices=["p14-teapot", "p14-knot", "equirect", "startup", "marks", *marks.PARTS],
+        help="p14-teapot, p14-knot, equirect, startup, marks, or one of "
+        + ", ".join(marks.PARTS)
+        + "; may be given several times",
     )
     parser.add_argument(
         "--variants", action="store_true", help="also time peers that cull objects by hand"
+    )
+    parser.add_argument(
+        "--before",
+        type=Path,
+        metavar="DIR",
+        help="a built tree of the version before; without, marks-p14 builds one from git",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write all numbers to FILE")
     return parser.parse_args()
@@ -54,9 +62,14 @@ def main() -> int:
     }
     workloads["equirect"] = partial(equirect.run, arguments.quick)
     workloads["startup"] = partial(startup.run, arguments.quick)
+    for part in marks.PARTS:
+        workloads[part] = partial(marks.run, part, quick=arguments.quick, old=arguments.before)
 
-    sections: list[Section] = []
+    wanted: list[str] = []
     for name in arguments.only or workloads:
+        wanted += marks.PARTS if name == "marks" else [name]
+    sections: list[Section] = []
+    for name in dict.fromkeys(wanted):
         with console.status(f"{name} ..."):
             sections += workloads[name]()
     print_sections(console, sections)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -16,15 +17,16 @@ class WorkerError(Exception):
     """A worker ended, with the last line it wrote."""
 
 
-class Worker:
-    """A running `benchmarks.worker`."""
+class Process:
+    """A running program that answers one JSON line for each that it is sent."""
 
-    def __init__(self, name: str, mesh: Path) -> None:
+    def __init__(self, name: str, arguments: list[str], env: dict[str, str] | None = None) -> None:
         self.name = name
         self._errors = tempfile.TemporaryFile("w+")  # noqa: SIM115 (closed by close)
         self._process = subprocess.Popen(
-            [sys.executable, "-m", "benchmarks.worker", name, str(mesh)],
+            [sys.executable, *arguments],
             cwd=ROOT,
+            env=env,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=self._errors,
@@ -67,6 +69,27 @@ class Worker:
             raise WorkerError(said[-1] if said else f"exit status {self._process.returncode}")
         answer: dict[str, Any] = json.loads(line)
         return answer
+
+
+class Worker(Process):
+    """A running `benchmarks.worker`."""
+
+    def __init__(self, name: str, mesh: Path) -> None:
+        super().__init__(name, ["-m", "benchmarks.worker", name, str(mesh)])
+
+
+class CpuWorker(Process):
+    """A running `benchmarks/cpu_worker.py`: `program` is MODULE:CLASS in `tree`'s benchmarks.
+
+    The package `cubecam` of another tree than this one is found in that tree's folder python.
+    """
+
+    def __init__(self, program: str, tree: Path = ROOT, **options: Any) -> None:
+        env = dict(os.environ)
+        if tree != ROOT:
+            env["PYTHONPATH"] = str(tree / "python")
+        script = str(ROOT / "benchmarks" / "cpu_worker.py")
+        super().__init__(program, [script, str(tree), program, json.dumps(options)], env)
 
 
 def run_python(code: str, env: dict[str, str]) -> dict[str, Any]:

@@ -40,8 +40,8 @@ SHADOWS = ("tests/gl/test_shadows.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 
 CUBE_FACE = "cube_face.hpp"
-CALL = "call.cpp"
-NEEDS = "dependencies.cpp"
+DRAWN = "drawn_picture.cpp"
+QUERIES = "snapshot_queries.cpp"
 SURFACE = "surface_pass.cpp"
 RASTER = "raster_state.cpp"
 
@@ -281,11 +281,11 @@ MUTATIONS = [
     ),
     # What a picture depends on.
     Mutation(
-        "key: lights forgotten", CALL, "add_light(common, light.value);", "(void)light;", STATS
+        "key: lights forgotten", DRAWN, "add_light(common, light.value);", "(void)light;", STATS
     ),
     Mutation(
         "key: the node's matrix forgotten",
-        CALL,
+        DRAWN,
         "key.add(node.world);",
         "",
         STATS,
@@ -306,59 +306,58 @@ MUTATIONS = [
     ),
     Mutation(
         "key: the eye forgotten",
-        CALL,
+        DRAWN,
         "key.add(view.eye);",
         "",
         STATS,
     ),
     Mutation(
         "key: what a mirror shows forgotten",
-        CALL,
+        DRAWN,
         "key.add(found.cube.revision);",
         "",
         PROBES,
     ),
     Mutation(
         "probe: sees its own user",
-        NEEDS,
-        "return node.in_captures && !uses(node, probe) &&",
+        QUERIES,
+        "return node.in_captures && !uses_probe(node, probe) &&",
         "return node.in_captures &&",
         PROBES,
     ),
     Mutation(
         "probe: a cycle shows old contents",
-        CALL,
-        "const bool back = in_probe && work_[*probe] && work_[*probe]->due &&"
-        " session_.order().is_edge_back(number(*in_probe), number(*probe));",
-        "const bool back = false; (void)in_probe; (void)number;",
+        "texture_lookup.cpp",
+        "if (!back && held.texture != 0) return held;",
+        "(void)back; if (held.texture != 0) return held;",
         PROBES + INCREMENTAL,
     ),
     Mutation(
         "key: what a map shows forgotten",
-        CALL,
+        DRAWN,
         "key.add(found.map.revision);",
         "",
         RENDER_TEXTURES,
     ),
     Mutation(
         "texture: what it shows is not drawn first",
-        "session.cpp",
-        "std::vector<std::size_t> needs = calls_[texture.scene].needs_of(work.plan);",
-        "std::vector<std::size_t> needs;",
+        "scene_picture.cpp",
+        "add_dependencies(scene_, number_, node, shown);",
+        "",
         RENDER_TEXTURES,
     ),
     Mutation(
         "texture: sees what it leaves out",
-        NEEDS,
+        QUERIES,
         "return !is_excluded(node, texture.excluded);",
         "return true;",
         RENDER_TEXTURES,
     ),
     Mutation(
         "texture: circles by way of others overlooked",
-        NEEDS,
-        "if (!by_others && !directly) continue;",
-        "if (!directly) continue;",
+        "picture_order.cpp",
+        "return sizes[components[picture]] > 1 ||",
+        "return",
         ("tests/gl/test_render_texture_circles.py",),
     ),
     Mutation(
@@ -534,14 +533,14 @@ MUTATIONS = [
     ),
     Mutation(
         "key: shadow maps forgotten",
-        CALL,
-        "if (receive_shadow(node)) key.add(shadows);",
+        DRAWN,
+        "if (receive_shadow(node)) key.add(shadow_key);",
         "",
         SHADOW_MAPS,
     ),
     Mutation(
         "shadow: a caster's matrix is not in the map's key",
-        "shadow_pass.cpp",
+        "shadow_picture.cpp",
         "key.add(node.world);",
         "",
         SHADOW_MAPS,
@@ -654,21 +653,21 @@ MUTATIONS = [
     ),
     Mutation(
         "key: effects forgotten",
-        CALL,
+        DRAWN,
         "common.add(effect.revision);",
         "",
         ("tests/gl/test_effects.py",),
     ),
     Mutation(
         "circles: shadows forgotten",
-        NEEDS,
-        "needs.insert(needs.end(), casting_[scene].begin(), casting_[scene].end());",
+        "dependencies.cpp",
+        "found.insert(found.end(), shadows_.begin(), shadows_.end());",
         "",
         ("tests/gl/test_render_texture_circles.py",),
     ),
     Mutation(
-        "shadow: hangs on all textures",
-        NEEDS,
+        "shadow: depends on all textures",
+        QUERIES,
         "if (mentions(shader.vertex.text, name)) found.push_back(place);",
         "found.push_back(place);",
         ("tests/gl/test_render_texture_circles.py",),

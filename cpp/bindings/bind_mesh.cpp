@@ -9,8 +9,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <cstring>
+#include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cubecam::bindings {
@@ -20,19 +22,26 @@ namespace {
 template <class Vector, class Scalar>
 std::vector<Vector> to_vectors(const ContiguousArray<Scalar>& array) {
     static_assert(sizeof(Vector) == Vector::length() * sizeof(Scalar));
-    std::vector<Vector> vectors(static_cast<std::size_t>(array.shape(0)));
-    if (!vectors.empty())
-        std::memcpy(vectors.data(), array.data(), vectors.size() * sizeof(Vector));
-    return vectors;
+    const auto* from = reinterpret_cast<const Vector*>(array.data());
+    return std::vector<Vector>(from, from + array.shape(0));
+}
+
+/// "(V, 3)", or with the number of vertices, where it is known, in place of V.
+std::string rows_of(std::optional<std::size_t> vertices, int columns) {
+    return "(" + (vertices ? std::to_string(*vertices) : "V") + ", " + std::to_string(columns) +
+           ")";
 }
 
 /// (V, 3) or (V, 4); bytes stand for value/255, all other numbers for themselves.
-std::vector<glm::vec4> to_vertex_colors(py::handle colors) {
+std::vector<glm::vec4> to_vertex_colors(py::handle colors,
+                                        std::optional<std::size_t> vertices = std::nullopt) {
     const py::array given = py::module_::import("numpy").attr("asarray")(colors);
     const bool bytes = given.dtype().kind() == 'u' && given.itemsize() == 1;
     const bool rgb = given.ndim() == 2 && given.shape(1) == 3;
     const bool rgba = given.ndim() == 2 && given.shape(1) == 4;
-    const char* shape = rgb ? "(V, 3)" : rgba ? "(V, 4)" : "(V, 3) or (V, 4)";
+    const std::string shape = rgb    ? rows_of(vertices, 3)
+                              : rgba ? rows_of(vertices, 4)
+                                     : rows_of(vertices, 3) + " or " + rows_of(vertices, 4);
     const auto array = float_array(given, "colors", shape);
     std::vector<glm::vec4> vectors(static_cast<std::size_t>(array.shape(0)), glm::vec4(1.0F));
     const float* from = array.data();
@@ -45,7 +54,7 @@ std::vector<glm::vec4> to_vertex_colors(py::handle colors) {
 std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& indices,
                                 const OrNone<ArrayLike>& normals, const OrNone<ArrayLike>& uvs,
                                 const OrNone<ArrayLike>& colors) {
-    Mesh::Arrays arrays;
+    MeshData::Arrays arrays;
     arrays.positions = to_vectors<glm::vec3>(float_array(positions, "positions", "(V, 3)"));
     arrays.triangles =
         to_vectors<glm::uvec3>(index_array(indices, "indices", "(F, 3)", arrays.positions.size()));
@@ -55,12 +64,42 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
     if (!uvs.is_none()) arrays.uvs = to_vectors<glm::vec2>(float_array(uvs, "uvs", "(V, 2)"));
     if (!colors.is_none()) arrays.colors = to_vertex_colors(colors);
     const py::gil_scoped_release release;
-    return std::make_shared<Mesh>(std::move(arrays));
+    return std::make_shared<Mesh>(MeshData(std::move(arrays)));
+}
+
+std::size_t vertices_of(const Mesh& mesh) { return mesh.data()->positions()->size(); }
+
+std::vector<glm::vec3> new_positions(const Mesh& mesh, py::handle positions) {
+    return to_vectors<glm::vec3>(
+        float_array(positions, "positions", rows_of(vertices_of(mesh), 3)));
+}
+
+std::vector<glm::vec3> new_normals(const Mesh& mesh, py::handle normals) {
+    return to_vectors<glm::vec3>(float_array(normals, "normals", rows_of(vertices_of(mesh), 3)));
+}
+
+std::vector<glm::vec2> new_uvs(const Mesh& mesh, py::handle uvs) {
+    return to_vectors<glm::vec2>(float_array(uvs, "uvs", rows_of(vertices_of(mesh), 2)));
+}
+
+void apply(Mesh& mesh, MeshUpdate update) {
+    const py::gil_scoped_release release;
+    mesh.update(std::move(update));
+}
+
+void update_mesh(Mesh& self, const OrNone<ArrayLike>& positions, const OrNone<ArrayLike>& normals,
+                 const OrNone<ArrayLike>& uvs, const OrNone<ArrayLike>& colors) {
+    MeshUpdate update;
+    if (!positions.is_none()) update.positions = new_positions(self, positions);
+    if (!normals.is_none()) update.normals = new_normals(self, normals);
+    if (!uvs.is_none()) update.uvs = new_uvs(self, uvs);
+    if (!colors.is_none()) update.colors = to_vertex_colors(colors, vertices_of(self));
+    apply(self, std::move(update));
 }
 
 /// A read-only view, or None.
 template <class Scalar, class Vector>
-py::object rows(const Mesh::Array<Vector>& vectors) {
+py::object rows(const MeshData::Array<Vector>& vectors) {
     if (!vectors) return py::none();
     const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(vectors->size()),
                                          Vector::length()};
@@ -71,23 +110,25 @@ using FloatRows = py::array_t<float>;
 using FloatRowsOrNone = OrNone<FloatRows>;
 
 py::array_t<double> bounds_array(const Mesh& mesh) {
+    const Bounds bounds = mesh.data()->bounds();
     py::array_t<double> array({2, 3});
     for (int i = 0; i < 3; ++i) {
-        array.mutable_at(0, i) = mesh.bounds().low[i];
-        array.mutable_at(1, i) = mesh.bounds().high[i];
+        array.mutable_at(0, i) = bounds.low[i];
+        array.mutable_at(1, i) = bounds.high[i];
     }
     array.attr("flags").attr("writeable") = false;
     return array;
 }
 
 std::string represent_mesh(const Mesh& mesh) {
-    return "Mesh(" + std::to_string(mesh.positions()->size()) + " vertices, " +
-           std::to_string(mesh.triangles()->size()) + " triangles)";
+    const auto data = mesh.data();
+    return "Mesh(" + std::to_string(data->positions()->size()) + " vertices, " +
+           std::to_string(data->triangles()->size()) + " triangles)";
 }
 
 /// Meshes of many triangles take a while: other threads may go on meanwhile.
 template <class... Args>
-auto built_by(Mesh (*build)(Args...)) {
+auto built_by(MeshData (*build)(Args...)) {
     return [build](Args... args) {
         const py::gil_scoped_release release;
         return std::make_shared<Mesh>(build(args...));
@@ -117,6 +158,55 @@ void bind_primitives(Class<Mesh>& mesh) {
                     torus_doc);
 }
 
+/// Each may be set anew; what an array was handed out of stays as it was.
+void bind_vertices(Class<Mesh>& mesh) {
+    mesh.def_property(
+        "positions",
+        [](const Mesh& self) -> FloatRows { return rows<float>(self.data()->positions()); },
+        [](Mesh& self, const ArrayLike& value) {
+            MeshUpdate update;
+            update.positions = new_positions(self, value);
+            apply(self, std::move(update));
+        },
+        positions_doc);
+    mesh.def_property_readonly(
+        "indices",
+        [](const Mesh& self) -> py::array_t<std::uint32_t> {
+            return rows<std::uint32_t>(self.data()->triangles());
+        },
+        "ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside;"
+        " a read-only view.");
+    mesh.def_property(
+        "normals",
+        [](const Mesh& self) -> FloatRows { return rows<float>(self.data()->normals()); },
+        [](Mesh& self, const OrNone<ArrayLike>& value) {
+            MeshUpdate update;
+            update.normals.emplace();
+            if (!value.is_none()) update.normals = new_normals(self, value);
+            apply(self, std::move(update));
+        },
+        normals_doc);
+    mesh.def_property(
+        "uvs", [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.data()->uvs()); },
+        [](Mesh& self, const OrNone<ArrayLike>& value) {
+            MeshUpdate update;
+            update.uvs.emplace();
+            if (!value.is_none()) update.uvs = new_uvs(self, value);
+            apply(self, std::move(update));
+        },
+        uvs_doc);
+    mesh.def_property(
+        "colors",
+        [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.data()->colors()); },
+        [](Mesh& self, const OrNone<ArrayLike>& value) {
+            MeshUpdate update;
+            update.colors.emplace();
+            if (!value.is_none()) update.colors = to_vertex_colors(value, vertices_of(self));
+            apply(self, std::move(update));
+        },
+        colors_doc);
+}
+
 }  // namespace
 
 }  // namespace cubecam::bindings
@@ -135,42 +225,24 @@ void bind_mesh(pybind11::module_& module) {
         "resized",
         [](const Mesh& self, double size) {
             const py::gil_scoped_release release;
-            return std::make_shared<Mesh>(centred_and_scaled(self, size));
+            return std::make_shared<Mesh>(self.data()->centred_and_scaled(size));
         },
         py::arg("size"), resized_doc);
 
-    mesh.def_property_readonly(
-        "positions", [](const Mesh& self) -> FloatRows { return rows<float>(self.positions()); },
-        "ndarray (V, 3) float32: a read-only view.");
-    mesh.def_property_readonly(
-        "indices",
-        [](const Mesh& self) -> py::array_t<std::uint32_t> {
-            return rows<std::uint32_t>(self.triangles());
-        },
-        "ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside;"
-        " a read-only view.");
-    mesh.def_property_readonly(
-        "normals", [](const Mesh& self) -> FloatRows { return rows<float>(self.normals()); },
-        "ndarray (V, 3) float32: unit vectors; a read-only view.");
-    mesh.def_property_readonly(
-        "uvs", [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.uvs()); },
-        "ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.");
-    mesh.def_property_readonly(
-        "colors", [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.colors()); },
-        "ndarray (V, 4) float32 or None: linear RGBA; a read-only view.");
+    mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
+             py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
+             py::arg("colors") = py::none(), update_doc);
+    bind_vertices(mesh);
     mesh.def_property_readonly(
         "bounds", &bounds_array,
         "ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.");
 
     mesh.def("__repr__", &represent_mesh);
     mesh.def("__reduce__", [](const py::object& self) {
-        return reduced(self,
-                       py::make_tuple(self.attr("positions"), self.attr("indices"),
-                                      self.attr("normals"), self.attr("uvs"), self.attr("colors")));
+        // Smooth normals are computed anew, so that the twin's follow its positions, too.
+        py::object normals = self.attr("normals");
+        if (self.cast<const Mesh&>().data()->smooth()) normals = py::none();
+        return reduced(self, py::make_tuple(self.attr("positions"), self.attr("indices"), normals,
+                                            self.attr("uvs"), self.attr("colors")));
     });
-    // What never changes need not be copied.
-    mesh.def("__copy__", [](const py::object& self) { return self; });
-    mesh.def(
-        "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
-        py::arg("memo"));
 }

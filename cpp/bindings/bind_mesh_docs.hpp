@@ -4,7 +4,10 @@
 namespace cubecam::bindings {
 
 inline constexpr const char* mesh_doc =
-    R"doc(Indexed triangles. A mesh never changes, so that scenes and renderers share it.
+    R"doc(Indexed triangles, which any number of nodes, scenes and renderers share.
+
+The vertices may be set anew: `update` sets several arrays at once. The number of vertices and the
+triangles stay.
 
 Parameters
 ----------
@@ -41,6 +44,75 @@ Examples
 [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
 >>> cc.Mesh.box(2)
 Mesh(24 vertices, 12 triangles)
+)doc";
+
+inline constexpr const char* positions_doc =
+    R"doc(ndarray (V, 3) float32: where the vertices are; a read-only view.
+
+May be set; the normals then behave as `update` says. An array handed out before keeps its values.)doc";
+
+inline constexpr const char* normals_doc =
+    R"doc(ndarray (V, 3) float32: unit vectors; a read-only view.
+
+May be set. None: smooth ones, computed now and whenever the positions are set without normals.)doc";
+
+inline constexpr const char* uvs_doc =
+    R"doc(ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
+
+May be set. None: no texture coordinates.)doc";
+
+inline constexpr const char* colors_doc =
+    R"doc(ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
+
+May be set. None: no colours.)doc";
+
+inline constexpr const char* update_doc =
+    R"doc(Set vertices anew: several arrays at once, which one picture shows together.
+
+All nodes of the mesh show the new values in the next picture; only what is given is uploaded to the
+GPU again. Any call with an array counts as a change, even if all numbers are the same: comparing
+them would cost more than it saves. Other threads may draw meanwhile: a picture shows the mesh
+before or after an update, never part of it. Arrays that the mesh handed out before keep their
+values.
+
+Parameters
+----------
+positions : array_like (V, 3), optional
+    Object-space positions, finite. None: they stay.
+normals : array_like (V, 3), optional
+    Outward normals of any length. None: normals that were given stay, those that a primitive or
+    a file brings too; smooth ones that the mesh computed are computed anew with new positions.
+    ``mesh.normals = None`` makes them smooth.
+uvs : array_like (V, 2), optional
+    Texture coordinates. None: they stay.
+colors : array_like (V, 3) or (V, 4), optional
+    Linear RGB or RGBA; uint8 stands for value/255. None: they stay.
+
+Raises
+------
+TypeError
+    For arrays of bool, complex, object or str.
+ValueError
+    For another number of vertices, NaN, infinity or an alpha outside 0 to 1. The mesh then stays
+    as it was.
+
+Examples
+--------
+A sheet that waves:
+
+>>> import cubecam as cc
+>>> import numpy as np
+>>> x, z = np.meshgrid(np.linspace(-1, 1, 20), np.linspace(-1, 1, 20))
+>>> i = np.arange(19 * 20).reshape(19, 20)[:, :-1].ravel()
+>>> triangles = np.concatenate([np.c_[i, i + 20, i + 21], np.c_[i, i + 21, i + 1]])
+>>> mesh = cc.Mesh(np.c_[x.ravel(), 0 * x.ravel(), z.ravel()], triangles)
+>>> scene = cc.Scene()
+>>> sheet = scene.add(mesh)
+>>> for time in np.linspace(0, 1, 3):
+...     y = 0.2 * np.sin(3 * x + time)
+...     mesh.update(positions=np.c_[x.ravel(), y.ravel(), z.ravel()])
+>>> mesh.bounds[1].round(2).tolist()
+[1.0, 0.2, 1.0]
 )doc";
 
 inline constexpr const char* plane_doc = R"doc(A rectangle in the XZ plane, centred, normal +Y.

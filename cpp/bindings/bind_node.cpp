@@ -158,8 +158,7 @@ void bind_contents(Class<Node>& node) {
         },
         "str: for people; need not be unique.");
     node.def_property(
-        "mesh",
-        [](const Node& self) { return or_none(std::const_pointer_cast<Mesh>(self.value().mesh)); },
+        "mesh", [](const Node& self) { return or_none(self.value().mesh); },
         [](Node& self, const OrNone<Mesh>& value) {
             const auto mesh = to_mesh(value);
             self.edit([&](NodeValue& next) { next.mesh = mesh; });

@@ -108,11 +108,11 @@ PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera, py:
     options.depth_format = bindings::to_depth_format(depth_format);
     const auto seen = to_camera(camera);
     Frame frame;
-    const SceneSnapshot snapshot = scene.snapshot(bindings::to_effects(effects));
+    const auto snapshot = scene.snapshot(bindings::to_effects(effects));
     {
         const py::gil_scoped_release release;
         frame = std::visit(
-            [&](const auto& value) { return renderer.render(snapshot, value, options); }, seen);
+            [&](const auto& value) { return renderer.render(*snapshot, value, options); }, seen);
     }
     return PyFrame(std::move(frame));
 }
@@ -137,9 +137,9 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
     options.samples = to_int(samples, "samples");
     options.depth_format = bindings::to_depth_format(depth_format);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
-    const SceneSnapshot snapshot = scene.snapshot();
+    const auto snapshot = scene.snapshot();
     const py::gil_scoped_release release;
-    return renderer.capture(snapshot, options);
+    return renderer.capture(*snapshot, options);
 }
 
 void update(Renderer& renderer, const Scene& scene, py::handle probes) {
@@ -157,9 +157,9 @@ void update(Renderer& renderer, const Scene& scene, py::handle probes) {
         }
         if (wanted.empty()) return;
     }
-    const SceneSnapshot snapshot = scene.snapshot();
+    const auto snapshot = scene.snapshot();
     const py::gil_scoped_release release;
-    renderer.update(snapshot, wanted);
+    renderer.update(*snapshot, wanted);
 }
 
 }  // namespace
@@ -382,11 +382,11 @@ ValueError
         .def(
             "shadow_map",
             [](Renderer& self, const Scene& scene, const std::shared_ptr<Light>& light) {
-                const SceneSnapshot snapshot = scene.snapshot();
-                ShadowPicture picture;
+                const auto snapshot = scene.snapshot();
+                ShadowDistances picture;
                 {
                     const py::gil_scoped_release release;
-                    picture = self.shadow_map(snapshot, light);
+                    picture = self.shadow_map(*snapshot, light);
                 }
                 return owned_array(std::move(picture.distances),
                                    {picture.layers, picture.size, picture.size});

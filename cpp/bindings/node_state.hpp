@@ -18,7 +18,7 @@
 
 namespace cubecam::bindings {
 
-inline std::shared_ptr<const Mesh> to_mesh(py::handle value) {
+inline std::shared_ptr<Mesh> to_mesh(py::handle value) {
     return to_shared_or_none<Mesh>(value, "mesh",
                                    "a Mesh (see cubecam.load_mesh), a Light or None");
 }
@@ -54,14 +54,13 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
 /// render_order, cast_shadow, receive_shadow)
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
-    return py::make_tuple(std::const_pointer_cast<Mesh>(value.mesh), value.material,
-                          parts ? py::object(point_array(parts->position)) : py::none(),
-                          parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
-                          parts ? py::object(point_array(parts->scale)) : py::none(),
-                          parts ? py::none()
-                                : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
-                          from_cube_source(value.environment), value.visible, value.in_captures,
-                          value.name, value.render_order, value.cast_shadow, value.receive_shadow);
+    return py::make_tuple(
+        value.mesh, value.material, parts ? py::object(point_array(parts->position)) : py::none(),
+        parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
+        parts ? py::object(point_array(parts->scale)) : py::none(),
+        parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
+        from_cube_source(value.environment), value.visible, value.in_captures, value.name,
+        value.render_order, value.cast_shadow, value.receive_shadow);
 }
 
 inline NodeValue node_from_state(const py::tuple& state) {

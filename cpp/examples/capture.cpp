@@ -22,10 +22,10 @@ namespace {
 
 using namespace cubecam;
 
-std::shared_ptr<Node> add(Scene& scene, Mesh mesh, std::shared_ptr<Material> material,
+std::shared_ptr<Node> add(Scene& scene, MeshData mesh, std::shared_ptr<Material> material,
                           glm::dvec3 position) {
     NodeValue node;
-    node.mesh = std::make_shared<const Mesh>(std::move(mesh));
+    node.mesh = std::make_shared<Mesh>(std::move(mesh));
     node.material = std::move(material);
     node.placing = Transform{position};
     return scene.add(std::move(node));

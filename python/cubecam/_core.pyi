@@ -1338,7 +1338,10 @@ class Image:
 
 class Mesh:
     """
-    Indexed triangles. A mesh never changes, so that scenes and renderers share it.
+    Indexed triangles, which any number of nodes, scenes and renderers share.
+
+    The vertices may be set anew: `update` sets several arrays at once. The number of vertices and the
+    triangles stay.
 
     Parameters
     ----------
@@ -1609,8 +1612,6 @@ class Mesh:
         >>> cc.Mesh.torus(1, .25).bounds[1].tolist()
         [1.25, 0.25, 1.25]
         """
-    def __copy__(self) -> typing.Any: ...
-    def __deepcopy__(self, memo: dict) -> typing.Any: ...
     def __init__(
         self: Mesh,
         positions: numpy.typing.ArrayLike,
@@ -1646,6 +1647,61 @@ class Mesh:
         >>> cc.Mesh.box((1, 2, 4)).resized(1).bounds[1].tolist()
         [0.125, 0.25, 0.5]
         """
+    def update(
+        self: Mesh,
+        *,
+        positions: numpy.typing.ArrayLike | None = None,
+        normals: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        colors: numpy.typing.ArrayLike | None = None,
+    ) -> None:
+        """
+        Set vertices anew: several arrays at once, which one picture shows together.
+
+        All nodes of the mesh show the new values in the next picture; only what is given is uploaded to the
+        GPU again. Any call with an array counts as a change, even if all numbers are the same: comparing
+        them would cost more than it saves. Other threads may draw meanwhile: a picture shows the mesh
+        before or after an update, never part of it. Arrays that the mesh handed out before keep their
+        values.
+
+        Parameters
+        ----------
+        positions : array_like (V, 3), optional
+            Object-space positions, finite. None: they stay.
+        normals : array_like (V, 3), optional
+            Outward normals of any length. None: they stay if they were given at some time; if all are
+            smooth ones that the mesh computed, they are computed anew with new positions.
+        uvs : array_like (V, 2), optional
+            Texture coordinates. None: they stay.
+        colors : array_like (V, 3) or (V, 4), optional
+            Linear RGB or RGBA; uint8 stands for value/255. None: they stay.
+
+        Raises
+        ------
+        TypeError
+            For arrays of bool, complex, object or str.
+        ValueError
+            For another number of vertices, NaN, infinity or an alpha outside 0 to 1. The mesh then stays
+            as it was.
+
+        Examples
+        --------
+        A sheet that waves:
+
+        >>> import cubecam as cc
+        >>> import numpy as np
+        >>> x, z = np.meshgrid(np.linspace(-1, 1, 20), np.linspace(-1, 1, 20))
+        >>> i = np.arange(19 * 20).reshape(19, 20)[:, :-1].ravel()
+        >>> triangles = np.concatenate([np.c_[i, i + 20, i + 21], np.c_[i, i + 21, i + 1]])
+        >>> mesh = cc.Mesh(np.c_[x.ravel(), 0 * x.ravel(), z.ravel()], triangles)
+        >>> scene = cc.Scene()
+        >>> sheet = scene.add(mesh)
+        >>> for time in np.linspace(0, 1, 3):
+        ...     y = 0.2 * np.sin(3 * x + time)
+        ...     mesh.update(positions=np.c_[x.ravel(), y.ravel(), z.ravel()])
+        >>> mesh.bounds[1].round(2).tolist()
+        [1.0, 0.2, 1.0]
+        """
     @property
     def bounds(self) -> numpy.typing.NDArray[numpy.float64]:
         """
@@ -1655,7 +1711,11 @@ class Mesh:
     def colors(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
         ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
+
+        May be set. None: no colours.
         """
+    @colors.setter
+    def colors(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def indices(self) -> numpy.typing.NDArray[numpy.uint32]:
         """
@@ -1665,17 +1725,29 @@ class Mesh:
     def normals(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (V, 3) float32: unit vectors; a read-only view.
+
+        May be set. None: smooth ones, computed now and whenever the positions are set without normals.
         """
+    @normals.setter
+    def normals(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def positions(self) -> numpy.typing.NDArray[numpy.float32]:
         """
-        ndarray (V, 3) float32: a read-only view.
+        ndarray (V, 3) float32: where the vertices are; a read-only view.
+
+        May be set; the normals then behave as `update` says. An array handed out before keeps its values.
         """
+    @positions.setter
+    def positions(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
+
+        May be set. None: no texture coordinates.
         """
+    @uvs.setter
+    def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
 
 class Stencil:
     """

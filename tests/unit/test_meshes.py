@@ -319,3 +319,160 @@ def test_obj_indices_start_at_1(tmp_path):
     path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n")
     with pytest.raises(cc.MeshError, match="indices from 1"):
         cc.load_mesh(path)
+
+
+STREAMS = {"positions": 3, "normals": 3, "uvs": 2, "colors": 4}
+
+
+def quad(**more):
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    return cc.Mesh(corners, [[0, 1, 2], [0, 2, 3]], **more)
+
+
+def by_update(mesh, name, value):
+    mesh.update(**{name: value})
+
+
+@pytest.mark.parametrize("change", [by_update, setattr], ids=["update", "property"])
+@pytest.mark.parametrize("name", STREAMS)
+def test_vertices_set_anew_are_those_of_a_new_mesh(rng, name, change):
+    given = {n: rng.random((4, width)) for n, width in STREAMS.items()}
+    mesh = cc.Mesh(indices=[[0, 1, 2], [0, 2, 3]], **given)
+    given[name] = rng.random((4, STREAMS[name]))
+    change(mesh, name, given[name])
+    wanted = cc.Mesh(indices=[[0, 1, 2], [0, 2, 3]], **given)
+    for other in STREAMS:
+        np.testing.assert_array_equal(getattr(mesh, other), getattr(wanted, other))
+    np.testing.assert_array_equal(mesh.bounds, wanted.bounds)
+
+
+def test_arrays_handed_out_keep_their_values(rng):
+    mesh = quad(uvs=rng.random((4, 2)), colors=rng.random((4, 4)))
+    before = {name: getattr(mesh, name) for name in STREAMS}
+    copies = {name: array.copy() for name, array in before.items()}
+    mesh.update(**{name: rng.random((4, width)) for name, width in STREAMS.items()})
+    for name, array in before.items():
+        np.testing.assert_array_equal(array, copies[name])
+        assert not np.array_equal(getattr(mesh, name), array)
+        with pytest.raises(ValueError, match="read-only"):
+            getattr(mesh, name)[0] = 0
+    positions = mesh.positions
+    del mesh
+    assert np.isfinite(positions).all()
+
+
+def test_the_callers_array_is_copied():
+    mesh, positions = quad(), np.zeros((4, 3), np.float32)
+    mesh.update(positions=positions)
+    positions[:] = 7
+    np.testing.assert_array_equal(mesh.positions, 0)
+
+
+def test_smooth_normals_follow_the_positions():
+    mesh = quad()
+    mesh.positions = mesh.positions[:, [0, 2, 1]]
+    np.testing.assert_allclose(mesh.normals, [[0, -1, 0]] * 4)
+
+
+def test_given_normals_stay_where_the_positions_are_set():
+    mesh = quad(normals=[[1, 0, 0]] * 4)
+    mesh.positions = mesh.positions[:, [0, 2, 1]]
+    np.testing.assert_array_equal(mesh.normals, [[1, 0, 0]] * 4)
+
+
+def test_normals_set_once_are_given_and_none_makes_them_smooth_again():
+    mesh = quad()
+    mesh.update(normals=[[0, 3, 0]] * 4)
+    mesh.positions = mesh.positions * 2
+    np.testing.assert_array_equal(mesh.normals, [[0, 1, 0]] * 4)
+    mesh.normals = None
+    np.testing.assert_allclose(mesh.normals, [[0, 0, 1]] * 4)
+    mesh.positions = mesh.positions[:, [0, 2, 1]]
+    np.testing.assert_allclose(mesh.normals, [[0, -1, 0]] * 4)
+
+
+@twins
+@pytest.mark.parametrize("normals", [None, [[1, 0, 0]] * 4], ids=["smooth", "given"])
+def test_the_normals_of_a_twin_follow_its_positions_alike(twin, normals):
+    mesh = quad(normals=normals)
+    other = twin(mesh)
+    for each in (mesh, other):
+        each.positions = each.positions[:, [0, 2, 1]]
+    np.testing.assert_array_equal(other.normals, mesh.normals)
+
+
+@twins
+def test_a_twin_is_a_mesh_of_its_own(twin):
+    mesh = quad()
+    twin(mesh).positions = np.zeros((4, 3))
+    assert mesh.positions.any()
+
+
+def test_normals_of_no_length_become_smooth_in_an_update():
+    mesh = quad(normals=[[1, 0, 0]] * 4)
+    mesh.update(normals=[[0, 2, 0], [0, 0, 0], [0, 1, 0], [0, 1, 0]])
+    np.testing.assert_allclose(mesh.normals, [[0, 1, 0], [0, 0, 1], [0, 1, 0], [0, 1, 0]])
+
+
+def test_uvs_and_colors_may_come_and_go(rng):
+    mesh = quad()
+    mesh.update(uvs=np.zeros((4, 2)), colors=np.full((4, 3), 255, np.uint8))
+    np.testing.assert_array_equal(mesh.uvs, 0)
+    np.testing.assert_array_equal(mesh.colors, 1)
+    mesh.uvs = mesh.colors = None
+    assert mesh.uvs is None
+    assert mesh.colors is None
+
+
+BAD_UPDATES = {
+    "positions of 3 vertices": (
+        {"positions": np.zeros((3, 3))},
+        ValueError,
+        r"expected shape \(4, 3\)",
+    ),
+    "positions of 2": ({"positions": np.zeros((4, 2))}, ValueError, r"got \(4, 2\)"),
+    "positions nan": ({"positions": np.full((4, 3), np.nan)}, ValueError, "nan"),
+    "positions bool": ({"positions": np.zeros((4, 3), bool)}, TypeError, "positions"),
+    "normals of 5 vertices": ({"normals": np.zeros((5, 3))}, ValueError, "normals"),
+    "no normals": ({"normals": np.zeros((0, 3))}, ValueError, "normals"),
+    "uvs of 3 vertices": ({"uvs": np.zeros((3, 2))}, ValueError, "uvs"),
+    "colors of 2": ({"colors": np.zeros((4, 2))}, ValueError, r"\(4, 3\) or \(4, 4\)"),
+    "alpha of 2": ({"colors": np.full((4, 4), 2.0)}, ValueError, "alpha"),
+}
+
+
+@pytest.mark.parametrize(("change", "error", "text"), BAD_UPDATES.values(), ids=BAD_UPDATES)
+def test_a_refused_update_changes_nothing(rng, change, error, text):
+    mesh = quad(uvs=rng.random((4, 2)), colors=rng.random((4, 4)))
+    before = {name: getattr(mesh, name).copy() for name in STREAMS}
+    good = {"positions": np.ones((4, 3)), "uvs": np.ones((4, 2))}
+    with pytest.raises(error, match=text):
+        mesh.update(**{**good, **change})
+    for name, array in before.items():
+        np.testing.assert_array_equal(getattr(mesh, name), array)
+
+
+def test_positions_cannot_be_none():
+    with pytest.raises(TypeError, match="positions"):
+        quad().positions = None
+
+
+def test_update_takes_names_only():
+    with pytest.raises(TypeError):
+        quad().update(np.zeros((4, 3)))
+
+
+@pytest.mark.parametrize("vertices", [3, 4, 5, 6, 7, 8, 9, 4097])
+def test_bounds_are_those_of_numpy(rng, vertices):
+    positions = rng.normal(size=(vertices, 3)).astype(np.float32)
+    mesh = cc.Mesh(positions, [[0, 1, 2]])
+    np.testing.assert_array_equal(mesh.bounds, [positions.min(0), positions.max(0)])
+
+
+@pytest.mark.parametrize("place", [0, 2500, 4999])
+def test_one_normal_of_many_is_made_unit_length(rng, place):
+    normals = np.tile(np.array([0, 0, 1], np.float32), (5000, 1))
+    normals[place] = (0, 4, 3)
+    mesh = cc.Mesh(rng.normal(size=(5000, 3)), [[0, 1, 2]], normals=normals)
+    normals[place] = (0, 0.8, 0.6)
+    np.testing.assert_allclose(mesh.normals, normals, atol=1e-7)

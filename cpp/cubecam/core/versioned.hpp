@@ -20,7 +20,9 @@ public:
         std::uint64_t revision;
     };
 
-    explicit Versioned(Value value) : state_{std::move(value), next_revision()} {}
+    explicit Versioned(Value value) : state_{std::move(value), next_revision()} {
+        revision_.set(state_.revision);
+    }
 
     /// Value and revision as they were at one moment.
     State state() const {
@@ -29,6 +31,9 @@ public:
     }
 
     Value value() const { return state().value; }
+
+    /// That of the state, which can be read without waiting for anyone.
+    const Revision& revision() const { return revision_; }
 
     /// Applies `change` to a copy; keeps it, under a new revision, only if it differs.
     /// An exception thrown by `change` leaves the old value in place.
@@ -39,12 +44,14 @@ public:
         std::forward<Change>(change)(next);
         if (!(next == state_.value)) {
             state_ = State{std::move(next), next_revision()};
+            revision_.set(state_.revision);
         }
     }
 
 private:
     mutable std::mutex mutex_;
     State state_;
+    Revision revision_;
 };
 
 }  // namespace cubecam

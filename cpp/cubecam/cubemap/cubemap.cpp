@@ -119,7 +119,12 @@ CubeMap::CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool m
     check_outputs(outputs_, size);
     // Not make_shared<const ...>: set_face may write to it when nobody else holds it.
     data.pixels = std::make_shared<PixelBuffer>(std::move(pixels));
+    set_data(std::move(data));
+}
+
+void CubeMap::set_data(CubeMapData data) {
     data_ = std::make_shared<const CubeMapData>(std::move(data));
+    revision_.set(data_->revision);
 }
 
 CubeMap::CubeMap(const CubeMap& other) {
@@ -127,7 +132,7 @@ CubeMap::CubeMap(const CubeMap& other) {
     CubeMapData data = *other.data_;
     data.face_revisions = new_face_revisions();
     data.revision = next_revision();
-    data_ = std::make_shared<const CubeMapData>(std::move(data));
+    set_data(std::move(data));
     outputs_ = other.outputs_;
     mip_chain_ = other.mip_chain_;
 }
@@ -173,7 +178,7 @@ void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
     std::memcpy(writable->data() + face_index(face) * bytes, pixels.data(), bytes);
     next.face_revisions[face_index(face)] = next_revision();
     next.revision = next_revision();
-    data_ = std::make_shared<const CubeMapData>(std::move(next));
+    set_data(std::move(next));
     mip_chain_.reset();
 }
 

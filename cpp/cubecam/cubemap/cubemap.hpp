@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/revision.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/cube_face.hpp"
 
@@ -61,6 +62,8 @@ public:
 
     /// The state of this moment.
     std::shared_ptr<const CubeMapData> data() const;
+    /// That of the state, which can be read without waiting for anyone.
+    const Revision& revision() const { return revision_; }
 
     CapturedOutputs outputs() const;
     /// For the bindings' unpickling. @throws as the constructor does.
@@ -92,8 +95,11 @@ public:
     bool same_contents(const CubeMap& other) const;
 
 private:
+    void set_data(CubeMapData data);
+
     mutable std::mutex mutex_;
     std::shared_ptr<const CubeMapData> data_;
+    Revision revision_;  ///< of data_
     CapturedOutputs outputs_;
     mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_, made on first use
 };

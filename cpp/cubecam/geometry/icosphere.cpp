@@ -101,7 +101,7 @@ std::array<double, 3> unwrapped_us(const std::array<glm::dvec3, 3>& corners) {
 
 }  // namespace
 
-Mesh icosphere(double radius, int subdivisions) {
+MeshData icosphere(double radius, int subdivisions) {
     expect_positive(radius, "radius");
     expect(subdivisions >= 0 && subdivisions <= most_subdivisions,
            "subdivisions from 0 to " + std::to_string(most_subdivisions),
@@ -109,7 +109,7 @@ Mesh icosphere(double radius, int subdivisions) {
     Icosahedron solid = icosahedron();
     for (int i = 0; i < subdivisions; ++i) subdivide(solid);
 
-    Mesh::Arrays arrays;
+    MeshData::Arrays arrays;
     for (const glm::dvec3& direction : solid.directions) {
         arrays.positions.emplace_back(radius * direction);
         arrays.normals.emplace_back(direction);
@@ -137,7 +137,7 @@ Mesh icosphere(double radius, int subdivisions) {
         }
         arrays.triangles.push_back(t);
     }
-    return Mesh(std::move(arrays));
+    return MeshData(std::move(arrays));
 }
 
 }  // namespace cubecam::primitives

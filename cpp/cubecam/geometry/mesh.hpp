@@ -1,84 +1,35 @@
 #pragma once
 
-#include <glm/glm.hpp>
+#include "cubecam/core/revision.hpp"
+#include "cubecam/geometry/mesh_data.hpp"
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <vector>
+#include <mutex>
 
 namespace cubecam {
 
-/// Axis-aligned bounds; `empty()` until a point was added.
-struct Bounds {
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
-
-    glm::dvec3 center() const { return 0.5 * (low + high); }
-    glm::dvec3 extent() const { return high - low; }
-};
-
-/// The box round a transformed box: |M| * half extents round M * center
-/// (J. Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems, 1990).
-inline Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
-    const glm::dvec3 center(m * glm::dvec4(bounds.center(), 1.0));
-    const glm::dvec3 half = 0.5 * bounds.extent();
-    const glm::dvec3 reach = glm::abs(glm::dvec3(m[0])) * half.x +
-                             glm::abs(glm::dvec3(m[1])) * half.y +
-                             glm::abs(glm::dvec3(m[2])) * half.z;
-    return {center - reach, center + reach};
-}
-
-/// Indexed triangles with smooth normals, and texture coordinates and colours where there are some.
+/// A mesh that scenes share and whose vertices may be set anew, from any thread.
 ///
-/// Immutable, so that threads and renderers share it: the GPU copy is keyed by `revision()`.
+/// Whoever draws it holds its data of one moment, which stays as it is.
 class Mesh {
 public:
-    template <class T>
-    using Array = std::shared_ptr<const std::vector<T>>;
+    explicit Mesh(MeshData data);
 
-    struct Arrays {
-        std::vector<glm::vec3> positions;
-        std::vector<glm::uvec3> triangles;  ///< counter-clockwise seen from outside
-        std::vector<glm::vec3> normals;     ///< empty: smooth ones are computed
-        std::vector<glm::vec2> uvs;         ///< empty: none
-        std::vector<glm::vec4> colors;      ///< empty: none
-    };
+    /// The vertices and triangles of this moment.
+    std::shared_ptr<const MeshData> data() const;
 
-    /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that
-    /// differ from positions';
-    /// @throws std::out_of_range for an index beyond the vertices.
-    explicit Mesh(Arrays arrays);
+    /// That of the data, readable without waiting for anyone.
+    const Revision& revision() const { return revision_; }
 
-    const Array<glm::vec3>& positions() const { return positions_; }
-    const Array<glm::uvec3>& triangles() const { return triangles_; }
-    const Array<glm::vec3>& normals() const { return normals_; }
-    const Array<glm::vec2>& uvs() const { return uvs_; }        ///< null: none
-    const Array<glm::vec4>& colors() const { return colors_; }  ///< null: none
-    const Bounds& bounds() const { return bounds_; }
-    std::uint64_t revision() const { return revision_; }
-
-    /// Whether any vertex colour has an alpha below one.
-    bool translucent_colors() const { return translucent_colors_; }
+    /// Sets vertices anew; what the update leaves out stays. Without any value nothing changes.
+    /// @throws as MeshData::updated does; the mesh then stays as it was.
+    void update(MeshUpdate update);
 
 private:
-    Array<glm::vec3> positions_;
-    Array<glm::uvec3> triangles_;
-    Array<glm::vec3> normals_;
-    Array<glm::vec2> uvs_;
-    Array<glm::vec4> colors_;
-    Bounds bounds_;
-    bool translucent_colors_ = false;
-    std::uint64_t revision_;
+    std::mutex updates_;        ///< one update follows another: none is lost
+    mutable std::mutex mutex_;  ///< of data_, held for a moment only
+    std::shared_ptr<const MeshData> data_;
+    Revision revision_;
 };
-
-/// Vertex normals as the sum of the triangles' normals weighted by the angle at the vertex
-/// (G. Thuermer, C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
-/// A vertex of no triangle, or of degenerate ones only, gets +Y.
-std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& positions,
-                                      const std::vector<glm::uvec3>& triangles);
-
-/// The same mesh centred at the origin and scaled so that its largest extent is `size`.
-Mesh centred_and_scaled(const Mesh& mesh, double size);
 
 }  // namespace cubecam

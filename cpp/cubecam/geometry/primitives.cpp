@@ -61,10 +61,10 @@ public:
         triangle(a, c, d);
     }
 
-    Mesh mesh() { return Mesh(std::move(arrays_)); }
+    MeshData mesh() { return MeshData(std::move(arrays_)); }
 
 private:
-    Mesh::Arrays arrays_;
+    MeshData::Arrays arrays_;
 };
 
 /// The direction at a fraction of a turn round +Y that begins at -Z, passes +X where a viewer in
@@ -93,7 +93,7 @@ void add_disc(Builder& builder, double radius, double height, double side, int s
 
 }  // namespace
 
-Mesh plane(double width, double depth) {
+MeshData plane(double width, double depth) {
     expect_positive(width, "width");
     expect_positive(depth, "depth");
     const double x = 0.5 * width;
@@ -108,7 +108,7 @@ Mesh plane(double width, double depth) {
     return builder.mesh();
 }
 
-Mesh box(glm::dvec3 size) {
+MeshData box(glm::dvec3 size) {
     for (int axis = 0; axis < 3; ++axis) expect_positive(size[axis], "size");
     // Normal, and what is up in the face's picture, seen from outside; right is up x normal.
     constexpr std::array<std::pair<glm::dvec3, glm::dvec3>, 6> faces = {{
@@ -135,7 +135,7 @@ Mesh box(glm::dvec3 size) {
     return builder.mesh();
 }
 
-Mesh sphere(double radius, int segments, int rings) {
+MeshData sphere(double radius, int segments, int rings) {
     expect_positive(radius, "radius");
     expect_count(segments, 3, "segments");
     expect_count(rings, 2, "rings");
@@ -177,7 +177,7 @@ Mesh sphere(double radius, int segments, int rings) {
     return builder.mesh();
 }
 
-Mesh cylinder(double radius, double height, int segments) {
+MeshData cylinder(double radius, double height, int segments) {
     expect_positive(radius, "radius");
     expect_positive(height, "height");
     expect_count(segments, 3, "segments");
@@ -201,7 +201,7 @@ Mesh cylinder(double radius, double height, int segments) {
     return builder.mesh();
 }
 
-Mesh cone(double radius, double height, int segments) {
+MeshData cone(double radius, double height, int segments) {
     expect_positive(radius, "radius");
     expect_positive(height, "height");
     expect_count(segments, 3, "segments");
@@ -229,7 +229,7 @@ Mesh cone(double radius, double height, int segments) {
     return builder.mesh();
 }
 
-Mesh torus(double radius, double tube, int segments, int sides) {
+MeshData torus(double radius, double tube, int segments, int sides) {
     expect_positive(radius, "radius");
     expect_positive(tube, "tube");
     expect(tube < radius, "a tube thinner than the radius",

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cubecam/geometry/mesh.hpp"
+#include "cubecam/geometry/mesh_data.hpp"
 
 #include <glm/glm.hpp>
 
@@ -12,26 +12,26 @@ namespace cubecam::primitives {
 
 /// In the XZ plane, normal +Y; uv (0, 0) at (-x, +z): a picture on it is upright seen from +Y, -Z
 /// up.
-Mesh plane(double width, double depth);
+MeshData plane(double width, double depth);
 
 /// Six faces with normals of their own (24 vertices), each with uv 0..1, upright seen from outside:
 /// +Y is up on the sides, -Z on top (as on the plane), +Z on the bottom.
-Mesh box(glm::dvec3 size);
+MeshData box(glm::dvec3 size);
 
 /// A uv sphere: `segments` round the Y axis, `rings` from pole to pole.
-Mesh sphere(double radius, int segments = 64, int rings = 32);
+MeshData sphere(double radius, int segments = 64, int rings = 32);
 
 /// A subdivided icosahedron: triangles of nearly equal size, 20 * 4^subdivisions of them (0..9).
-Mesh icosphere(double radius, int subdivisions = 3);
+MeshData icosphere(double radius, int subdivisions = 3);
 
 /// Round the Y axis, from -height/2 to +height/2, with caps.
-Mesh cylinder(double radius, double height, int segments = 64);
+MeshData cylinder(double radius, double height, int segments = 64);
 
 /// Round the Y axis, base at -height/2, apex at +height/2, with a base.
-Mesh cone(double radius, double height, int segments = 64);
+MeshData cone(double radius, double height, int segments = 64);
 
 /// Round the Y axis: `radius` to the center of the tube, `tube` the radius of the tube, the
 /// smaller.
-Mesh torus(double radius, double tube, int segments = 64, int sides = 32);
+MeshData torus(double radius, double tube, int segments = 64, int sides = 32);
 
 }  // namespace cubecam::primitives

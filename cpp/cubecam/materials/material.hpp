@@ -115,6 +115,7 @@ public:
 
     State state() const { return value_.state(); }
     MaterialValue value() const { return value_.value(); }
+    const Revision& revision() const { return value_.revision(); }
 
     template <class Change>
     void edit(Change&& change) {

@@ -2,37 +2,61 @@
 
 #include <glm/glm.hpp>
 
-#include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace cubecam {
 
-/// One of the eight corners of a box, 0 to 7.
-inline glm::dvec4 box_corner(const glm::dvec3& low, const glm::dvec3& high, int corner) {
-    return {(corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y,
-            (corner & 4) != 0 ? high.z : low.z, 1.0};
-}
-
-/// Whether a box can show in the picture of `view_projection` (GL clip space): false only if all
-/// eight corners lie beyond one and the same plane of the frustum (U. Assarsson, T. Moeller,
-/// "Optimized View Frustum Culling Algorithms for Bounding Boxes", JGT 5(1), 2000, in clip space).
-/// Holds for any matrix, perspective or not.
-///
-/// `error` is how far off the GPU's float arithmetic may put a corner's clip coordinates: within
-/// that of a plane a box counts as inside, so never false for what shows.
-inline bool may_show(const glm::dmat4& view_projection, const glm::dvec3& low,
-                     const glm::dvec3& high, const glm::dvec4& error) {
-    std::array<int, 6> beyond{};
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 clip = view_projection * box_corner(low, high, corner);
+/// The six planes that bound what the picture of a matrix to GL's clip space shows.
+class Frustum {
+public:
+    explicit Frustum(const glm::dmat4& view_projection) {
+        const glm::dmat4& m = view_projection;
+        const auto row = [&m](int r) { return glm::dvec4(m[0][r], m[1][r], m[2][r], m[3][r]); };
         for (int axis = 0; axis < 3; ++axis) {
-            const auto plane = static_cast<std::size_t>(2 * axis);
-            const double slack = error[axis] + error.w;
-            beyond[plane] += clip[axis] < -clip.w - slack;
-            beyond[plane + 1] += clip[axis] > clip.w + slack;
+            const auto i = static_cast<std::size_t>(2 * axis);
+            planes_[i] = make_plane(row(3) + row(axis));
+            planes_[i + 1] = make_plane(row(3) - row(axis));
         }
     }
-    return std::none_of(beyond.begin(), beyond.end(), [](int corners) { return corners == 8; });
-}
+
+    /// Whether a box can show: false only if all of it lies beyond one and the same plane
+    /// (U. Assarsson, T. Moeller, "Optimized View Frustum Culling Algorithms for Bounding Boxes",
+    /// JGT 5(1), 2000, in clip space). Holds for any matrix, perspective or not.
+    ///
+    /// `error()` gives how far off, at most, arithmetic on the GPU may put a vertex in clip space:
+    /// a box within that of a plane counts as inside. It is called only where that decides.
+    template <class Error>
+    bool may_show(const glm::dvec3& center, const glm::dvec3& half, Error&& error) const {
+        std::array<double, 6> farthest;  // of the box's corners, from each plane inwards
+        bool inside = true;
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            const Plane& plane = planes_[i];
+            farthest[i] =
+                glm::dot(plane.normal, center) + plane.offset + glm::dot(plane.reach, half);
+            inside = inside && farthest[i] >= 0.0;
+        }
+        if (inside) return true;
+        const glm::dvec4 off = error();
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            // What is not a number is never beyond.
+            if (farthest[i] < -(off[static_cast<int>(i / 2)] + off.w)) return false;
+        }
+        return true;
+    }
+
+private:
+    struct Plane {
+        glm::dvec3 normal;  ///< inwards, of any length
+        double offset;
+        glm::dvec3 reach;  ///< by how much a unit of a box's half extents goes inwards
+    };
+
+    static Plane make_plane(const glm::dvec4& plane) {
+        return {glm::dvec3(plane), plane.w, glm::abs(glm::dvec3(plane))};
+    }
+
+    std::array<Plane, 6> planes_;  ///< -x +x -y +y -z +z of clip space
+};
 
 }  // namespace cubecam

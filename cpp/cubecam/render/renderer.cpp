@@ -1,9 +1,10 @@
 #include "cubecam/render/renderer.hpp"
 
 #include "cubecam/core/error.hpp"
-#include "cubecam/render/graph/session.hpp"
+#include "cubecam/render/graph/frame_context.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/stereo.hpp"
+#include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -121,7 +122,7 @@ auto Renderer::run(Work&& work) {
     state.cache.sweep();
     state.probes.sweep();
     state.textures.sweep();
-    state.shadows.sweep();
+    state.shadow_maps.sweep();
     stats_ = {};
     gpu_->context.take_debug_messages();  // of earlier calls
     try {
@@ -159,9 +160,10 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         for (const CameraValue& camera : cameras) {
             views.push_back(camera_view(matrices(camera, aspect)));
         }
-        Session session(gpu, scene);
-        session.call().draw(views, target, [](const NodeSnapshot&) { return true; }, post_process);
-        stats_ = session.stats;
+        FrameContext frame(gpu, scene);
+        frame.draw(
+            std::move(views), target, [](const NodeSnapshot&) { return true; }, post_process);
+        stats_ = frame.stats;
         return read_frame(gpu.context.gl(), target);
     });
 }
@@ -187,13 +189,13 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
             describe_target(gpu.context, true, options.size, options.size, options.samples,
                             options.format, options.outputs, options.depth_format);
         Target& target = gpu.targets.get(gpu.context, description);
-        const std::vector<View> views =
+        std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);
-        Session session(gpu, scene);
-        session.call().draw(views, target, [&](const NodeSnapshot& node) {
+        FrameContext frame(gpu, scene);
+        frame.draw(std::move(views), target, [&](const NodeSnapshot& node) {
             return node.in_captures && !is_excluded(node, options.exclude);
         });
-        stats_ = session.stats;
+        stats_ = frame.stats;
         return read_cube(gpu.context.gl(), target);
     });
 }
@@ -214,15 +216,15 @@ void Renderer::update(const SceneSnapshot& scene,
                 "probes: expected probes that a visible node of the scene uses");
     }
     run([&](RendererState& gpu) {
-        Session session(gpu, scene);
-        session.call().force(indices);
-        stats_ = session.stats;
+        FrameContext frame(gpu, scene);
+        frame.update_probes(indices);
+        stats_ = frame.stats;
         return true;
     });
 }
 
-ShadowPicture Renderer::shadow_map(const SceneSnapshot& scene,
-                                   const std::shared_ptr<Light>& light) {
+ShadowDistances Renderer::shadow_map(const SceneSnapshot& scene,
+                                     const std::shared_ptr<Light>& light) {
     const auto found =
         std::find_if(scene.lights.begin(), scene.lights.end(),
                      [&light](const LightSnapshot& other) { return other.object == light; });
@@ -234,21 +236,20 @@ ShadowPicture Renderer::shadow_map(const SceneSnapshot& scene,
         throw std::invalid_argument("light: expected one with a shadow, got one without");
     }
     return run([&](RendererState& gpu) {
-        Session session(gpu, scene);
-        ShadowPicture picture;
-        picture.size = found->value.shadow->size;
-        picture.distances =
-            session.call().shadow_map(static_cast<std::size_t>(found - scene.lights.begin()));
-        const auto size = static_cast<std::size_t>(picture.size);
-        picture.layers = static_cast<int>(picture.distances.size() / (size * size));
-        stats_ = session.stats;
-        return picture;
+        FrameContext frame(gpu, scene);
+        ShadowDistances seen;
+        seen.size = found->value.shadow->size;
+        seen.distances = frame.shadow_map(static_cast<std::size_t>(found - scene.lights.begin()));
+        const auto size = static_cast<std::size_t>(seen.size);
+        seen.layers = static_cast<int>(seen.distances.size() / (size * size));
+        stats_ = frame.stats;
+        return seen;
     });
 }
 
 std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) {
     return run([&](RendererState& gpu) {
-        ProbeContents* contents = gpu.probes.find(probe);
+        StatesByScene<ProbeState>* contents = gpu.probes.find(probe);
         const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "

@@ -33,7 +33,7 @@ struct RendererInfo {
 };
 
 /// What a light sees of what casts shadows.
-struct ShadowPicture {
+struct ShadowDistances {
     int size = 0;
     int layers = 0;
     Buffer<float> distances;
@@ -56,19 +56,19 @@ public:
     Frame render(const SceneSnapshot& scene, const CameraValue& camera,
                  const FrameOptions& options);
     Frame render(const Scene& scene, const Camera& camera, const FrameOptions& options) {
-        return render(scene.snapshot(), camera.value(), options);
+        return render(*scene.snapshot(), camera.value(), options);
     }
 
     /// Both eyes' pictures as one; each eye's `aspect` is that of its part.
     Frame render(const SceneSnapshot& scene, const StereoValue& camera,
                  const FrameOptions& options);
     Frame render(const Scene& scene, const StereoCamera& camera, const FrameOptions& options) {
-        return render(scene.snapshot(), camera.value(), options);
+        return render(*scene.snapshot(), camera.value(), options);
     }
 
     std::shared_ptr<CubeMap> capture(const SceneSnapshot& scene, const CaptureOptions& options);
     std::shared_ptr<CubeMap> capture(const Scene& scene, const CaptureOptions& options) {
-        return capture(scene.snapshot(), options);
+        return capture(*scene.snapshot(), options);
     }
 
     /// Draws probes now, whatever their policy says: those given, or all that the scene's visible
@@ -85,7 +85,7 @@ public:
     /// order of a cube's faces: from the light, for a directional one from where the casters'
     /// bounds begin; infinite where nothing casts. Row 0 is on top, of a cube's faces t = 0.
     /// @throws std::invalid_argument for a light that is not in the scene or has no shadow.
-    ShadowPicture shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
+    ShadowDistances shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
 
     Stats stats() const;
     const RendererInfo& info() const { return info_; }

@@ -63,7 +63,11 @@ public:
     Light(const Light&) = delete;
     Light& operator=(const Light&) = delete;
 
+    using State = Versioned<LightValue>::State;
+
+    State state() const { return value_.state(); }
     LightValue value() const { return value_.value(); }
+    const Revision& revision() const { return value_.revision(); }
 
     template <class Change>
     void edit(Change&& change) {

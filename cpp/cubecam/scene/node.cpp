@@ -158,7 +158,16 @@ glm::dmat4 Node::world_matrix() const {
     return locked_world_matrix();
 }
 
+void Node::place(Placing placing) {
+    check(placing);
+    const Lock lock = this->lock();
+    if (placing == value_.placing) return;
+    value_.placing = placing;
+    lock.graph->node_moved(*this);
+}
+
 glm::dmat4 Node::locked_world_matrix() const {
+    if (!parent_) return matrix_of(value_.placing);
     std::vector<const Node*> chain;
     for (const Node* node = this; node; node = node->parent_.get()) chain.push_back(node);
     // From the root down, as the snapshot does: the same bits.
@@ -175,17 +184,18 @@ std::shared_ptr<Scene> Node::scene() const {
 }
 
 void Node::attach(const std::shared_ptr<Node>& parent) {
-    std::erase_if(parent->children_, [](const auto& child) { return child.expired(); });
-    parent->children_.push_back(weak_from_this());
+    auto& siblings = parent->children_;
+    if (siblings.size() >= parent->children_swept_at_) {
+        std::erase_if(siblings, [](const auto& child) { return child.expired(); });
+        parent->children_swept_at_ = std::max<std::size_t>(16, 2 * siblings.size());
+    }
+    siblings.insert(weak_from_this());
     parent_ = parent;
 }
 
 void Node::detach() {
     if (!parent_) return;
-    std::erase_if(parent_->children_, [this](const auto& child) {
-        const auto node = child.lock();
-        return !node || node.get() == this;
-    });
+    parent_->children_.erase(weak_from_this());
     parent_.reset();
 }
 
@@ -200,7 +210,8 @@ std::vector<std::shared_ptr<Node>> Node::subtree() {
 }
 
 void Node::set_parent(const std::shared_ptr<Node>& parent) {
-    std::shared_ptr<Node> old;  // let go of after the locks
+    std::shared_ptr<Node> old;  // these are let go of after the locks
+    std::shared_ptr<SceneSnapshot> outdated[2];
     while (true) {
         const auto mine = graph();
         const auto theirs = parent ? parent->graph() : mine;
@@ -224,6 +235,8 @@ void Node::set_parent(const std::shared_ptr<Node>& parent) {
                 std::to_string(parent->id_) + " for node " + std::to_string(id_) + ": a cycle");
         }
         old = parent_;
+        outdated[0] = mine->changed();
+        outdated[1] = theirs->changed();
         detach();
         if (parent) attach(parent);
         if (mine != theirs) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/revision.hpp"
 #include "cubecam/geometry/mesh.hpp"
 #include "cubecam/materials/material.hpp"
 #include "cubecam/materials/texture_source.hpp"
@@ -10,14 +11,18 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
 
 namespace cubecam {
 
+class Node;
 class Scene;
+struct SceneSnapshot;
 
 /// Scale, then rotation, then translation.
 struct Transform {
@@ -34,7 +39,7 @@ using Placing = std::variant<Transform, glm::dmat4>;
 /// Everything a node is but its place in the tree.
 struct NodeValue {
     Placing placing;
-    std::shared_ptr<const Mesh> mesh;    ///< null: a group
+    std::shared_ptr<Mesh> mesh;          ///< null: a group
     std::shared_ptr<Material> material;  ///< set wherever there is a mesh
     CubeSource environment;              ///< none: the scene's
     bool visible = true;
@@ -43,6 +48,12 @@ struct NodeValue {
     std::int32_t render_order = 0;  ///< lower is drawn first, before distance
     bool cast_shadow = true;        ///< false: nor does anything below it
     bool receive_shadow = true;     ///< of its own surface
+
+    /// All but `placing`.
+    auto contents() const {
+        return std::tie(mesh, material, environment, visible, in_captures, name, render_order,
+                        cast_shadow, receive_shadow);
+    }
 };
 
 /// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the
@@ -63,6 +74,30 @@ struct NodeGraph {
     std::mutex mutex;
     const bool of_scene;
     std::weak_ptr<Scene> scene;  ///< null for a Scene that no shared_ptr owns
+
+    // With the mutex locked:
+
+    /// Whatever is in the scene changed. Gives the snapshot that was kept, to be let go of after
+    /// the lock.
+    std::shared_ptr<SceneSnapshot> changed() {
+        ++changes;
+        next_revision();  // whoever waits for any change sees one
+        moved.clear();
+        return std::exchange(snapshot, nullptr);
+    }
+    /// A node was placed elsewhere, and nothing else changed: the snapshot that is kept can be
+    /// brought up to date.
+    void node_moved(Node& node) {
+        ++changes;
+        next_revision();
+        if (snapshot) moved.push_back(&node);
+    }
+
+    std::uint64_t changes = 0;  ///< so many so far
+    /// The last one, while it can be used again; see Scene::snapshot.
+    std::shared_ptr<SceneSnapshot> snapshot;
+    std::vector<Node*> moved;       ///< since `snapshot` was true; a node may come several times
+    std::uint64_t newest_seen = 0;  ///< newest_revision() when `snapshot` was found to be true
 };
 
 /// A thing in a scene: a mesh with a material somewhere, or a group that carries others.
@@ -89,14 +124,25 @@ public:
     /// throws.
     template <class Change>
     void edit(Change&& change) {
-        NodeValue old;  // what it lets go of is destroyed after the lock
+        NodeValue old;  // what these two let go of is destroyed after the lock
+        std::shared_ptr<SceneSnapshot> outdated;
         const Lock lock = this->lock();
         NodeValue next = value_;
         std::forward<Change>(change)(next);
         check(next.placing);
         complete(next);
+        if (next.contents() != value_.contents()) {
+            outdated = lock.graph->changed();
+        } else if (next.placing != value_.placing) {
+            lock.graph->node_moved(*this);
+        } else {
+            return;
+        }
         old = std::exchange(value_, std::move(next));
     }
+
+    /// As edit, of the place alone.
+    void place(Placing placing);
 
     /// Null: no parent. Nodes that are in no scene come together, children and all.
     /// @throws std::invalid_argument if that would make a cycle or join a scene with anything else.
@@ -128,7 +174,8 @@ private:
     const std::int32_t id_;
     NodeValue value_;
     std::shared_ptr<Node> parent_;
-    std::vector<std::weak_ptr<Node>> children_;
+    std::set<std::weak_ptr<Node>, std::owner_less<>> children_;  ///< some may be gone
+    std::size_t children_swept_at_ = 16;  ///< so many, and those that are gone are taken out
 
     mutable std::mutex graph_guard_;    ///< for the pointer alone, held for no longer than a copy
     std::shared_ptr<NodeGraph> graph_;  ///< changed only with both the old and the new one locked

@@ -59,6 +59,7 @@ public:
 
     State state() const { return value_.state(); }
     ProbeValue value() const { return value_.value(); }
+    const Revision& revision() const { return value_.revision(); }
     /// Tells this probe from every other one that ever was in this process.
     std::uint64_t identity() const { return identity_; }
 

@@ -36,8 +36,11 @@ std::shared_ptr<CubeMap> Scene::environment() const {
 }
 
 void Scene::set_environment(std::shared_ptr<CubeMap> environment) {
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
+    if (environment == environment_) return;
     environment_.swap(environment);
+    outdated = graph_->changed();
 }
 
 Background Scene::background() const {
@@ -47,43 +50,62 @@ Background Scene::background() const {
 
 void Scene::set_background(Background background) {
     background = checked_background(std::move(background));
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
+    if (background == background_) return;
     background_.swap(background);
+    outdated = graph_->changed();
 }
 
-std::shared_ptr<Node> Scene::insert(std::vector<std::shared_ptr<Node>>::iterator at,
-                                    std::int32_t id, NodeValue value) {
+std::size_t Scene::place_of(std::int32_t id) const {
+    const auto at = std::lower_bound(ids_.begin(), ids_.end(), id);
+    return static_cast<std::size_t>(at - ids_.begin());
+}
+
+std::shared_ptr<Node> Scene::insert(std::size_t place, std::int32_t id, NodeValue value) {
     auto node = std::make_shared<Node>(id, std::move(value));
     node->set_graph(graph_);
     if (graph_->scene.expired()) graph_->scene = weak_from_this();
-    nodes_.insert(at, node);
+    if (place < ids_.size() && ids_[place] == id) {
+        nodes_[place] = node;  // where one of that id was removed
+        --removed_;
+    } else {
+        const auto offset = static_cast<std::ptrdiff_t>(place);
+        nodes_.insert(nodes_.begin() + offset, node);
+        ids_.insert(ids_.begin() + offset, id);
+    }
     next_id_ = std::max(next_id_, id + 1);
     return node;
 }
 
 std::shared_ptr<Node> Scene::add(NodeValue value, const std::shared_ptr<Node>& parent) {
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
     if (parent && parent->graph() != graph_) {
         throw std::invalid_argument("expected a parent in this scene, got node " +
                                     std::to_string(parent->id()) + " of another or of none");
     }
     if (next_id_ > last_id) throw std::length_error("all 2,147,483,646 ids of the scene are used");
-    auto node = insert(nodes_.end(), next_id_, std::move(value));
+    outdated = graph_->changed();
+    auto node = insert(nodes_.size(), next_id_, std::move(value));
     if (parent) node->attach(parent);
     return node;
 }
 
 void Scene::add(std::shared_ptr<Light> light) {
     if (!light) throw std::invalid_argument("expected a light, got none");
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
     if (std::find(lights_.begin(), lights_.end(), light) != lights_.end()) {
         throw std::invalid_argument("expected a light that is not in the scene, got one that is");
     }
+    outdated = graph_->changed();
     lights_.push_back(std::move(light));
 }
 
 void Scene::remove(const std::shared_ptr<Node>& node) {
-    std::vector<std::shared_ptr<Node>> removed;  // let go of after the lock
+    std::vector<std::shared_ptr<Node>> removed;  // these two are let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;
     const std::lock_guard lock(graph_->mutex);
     if (!node || node->graph() != graph_) {
         throw std::invalid_argument(
@@ -91,35 +113,46 @@ void Scene::remove(const std::shared_ptr<Node>& node) {
             (node ? "node " + std::to_string(node->id()) + " of another or of none"
                   : std::string("none")));
     }
+    outdated = graph_->changed();
     removed = node->subtree();
     node->detach();
     const auto loose = std::make_shared<NodeGraph>(false);
-    for (const auto& below : removed) below->set_graph(loose);
-    if (removed.size() == 1) {
-        nodes_.erase(
-            std::lower_bound(nodes_.begin(), nodes_.end(), node->id(),
-                             [](const auto& other, std::int32_t id) { return other->id() < id; }));
-    } else {
-        std::erase_if(nodes_, [&](const auto& other) { return other->graph() == loose; });
+    for (const auto& below : removed) {
+        below->set_graph(loose);
+        nodes_[place_of(below->id())].reset();
     }
+    removed_ += removed.size();
+    if (2 * removed_ < nodes_.size()) return;
+    std::erase(nodes_, nullptr);
+    ids_.clear();
+    for (const auto& left : nodes_) ids_.push_back(left->id());
+    removed_ = 0;
 }
 
 void Scene::remove(const std::shared_ptr<Light>& light) {
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
     const auto found = std::find(lights_.begin(), lights_.end(), light);
     if (found == lights_.end()) {
         throw std::invalid_argument("expected a light of this scene, got one that is not in it");
     }
+    outdated = graph_->changed();
     lights_.erase(found);
 }
 
 void Scene::clear() {
-    std::vector<std::shared_ptr<Node>> nodes;  // let go of after the lock
+    std::vector<std::shared_ptr<Node>> nodes;  // these are let go of after the lock
     std::vector<std::shared_ptr<Light>> lights;
+    std::shared_ptr<SceneSnapshot> outdated;
     const std::lock_guard lock(graph_->mutex);
+    outdated = graph_->changed();
     const auto loose = std::make_shared<NodeGraph>(false);
-    for (const auto& node : nodes_) node->set_graph(loose);
+    for (const auto& node : nodes_) {
+        if (node) node->set_graph(loose);
+    }
     nodes.swap(nodes_);
+    ids_.clear();
+    removed_ = 0;
     lights.swap(lights_);
 }
 
@@ -133,7 +166,9 @@ bool Scene::contains(const Light& light) const {
 
 std::vector<std::shared_ptr<Node>> Scene::nodes() const {
     const std::lock_guard lock(graph_->mutex);
-    return nodes_;
+    std::vector<std::shared_ptr<Node>> nodes = nodes_;
+    std::erase(nodes, nullptr);
+    return nodes;
 }
 
 std::vector<std::shared_ptr<Light>> Scene::lights() const {
@@ -153,12 +188,12 @@ void Scene::skip_ids(std::int32_t next) {
 
 std::shared_ptr<Node> Scene::restore(std::int32_t id) {
     expect(id >= 1 && id <= last_id, "a node's id of at least 1", std::to_string(id));
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
     const std::lock_guard lock(graph_->mutex);
-    const auto at = std::lower_bound(
-        nodes_.begin(), nodes_.end(), id,
-        [](const auto& other, std::int32_t wanted) { return other->id() < wanted; });
-    if (at != nodes_.end() && (*at)->id() == id) return *at;
-    return insert(at, id, {});
+    const std::size_t place = place_of(id);
+    if (place < nodes_.size() && ids_[place] == id && nodes_[place]) return nodes_[place];
+    outdated = graph_->changed();
+    return insert(place, id, {});
 }
 
 }  // namespace cubecam

@@ -64,17 +64,29 @@ public:
 
     /// Everything a picture depends on, as it is now: also the scenes of render textures, one
     /// after the other, and the effects that are to be run over it.
-    SceneSnapshot snapshot(const Effects& effects = {}) const;
+    ///
+    /// The last one is kept. While nothing in it has changed it is given again; where nodes were
+    /// moved, and nothing else happened, those alone are read anew.
+    std::shared_ptr<const SceneSnapshot> snapshot(const Effects& effects = {}) const;
 
 private:
-    SceneSnapshot snapshot_alone(SharedReads& shared) const;
-    std::shared_ptr<Node> insert(std::vector<std::shared_ptr<Node>>::iterator at, std::int32_t id,
-                                 NodeValue value);
+    std::shared_ptr<const SceneSnapshot> kept_snapshot() const;
+    /// Gives the snapshot's nodes that were moved since then their new places.
+    void follow_moves(SceneSnapshot& snapshot) const;
+    /// `changes`, if it is not null, gets NodeGraph::changes of the moment.
+    SceneSnapshot snapshot_alone(SharedReads& shared, std::uint64_t* changes = nullptr) const;
+    std::shared_ptr<Node> insert(std::size_t place, std::int32_t id, NodeValue value);
+    /// The index of the first id that is not below `id`.
+    std::size_t place_of(std::int32_t id) const;
 
     const std::shared_ptr<NodeGraph> graph_;
     std::shared_ptr<CubeMap> environment_;
     Background background_;
+    /// In order of id. One that was removed leaves a null until there are as many nulls as nodes:
+    /// so removing one is a binary search.
     std::vector<std::shared_ptr<Node>> nodes_;
+    std::vector<std::int32_t> ids_;  ///< of nodes_, of the removed ones too
+    std::size_t removed_ = 0;        ///< nulls in nodes_
     std::vector<std::shared_ptr<Light>> lights_;
     std::int32_t next_id_ = 1;
 };

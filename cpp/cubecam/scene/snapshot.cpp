@@ -20,7 +20,7 @@ bool shows_through(const MapSource& map) {
 }
 
 /// Whether any alpha of a surface is below one.
-bool shows_through(const MaterialValue& material, const Mesh& mesh) {
+bool shows_through(const MaterialValue& material, const MeshData& mesh) {
     if (translucent(material)) return true;
     const auto by_vertices_or_map = [&](const auto& parameters) {
         return (parameters.vertex_colors && mesh.translucent_colors()) ||
@@ -37,6 +37,28 @@ bool shows_through(const MaterialValue& material, const Mesh& mesh) {
 
 }  // namespace
 
+/// Places a node in the world.
+void put(NodeSnapshot& node, const glm::dmat4& world) {
+    node.world = world;
+    node.world_bounds = transformed(node.bounds, world);
+    const glm::dvec3 local = glm::max(glm::abs(node.bounds.low), glm::abs(node.bounds.high));
+    node.reach = glm::dvec3(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        node.reach += glm::abs(glm::dvec3(world[axis])) * local[axis];
+    }
+}
+
+/// The node of an id, or null. Nodes stand in order of id, and mostly none is missing.
+const NodeSnapshot* find_node(const std::vector<NodeSnapshot>& nodes, std::int32_t id) {
+    if (nodes.empty()) return nullptr;
+    const auto guess = static_cast<std::size_t>(id - nodes.front().id);
+    if (guess < nodes.size() && nodes[guess].id == id) return &nodes[guess];
+    const auto at = std::lower_bound(
+        nodes.begin(), nodes.end(), id,
+        [](const NodeSnapshot& node, std::int32_t wanted) { return node.id < wanted; });
+    return at != nodes.end() && at->id == id ? &*at : nullptr;
+}
+
 /// What the scenes of one snapshot share. Each object is read once, so that all that show it see it
 /// as it was at one moment; and kept alive, so that none takes another's address.
 class SharedReads {
@@ -46,12 +68,39 @@ public:
     const Material::State& state_of(const std::shared_ptr<Material>& material) {
         const auto found = materials_.find(material);
         if (found != materials_.end()) return found->second;
-        return materials_.emplace(material, material->state()).first->second;
+        const Material::State& state =
+            materials_.emplace(material, material->state()).first->second;
+        seen_.push_back({&material->revision(), state.revision});
+        return state;
+    }
+
+    const std::shared_ptr<const MeshData>& data_of(const std::shared_ptr<Mesh>& mesh) {
+        auto& data = meshes_[mesh];
+        if (!data) {
+            data = mesh->data();
+            seen_.push_back({&mesh->revision(), data->revision()});
+        }
+        return data;
+    }
+
+    LightValue value_of(const Light& light) {
+        Light::State state = light.state();
+        seen_.push_back({&light.revision(), state.revision});
+        return std::move(state.value);
+    }
+
+    ProbeValue value_of(const Probe& probe) {
+        Probe::State state = probe.state();
+        seen_.push_back({&probe.revision(), state.revision});
+        return std::move(state.value);
     }
 
     CubeSnapshot snapshot_of(const std::shared_ptr<CubeMap>& cube) {
         auto& data = cubes_[cube];
-        if (!data) data = cube->data();
+        if (!data) {
+            data = cube->data();
+            seen_.push_back({&cube->revision(), data->revision});
+        }
         return {cube, data};
     }
 
@@ -88,8 +137,10 @@ public:
         return {std::move(value), revision, std::move(frozen)};
     }
 
+    std::vector<SeenRevision> take_seen() { return std::move(seen_); }
+
     std::vector<RenderTextureSnapshot> textures;
-    std::vector<std::shared_ptr<Scene>> others;  ///< scenes of textures, but for the first
+    std::vector<std::shared_ptr<Scene>> others;  ///< scenes of textures, except the first
 
 private:
     RenderTextureSnapshot read(const std::shared_ptr<RenderTexture>& texture) {
@@ -108,9 +159,11 @@ private:
     }
 
     std::unordered_map<std::shared_ptr<Material>, Material::State> materials_;
+    std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> meshes_;
     std::unordered_map<std::shared_ptr<CubeMap>, std::shared_ptr<const CubeMapData>> cubes_;
     std::unordered_map<const RenderTexture*, std::size_t> indices_;  // into `textures`
     std::unordered_map<const Scene*, std::size_t> numbers_;
+    std::vector<SeenRevision> seen_;
 };
 
 /// Reads the nodes of one scene, whose graph is locked meanwhile.
@@ -118,7 +171,13 @@ class SnapshotBuilder {
 public:
     SnapshotBuilder(const std::vector<std::shared_ptr<Node>>& nodes, const NodeGraph* graph,
                     SharedReads& shared, SceneSnapshot& to)
-        : nodes_(nodes), graph_(graph), shared_(shared), to_(to), places_(nodes.size()) {}
+        : graph_(graph), shared_(shared), to_(to) {
+        nodes_.reserve(nodes.size());
+        for (const auto& node : nodes) {
+            if (node) nodes_.push_back(node.get());
+        }
+        places_.resize(nodes_.size());
+    }
 
     void build() {
         to_.nodes.reserve(nodes_.size());
@@ -145,7 +204,7 @@ private:
     /// Nodes are sorted by id, and mostly none is missing.
     std::size_t index_of(const Node& node) const {
         const auto guess = static_cast<std::size_t>(node.id() - nodes_.front()->id());
-        if (guess < nodes_.size() && nodes_[guess].get() == &node) return guess;
+        if (guess < nodes_.size() && nodes_[guess] == &node) return guess;
         const auto at =
             std::lower_bound(nodes_.begin(), nodes_.end(), node.id(),
                              [](const auto& other, std::int32_t id) { return other->id() < id; });
@@ -183,13 +242,14 @@ private:
     void add(const Node& node, const Place& place) {
         const NodeValue& value = node.value_;
         const Material::State& material = shared_.state_of(value.material);
+        const std::shared_ptr<const MeshData>& mesh = shared_.data_of(value.mesh);
         const auto* basic = std::get_if<BasicParameters>(&material.value.parameters);
         const SurfaceOptions& surface = material.value.surface;
         const Blend blend = surface.blend.value_or(
-            shows_through(material.value, *value.mesh) ? Blend::alpha : Blend::opaque);
+            shows_through(material.value, *mesh) ? Blend::alpha : Blend::opaque);
         const auto* shader = std::get_if<ShaderParameters>(&material.value.parameters);
         const bool moved = shader && shader->moves_vertices();
-        Bounds bounds = value.mesh->bounds();
+        Bounds bounds = mesh->bounds();
         if (moved) {
             const double reach = shader->displacement.value_or(0.0F);
             bounds.low -= reach;
@@ -197,14 +257,16 @@ private:
         }
         NodeSnapshot snapshot{
             node.id(),
+            next_revision(),
             place.world,
             bounds,
-            transformed(bounds, place.world),
-            value.mesh,
+            {},
+            {},
+            mesh,
             material,
             snapshot_of(value.environment),
             basic ? snapshot_of(basic->cubemap) : CubeSourceSnapshot(),
-            value.mesh->uvs() ? shared_.snapshot_of(map_of(material.value)) : MapSnapshot(),
+            mesh->uvs() ? shared_.snapshot_of(map_of(material.value)) : MapSnapshot(),
             shader ? snapshot_of(shader->inputs) : std::vector<TextureSourceSnapshot>(),
             moved && !shader->displacement,
             place.in_captures,
@@ -215,6 +277,7 @@ private:
             place.cast_shadow && blend == Blend::opaque,
             value.receive_shadow,
         };
+        put(snapshot, place.world);
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
             snapshot.ancestors.push_back(above->id());
         }
@@ -228,7 +291,7 @@ private:
         }
         if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source); probe && *probe) {
             const auto [found, added] = probes_.try_emplace(probe->get(), to_.probes.size());
-            if (added) to_.probes.push_back({*probe, (*probe)->value(), {}, {}});
+            if (added) to_.probes.push_back({*probe, shared_.value_of(**probe), {}, {}});
             return found->second;
         }
         return {};
@@ -264,7 +327,7 @@ private:
 
     bool is_here(const Node& node) const { return node.graph().get() == graph_; }
 
-    const std::vector<std::shared_ptr<Node>>& nodes_;
+    std::vector<const Node*> nodes_;  // in order of id
     const NodeGraph* graph_;
     SharedReads& shared_;
     SceneSnapshot& to_;
@@ -274,24 +337,88 @@ private:
     Elsewhere elsewhere_;
 };
 
-SceneSnapshot Scene::snapshot(const Effects& effects) const {
+std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) const {
+    if (effects.empty()) {
+        if (auto kept = kept_snapshot()) return kept;
+    }
+    const std::uint64_t newest = newest_revision();  // before anything is read
     SharedReads shared(this);
-    SceneSnapshot snapshot = snapshot_alone(shared);
-    for (const auto& effect : effects) snapshot.effects.push_back(shared.snapshot_of(*effect));
+    std::uint64_t changes = 0;
+    auto snapshot = std::make_shared<SceneSnapshot>(snapshot_alone(shared, &changes));
+    for (const auto& effect : effects) {
+        snapshot->effects.push_back(shared.snapshot_of(*effect));
+    }
     // Each under its own mutex alone: two scenes that show each other would wait for each other.
     for (std::size_t i = 0; i < shared.others.size(); ++i) {
         const std::shared_ptr<const Scene> next = shared.others[i];  // the vector may grow
-        snapshot.others.push_back(next->snapshot_alone(shared));
+        snapshot->others.push_back(next->snapshot_alone(shared));
     }
-    snapshot.textures = std::move(shared.textures);
+    snapshot->textures = std::move(shared.textures);
+    snapshot->seen = shared.take_seen();
+    snapshot->revision = next_revision();
+    // Render textures lead to scenes and back: what is kept here must not keep them alive.
+    if (effects.empty() && snapshot->textures.empty() && !snapshot->follows_others) {
+        const std::lock_guard lock(graph_->mutex);
+        if (graph_->changes == changes) {
+            graph_->snapshot = snapshot;
+            graph_->newest_seen = newest;
+        }
+    }
     return snapshot;
 }
 
-SceneSnapshot Scene::snapshot_alone(SharedReads& shared) const {
+std::shared_ptr<const SceneSnapshot> Scene::kept_snapshot() const {
+    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    const std::lock_guard lock(graph_->mutex);
+    if (!graph_->snapshot) return nullptr;
+    const std::uint64_t newest = newest_revision();
+    if (newest == graph_->newest_seen) return graph_->snapshot;
+    const auto& seen = graph_->snapshot->seen;
+    if (std::any_of(seen.begin(), seen.end(), [](const SeenRevision& s) { return s.outdated(); })) {
+        outdated = graph_->changed();
+        return nullptr;
+    }
+    if (!graph_->moved.empty()) {
+        if (graph_->snapshot.use_count() > 1) {  // others go on with what they have
+            outdated =
+                std::exchange(graph_->snapshot, std::make_shared<SceneSnapshot>(*graph_->snapshot));
+        }
+        follow_moves(*graph_->snapshot);
+    }
+    graph_->newest_seen = newest;
+    return graph_->snapshot;
+}
+
+void Scene::follow_moves(SceneSnapshot& snapshot) const {
+    std::vector<NodeSnapshot>& nodes = snapshot.nodes;
+    const auto follow = [&nodes](const Node& node) {
+        const NodeSnapshot* at = find_node(nodes, node.id());
+        if (at == nullptr) return;  // a group, or invisible
+        NodeSnapshot& moved = nodes[static_cast<std::size_t>(at - nodes.data())];
+        put(moved, node.locked_world_matrix());
+        moved.revision = next_revision();
+    };
+    for (Node* moved : graph_->moved) {
+        follow(*moved);
+        if (moved->children_.empty()) continue;
+        for (const auto& below : moved->subtree()) follow(*below);
+    }
+    graph_->moved.clear();
+    for (ProbeSnapshot& probe : snapshot.probes) {
+        probe.position = probe.value.position;
+        if (const auto parent = probe.value.parent.lock()) {
+            probe.position += glm::dvec3(parent->locked_world_matrix()[3]);
+        }
+    }
+    snapshot.revision = next_revision();
+}
+
+SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes) const {
     SceneSnapshot snapshot;
     SnapshotBuilder::Elsewhere elsewhere;
     {
         const std::lock_guard lock(graph_->mutex);
+        if (changes != nullptr) *changes = graph_->changes;
         SnapshotBuilder builder(nodes_, graph_.get(), shared, snapshot);
         if (environment_) snapshot.environment = shared.snapshot_of(environment_);
         if (const auto* color = std::get_if<glm::vec4>(&background_)) {
@@ -306,9 +433,12 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared) const {
         builder.build();
         elsewhere = builder.take_elsewhere();
         snapshot.lights.reserve(lights_.size());
-        for (const auto& light : lights_) snapshot.lights.push_back({light, light->value()});
+        for (const auto& light : lights_) {
+            snapshot.lights.push_back({light, shared.value_of(*light)});
+        }
     }
     // Unlocked: two scenes whose probes follow each other's nodes would wait for each other.
+    snapshot.follows_others = !elsewhere.empty();
     for (const auto& [index, parent] : elsewhere) {
         snapshot.probes[index].position += glm::dvec3(parent->world_matrix()[3]);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/revision.hpp"
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/geometry/mesh.hpp"
 #include "cubecam/materials/material.hpp"
@@ -37,10 +38,14 @@ using TextureSourceSnapshot = std::variant<MapSnapshot, CubeSourceSnapshot>;
 
 struct NodeSnapshot {
     std::int32_t id;
+    std::uint64_t revision;  ///< of all below: nodes of one revision are equal
     glm::dmat4 world;
     Bounds bounds;  ///< of all that its vertices may reach, in the mesh's own space
     Bounds world_bounds;
-    std::shared_ptr<const Mesh> mesh;  ///< never null: groups are left out
+    /// How far a vertex can be from the node's origin along each axis of the world, every term of
+    /// the matrix product taken as positive: what rounding errors grow with.
+    glm::dvec3 reach;
+    std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
     Material::State material;
     CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
     CubeSourceSnapshot cubemap;      ///< what a BasicMaterial shows
@@ -56,6 +61,9 @@ struct NodeSnapshot {
     bool cast_shadow;                     ///< opaque, and so are it and all above it set
     bool receive_shadow;
     std::int32_t render_order = 0;
+    /// Opaque nodes of one crowd look the same to the renderer, their matrices and their materials'
+    /// numbers aside: they are drawn together. From 1 in order of the first id; 0: in none.
+    std::uint32_t crowd = 0;
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.
@@ -94,8 +102,10 @@ struct RenderTextureSnapshot {
     std::vector<EffectSnapshot> effects;
 };
 
-/// What a call draws: values copied, meshes and images shared. Nothing in it changes any more.
+/// What a call draws: values copied, meshes and images shared. Nothing in it changes any more while
+/// somebody holds it.
 struct SceneSnapshot {
+    std::uint64_t revision = 0;  ///< two snapshots of one revision are equal
     CubeSourceSnapshot environment;
     std::variant<glm::vec4, CubeSnapshot> background;
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in order of id
@@ -111,6 +121,11 @@ struct SceneSnapshot {
     std::vector<RenderTextureSnapshot> textures;
     /// The other scenes that those are drawn from, each once and as it was at one moment.
     std::vector<SceneSnapshot> others;
+
+    /// The objects, nodes aside, that it was read from, as they were.
+    std::vector<SeenRevision> seen;
+    /// Whether a probe follows a node of another scene, of which nothing is seen here.
+    bool follows_others = false;
 
     /// By number: 0 is this one, then the others.
     const SceneSnapshot& scene(std::size_t number) const {

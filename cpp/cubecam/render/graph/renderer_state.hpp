@@ -5,6 +5,7 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 #include "cubecam/render/passes/surface_pass.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
+#include "cubecam/render/resources/key.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
 #include "cubecam/scene/probe.hpp"
@@ -12,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace cubecam {
@@ -20,21 +22,30 @@ namespace cubecam {
 struct ProbeState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     std::uint64_t revision = 0;      ///< new whenever a face was drawn; 0: not drawn yet
-    std::int64_t calls = 0;          ///< that needed it, for every_n_frames
+    std::int64_t calls = 0;          ///< that depended on it, for every_n_frames
     std::size_t next_face = 0;       ///< where faces_per_frame goes on
 };
 
-/// Contents of a probe, for each of the scenes that use it in one call: they see other things.
-/// Where only one does, as mostly, that is the first.
-class ProbeContents {
+/// What a renderer holds of a light's shadow map.
+struct ShadowState {
+    ShadowMap map;
+    std::vector<std::optional<Key>> keys;  ///< of what each layer holds; none: not to be trusted
+    std::optional<Key> whole;  ///< of the lens and all casters: where it is equal, so are all keys
+    std::uint64_t revision = 0;  ///< new whenever a layer was drawn
+};
+
+/// What a renderer holds of an object for each of the scenes that use it in one call: they see
+/// other things. Where only one does, as mostly, that is the first.
+template <class State>
+class StatesByScene {
 public:
-    ProbeState& of(std::size_t rank) {
-        while (states_.size() <= rank) states_.push_back(std::make_unique<ProbeState>());
+    State& of(std::size_t rank) {
+        while (states_.size() <= rank) states_.push_back(std::make_unique<State>());
         return *states_[rank];
     }
 
 private:
-    std::vector<std::unique_ptr<ProbeState>> states_;
+    std::vector<std::unique_ptr<State>> states_;
 };
 
 /// What a renderer holds of a render texture.
@@ -58,7 +69,8 @@ struct RendererState {
     PostProcessPass post_process;
     ShadowPass shadows;
     TargetStore targets;
-    WeakCache<Probe, ProbeContents> probes;
+    WeakCache<Probe, StatesByScene<ProbeState>> probes;
+    WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
 };
 

@@ -1,19 +1,19 @@
 #include "cubecam/render/passes/draw_plan.hpp"
 
-#include "cubecam/math/frustum.hpp"
 #include "cubecam/render/passes/screen_bounds.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <utility>
+#include <tuple>
 
 namespace cubecam {
 namespace {
 
-struct Seen {
-    PlannedNode planned;
+/// What a planned node is sorted by.
+struct SortKey {
     std::int32_t order;
+    std::uint32_t crowd;
     double distance;
+    PlannedNode planned;
 };
 
 double distance_to(const View& view, const glm::dvec3& point) {
@@ -21,13 +21,33 @@ double distance_to(const View& view, const glm::dvec3& point) {
                          : glm::distance(point, view.position);
 }
 
-/// Nodes come in order of id, so a stable sort breaks ties by id.
-template <class Before>
-void append_sorted(std::vector<Seen>& seen, std::vector<PlannedNode>& to, Before before) {
-    std::stable_sort(seen.begin(), seen.end(), [before](const Seen& a, const Seen& b) {
-        return a.order != b.order ? a.order < b.order : before(a, b);
+/// Nodes stand in order of id: the index breaks ties.
+void sort_and_append(std::vector<SortKey>& keys, std::vector<PlannedNode>& to) {
+    std::sort(keys.begin(), keys.end(), [](const SortKey& a, const SortKey& b) {
+        return std::tie(a.order, a.crowd, a.distance, a.planned.node) <
+               std::tie(b.order, b.crowd, b.distance, b.planned.node);
     });
-    for (Seen& node : seen) to.push_back(std::move(node.planned));
+    to.reserve(to.size() + keys.size());
+    for (const SortKey& key : keys) to.push_back(key.planned);
+}
+
+/// The views of one place, each with what culling needs of it.
+struct Place {
+    std::vector<std::uint32_t> views;
+    std::vector<Culling> culling;
+};
+
+std::vector<Place> places_of(std::span<const View> views) {
+    std::vector<Place> places;
+    for (std::uint32_t v = 0; v < views.size(); ++v) {
+        const auto here = std::find_if(places.begin(), places.end(), [&](const Place& place) {
+            return same_place(views[place.views.front()], views[v]);
+        });
+        Place& place = here == places.end() ? places.emplace_back() : *here;
+        place.views.push_back(v);
+        place.culling.emplace_back(views[v]);
+    }
+    return places;
 }
 
 }  // namespace
@@ -39,65 +59,46 @@ bool same_place(const View& a, const View& b) {
 
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
                    const std::function<bool(const NodeSnapshot&)>& wanted, DepthMode depth_mode) {
-    std::vector<PlannedNode> all;
-    for (std::size_t index = 0; index < scene.nodes.size(); ++index) {
-        const NodeSnapshot& node = scene.nodes[index];
-        if (!wanted(node)) continue;
-        PlannedNode planned{index, {}};
-        for (std::size_t v = 0; v < views.size(); ++v) {
-            const glm::dvec4 error = clip_error(views[v], node);
-            const Bounds& bounds = node.world_bounds;
-            if (node.unbounded) {
-                planned.visibilities.push_back({v, {0, 0, width, height}});
-                continue;
-            }
-            if (!may_show(views[v].view_projection, bounds.low, bounds.high, error)) continue;
-            planned.visibilities.push_back(
-                {v, screen_bounds(views[v], bounds, error, width, height)});
-        }
-        if (!planned.visibilities.empty()) all.push_back(std::move(planned));
-    }
-
     DrawPlan plan;
     plan.depth_mode = depth_mode;
-    plan.opaque.reserve(all.size());
-    const bool one_place = std::all_of(views.begin(), views.end(), [&views](const View& view) {
-        return same_place(views.front(), view);
-    });
-    std::vector<bool> done(views.size(), false);
-    for (std::size_t first = 0; first < views.size(); ++first) {
-        if (done[first]) continue;
-        // What a view draws must not hang on views that stand elsewhere.
-        for (std::size_t v = first; v < views.size(); ++v) {
-            if (same_place(views[first], views[v])) done[v] = true;
-        }
-        std::vector<Seen> opaque;
-        std::vector<Seen> transparent;
-        for (PlannedNode& planned : all) {
-            PlannedNode part{planned.node, {}};
-            if (one_place) {
-                part.visibilities.swap(planned.visibilities);
-            } else {
-                for (const PlannedNode::Visibility& visibility : planned.visibilities) {
-                    if (same_place(views[first], views[visibility.view]))
-                        part.visibilities.push_back(visibility);
+    std::vector<SortKey> opaque;
+    std::vector<SortKey> transparent;
+    // What a view draws must not depend on views that stand elsewhere.
+    for (const Place& place : places_of(views)) {
+        const View& here = views[place.views.front()];
+        opaque.clear();
+        transparent.clear();
+        for (std::uint32_t index = 0; index < scene.nodes.size(); ++index) {
+            const NodeSnapshot& node = scene.nodes[index];
+            if (!wanted(node)) continue;
+            const auto first = static_cast<std::uint32_t>(plan.visibilities.size());
+            for (std::size_t i = 0; i < place.views.size(); ++i) {
+                if (node.unbounded) {
+                    plan.visibilities.push_back({place.views[i], {0, 0, width, height}});
+                } else if (place.culling[i].may_show(node)) {
+                    plan.visibilities.push_back(
+                        {place.views[i], place.culling[i].screen_bounds(node, width, height)});
                 }
             }
-            if (part.visibilities.empty()) continue;
-            const NodeSnapshot& node = scene.nodes[planned.node];
-            const double distance = distance_to(views[first], node.world_bounds.center());
-            const bool later = node.drawn_as_transparent() && depth_mode == DepthMode::by_depth;
-            (later ? transparent : opaque)
-                .push_back({std::move(part), node.render_order, distance});
+            const auto count = static_cast<std::uint32_t>(plan.visibilities.size()) - first;
+            if (count == 0) continue;
+
+            SortKey key{node.render_order, 0, 0.0, {index, first, count}};
+            if (depth_mode == DepthMode::by_order) {
+                opaque.push_back(key);
+                continue;
+            }
+            key.distance = distance_to(here, node.world_bounds.center());
+            if (node.drawn_as_transparent()) {
+                key.distance = -key.distance;
+                transparent.push_back(key);
+            } else {
+                key.crowd = node.crowd;
+                opaque.push_back(key);
+            }
         }
-        if (depth_mode == DepthMode::by_order) {
-            append_sorted(opaque, plan.opaque, [](const Seen&, const Seen&) { return false; });
-            continue;
-        }
-        append_sorted(opaque, plan.opaque,
-                      [](const Seen& a, const Seen& b) { return a.distance < b.distance; });
-        append_sorted(transparent, plan.transparent,
-                      [](const Seen& a, const Seen& b) { return a.distance > b.distance; });
+        sort_and_append(opaque, plan.opaque);
+        sort_and_append(transparent, plan.transparent);
     }
     return plan;
 }

@@ -1,7 +1,5 @@
 #include "cubecam/render/passes/screen_bounds.hpp"
 
-#include "cubecam/math/frustum.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,29 +22,44 @@ int clamped(double pixel, int size) {
 
 }  // namespace
 
-glm::dvec4 clip_error(const View& view, const NodeSnapshot& node) {
-    // As the shader works: local to the world seen from the view's position, then to clip space.
-    const glm::dvec3 local = glm::max(glm::abs(node.bounds.low), glm::abs(node.bounds.high));
-    glm::dvec3 size = glm::abs(glm::dvec3(node.world[3]) - view.position);
-    for (int axis = 0; axis < 3; ++axis)
-        size += glm::abs(glm::dvec3(node.world[axis])) * local[axis];
-
-    glm::dvec4 error(0.0);
+Culling::Culling(const View& view)
+    : view_projection_(view.view_projection), position_(view.position),
+      frustum_(view.view_projection) {
     for (int axis = 0; axis < 3; ++axis) {
-        error += glm::abs(view.view_projection[axis]) * (2.0 * rounding * size[axis]);
+        error_of_size_[static_cast<std::size_t>(axis)] =
+            glm::abs(view_projection_[axis]) * (2.0 * rounding);
     }
-    const glm::dvec4 moved = view.view_projection * glm::dvec4(view.position, 1.0);
-    return error + rounding * glm::abs(moved);
+    least_error_ = rounding * glm::abs(view_projection_ * glm::dvec4(position_, 1.0));
 }
 
-Rect screen_bounds(const View& view, const Bounds& world_bounds, const glm::dvec4& error, int width,
-                   int height) {
+glm::dvec4 Culling::clip_error(const NodeSnapshot& node) const {
+    // As the shader works: local to the world seen from the view's position, then to clip space.
+    const glm::dvec3 size = glm::abs(glm::dvec3(node.world[3]) - position_) + node.reach;
+    return least_error_ + error_of_size_[0] * size[0] + error_of_size_[1] * size[1] +
+           error_of_size_[2] * size[2];
+}
+
+bool Culling::may_show(const NodeSnapshot& node) const {
+    const Bounds& bounds = node.world_bounds;
+    return frustum_.may_show(bounds.center(), 0.5 * bounds.extent(),
+                             [&] { return clip_error(node); });
+}
+
+Rect Culling::screen_bounds(const NodeSnapshot& node, int width, int height) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const glm::dvec4 error = clip_error(node);
+    const glm::dvec3& low_corner = node.world_bounds.low;
+    const glm::dvec3 extent = node.world_bounds.extent();
+    const glm::dvec4 base = view_projection_ * glm::dvec4(low_corner, 1.0);
+    const glm::dvec4 edges[3] = {view_projection_[0] * extent.x, view_projection_[1] * extent.y,
+                                 view_projection_[2] * extent.z};
     glm::dvec2 low(infinity);
     glm::dvec2 high(-infinity);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 clip =
-            view.view_projection * box_corner(world_bounds.low, world_bounds.high, corner);
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        glm::dvec4 clip = base;
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            if ((corner >> axis & 1U) != 0) clip += edges[axis];
+        }
         // Beside or behind the eye a corner's projection bounds nothing.
         const double size = std::max(std::abs(clip.x), std::abs(clip.y));
         const double w = clip.w - error.w;

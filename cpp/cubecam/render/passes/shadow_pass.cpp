@@ -1,11 +1,10 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 
 #include "cubecam/core/memory.hpp"
-#include "cubecam/core/revision.hpp"
 #include "cubecam/image/flip.hpp"
-#include "cubecam/render/graph/dependencies.hpp"
 #include "cubecam/render/passes/draw_block.hpp"
 #include "cubecam/render/resources/instance.hpp"
+#include "cubecam/scene/snapshot_queries.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -20,43 +19,6 @@ namespace {
 
 constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
 constexpr float nothing = 0.0F;  // depth is reversed
-
-void add_caster(Key& key, const NodeSnapshot& node, const ShadowPass::LookUp& look_up) {
-    key.add(node.world);
-    key.add(node.mesh->revision());
-    if (!moves_vertices(node)) return;
-    key.add(node.material.revision);
-    for (const BoundTexture& texture : look_up(node)) key.add(texture.revision);
-}
-
-/// Cheaper than the layers' keys, which want every caster culled against every view.
-Key whole_key(const SceneSnapshot& scene, const ShadowView& view,
-              const ShadowPass::LookUp& look_up) {
-    Key key;
-    key.add(view.views.front().view_projection);
-    key.add(view.views.front().position);
-    for (const NodeSnapshot& node : scene.nodes) {
-        // As in the layers' keys: what is drawn after the opaque nodes casts nothing.
-        if (node.cast_shadow && !node.drawn_as_transparent()) add_caster(key, node, look_up);
-    }
-    return key;
-}
-
-std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
-                            const DrawPlan& plan, const ShadowPass::LookUp& look_up) {
-    std::vector<Key> keys(view.views.size());
-    for (std::size_t v = 0; v < keys.size(); ++v) {
-        keys[v].add(view.views[v].view_projection);
-        keys[v].add(view.views[v].position);
-    }
-    for (const PlannedNode& planned : plan.opaque) {
-        const NodeSnapshot& node = scene.nodes[planned.node];
-        for (const PlannedNode::Visibility& visibility : planned.visibilities) {
-            add_caster(keys[visibility.view], node, look_up);
-        }
-    }
-    return keys;
-}
 
 }  // namespace
 
@@ -92,61 +54,12 @@ void ShadowPass::check(const SceneSnapshot& scene) const {
     }
 }
 
-std::vector<ShadowUse> ShadowPass::update(const SceneSnapshot& scene,
-                                          std::span<const std::size_t> ranks, const LookUp& look_up,
-                                          Stats& stats) {
-    std::vector<ShadowUse> uses;
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const LightSnapshot& light = scene.lights[i];
-        if (light.value.shadow) uses.push_back(update(scene, light, ranks[i], look_up, stats));
-    }
-    return uses;
-}
-
-ShadowUse ShadowPass::update(const SceneSnapshot& scene, const LightSnapshot& light,
-                             std::size_t rank, const LookUp& look_up, Stats& stats) {
-    const int size = light.value.shadow->size;
-    ShadowView view = shadow_view(light.value, scene);
-    const std::size_t layers = view.views.size();
-    Map& map = maps_.get(light.object, [] { return Maps{}; })[rank];
-    if (map.size != size || map.keys.size() != layers) {
-        map = {};  // its memory first
-        map = make_map(size, layers);
-    }
-    Key whole = whole_key(scene, view, look_up);
-    if (map.whole != whole) draw(scene, view, look_up, map, stats);
-    map.whole = std::move(whole);
-    return {std::move(view), *light.value.shadow, map.depth.id(), map.revision};
-}
-
-void ShadowPass::draw(const SceneSnapshot& scene, const ShadowView& view, const LookUp& look_up,
-                      Map& map, Stats& stats) {
-    map.whole.reset();
-    const int size = map.size;
-    const DrawPlan plan = make_plan(scene, view.views, size, size,
-                                    [](const NodeSnapshot& node) { return node.cast_shadow; });
-    std::vector<Key> keys = layer_keys(scene, view, plan, look_up);
-    std::size_t drawn = 0;
-    for (std::size_t layer = 0; layer < keys.size(); ++layer) {
-        if (map.keys[layer] == keys[layer]) continue;
-        map.keys[layer].reset();
-        draw_layer(scene, view, plan, look_up, layer, map, stats);
-        ++drawn;
-    }
-    if (drawn == 0) return;
-    gl::check_gl(*gl_, "drawing a shadow map");
-    for (std::size_t layer = 0; layer < keys.size(); ++layer) map.keys[layer] = keys[layer];
-    map.revision = next_revision();
-    stats.shadow_views_drawn += static_cast<std::int64_t>(drawn);
-}
-
-ShadowPass::Map ShadowPass::make_map(int size, std::size_t layers) const {
-    const int count = static_cast<int>(layers);
+ShadowMap ShadowPass::make_map(int size, int count) const {
     const double bytes = 4.0 * size * size * count;
     const std::string what = "a shadow map of " + std::to_string(count) + " x " +
                              std::to_string(size) + " x " + std::to_string(size) + " texels";
     if (context_->software()) check_memory(bytes, what);
-    Map map;
+    ShadowMap map;
     map.depth = gl::create_texture_2d_array(*gl_, map_format, size, size, count);
     const GLuint id = map.depth.id();
     gl_->TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -154,35 +67,32 @@ ShadowPass::Map ShadowPass::make_map(int size, std::size_t layers) const {
     gl_->TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl_->TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     map.layers.emplace(*gl_, std::vector<Layers::Attachment>{{GL_DEPTH_ATTACHMENT, id}}, count);
-    map.keys.resize(layers);
     map.size = size;
     return map;
 }
 
-void ShadowPass::draw_layer(const SceneSnapshot& scene, const ShadowView& view,
-                            const DrawPlan& plan, const LookUp& look_up, std::size_t layer,
-                            Map& map, Stats& stats) {
+void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& map, Stats& stats) {
     // All nodes of one mesh in one call: of a caster nothing but its matrix counts. Meshes come in
     // the order of their first node.
-    std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::vector<const MeshData*> meshes;
     std::vector<std::vector<Instance>> nodes;
-    std::map<const Mesh*, std::size_t> places;
+    std::map<const MeshData*, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
-    const View& from = view.views[layer];
-    for (const PlannedNode& planned : plan.opaque) {
-        const bool seen = std::any_of(planned.visibilities.begin(), planned.visibilities.end(),
-                                      [layer](const PlannedNode::Visibility& visibility) {
-                                          return visibility.view == layer;
-                                      });
+    const View& from = input.view.views[layer];
+    for (const PlannedNode& planned : input.plan.opaque) {
+        const auto visibilities = input.plan.visible_in(planned);
+        const bool seen =
+            std::any_of(visibilities.begin(), visibilities.end(),
+                        [layer](const Visibility& visibility) { return visibility.view == layer; });
         if (!seen) continue;
-        const NodeSnapshot& node = scene.nodes[planned.node];
+        const NodeSnapshot& node = input.scene.nodes[planned.node];
         if (moves_vertices(node)) {
             moved.push_back(&node);
             continue;
         }
         const auto [place, added] = places.try_emplace(node.mesh.get(), meshes.size());
         if (added) {
-            meshes.push_back(node.mesh);
+            meshes.push_back(node.mesh.get());
             nodes.emplace_back();
         }
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
@@ -204,28 +114,29 @@ void ShadowPass::draw_layer(const SceneSnapshot& scene, const ShadowView& view,
     gl_->Disable(GL_BLEND);
     gl_->Disable(GL_CULL_FACE);  // a surface stops light from either side
     gl_->ClearBufferfv(GL_DEPTH, 0, &nothing);
-    if (view.kind == ShadowView::Kind::parallel) {
+    if (input.view.kind == ShadowView::Kind::parallel) {
         gl_->Scissor(1, 1, map.size - 2, map.size - 2);  // see shadow_view.cpp, empty_border
     }
     programs_->shadow().use();
     GLuint first = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const GpuMesh& mesh = cache_->mesh(meshes[m]);
+        const GpuMesh& mesh = cache_->mesh(*meshes[m]);
         const auto count = static_cast<GLsizei>(nodes[m].size());
         gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
                                      sizeof(Instance));
         gl_->BindVertexArray(mesh.array.id());
-        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT,
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
                                                nullptr, count, first);
         first += static_cast<GLuint>(count);
         ++stats.draw_calls;
         stats.triangles += std::int64_t{mesh.index_count / 3} * count;
     }
-    for (const NodeSnapshot* node : moved) draw_moved(*node, from, look_up, layer, stats);
+    for (const NodeSnapshot* node : moved) draw_moved(*node, input, layer, stats);
 }
 
-void ShadowPass::draw_moved(const NodeSnapshot& node, const View& from, const LookUp& look_up,
-                            std::size_t layer, Stats& stats) {
+void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
+                            Stats& stats) {
+    const View& from = input.view.views[layer];
     const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
     const glm::dmat4 matrix = glm::translate(from.view_projection, from.position);
     const Instance instance = make_instance(from, reverse_depth(matrix), from.position, layer);
@@ -234,13 +145,13 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const View& from, const Lo
     block_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, draw_binding, block_.id());
     UserProgram& program = programs_->shadow(shader, node.mesh->colors() != nullptr);
-    program.use(shader.inputs, look_up(node));
+    program.use(shader.inputs, input.look_up(node));
     program.program().use();
-    const GpuMesh& mesh = cache_->mesh(node.mesh);
+    const GpuMesh& mesh = cache_->mesh(*node.mesh);
     gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
                                  sizeof(Instance));
     gl_->BindVertexArray(mesh.array.id());
-    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, GL_UNSIGNED_INT, nullptr,
+    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type, nullptr,
                                            1, 0);
     ++stats.draw_calls;
     stats.triangles += mesh.index_count / 3;

@@ -7,27 +7,34 @@
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
-#include "cubecam/render/resources/key.hpp"
 #include "cubecam/render/resources/stats.hpp"
 #include "cubecam/render/resources/target.hpp"
-#include "cubecam/render/resources/weak_cache.hpp"
-#include "cubecam/scene/light.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <map>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace cubecam {
 
-/// Depth alone, of all that casts shadows, as each light sees it.
-///
-/// A map belongs to the light and to the scene, not to a picture: the same serves frames, captures
-/// and probes. A layer is drawn again only when its key differs.
+/// The depths that a light sees: an array of one layer, or of six.
+struct ShadowMap {
+    int size = 0;
+    gl::Texture depth;
+    std::optional<Layers> layers;
+};
+
+/// What casts shadows, as a light sees it.
+struct ShadowInput {
+    const SceneSnapshot& scene;
+    const ShadowView& view;
+    const DrawPlan& plan;  ///< of the casters, for the view's layers
+    /// What a caster's own vertex function looks up.
+    std::function<std::vector<BoundTexture>(const NodeSnapshot&)> look_up;
+};
+
+/// Depth alone, of all that casts shadows, as a light sees it.
 class ShadowPass {
 public:
     ShadowPass(const gl::Context& context, GpuCache& cache, Programs& programs);
@@ -36,45 +43,19 @@ public:
     /// @throws std::invalid_argument naming the limit.
     void check(const SceneSnapshot& scene) const;
 
-    /// What a caster's own vertex function looks up.
-    using LookUp = std::function<std::vector<BoundTexture>(const NodeSnapshot&)>;
+    /// A map that holds nothing yet.
+    ShadowMap make_map(int size, int layers) const;
 
-    /// Brings the maps of all lights that have one up to date, in the scene's order. `ranks` tells
-    /// of each light how many scenes of the session before this one have it, too: each has a map of
-    /// its own.
-    std::vector<ShadowUse> update(const SceneSnapshot& scene, std::span<const std::size_t> ranks,
-                                  const LookUp& look_up, Stats& stats);
+    /// Draws one layer of a map.
+    void draw(const ShadowInput& input, std::size_t layer, ShadowMap& map, Stats& stats);
 
     /// See Renderer::shadow_map.
     Buffer<float> read(const ShadowUse& use);
 
-    void sweep() { maps_.sweep(); }
-
 private:
-    struct Map {
-        int size = 0;
-        gl::Texture depth;
-        std::optional<Layers> layers;
-        std::vector<std::optional<Key>>
-            keys;                  ///< of what each layer holds; none: not to be trusted
-        std::optional<Key> whole;  ///< of the lens and all casters: where it is equal, so are all
-        std::uint64_t revision = 0;
-    };
-
-    /// Of one light, in each scene of a session that it is in.
-    using Maps = std::map<std::size_t, Map>;
-
-    ShadowUse update(const SceneSnapshot& scene, const LightSnapshot& light, std::size_t rank,
-                     const LookUp& look_up, Stats& stats);
-    Map make_map(int size, std::size_t layers) const;
-    /// Draws the layers that differ.
-    void draw(const SceneSnapshot& scene, const ShadowView& view, const LookUp& look_up, Map& map,
-              Stats& stats);
-    void draw_layer(const SceneSnapshot& scene, const ShadowView& view, const DrawPlan& plan,
-                    const LookUp& look_up, std::size_t layer, Map& map, Stats& stats);
     /// A caster whose vertices a user's source moves.
-    void draw_moved(const NodeSnapshot& node, const View& from, const LookUp& look_up,
-                    std::size_t layer, Stats& stats);
+    void draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
+                    Stats& stats);
 
     const gl::Context* context_;
     const GladGLContext* gl_;
@@ -83,7 +64,6 @@ private:
     int largest_;
     std::size_t most_;
     gl::Buffer instances_, block_;
-    WeakCache<Light, Maps> maps_;
 };
 
 }  // namespace cubecam

@@ -1,11 +1,11 @@
 #include "cubecam/render/passes/surface_pass.hpp"
 
 #include "cubecam/math/transform.hpp"
-#include "cubecam/render/graph/dependencies.hpp"
 #include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/draw_block.hpp"
 #include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/resources/instance.hpp"
+#include "cubecam/scene/snapshot_queries.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -160,19 +160,20 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                       static_cast<GLuint>(instances.size()),
                       static_cast<GLintptr>(blocks.size()),
                       &input.lookups[planned.node]};
-            auto visibility = planned.visibilities.begin();
+            const auto visibilities = input.plan.visible_in(planned);
+            auto visibility = visibilities.begin();
             for (std::size_t r = 0; r < input.regions.size(); ++r) {
                 const Region& region = input.regions[r];
-                while (visibility != planned.visibilities.end() && visibility->view < region.view)
+                while (visibility != visibilities.end() && visibility->view < region.view)
                     ++visibility;
-                if (visibility == planned.visibilities.end()) break;
+                if (visibility == visibilities.end()) break;
                 if (visibility->view != region.view || !visibility->bounds.overlaps(region.rect))
                     continue;
                 item.regions.push_back(r);
                 instances.push_back(views[r]);
             }
             if (item.regions.empty()) continue;
-            item.mesh = &cache_->mesh(node.mesh);
+            item.mesh = &cache_->mesh(*node.mesh);
             const DrawBlock block = make_draw_block(node, origin, ambient_);
             blocks.resize(blocks.size() + stride);
             std::memcpy(blocks.data() + item.block, &block, sizeof(block));
@@ -391,7 +392,7 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
                                      0, sizeof(Instance));
         gl_->BindVertexArray(item.mesh->array.id());
         gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, item.mesh->index_count,
-                                               GL_UNSIGNED_INT, nullptr, count, first);
+                                               item.mesh->index_type, nullptr, count, first);
         ++stats.draw_calls;
         stats.triangles += std::int64_t{item.mesh->index_count / 3} * count;
     }

@@ -4,8 +4,11 @@
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/render/resources/instance.hpp"
 
+#include <glm/gtc/type_precision.hpp>
+
 #include <algorithm>
 #include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -84,44 +87,72 @@ void set_view_attributes(const GladGLContext& gl, GLuint array) {
     gl.VertexArrayBindingDivisor(array, vertex_buffer::views, 1);
 }
 
-GpuMesh upload_mesh(const GladGLContext& gl, const Mesh& mesh) {
-    const auto& positions = *mesh.positions();
-    const auto& normals = *mesh.normals();
-    const bool has_uvs = mesh.uvs() != nullptr;
-    const bool has_colors = mesh.colors() != nullptr;
-    const std::size_t stride = 6 + (has_uvs ? 2 : 0) + (has_colors ? 4 : 0);
+/// Where a stream of vertices is bound: one vertex buffer for each attribute.
+struct StreamPlace {
+    GLuint attribute;
+    GLuint buffer;
+};
 
-    std::vector<float> packed(positions.size() * stride);
-    for (std::size_t v = 0; v < positions.size(); ++v) {
-        float* to = packed.data() + v * stride;
-        const auto put = [&to](const auto& value) {
-            for (int i = 0; i < value.length(); ++i) *to++ = value[i];
-        };
-        put(positions[v]);
-        put(normals[v]);
-        if (has_uvs) put((*mesh.uvs())[v]);
-        if (has_colors) put((*mesh.colors())[v]);
+template <class Vector>
+void upload_stream(const GladGLContext& gl, GLuint array, StreamPlace place,
+                   const VertexStream<Vector>& from, GpuStream& to) {
+    if (to.revision == from.revision) return;
+    const bool first = to.revision == 0;
+    to.revision = from.revision;
+    if (!from.values) {
+        gl.DisableVertexArrayAttrib(array, place.attribute);
+        to.bytes = 0;
+        return;
     }
+    const std::vector<Vector>& values = *from.values;
+    const std::size_t bytes = values.size() * sizeof(Vector);
+    if (to.writable && to.bytes == bytes) {
+        gl.NamedBufferSubData(to.buffer.id(), 0, static_cast<GLsizeiptr>(bytes), values.data());
+        return;
+    }
+    // What is set anew once will be so again.
+    to.writable = !first;
+    to.bytes = bytes;
+    to.buffer = gl::create_buffer(gl, bytes, values.data(),
+                                  to.writable ? GLbitfield{GL_DYNAMIC_STORAGE_BIT} : 0U);
+    gl.VertexArrayVertexBuffer(array, place.buffer, to.buffer.id(), 0, sizeof(Vector));
+    set_attribute(gl, array, place.attribute, place.buffer, Vector::length(), 0);
+}
 
-    GpuMesh result;
-    result.array = gl::create_vertex_array(gl);
-    result.vertices = gl::create_buffer(gl, packed.size() * sizeof(float), packed.data());
-    result.indices = gl::create_buffer(gl, mesh.triangles()->size() * sizeof(glm::uvec3),
-                                       mesh.triangles()->data());
-    result.index_count = static_cast<GLsizei>(mesh.triangles()->size() * 3);
+void upload_streams(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh) {
+    const GLuint array = mesh.array.id();
+    upload_stream(gl, array, {attribute::position, vertex_buffer::positions},
+                  data.position_stream(), mesh.positions);
+    upload_stream(gl, array, {attribute::normal, vertex_buffer::normals}, data.normal_stream(),
+                  mesh.normals);
+    upload_stream(gl, array, {attribute::uv, vertex_buffer::uvs}, data.uv_stream(), mesh.uvs);
+    upload_stream(gl, array, {attribute::color, vertex_buffer::colors}, data.color_stream(),
+                  mesh.colors);
+    mesh.revision = data.revision();
+}
 
-    const GLuint array = result.array.id();
-    gl.VertexArrayVertexBuffer(array, vertex_buffer::mesh, result.vertices.id(), 0,
-                               static_cast<GLsizei>(stride * sizeof(float)));
-    gl.VertexArrayElementBuffer(array, result.indices.id());
-    set_attribute(gl, array, attribute::position, vertex_buffer::mesh, 3, 0);
-    set_attribute(gl, array, attribute::normal, vertex_buffer::mesh, 3, 3 * sizeof(float));
-    if (has_uvs) set_attribute(gl, array, attribute::uv, vertex_buffer::mesh, 2, 6 * sizeof(float));
-    if (has_colors)
-        set_attribute(gl, array, attribute::color, vertex_buffer::mesh, 4,
-                      (stride - 4) * sizeof(float));
-    set_view_attributes(gl, array);
-    return result;
+/// 16 bits wherever they can name every vertex.
+void upload_indices(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh) {
+    const std::vector<glm::uvec3>& triangles = *data.triangles();
+    mesh.index_count = static_cast<GLsizei>(triangles.size() * 3);
+    if (data.positions()->size() > std::size_t{1} << 16) {
+        mesh.index_type = GL_UNSIGNED_INT;
+        mesh.indices = gl::create_buffer(gl, std::span<const glm::uvec3>(triangles));
+    } else {
+        std::vector<glm::u16vec3> narrow(triangles.begin(), triangles.end());
+        mesh.index_type = GL_UNSIGNED_SHORT;
+        mesh.indices = gl::create_buffer(gl, std::span<const glm::u16vec3>(narrow));
+    }
+    gl.VertexArrayElementBuffer(mesh.array.id(), mesh.indices.id());
+}
+
+GpuMesh upload_mesh(const GladGLContext& gl, const MeshData& data) {
+    GpuMesh mesh;
+    mesh.array = gl::create_vertex_array(gl);
+    upload_indices(gl, data, mesh);
+    upload_streams(gl, data, mesh);
+    set_view_attributes(gl, mesh.array.id());
+    return mesh;
 }
 
 /// GL's texel (0, 0) is a picture's bottom-left: rows go up in the reverse of their order in
@@ -160,8 +191,10 @@ GpuCache::GpuCache(const gl::Context& context)
     gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
-const GpuMesh& GpuCache::mesh(const std::shared_ptr<const Mesh>& mesh) {
-    return meshes_.get(mesh, [&] { return upload_mesh(*gl_, *mesh); });
+const GpuMesh& GpuCache::mesh(const MeshData& mesh) {
+    GpuMesh& held = meshes_.get(mesh.identity(), [&] { return upload_mesh(*gl_, mesh); });
+    if (held.revision != mesh.revision()) upload_streams(*gl_, mesh, held);
+    return held;
 }
 
 const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image) {

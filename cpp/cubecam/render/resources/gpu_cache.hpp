@@ -30,15 +30,32 @@ inline constexpr GLuint view_forward = 10;
 
 /// Binding points of vertex buffers in every vertex array.
 namespace vertex_buffer {
-inline constexpr GLuint mesh = 0;
+inline constexpr GLuint positions = 0;
 inline constexpr GLuint views = 1;
+inline constexpr GLuint normals = 2;
+inline constexpr GLuint uvs = 3;
+inline constexpr GLuint colors = 4;
 }  // namespace vertex_buffer
+
+/// The GPU's copy of a VertexStream.
+struct GpuStream {
+    gl::Buffer buffer;
+    std::size_t bytes = 0;
+    std::uint64_t revision = 0;  ///< of the values it holds
+    bool writable = false;       ///< from the first update on
+};
 
 struct GpuMesh {
     gl::VertexArray array;
-    gl::Buffer vertices;
     gl::Buffer indices;
+    GLenum index_type = GL_UNSIGNED_SHORT;
     GLsizei index_count = 0;
+    std::uint64_t revision = 0;  ///< of the data it holds
+    // One buffer for each, so that what is set anew is uploaded alone and as it lies in memory.
+    GpuStream positions;
+    GpuStream normals;
+    GpuStream uvs;
+    GpuStream colors;
 };
 
 struct GpuTexture {
@@ -51,7 +68,9 @@ class GpuCache {
 public:
     explicit GpuCache(const gl::Context& context);
 
-    const GpuMesh& mesh(const std::shared_ptr<const Mesh>& mesh);
+    /// Uploads only what was set anew since the last time. A call sees a mesh at one moment: with
+    /// other data of the same mesh, what was given before is no longer what is drawn.
+    const GpuMesh& mesh(const MeshData& mesh);
     /// @throws std::invalid_argument for a picture beyond the driver's limit, naming it; so does
     /// cube().
     const GpuTexture& image(const std::shared_ptr<const Image>& image);
@@ -72,7 +91,7 @@ private:
     const gl::Context* context_;
     const GladGLContext* gl_;
     gl::VertexArray views_only_;
-    WeakCache<const Mesh, GpuMesh> meshes_;
+    WeakCache<const MeshIdentity, GpuMesh> meshes_;
     WeakCache<const Image, GpuTexture> images_;
     WeakCache<CubeMap, GpuCube> cubes_;
 };

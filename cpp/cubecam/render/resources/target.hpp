@@ -2,6 +2,8 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/objects.hpp"
+#include "cubecam/image/depth_format.hpp"
+#include "cubecam/image/format.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/picture_key.hpp"
 

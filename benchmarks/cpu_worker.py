@@ -1,0 +1,87 @@
+"""A process that runs one program and reports the CPU time of all its threads, request by request.
+
+    python benchmarks/cpu_worker.py TREE MODULE:CLASS OPTIONS
+
+TREE is the folder whose `benchmarks` package holds the program: this one's, or that of the version before. OPTIONS
+are the class's keyword arguments as JSON; "mesh" names a file of arrays. It answers one JSON line for each that it
+reads. The CPU time counts the rasteriser's threads, and other work on the machine moves it less than wall time.
+
+A program has `draw(index)`, which gives a picture or None; where it has them, `prepare(index)` makes the frame's
+input before the clock starts, and `move(index)` is timed apart. A program with `frame(index)` alone is drawn by that.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+
+def _nothing(index: int) -> None:
+    pass
+
+
+class _Steps:
+    """The steps of a frame, whichever of them a program has."""
+
+    def __init__(self, program: Any) -> None:
+        self.prepare = getattr(program, "prepare", _nothing)
+        self.move = getattr(program, "move", _nothing) if hasattr(program, "draw") else _nothing
+        self.draw = program.draw if hasattr(program, "draw") else program.frame
+
+    def picture(self, index: int) -> np.ndarray:
+        self.prepare(index)
+        self.move(index)
+        return self.draw(index)
+
+    def time(self, index: int) -> tuple[float, float]:
+        """CPU milliseconds of moving, and of drawing with the picture read."""
+        self.prepare(index)
+        start = time.process_time()
+        self.move(index)
+        moved = time.process_time()
+        self.draw(index)
+        return (moved - start) * 1e3, (time.process_time() - moved) * 1e3
+
+
+def _load(tree: str, name: str, options: dict[str, Any]) -> _Steps:
+    here = str(Path(__file__).resolve().parent)
+    sys.path[:] = [tree] + [path for path in sys.path if path != here]
+    import cubecam
+
+    if tree != str(Path(here).parent) and not Path(cubecam.__file__).is_relative_to(tree):
+        raise ImportError(f"expected cubecam from {tree}, got {cubecam.__file__}")
+    module, factory = name.split(":")
+    if "mesh" in options:
+        arrays = np.load(options["mesh"])
+        kind = importlib.import_module("benchmarks.scene").MeshArrays
+        options["mesh"] = kind(arrays["positions"], arrays["normals"], arrays["indices"])
+        options["actor"] = options.pop("mesh")
+    return _Steps(getattr(importlib.import_module(f"benchmarks.{module}"), factory)(**options))
+
+
+def _answer(steps: _Steps, request: dict[str, Any]) -> dict[str, Any]:
+    if request["do"] == "picture":
+        picture = np.ascontiguousarray(steps.picture(request["frame"])[..., :3])
+        np.save(request["path"], picture)
+        return {}
+    times = [steps.time(request["first"] + offset) for offset in range(request["count"])]
+    return {"move": [move for move, _ in times], "draw": [draw for _, draw in times]}
+
+
+def main() -> None:
+    answers = sys.stdout
+    sys.stdout = sys.stderr  # what a library prints must not be taken for an answer
+    steps = _load(sys.argv[1], sys.argv[2], json.loads(sys.argv[3]))
+    print(json.dumps({}), file=answers, flush=True)
+    for line in sys.stdin:
+        print(json.dumps(_answer(steps, json.loads(line))), file=answers, flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,244 @@
+#include "cubecam/geometry/mesh_data.hpp"
+
+#include "cubecam/core/checks.hpp"
+#include "cubecam/core/revision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace cubecam {
+
+namespace {
+
+constexpr std::size_t block_size = 1024;  // no branch within, so that the compiler can use SIMD
+
+template <class Vector>
+void check_finite(const std::vector<Vector>& values, const char* name) {
+    const float* floats = values.empty() ? nullptr : &values.front()[0];
+    const std::size_t count = values.size() * Vector::length();
+    for (std::size_t begin = 0; begin < count; begin += block_size) {
+        const std::size_t end = std::min(count, begin + block_size);
+        bool finite = true;
+        for (std::size_t i = begin; i < end; ++i) {
+            finite &= std::abs(floats[i]) <= std::numeric_limits<float>::max();
+        }
+        for (std::size_t i = begin; i < end && !finite; ++i) {
+            if (std::isfinite(floats[i])) continue;
+            throw std::invalid_argument(std::string("expected finite ") + name + ", got " +
+                                        describe(floats[i]) + " at vertex " +
+                                        std::to_string(i / Vector::length()));
+        }
+    }
+}
+
+void check_alpha(const std::vector<glm::vec4>& colors) {
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        const glm::vec4& c = colors[i];
+        if (c.a >= 0.0F && c.a <= 1.0F) continue;
+        throw std::invalid_argument("expected colors with an alpha from 0 to 1, got " +
+                                    describe(c) + " at vertex " + std::to_string(i));
+    }
+}
+
+template <class Vector>
+void check_length(const std::vector<Vector>& values, std::size_t vertices, const char* name) {
+    if (values.empty() || values.size() == vertices) return;
+    throw std::invalid_argument("expected as many " + std::string(name) + " as positions, " +
+                                std::to_string(vertices) + ", got " +
+                                std::to_string(values.size()));
+}
+
+void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
+    expect(!triangles.empty(), "at least one triangle", "none");
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const glm::uvec3& t = triangles[i];
+        const std::uint32_t largest = std::max({t.x, t.y, t.z});
+        if (largest < vertices) continue;
+        throw std::out_of_range("expected indices below the number of vertices, " +
+                                std::to_string(vertices) + ", got " + std::to_string(largest) +
+                                " in triangle " + std::to_string(i));
+    }
+}
+
+/// Whether a normal stays as it is, so that arrays that went out come back unchanged.
+bool unit_length(const glm::vec3& normal) {
+    const glm::dvec3 wide(normal);
+    constexpr double close = 1e-6;
+    constexpr double least = (1.0 - close) * (1.0 - close);
+    constexpr double most = (1.0 + close) * (1.0 + close);
+    const double squared = glm::dot(wide, wide);
+    return squared >= least && squared <= most;
+}
+
+/// Makes every normal unit length. Those without a direction (files hold such) become smooth ones.
+void normalise(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>& positions,
+               const std::vector<glm::uvec3>& triangles) {
+    std::vector<glm::vec3> smooth;
+    for (std::size_t begin = 0; begin < normals.size(); begin += block_size) {
+        const std::size_t end = std::min(normals.size(), begin + block_size);
+        bool unit = true;
+        for (std::size_t i = begin; i < end; ++i) unit &= unit_length(normals[i]);
+        for (std::size_t i = begin; i < end && !unit; ++i) {
+            if (unit_length(normals[i])) continue;
+            const glm::dvec3 normal(normals[i]);
+            const double length = glm::length(normal);
+            if (length == 0.0 && smooth.empty()) smooth = smooth_normals(positions, triangles);
+            normals[i] = length == 0.0 ? smooth[i] : glm::vec3(normal / length);
+        }
+    }
+}
+
+Bounds bounds_of(const std::vector<glm::vec3>& positions) {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    // Four vertices at a time, for SIMD.
+    std::array<float, 12> low;
+    std::array<float, 12> high;
+    low.fill(infinity);
+    high.fill(-infinity);
+    const std::size_t fours = positions.size() / 4;
+    for (std::size_t four = 0; four < fours; ++four) {
+        const float* from = &positions[4 * four].x;
+        for (std::size_t i = 0; i < 12; ++i) {
+            low[i] = from[i] < low[i] ? from[i] : low[i];
+            high[i] = from[i] > high[i] ? from[i] : high[i];
+        }
+    }
+    glm::vec3 lowest(infinity);
+    glm::vec3 highest(-infinity);
+    for (std::size_t i = 0; i < 12; i += 3) {
+        lowest = glm::min(lowest, glm::vec3(low[i], low[i + 1], low[i + 2]));
+        highest = glm::max(highest, glm::vec3(high[i], high[i + 1], high[i + 2]));
+    }
+    for (std::size_t v = 4 * fours; v < positions.size(); ++v) {
+        lowest = glm::min(lowest, positions[v]);
+        highest = glm::max(highest, positions[v]);
+    }
+    return {glm::dvec3(lowest), glm::dvec3(highest)};
+}
+
+template <class T>
+VertexStream<T> stream_of(std::vector<T>&& values, std::uint64_t revision) {
+    if (values.empty()) return {nullptr, revision};
+    return {std::make_shared<const std::vector<T>>(std::move(values)), revision};
+}
+
+}  // namespace
+
+MeshData::MeshData(Arrays arrays)
+    : identity_(std::make_shared<const MeshIdentity>()), revision_(next_revision()) {
+    check_triangles(arrays.triangles, arrays.positions.size());
+    triangles_ = std::make_shared<const std::vector<glm::uvec3>>(std::move(arrays.triangles));
+    set_positions(std::move(arrays.positions));
+    set_normals(std::move(arrays.normals));
+    set_uvs(std::move(arrays.uvs));
+    set_colors(std::move(arrays.colors));
+}
+
+void MeshData::set_positions(std::vector<glm::vec3> positions) {
+    check_finite(positions, "positions");
+    bounds_ = bounds_of(positions);
+    positions_ = stream_of(std::move(positions), revision_);
+}
+
+void MeshData::set_normals(std::vector<glm::vec3> normals) {
+    check_length(normals, positions()->size(), "normals");
+    check_finite(normals, "normals");
+    smooth_ = normals.empty();
+    if (smooth_) {
+        normals = smooth_normals(*positions(), *triangles());
+    } else {
+        normalise(normals, *positions(), *triangles());
+    }
+    normals_ = stream_of(std::move(normals), revision_);
+}
+
+void MeshData::set_uvs(std::vector<glm::vec2> uvs) {
+    check_length(uvs, positions()->size(), "uvs");
+    check_finite(uvs, "uvs");
+    uvs_ = stream_of(std::move(uvs), revision_);
+}
+
+void MeshData::set_colors(std::vector<glm::vec4> colors) {
+    check_length(colors, positions()->size(), "colors");
+    check_finite(colors, "colors");
+    check_alpha(colors);
+    translucent_colors_ = std::any_of(colors.begin(), colors.end(),
+                                      [](const glm::vec4& color) { return color.a < 1.0F; });
+    colors_ = stream_of(std::move(colors), revision_);
+}
+
+MeshData MeshData::updated(MeshUpdate update) const {
+    MeshData next = *this;
+    next.revision_ = next_revision();
+    const bool moved = update.positions.has_value();
+    if (moved) {
+        expect(update.positions->size() == positions()->size(),
+               "as many positions as the mesh has, " + std::to_string(positions()->size()),
+               std::to_string(update.positions->size()));
+        next.set_positions(std::move(*update.positions));
+    }
+    if (update.normals) {
+        next.set_normals(std::move(*update.normals));
+    } else if (moved && smooth_) {
+        next.set_normals({});
+    }
+    if (update.uvs) next.set_uvs(std::move(*update.uvs));
+    if (update.colors) next.set_colors(std::move(*update.colors));
+    return next;
+}
+
+MeshData MeshData::of_new_mesh() && {
+    identity_ = std::make_shared<const MeshIdentity>();
+    return std::move(*this);
+}
+
+MeshData MeshData::centred_and_scaled(double size) const {
+    expect_positive(size, "size");
+    const glm::dvec3 extent = bounds().extent();
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    expect(largest > 0.0, "a mesh of some extent", "all vertices at one point");
+    const glm::dvec3 center = bounds().center();
+    const double factor = size / largest;
+
+    std::vector<glm::vec3> scaled;
+    scaled.reserve(positions()->size());
+    for (const glm::vec3& position : *positions()) {
+        scaled.emplace_back((glm::dvec3(position) - center) * factor);
+    }
+    MeshData next = *this;
+    next.revision_ = next_revision();
+    next.set_positions(std::move(scaled));
+    return next;
+}
+
+std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& positions,
+                                      const std::vector<glm::uvec3>& triangles) {
+    std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0.0));
+    for (const glm::uvec3& triangle : triangles) {
+        glm::dvec3 corners[3];
+        for (int i = 0; i < 3; ++i) corners[i] = glm::dvec3(positions[triangle[i]]);
+        const glm::dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const double twice_area = glm::length(cross);
+        if (!(twice_area > 0.0)) continue;
+        const glm::dvec3 normal = cross / twice_area;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 a = corners[(i + 1) % 3] - corners[i];
+            const glm::dvec3 b = corners[(i + 2) % 3] - corners[i];
+            // |a x b| is twice the area at every corner; atan2 keeps its digits at small angles.
+            sums[triangle[i]] += std::atan2(twice_area, glm::dot(a, b)) * normal;
+        }
+    }
+    std::vector<glm::vec3> normals(positions.size());
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double length = glm::length(sums[i]);
+        normals[i] = length > 0.0 ? glm::vec3(sums[i] / length) : glm::vec3(0.0F, 1.0F, 0.0F);
+    }
+    return normals;
+}
+
+}  // namespace cubecam

@@ -1,0 +1,130 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace cubecam {
+
+/// Axis-aligned bounds; `empty()` until a point was added.
+struct Bounds {
+    glm::dvec3 low{0.0};
+    glm::dvec3 high{0.0};
+
+    glm::dvec3 center() const { return 0.5 * (low + high); }
+    glm::dvec3 extent() const { return high - low; }
+};
+
+/// The box round a transformed box: |M| * half extents round M * center
+/// (J. Arvo, "Transforming Axis-Aligned Bounding Boxes", Graphics Gems, 1990).
+inline Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
+    const glm::dvec3 center(m * glm::dvec4(bounds.center(), 1.0));
+    const glm::dvec3 half = 0.5 * bounds.extent();
+    const glm::dvec3 reach = glm::abs(glm::dvec3(m[0])) * half.x +
+                             glm::abs(glm::dvec3(m[1])) * half.y +
+                             glm::abs(glm::dvec3(m[2])) * half.z;
+    return {center - reach, center + reach};
+}
+
+/// Names a mesh over all its updates, and lives as long as the mesh or any of its data does.
+struct MeshIdentity {};
+
+/// One value for each vertex, under the revision at which they were set.
+template <class T>
+struct VertexStream {
+    std::shared_ptr<const std::vector<T>> values;  ///< null: none
+    std::uint64_t revision = 0;
+};
+
+/// Vertices to be set anew; those without a value stay as they are.
+struct MeshUpdate {
+    std::optional<std::vector<glm::vec3>> positions;
+    std::optional<std::vector<glm::vec3>>
+        normals;                                   ///< empty: smooth ones, also after later updates
+    std::optional<std::vector<glm::vec2>> uvs;     ///< empty: none
+    std::optional<std::vector<glm::vec4>> colors;  ///< empty: none
+
+    bool empty() const { return !positions && !normals && !uvs && !colors; }
+};
+
+/// Indexed triangles with smooth normals, and texture coordinates and colours where there are some,
+/// as they are at one moment: nothing in it changes any more. Copies share the values.
+class MeshData {
+public:
+    template <class T>
+    using Array = std::shared_ptr<const std::vector<T>>;
+
+    struct Arrays {
+        std::vector<glm::vec3> positions;
+        std::vector<glm::uvec3> triangles;  ///< counter-clockwise seen from outside
+        std::vector<glm::vec3> normals;     ///< empty: smooth ones are computed
+        std::vector<glm::vec2> uvs;         ///< empty: none
+        std::vector<glm::vec4> colors;      ///< empty: none
+    };
+
+    /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that
+    /// differ from positions';
+    /// @throws std::out_of_range for an index beyond the vertices.
+    explicit MeshData(Arrays arrays);
+
+    const Array<glm::vec3>& positions() const { return positions_.values; }
+    const Array<glm::uvec3>& triangles() const { return triangles_; }
+    const Array<glm::vec3>& normals() const { return normals_.values; }
+    const Array<glm::vec2>& uvs() const { return uvs_.values; }        ///< null: none
+    const Array<glm::vec4>& colors() const { return colors_.values; }  ///< null: none
+    const Bounds& bounds() const { return bounds_; }
+    std::uint64_t revision() const { return revision_; }
+
+    /// Whether the normals are the smooth ones of the positions, and follow them.
+    bool smooth() const { return smooth_; }
+    /// Whether any vertex colour has an alpha below one.
+    bool translucent_colors() const { return translucent_colors_; }
+
+    // For copies of the data: the same triangles, and the streams of another revision set anew.
+
+    const std::shared_ptr<const MeshIdentity>& identity() const { return identity_; }
+    const VertexStream<glm::vec3>& position_stream() const { return positions_; }
+    const VertexStream<glm::vec3>& normal_stream() const { return normals_; }
+    const VertexStream<glm::vec2>& uv_stream() const { return uvs_; }
+    const VertexStream<glm::vec4>& color_stream() const { return colors_; }
+
+    /// The same mesh after an update. New positions without normals keep the normals that were
+    /// given, and have smooth ones computed anew.
+    /// @throws std::invalid_argument for another number of vertices, or a value that is not finite.
+    MeshData updated(MeshUpdate update) const;
+
+    /// The same, as a mesh of its own.
+    MeshData of_new_mesh() &&;
+
+    /// The same, centred at the origin and scaled so that its largest extent is `size`.
+    MeshData centred_and_scaled(double size) const;
+
+private:
+    void set_positions(std::vector<glm::vec3> positions);
+    void set_normals(std::vector<glm::vec3> normals);
+    void set_uvs(std::vector<glm::vec2> uvs);
+    void set_colors(std::vector<glm::vec4> colors);
+
+    std::shared_ptr<const MeshIdentity> identity_;
+    Array<glm::uvec3> triangles_;
+    VertexStream<glm::vec3> positions_;
+    VertexStream<glm::vec3> normals_;
+    VertexStream<glm::vec2> uvs_;
+    VertexStream<glm::vec4> colors_;
+    Bounds bounds_;
+    bool smooth_ = false;
+    bool translucent_colors_ = false;
+    std::uint64_t revision_;
+};
+
+/// Vertex normals as the sum of the triangles' normals weighted by the angle at the vertex
+/// (G. Thuermer, C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
+/// A vertex of no triangle, or of degenerate ones only, gets +Y.
+std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& positions,
+                                      const std::vector<glm::uvec3>& triangles);
+
+}  // namespace cubecam

@@ -1,0 +1,175 @@
+#include "cubecam/render/graph/drawn_picture.hpp"
+
+#include "cubecam/scene/snapshot_queries.hpp"
+
+#include <algorithm>
+
+namespace cubecam {
+namespace {
+
+void add_light(Key& key, const LightValue& light) {
+    key.add(light.parameters.index());
+    key.add(light.color);
+    key.add(light.intensity);
+    if (const auto* point = std::get_if<PointParameters>(&light.parameters)) {
+        key.add(point->position);
+        key.add(point->decay);
+    } else if (const auto* sun = std::get_if<DirectionalParameters>(&light.parameters)) {
+        key.add(sun->direction);
+    } else if (const auto* spot = std::get_if<SpotParameters>(&light.parameters)) {
+        key.add(spot->position);
+        key.add(spot->direction);
+        key.add(spot->angle);
+        key.add(spot->penumbra);
+        key.add(spot->decay);
+    }
+    key.add(light.shadow.has_value());
+}
+
+/// What a node that receives shadows depends on besides.
+Key key_of(std::span<const ShadowUse> shadows) {
+    Key key;
+    for (const ShadowUse& use : shadows) {
+        key.add(use.revision);
+        key.add(use.shadow.radius);
+        key.add(use.shadow.bias);
+    }
+    return key;
+}
+
+}  // namespace
+
+std::vector<NodeTextures> DrawnPicture::look_up_all() {
+    std::vector<NodeTextures> lookups(scene.nodes.size());
+    plan.for_each([&](const PlannedNode& planned) {
+        lookups[planned.node] = lookup.find(scene.nodes[planned.node]);
+    });
+    return lookups;
+}
+
+std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& lookups) {
+    Key common;
+    common.add(post_process.tonemap);
+    common.add(post_process.encode);
+    common.add(post_process.effects.size());
+    for (const EffectSnapshot& effect : post_process.effects) {
+        common.add(effect.revision);
+        for (const TextureSourceSnapshot& texture : effect.textures) {
+            common.add(lookup.find(texture).revision);
+        }
+    }
+    common.add(scene.background.index());
+    if (const auto* color = std::get_if<glm::vec4>(&scene.background)) common.add(*color);
+    common.add(lookup.background().revision);
+    common.add(scene.lights.size());
+    for (const LightSnapshot& light : scene.lights) add_light(common, light.value);
+    const Key shadow_key = key_of(shadows);
+    std::vector<std::size_t> counts(views.size(), 0);
+    for (const Visibility& visibility : plan.visibilities) ++counts[visibility.view];
+
+    std::vector<PictureKey> keys(views.size());
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const View& view = views[v];
+        Key& key = keys[v].common;
+        key = common;
+        key.add(view.view);
+        key.add(view.view_projection);
+        key.add(view.position);
+        key.add(view.eye);
+        key.add(view.near);
+        keys[v].shadows = shadow_key;
+        keys[v].nodes.reserve(counts[v]);
+    }
+    plan.for_each([&](const PlannedNode& planned) {
+        const NodeSnapshot& node = scene.nodes[planned.node];
+        const NodeTextures& found = lookups[planned.node];
+        NodeKey key{node.id,
+                    receive_shadow(node),
+                    {},
+                    node.revision,
+                    node.world,
+                    node.mesh->revision(),
+                    node.material.revision,
+                    0,
+                    0};
+        for (const Visibility& visibility : plan.visible_in(planned)) {
+            PictureKey& picture = keys[visibility.view];
+            key.bounds = visibility.bounds;
+            key.first_texture = static_cast<std::uint32_t>(picture.textures.size());
+            picture.textures.push_back(found.cube.revision);
+            picture.textures.push_back(found.map.revision);
+            for (const BoundTexture& texture : found.textures) {
+                picture.textures.push_back(texture.revision);
+            }
+            key.texture_count =
+                static_cast<std::uint32_t>(picture.textures.size()) - key.first_texture;
+            picture.nodes.push_back(key);
+        }
+    });
+    return keys;
+}
+
+std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> budget) {
+    const std::vector<NodeTextures> lookups = look_up_all();
+    std::vector<PictureKey> keys = keys_of(lookups);
+    const Rect whole{0, 0, target.description().width, target.description().height};
+    std::vector<std::vector<Rect>> damaged(views.size());
+    std::size_t count = 0;
+    std::size_t last = 0;
+    const std::size_t first = budget ? budget->first : 0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const std::size_t v = (first + i) % views.size();
+        if (!budget || count < budget->views) damaged[v] = damage(target.keys[v], keys[v], whole);
+        // llvmpipe (Mesa 22.3) lets samples beyond the scissor's edge through.
+        if (target.multisampled() && !damaged[v].empty()) damaged[v] = {whole};
+        if (damaged[v].empty()) {
+            ++stats.views_skipped;
+            continue;
+        }
+        last = i + 1;
+        ++count;
+    }
+    if (count == 0) return 0;
+    stats.views_drawn += static_cast<std::int64_t>(count);
+
+    std::vector<Region> regions;
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        for (const Rect& rect : damaged[v]) regions.push_back({v, rect});
+        // Until they are drawn, these layers hold nothing that can be trusted.
+        if (!damaged[v].empty()) target.keys[v].reset();
+    }
+    const BoundTexture sky = lookup.background();
+    const auto* color = std::get_if<glm::vec4>(&scene.background);
+    // Place by place: positions in the shaders count from where a view stands, so its picture is
+    // the same bit for bit whether others are drawn along or not.
+    while (!regions.empty()) {
+        const View& here = views[regions.front().view];
+        const auto elsewhere =
+            std::stable_partition(regions.begin(), regions.end(), [&](const Region& region) {
+                return same_place(here, views[region.view]);
+            });
+        std::vector<Region> rest(elsewhere, regions.end());
+        regions.erase(elsewhere, regions.end());
+        gpu.surface.draw(
+            {scene, views, plan, std::move(regions),
+             color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture), lookups,
+             shadows},
+            target, stats);
+        regions = std::move(rest);
+    }
+    const auto textures = lookup.find(post_process.effects);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (damaged[v].empty()) continue;
+        if (target.multisampled()) target.resolve(static_cast<int>(v));
+        if (target.description().post_processed) {
+            gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), stats);
+        }
+    }
+    gl::check_gl(gpu.context.gl(), "finishing a picture");
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
+    }
+    return budget ? last : count;
+}
+
+}  // namespace cubecam

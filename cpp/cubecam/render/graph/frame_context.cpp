@@ -1,0 +1,123 @@
+#include "cubecam/render/graph/frame_context.hpp"
+
+#include "cubecam/render/graph/frame_picture.hpp"
+#include "cubecam/render/graph/picture_kind.hpp"
+#include "cubecam/render/graph/probe_picture.hpp"
+#include "cubecam/render/graph/shadow_picture.hpp"
+#include "cubecam/render/graph/texture_picture.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace cubecam {
+
+FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes)
+    : gpu(its_gpu), scenes(its_scenes), pictures([this](const PictureId& id) { return make(id); }),
+      contents_(its_scenes.others.size() + 1) {
+    std::map<const void*, std::size_t> users;  // scenes so far; never walked
+    for (std::size_t s = 0; s < contents_.size(); ++s) {
+        const SceneSnapshot& scene = scenes.scene(s);
+        gpu.shadows.check(scene);
+        Ranks& ranks = ranks_.emplace_back();
+        for (const ProbeSnapshot& probe : scene.probes) {
+            ranks.probes.push_back(users[probe.object.get()]++);
+        }
+        for (const LightSnapshot& light : scene.lights) {
+            ranks.lights.push_back(users[light.object.get()]++);
+        }
+        add_caster_dependencies(scene, s, caster_dependencies_);
+    }
+    caster_dependencies_ = unique(std::move(caster_dependencies_));
+}
+
+void FrameContext::draw(std::vector<View> views, Target& target,
+                        std::function<bool(const NodeSnapshot&)> wanted, PostProcess post_process) {
+    pictures.add(frame_id(),
+                 std::make_unique<FramePicture>(*this, std::move(views), target, std::move(wanted),
+                                                std::move(post_process)));
+    update({frame_id()});
+}
+
+void FrameContext::update_probes(const std::vector<std::size_t>& probes) {
+    Dependencies roots;
+    for (const std::size_t place : probes) {
+        probe(0, place).force();
+        roots.push_back(probe_id(0, place));
+    }
+    update(roots);
+}
+
+Buffer<float> FrameContext::shadow_map(std::size_t light) {
+    Dependencies roots;
+    add_shadows(scenes, 0, roots);
+    update(roots);
+    return gpu.shadows.read(static_cast<ShadowPicture&>(pictures.at(shadow_id(0, light))).use());
+}
+
+void FrameContext::update(const std::vector<PictureId>& roots) {
+    // Without either there are no strict pictures, and their contents need not be looked through.
+    if (!scenes.textures.empty() || !caster_dependencies_.empty()) {
+        std::string advice = "; leave the nodes that show it out with exclude=";
+        if (!caster_dependencies_.empty()) {
+            advice += ", those that cast by it with cast_shadow=False";
+        }
+        pictures.refuse_circles(roots, advice);
+    }
+    pictures.update(roots);
+}
+
+std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
+    switch (id.kind) {
+        case PictureKind::probe: return std::make_unique<ProbePicture>(*this, id);
+        case PictureKind::texture: return std::make_unique<TexturePicture>(*this, id);
+        case PictureKind::shadow: return std::make_unique<ShadowPicture>(*this, id);
+        case PictureKind::frame: break;
+    }
+    throw std::logic_error("expected a frame to be added before something depends on it");
+}
+
+ProbePicture& FrameContext::probe(std::size_t scene, std::size_t place) {
+    return static_cast<ProbePicture&>(pictures.at(probe_id(scene, place)));
+}
+
+TexturePicture& FrameContext::texture(std::size_t place) {
+    return static_cast<TexturePicture&>(pictures.at(texture_id(place)));
+}
+
+std::vector<ShadowUse> FrameContext::shadows(std::size_t scene) {
+    Dependencies maps;
+    add_shadows(scenes.scene(scene), scene, maps);
+    std::vector<ShadowUse> uses;
+    for (const PictureId& id : maps) {
+        uses.push_back(static_cast<ShadowPicture&>(pictures.at(id)).use());
+    }
+    return uses;
+}
+
+ProbeState& FrameContext::probe_state(std::size_t scene, std::size_t probe) {
+    const ProbeSnapshot& snapshot = scenes.scene(scene).probes[probe];
+    // A probe that is drawn by hand alone shows in every scene what it was last drawn from.
+    const bool by_hand = snapshot.value.update == ProbeUpdate::manual;
+    return gpu.probes.get(snapshot.object, [] { return StatesByScene<ProbeState>(); })
+        .of(by_hand ? 0 : ranks_[scene].probes[probe]);
+}
+
+ShadowState& FrameContext::shadow_state(std::size_t scene, std::size_t light) {
+    return gpu.shadow_maps
+        .get(scenes.scene(scene).lights[light].object, [] { return StatesByScene<ShadowState>(); })
+        .of(ranks_[scene].lights[light]);
+}
+
+const SceneContents& FrameContext::contents(std::size_t scene) {
+    std::optional<SceneContents>& known = contents_[scene];
+    if (!known) known.emplace(scenes.scene(scene), scene);
+    return *known;
+}
+
+bool FrameContext::moves_casters(const PictureId& picture) const {
+    return std::binary_search(caster_dependencies_.begin(), caster_dependencies_.end(), picture);
+}
+
+}  // namespace cubecam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "cubecam/render/graph/scene_picture.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cubecam {
+
+/// What a call of a renderer gives back: a frame, both eyes of a stereo frame, or a capture.
+/// Nothing looks it up.
+class FramePicture final : public ScenePicture {
+public:
+    FramePicture(FrameContext& context, std::vector<View> views, Target& target, Wanted wanted,
+                 PostProcess post_process);
+
+    std::vector<PictureId> possible_dependencies() override;
+    std::vector<PictureId> dependencies() override;
+    void update() override;
+    bool strict() const override { return false; }
+    std::string label(std::size_t place) const override;
+
+private:
+    std::vector<View> views_;  // until they are planned
+    Target& target_;
+    const Wanted wanted_;
+    const PostProcess post_process_;
+};
+
+}  // namespace cubecam

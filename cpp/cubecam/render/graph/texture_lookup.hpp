@@ -1,0 +1,47 @@
+#pragma once
+
+#include "cubecam/render/graph/picture.hpp"
+#include "cubecam/render/passes/post_process_pass.hpp"
+#include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/scene/snapshot.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace cubecam {
+
+class FrameContext;
+
+/// The textures that one picture of a scene looks up. The pictures among them are up to date by
+/// then.
+class TextureLookup {
+public:
+    /// `viewer` is the picture that looks, `scene` the number of the scene that it shows.
+    TextureLookup(FrameContext& context, const PictureId& viewer, std::size_t scene);
+
+    BoundTexture find(const CubeSourceSnapshot& source);
+    BoundTexture find(const MapSnapshot& map);
+    BoundTexture find(const TextureSourceSnapshot& texture);
+
+    /// Of all that a node's material looks up.
+    NodeTextures find(const NodeSnapshot& node);
+    /// Of those by which a node's vertices are moved, in the order of its inputs; others stay
+    /// empty.
+    std::vector<BoundTexture> find_for_vertices(const NodeSnapshot& node);
+    /// Of each effect, in the order of its inputs.
+    std::vector<std::vector<BoundTexture>> find(const std::vector<EffectSnapshot>& effects);
+    /// The cube behind everything; empty if the background is a colour.
+    BoundTexture background();
+
+private:
+    BoundTexture find_probe(std::size_t probe);
+
+    FrameContext& context_;
+    PictureId viewer_;
+    std::size_t number_;
+    const SceneSnapshot& scene_;
+    std::vector<std::optional<BoundTexture>> probes_;  // of the scene, as far as looked up
+};
+
+}  // namespace cubecam

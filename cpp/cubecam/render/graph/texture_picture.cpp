@@ -1,0 +1,109 @@
+#include "cubecam/render/graph/texture_picture.hpp"
+
+#include "cubecam/core/revision.hpp"
+#include "cubecam/gl/objects.hpp"
+#include "cubecam/scene/snapshot_queries.hpp"
+
+#include <stdexcept>
+
+namespace cubecam {
+namespace {
+
+void set_view_filters(const GladGLContext& gl, GLuint view, bool mipmaps) {
+    gl.TextureParameteri(view, GL_TEXTURE_MIN_FILTER,
+                         mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    gl.TextureParameteri(view, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+}
+
+void set_view_wrap(const GladGLContext& gl, GLuint view, Wrap wrap) {
+    const GLint mode = wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+    gl.TextureParameteri(view, GL_TEXTURE_WRAP_S, mode);
+    gl.TextureParameteri(view, GL_TEXTURE_WRAP_T, mode);
+}
+
+}  // namespace
+
+TexturePicture::TexturePicture(FrameContext& context, const PictureId& id)
+    : ScenePicture(context, id, context.scenes.textures[id.object].scene),
+      texture_(context.scenes.textures[id.object]),
+      state_(context.gpu.textures.get(texture_.object, [] { return TextureState{}; })) {}
+
+bool TexturePicture::sees(const NodeSnapshot& node) const { return is_seen(texture_, node); }
+
+std::vector<PictureId> TexturePicture::possible_dependencies() {
+    Dependencies shown =
+        context_.contents(number_).shown([this](const NodeSnapshot& node) { return sees(node); });
+    add_dependencies(texture_.effects, shown);
+    return shown;
+}
+
+std::vector<PictureId> TexturePicture::dependencies() {
+    const TargetDescription description = describe();
+    const double aspect =
+        static_cast<double>(texture_.value.width) / static_cast<double>(texture_.value.height);
+    Dependencies shown = plan({camera_view(matrices(texture_.camera, aspect))}, description.width,
+                              description.height, texture_.value.depth_format,
+                              [this](const NodeSnapshot& node) { return sees(node); });
+    add_dependencies(texture_.effects, shown);
+    return shown;
+}
+
+/// As describe_target, saying which texture is meant if it has a name.
+TargetDescription TexturePicture::describe() const {
+    const RenderTextureValue& value = texture_.value;
+    try {
+        TargetDescription description =
+            describe_target(context_.gpu.context, false, value.width, value.height, value.samples,
+                            value.format, {}, value.depth_format);
+        description.mipmaps = value.mipmaps;
+        set_post_process(description, value.effects.size(), false);
+        return description;
+    } catch (const std::invalid_argument& error) {
+        if (value.name.empty()) throw;
+        throw std::invalid_argument("RenderTexture \"" + value.name + "\": " + error.what());
+    }
+}
+
+void TexturePicture::prepare(const TargetDescription& description) {
+    const GladGLContext& gl = context_.gpu.context.gl();
+    if (state_.target == nullptr || state_.target->description() != description) {
+        state_ = TextureState{};  // its memory first
+        state_.target = std::make_unique<Target>(context_.gpu.context, description);
+        state_.view = gl::create_view_2d(
+            gl, state_.target->picture(),
+            description.mipmaps ? gl::mip_levels(description.width, description.height) : 1);
+        set_view_filters(gl, state_.view.id(), description.mipmaps);
+        set_view_wrap(gl, state_.view.id(), state_.wrap);
+    }
+    if (state_.wrap != texture_.value.wrap) {
+        state_.wrap = texture_.value.wrap;
+        set_view_wrap(gl, state_.view.id(), state_.wrap);
+        state_.revision = next_revision();
+    }
+}
+
+void TexturePicture::update() {
+    const TargetDescription description = describe();
+    try {
+        prepare(description);
+        const std::size_t drawn =
+            draw_changed(*state_.target, {texture_.effects, Tonemap::none, Encode::none});
+        if (drawn == 0) return;
+        if (description.mipmaps) {
+            context_.gpu.context.gl().GenerateTextureMipmap(state_.target->picture().id());
+        }
+    } catch (...) {
+        state_ = TextureState{};
+        throw;
+    }
+    state_.revision = next_revision();
+    ++context_.stats.textures_updated;
+}
+
+std::string TexturePicture::label(std::size_t place) const {
+    const std::string& name = texture_.value.name;
+    if (name.empty()) return "RenderTexture " + std::to_string(place == 0 ? 1 : place);
+    return (place == 0 ? "RenderTexture \"" : "\"") + name + '"';
+}
+
+}  // namespace cubecam

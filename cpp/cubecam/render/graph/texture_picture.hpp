@@ -1,0 +1,35 @@
+#pragma once
+
+#include "cubecam/render/graph/scene_picture.hpp"
+#include "cubecam/render/resources/bound_texture.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cubecam {
+
+/// The picture of a render texture. It never shows itself (docs/adr/0007-render-textures.md).
+class TexturePicture final : public ScenePicture {
+public:
+    TexturePicture(FrameContext& context, const PictureId& id);
+
+    /// What it holds now.
+    BoundTexture texture() const { return {state_.view.id(), state_.revision}; }
+
+    std::vector<PictureId> possible_dependencies() override;
+    std::vector<PictureId> dependencies() override;
+    void update() override;
+    bool strict() const override { return true; }
+    std::string label(std::size_t place) const override;
+
+private:
+    bool sees(const NodeSnapshot& node) const;
+    TargetDescription describe() const;
+    /// A target, and a view of it, of the size and format that the texture has now.
+    void prepare(const TargetDescription& description);
+
+    const RenderTextureSnapshot& texture_;
+    TextureState& state_;
+};
+
+}  // namespace cubecam

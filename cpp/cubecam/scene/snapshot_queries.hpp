@@ -1,0 +1,37 @@
+#pragma once
+
+#include "cubecam/scene/snapshot.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+/// What follows from a snapshot's values alone: whom a node is seen by and what its material uses.
+namespace cubecam {
+
+/// Whether a node, or one above it, is among `excluded`.
+bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded);
+
+/// Whether a node looks up a probe of its scene.
+bool uses_probe(const NodeSnapshot& node, std::size_t probe);
+
+/// The cube that a node's material looks up.
+const CubeSourceSnapshot& source_of(const SceneSnapshot& scene, const NodeSnapshot& node);
+
+/// Whether a user's own source moves a node's vertices.
+bool moves_vertices(const NodeSnapshot& node);
+
+/// Whether shadows show on a node: its material uses the lights.
+bool receive_shadow(const NodeSnapshot& node);
+
+/// Whether any light of a scene has a shadow.
+bool has_shadows(const SceneSnapshot& scene);
+
+/// The places, among a node's textures, of those that its vertices are moved by.
+std::vector<std::size_t> vertex_textures(const NodeSnapshot& node);
+
+/// Whether a probe, or a render texture, of a node's scene sees the node.
+bool is_seen(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe);
+bool is_seen(const RenderTextureSnapshot& texture, const NodeSnapshot& node);
+
+}  // namespace cubecam
