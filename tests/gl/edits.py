@@ -170,6 +170,14 @@ VALUES = {
     "RenderTexture.wrap": choice("clamp", "repeat"),
     "Scene.background": lambda world, rng, thing: one(rng, None, rng.random(4), *world.cubes),
     "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
+    "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
+    "Mesh.normals": lambda world, rng, thing: one(
+        rng, None, rng.normal(size=thing.positions.shape)
+    ),
+    "Mesh.positions": lambda world, rng, thing: (
+        thing.positions * rng.uniform(0.8, 1.2, 3) + rng.uniform(-0.1, 0.1, 3)
+    ),
+    "Mesh.uvs": lambda world, rng, thing: one(rng, None, rng.random((len(thing.positions), 2))),
     "Material.blend": choice(
         None, "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied"
     ),
@@ -295,6 +303,11 @@ def method_one_uniform(world, rng, draw):
 def method_one_texture(world, rng, draw):
     material = one(rng, *world.things(cc.ShaderMaterial))
     material.textures["around"] = one(rng, *world.cubes, *world.probes)
+
+
+def method_update_a_mesh(world, rng, draw):
+    mesh = one(rng, *world.meshes)
+    mesh.update(positions=mesh.positions[:, [2, 0, 1]], colors=rng.random(mesh.positions.shape))
 
 
 def method_move_the_camera(world, rng, draw):

@@ -129,7 +129,9 @@ def test_a_matrix_is_a_grey_picture(tmp_path):
 
 def test_what_is_loaded_is_yours(tmp_path, colors):
     cc.save_image(tmp_path / "a.png", colors)
-    cc.load_image(tmp_path / "a.png")[:] = 0
+    image = cc.load_image(tmp_path / "a.png")
+    image[:] = 0
+    assert_identical(cc.load_image(tmp_path / "a.png"), colors)
 
 
 @pytest.mark.parametrize(

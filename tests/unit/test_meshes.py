@@ -391,20 +391,20 @@ def test_normals_set_once_are_given_and_none_makes_them_smooth_again():
     np.testing.assert_allclose(mesh.normals, [[0, -1, 0]] * 4)
 
 
-@twins
+@copies
 @pytest.mark.parametrize("normals", [None, [[1, 0, 0]] * 4], ids=["smooth", "given"])
-def test_the_normals_of_a_twin_follow_its_positions_alike(twin, normals):
+def test_the_normals_of_a_copy_follow_its_positions_alike(make_copy, normals):
     mesh = quad(normals=normals)
-    other = twin(mesh)
+    other = make_copy(mesh)
     for each in (mesh, other):
         each.positions = each.positions[:, [0, 2, 1]]
     np.testing.assert_array_equal(other.normals, mesh.normals)
 
 
-@twins
-def test_a_twin_is_a_mesh_of_its_own(twin):
+@copies
+def test_a_copy_is_a_mesh_of_its_own(make_copy):
     mesh = quad()
-    twin(mesh).positions = np.zeros((4, 3))
+    make_copy(mesh).positions = np.zeros((4, 3))
     assert mesh.positions.any()
 
 

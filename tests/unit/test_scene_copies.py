@@ -64,7 +64,7 @@ def test_a_scene_and_its_ball_stay_together(make_copy):
 
 
 @copies
-def test_parents_and_probes_point_into_the_twin(make_copy):
+def test_parents_and_probes_point_into_the_copy(make_copy):
     scene, *_ = furnished()
     other = make_copy(scene)
     group = next(node for node in other.nodes if node.name == "group")

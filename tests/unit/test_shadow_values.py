@@ -134,7 +134,7 @@ def test_spot_defaults():
 
 
 @copies
-def test_a_spots_twin(make_copy):
+def test_a_copy_of_a_spot(make_copy):
     light = make_copy(
         cc.SpotLight((1, 2, 3), (0, 0, -3), 20, 0.25, (1, 0.5, 0.25), 2, 1.5, cc.Shadow(64))
     )
@@ -200,7 +200,7 @@ def test_flags_of_nodes():
 
 
 @copies
-def test_a_nodes_twin_keeps_its_flags(make_copy):
+def test_a_copy_of_a_node_keeps_its_flags(make_copy):
     scene = cc.Scene()
     scene.add(cc.Mesh.box(), cast_shadow=False)
     scene.add(cc.Mesh.box(), receive_shadow=False)
