@@ -357,6 +357,7 @@ def test_a_texture_needed_twice_is_drawn_once(renderer):
     assert_close(color[..., :3], np.concatenate([PICTURE] * 3, axis=1), "lookup")
 
 
+@pytest.mark.slow
 def test_deep_chains_neither_overflow_nor_hang():
     """A thousand textures one in the other, drawn and let go; and thirty thousand let go undrawn."""
     run_python(

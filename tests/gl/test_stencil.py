@@ -230,6 +230,7 @@ def test_translucent_things_are_counted(any_path, options):
     np.testing.assert_array_equal(frame.stencil, want)
 
 
+@pytest.mark.slow
 @depths
 @pytest.mark.parametrize("samples", [1, 4])
 def test_captures_are_the_same_on_both_paths(new_renderer, depth_format, samples):
@@ -245,6 +246,7 @@ def test_captures_are_the_same_on_both_paths(new_renderer, depth_format, samples
     assert a == b
 
 
+@pytest.mark.slow
 @depths
 def test_multisampled_outputs_equal_those_of_one_sample(renderer, depth_format):
     scene = masked_crowd(np.random.default_rng(23))

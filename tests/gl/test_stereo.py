@@ -55,6 +55,7 @@ def scene():
     return everything()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 @pytest.mark.parametrize("make", PAIRS.values(), ids=PAIRS)
 def test_an_anaglyph_is_both_eyes_own_frames(any_path, scene, make, options):
@@ -190,6 +191,7 @@ def test_a_thing_that_one_eye_sees(renderer):
         assert counts(renderer) == (1, 1)
 
 
+@pytest.mark.slow
 @layouts
 def test_layered_equals_one_pass(new_renderer, layout):
     scene = everything()

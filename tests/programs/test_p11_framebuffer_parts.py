@@ -114,6 +114,7 @@ def test_the_stencil_counts_what_covers_a_pixel(drawn, frame):
     assert program.things[2].material.stencil.depth_fail == "incr"
 
 
+@pytest.mark.slow
 @frames
 def test_the_shadow_against_ray_casting(drawn, frame):
     """Rays from each point towards the lamp; where they turn from free to blocked the filter is soft, and masked."""

@@ -25,6 +25,7 @@ def copies(program):
     return shapes, colors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reflector", ["sphere", "teapot"])
 @pytest.mark.parametrize("frame", [0, 31, 62])
 def test_capture_and_mirror(renderer, frame, reflector):

@@ -21,6 +21,7 @@ from tests.reference import raycast, shading
 SIZE, FACE = (72, 72), 40
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frame", [0, 17, 40])
 def test_frames(renderer, frame):
     program = example.build(probe_size=FACE, probe_format="rgba32f")

@@ -22,6 +22,7 @@ from tests.reference import raycast, shading
 SIZE, FACE = (96, 96), 40
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("frame", "eta"), [(0, 1 / 1.52), (13, 1 / 1.52), (29, 1 / 1.33)])
 def test_frames(renderer, frame, eta):
     program = example.build(eta=eta, probe_size=FACE, probe_format="rgba32f")

@@ -215,6 +215,7 @@ def test_it_keeps_its_scene_and_not_what_it_leaves_out():
     assert len(made.scene.nodes) == 1
 
 
+@pytest.mark.slow
 def test_a_monitor_in_its_room_keeps_neither_for_ever():
     """Room and monitor hold each other. The room's cubemap is 6 MB: a hundred kept would be 600.
 
