@@ -5,6 +5,9 @@ VENV := .venv
 PY := $(VENV)/bin/python
 PACKAGES := $(PY) scripts/packages.py
 PYTEST_ARGS ?=
+# Of pytest; a file's tests stay in one process, so that they share its renderers.
+WORKERS ?= auto
+PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
 
 # Folders are listed with their files: a file that went away changes its folder.
@@ -13,16 +16,27 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test dev lint format stubs bench docs wheel mutants clean
+.PHONY: help demo test test-fast test-build test-asan dev lint format stubs bench docs sdist wheel mutants clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
 
 demo: $(VENV)/.installed ## set up, build, and render a scene with a mirror ball to out/
 	@$(PY) -m cubecam demo --out out
 
 test: $(VENV)/.installed $(VENV)/.deps-test ## set up, build, and run the whole test suite
-	@$(PY) -m pytest $(PYTEST_ARGS)
+	@$(PYTEST) --durations=10 $(PYTEST_ARGS)
+
+test-fast: $(VENV)/.installed $(VENV)/.deps-test ## the tests that take no longer than a second, and no notebooks
+	@$(PYTEST) -m "not slow and not build" tests $(PYTEST_ARGS)
+
+test-build: $(VENV)/.installed $(VENV)/.deps-test ## all tests that compile C++: warnings as errors, ctest, example, materials
+	@PATH="$(abspath $(VENV))/bin:$$PATH"; \
+	cmake --preset debug -G Ninja -DPython_EXECUTABLE=$(abspath $(PY)) && cmake --build --preset debug && ctest --preset debug
+	@$(PY) -m pytest -m build tests/build $(PYTEST_ARGS)
+
+test-asan: $(VENV)/.deps-test ## the tests with the module compiled for AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(PY) scripts/sanitize.py $(PYTEST_ARGS)
 
 dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
 	@if git rev-parse --git-dir >/dev/null 2>&1; then $(PY) -m pre_commit install; fi
@@ -47,6 +61,10 @@ bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL an
 
 docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
 	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam
+
+sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dist/ and build a wheel from it alone
+	@$(PY) -m build --quiet --sdist --outdir dist .
+	@$(PY) -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir build/from-sdist dist/cubecam-*.tar.gz
 
 wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
 	@$(PY) scripts/wheel.py

@@ -47,12 +47,13 @@ def build(revision: str, folder: Path) -> Path:
     with tarfile.open(archive) as file:
         file.extractall(folder)
     archive.unlink()
-    compile_module(folder)
+    built = compile_module(folder, folder / "build" / "version", "-DCMAKE_BUILD_TYPE=Release")
+    shutil.copy2(built, package / "cubecam")
     return package
 
 
-def compile_module(folder: Path) -> None:
-    """Compile a tree's module and copy it beside its Python files."""
+def compile_module(tree: Path, objects: Path, *options: str) -> Path:
+    """Compile a tree's module with options of CMake, in a folder for what that leaves. Gives the module."""
     import pybind11
 
     tools = Path(sys.executable).parent
@@ -60,20 +61,18 @@ def compile_module(folder: Path) -> None:
     ninja = shutil.which("ninja", path=f"{tools}{os.pathsep}{os.environ.get('PATH', '')}")
     if cmake is None or ninja is None:
         raise SystemExit("expected cmake and ninja: run scripts/packages.py build")
-    objects = folder / "build" / "version"
     run(
         cmake,
-        *("-S", str(folder), "-B", str(objects), "-G", "Ninja"),
+        *("-S", str(tree), "-B", str(objects), "-G", "Ninja"),
         f"-DCMAKE_MAKE_PROGRAM={ninja}",
-        "-DCMAKE_BUILD_TYPE=Release",
+        *options,
         "-DCUBECAM_BUILD_MODULE=ON",
         f"-DPython_EXECUTABLE={sys.executable}",
         f"-Dpybind11_DIR={pybind11.get_cmake_dir()}",
     )
     jobs = str(len(os.sched_getaffinity(0)))
     run(cmake, "--build", str(objects), "--target", "_core", "--parallel", jobs)
-    built = next(objects.rglob("_core*.so"))
-    shutil.copy2(built, folder / "python" / "cubecam")
+    return next(objects.rglob("_core*.so"))
 
 
 def run(*command: str) -> None:

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
+from tests.helpers import DEVICE
+
 # The same examples on every run: a failure seen once is seen again.
 settings.register_profile("cubecam", derandomize=True, deadline=None, database=None)
 settings.load_profile("cubecam")
-
-DEVICE = os.environ.get("CUBECAM_TEST_DEVICE", "software")
 
 
 def pytest_addoption(parser):

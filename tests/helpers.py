@@ -12,14 +12,19 @@ import pytest
 
 from tests.reference.cube_faces import CONVENTIONS, FACE_IDS, LAYOUTS
 
+#: What tests draw on.
+DEVICE = os.environ.get("CUBECAM_TEST_DEVICE", "software")
+
 faces = pytest.mark.parametrize("face", range(6), ids=FACE_IDS)
 conventions = pytest.mark.parametrize("convention", CONVENTIONS)
 layouts = pytest.mark.parametrize("layout", LAYOUTS)
 dtypes = pytest.mark.parametrize("dtype", ["uint8", "float16", "float32"])
 channel_counts = pytest.mark.parametrize("channels", [1, 3, 4])
-#: The two ways to a twin: through bytes and by deepcopy.
-twins = pytest.mark.parametrize(
-    "twin", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"]
+#: The two ways to a copy: through bytes and by deepcopy.
+copies = pytest.mark.parametrize(
+    "make_copy",
+    [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy],
+    ids=["pickle", "deepcopy"],
 )
 
 

@@ -107,17 +107,39 @@ def tool(name):
     return found
 
 
-def stale(mutations):
-    """Mutations whose old text is not found exactly once."""
+def places(name):
+    """The sources of a name, relative to the tree."""
     return [
-        f"{m.name}: expected once in {m.file}, found {count} times: {m.old!r}"
-        for m in mutations
-        if (count := occurrences(ROOT / m.file, m.old)) != 1
+        path.relative_to(ROOT)
+        for part in ("cpp", "shaders", "python")
+        for path in sorted((ROOT / part).rglob(Path(name).name))
+        if path.parts[-len(Path(name).parts) :] == Path(name).parts
     ]
 
 
+def place(mutation):
+    """Where a mutation's file lies, relative to the tree."""
+    (found,) = places(mutation.file)
+    return found
+
+
+def is_compiled(mutation):
+    return place(mutation).parts[0] in ("cpp", "shaders")
+
+
+def stale(mutations):
+    """Mutations whose file is not one, or whose old text is not found exactly once."""
+    found = []
+    for m in mutations:
+        if len(files := places(m.file)) != 1:
+            found.append(f"{m.name}: expected one {m.file}, found {[str(file) for file in files]}")
+        elif (count := occurrences(ROOT / files[0], m.old)) != 1:
+            found.append(f"{m.name}: expected once in {m.file}, found {count} times: {m.old!r}")
+    return found
+
+
 def occurrences(path, text):
-    return len(pattern(text).findall(path.read_text())) if path.exists() else 0
+    return len(pattern(text).findall(path.read_text()))
 
 
 def pattern(text):
@@ -127,9 +149,9 @@ def pattern(text):
 
 def try_mutation(copy, mutation):
     """ "killed", or what is wrong instead."""
-    path = copy.tree / mutation.file
+    path = copy.tree / place(mutation)
     original = path.read_text()
-    compiled = mutation.file.startswith(("cpp/", "shaders/"))
+    compiled = is_compiled(mutation)
     path.write_text(pattern(mutation.old).sub(lambda _: mutation.new, original))
     try:
         if compiled and (complaint := copy.compile()):
@@ -191,12 +213,12 @@ def run(copy, chosen):
     bad = 0
     pending = False  # whether the module holds the last mutation
     for m in chosen:
-        if pending and not m.file.startswith(("cpp/", "shaders/")):
+        if pending and not is_compiled(m):
             copy.compile()
             pending = False
         start = time.perf_counter()
         result = try_mutation(copy, m)
-        pending = pending or m.file.startswith(("cpp/", "shaders/"))
+        pending = pending or is_compiled(m)
         bad += not result.startswith("killed")
         print(f"{time.perf_counter() - start:5.0f} s  {m.name:32} {result}", flush=True)
     print(f"{len(chosen) - bad} of {len(chosen)} killed, {time.perf_counter() - begin:.0f} s")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .io import oiio
-from .io.pixels import Array, FloatArray, on_colour, srgb_encode, to_float32, to_integers
+from .io.pixels import Array, FloatArray, on_color, srgb_encode, to_float32, to_integers
 
 if TYPE_CHECKING:
     from ._core import CubeMap, Frame, Image
@@ -21,11 +21,11 @@ def for_screen(pixels: Array) -> Array:
 
     uint8 is taken as made for a screen. Floats are linear: tone-mapped, then sRGB-encoded; NaN shows black.
     """
-    colour = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels[..., :3]
-    if colour.dtype == np.uint8:
-        return colour
-    values = np.nan_to_num(to_float32(colour), nan=0.0, posinf=np.finfo(np.float32).max, neginf=0.0)
-    return to_integers(on_colour(srgb_encode, tonemap_neutral(np.clip(values, 0, 1e9))), 255)
+    color = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels[..., :3]
+    if color.dtype == np.uint8:
+        return color
+    values = np.nan_to_num(to_float32(color), nan=0.0, posinf=np.finfo(np.float32).max, neginf=0.0)
+    return to_integers(on_color(srgb_encode, tonemap_neutral(np.clip(values, 0, 1e9))), 255)
 
 
 def tonemap_neutral(linear: FloatArray) -> FloatArray:
@@ -37,12 +37,12 @@ def tonemap_neutral(linear: FloatArray) -> FloatArray:
     desaturation = np.float32(0.15)
     low = linear.min(axis=-1, keepdims=True)
     offset = np.where(low < 2 * f90, low - low * low / (4 * f90), f90)
-    colour = linear - offset
-    peak = colour.max(axis=-1, keepdims=True)
+    color = linear - offset
+    peak = color.max(axis=-1, keepdims=True)
     d = 1 - start
     # Below the start nothing changes; the maximum keeps the unused branch from dividing by zero.
     new_peak = np.where(peak < start, peak, 1 - d * d / np.maximum(peak + d - start, d))
-    scaled = colour * (new_peak / np.maximum(peak, np.float32(1e-9)))
+    scaled = color * (new_peak / np.maximum(peak, np.float32(1e-9)))
     white = 1 - 1 / (desaturation * (peak - new_peak) + 1)
     return np.asarray(scaled + (new_peak - scaled) * white, dtype=np.float32)
 

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from tests.test_cpp_example import ROOT, run, tool
+from tests.build.tools import ROOT, run, tool
 
 pytestmark = pytest.mark.build
 

@@ -10,8 +10,8 @@ import textwrap
 
 import pytest
 
+from tests.build.tools import ROOT, run, tool
 from tests.mutation import LEFT_OUT
-from tests.test_cpp_example import ROOT, run, tool
 
 pytestmark = pytest.mark.build
 

@@ -50,7 +50,7 @@ def stage():
 
 @dataclass
 class Lamp:
-    """A light of the product, its twin, and how wide a texel of its map is (a unit away); None: it has none."""
+    """A light of the product, its counterpart, and how wide a texel of its map is (a unit away); None: it has none."""
 
     ours: object
     theirs: object

@@ -7,26 +7,8 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
+from tests.gl.panes import LAYERS, UPRIGHT, front, pane
 from tests.reference.compositing import composite
-
-LAYERS = [((1, 0.2, 0.1), 0.5, -2), ((0.1, 0.9, 0.3), 0.25, -3), ((0.2, 0.3, 1), 0.75, -4)]
-UPRIGHT = cc.axis_angle((1, 0, 0), 90)
-
-
-def front(scene, size=4):
-    camera = cc.PerspectiveCamera(fov=20, position=(0, 0, 0), target=(0, 0, -1))
-    return lambda renderer, **more: renderer.render(
-        scene, camera, (size, size), format="rgba32f", **more
-    )
-
-
-def pane(scene, color, opacity, z, **more):
-    return scene.add(
-        cc.Mesh.plane(20, 20),
-        cc.BasicMaterial(color=color, opacity=opacity, **more),
-        position=(0, 0, z),
-        rotation=UPRIGHT,
-    )
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
@@ -122,7 +104,7 @@ def test_ties_are_drawn_in_order_of_ids(renderer):
         assert_close(color, np.broadcast_to(want, color.shape), "blend")
 
 
-def test_sorting_goes_by_the_distance_of_the_centres_not_by_depth(renderer):
+def test_sorting_goes_by_the_distance_of_the_centers_not_by_depth(renderer):
     """The six faces agree: distance from the eye, not along each face's axis.
 
     Two long panes cross the edge between two faces; by z of each face their order would differ."""
@@ -163,7 +145,7 @@ def test_capture_equals_frame(any_path, opacity):
     assert_close(cube.faces[5], frame.color[:, ::-1], "blend")
 
 
-def test_opacity_0_draws_nothing_in_colour(renderer):
+def test_opacity_0_draws_nothing_in_color(renderer):
     scene = cc.Scene(background=(0.1, 0.2, 0.3, 1))
     before = front(scene)(renderer).color
     pane(scene, (1, 0, 0), 0, -2)

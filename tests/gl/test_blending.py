@@ -337,11 +337,11 @@ def test_every_material_has_them_and_pickles_them(kind):
     material = kind(
         blend="multiply", depth_write=True, depth_test=False, color_write=(True, False, True, False)
     )
-    for twin in (pickle.loads(pickle.dumps(material)), copy.deepcopy(material)):
-        assert twin.blend == "multiply"
-        assert twin.depth_write is True
-        assert twin.depth_test is False
-        assert twin.color_write == (True, False, True, False)
+    for copied in (pickle.loads(pickle.dumps(material)), copy.deepcopy(material)):
+        assert copied.blend == "multiply"
+        assert copied.depth_write is True
+        assert copied.depth_test is False
+        assert copied.color_write == (True, False, True, False)
     fresh = kind()
     assert (fresh.blend, fresh.depth_write, fresh.depth_test) == (None, None, True)
     assert fresh.color_write == (True,) * 4

@@ -169,6 +169,7 @@ def test_a_fine_sphere_is_a_sphere(renderer):
     assert (cube.id != hits.id).mean() < 2e-3
 
 
+@pytest.mark.slow
 def test_a_real_mesh(renderer):
     world = World()
     world.mesh(

@@ -213,15 +213,15 @@ def test_errors(renderer, tmp_path):
     assert draw(renderer).color.max() > 1, "the renderer goes on"
 
 
-def test_twins(renderer):
+def test_copies(renderer):
     effect = cc.ImageEffect(
         "uniform float k; uniform sampler2D t; vec3 effect(vec2 uv) { return k * texture(t, uv).rgb; }",
         uniforms={"k": 3},
         textures={"t": np.full((1, 1, 3), 0.25, np.float32)},
     )
-    for twin in (pickle.loads(pickle.dumps(effect)), copy.deepcopy(effect)):
+    for copied in (pickle.loads(pickle.dumps(effect)), copy.deepcopy(effect)):
         assert_identical(
-            draw(renderer, effects=[twin]).color, draw(renderer, effects=[effect]).color
+            draw(renderer, effects=[copied]).color, draw(renderer, effects=[effect]).color
         )
-        twin.uniforms["k"] = 0
+        copied.uniforms["k"] = 0
     assert effect.uniforms["k"] == 3

@@ -7,7 +7,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.gl.test_damage import crowd, follow
+from tests.gl.crowd import COLORLESS, COMBINATIONS, crowd
 from tests.gl.world import (
     OUTPUTS,
     capture_hits,
@@ -342,7 +342,7 @@ def test_depth_of_an_empty_picture(renderer):
 
 @depth_formats
 @pytest.mark.parametrize("samples", [1, 4])
-def test_without_a_colour_only_outputs_come_back(any_path, depth_format, samples):
+def test_without_a_color_only_outputs_come_back(any_path, depth_format, samples):
     world, view = room(), perspective(*PLACE)
     names = ("depth", *OUTPUTS)
     options = {"depth_format": depth_format, "outputs": names, "samples": samples}
@@ -354,18 +354,18 @@ def test_without_a_colour_only_outputs_come_back(any_path, depth_format, samples
         assert_identical(getattr(bare, name), getattr(full, name), name)
 
 
-def test_a_frame_without_a_colour_is_a_frame(renderer):
+def test_a_frame_without_a_color_is_a_frame(renderer):
     camera = cc.PerspectiveCamera()
     frame = renderer.render(cc.Scene(), camera, (3, 2), format=None, outputs="depth")
     assert repr(frame) == "<cubecam.Frame 3 x 2, no colour>"
     assert frame._repr_png_() is None
-    twin = pickle.loads(pickle.dumps(frame))
-    assert twin.color is None
-    assert_identical(twin.depth, frame.depth)
+    copied = pickle.loads(pickle.dumps(frame))
+    assert copied.color is None
+    assert_identical(copied.depth, frame.depth)
     assert renderer.render(cc.Scene(), camera, (3, 2), format=None).color is None
 
 
-def test_the_background_needs_no_colour(renderer):
+def test_the_background_needs_no_color(renderer):
     """A skybox is not drawn, and nothing is drawn again."""
     scene = cc.Scene(background=cc.CubeMap(smooth_environment(4)))
     camera = cc.PerspectiveCamera()
@@ -486,51 +486,6 @@ def test_the_sky_is_behind_the_painter(renderer):
 
 # What all of them promise.
 
-COMBINATIONS = {
-    "565": {"format": "rgb565"},
-    "565 samples": {"format": "rgb565", "samples": 4},
-    "16 bits": {"depth_format": "depth_component16", "outputs": ("depth", "id")},
-    "16 bits samples": {
-        "depth_format": "depth_component16", "outputs": ("depth",), "samples": 4, "format": "rgb565"
-    },
-    "24 bits": {"depth_format": "depth_component24", "outputs": ("depth", "normal")},
-    "stencil": {"depth_format": "depth24_stencil8", "outputs": ("depth", "stencil")},
-    "float and stencil": {"depth_format": "depth32f_stencil8", "outputs": ("depth", "id")},
-    "painter": {"depth_format": None},
-    "painter samples": {"depth_format": None, "samples": 4},
-    "painter with a stencil": {"depth_format": "stencil_index8", "outputs": ("stencil",)},
-}  # fmt: skip
-COLOURLESS = {
-    "depth only": {"format": None, "outputs": ("depth",)},
-    "16 bits only": {
-        "format": None, "depth_format": "depth_component16", "outputs": ("depth", "z"), "samples": 4
-    },
-    "stencil only": {"format": None, "depth_format": "stencil_index8", "outputs": ("stencil",)},
-    "graded": {"format": "rgb565", "tonemap": "aces", "encode": "srgb"},
-}  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    "options", (COMBINATIONS | COLOURLESS).values(), ids=(COMBINATIONS | COLOURLESS)
-)
-def test_incremental_equals_from_scratch(new_renderer, options):
-    rng = np.random.default_rng(31)
-    scene = crowd(rng)
-    for node in scene.nodes:
-        node.render_order = rng.integers(-1, 2)
-    camera = cc.PerspectiveCamera(fov=50, position=(2, 1.5, 5), target=(0, 0, 0))
-    names = list(options.get("outputs", ()))
-    if options.get("format", "rgba8") is not None:
-        names.append("color")
-    follow(
-        new_renderer(),
-        new_renderer(cache_bytes=0),
-        lambda r: r.render(scene, camera, (97, 71), **options),
-        scene,
-        rng,
-        names,
-    )
-
 
 @pytest.mark.parametrize("options", COMBINATIONS.values(), ids=COMBINATIONS)
 def test_layered_equals_one_pass(new_renderer, options):
@@ -542,17 +497,17 @@ def test_layered_equals_one_pass(new_renderer, options):
     assert a == b
     for name in ("faces", *options.get("outputs", ())):
         assert_identical(getattr(a, name), getattr(b, name), name)
-    twin = pickle.loads(pickle.dumps(a))
-    assert twin == a
+    copied = pickle.loads(pickle.dumps(a))
+    assert copied == a
     for name in options.get("outputs", ()):
-        assert_identical(getattr(twin, name), getattr(a, name), name)
+        assert_identical(getattr(copied, name), getattr(a, name), name)
 
 
 def test_each_choice_keeps_its_own_picture(fresh_renderer):
     scene, camera = crowd(np.random.default_rng(33)), cc.PerspectiveCamera(position=(0, 0, 5))
 
     def draw_all():
-        for options in (COMBINATIONS | COLOURLESS).values():
+        for options in (COMBINATIONS | COLORLESS).values():
             yield fresh_renderer.render(scene, camera, (40, 30), **options)
 
     first = list(draw_all())
@@ -620,7 +575,7 @@ def test_what_writes_depth_late_is_in_depth(any_path):
         assert (frame.id == 1).all()
 
 
-def test_effects_need_a_colour(renderer):
+def test_effects_need_a_color(renderer):
     effect = cc.ImageEffect("vec4 effect(vec2 uv) { return frame(uv); }")
     with pytest.raises(ValueError, match=r"effects.*format None"):
         renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4, 4), format=None, effects=[effect])
@@ -642,8 +597,8 @@ def test_render_textures_have_them_too(renderer, options):
     held = renderer.read_texture(texture)
     want = renderer.render(scene, inner_camera, (40, 30), **options).color
     assert_identical(getattr(held, "color", held), want)
-    twin = pickle.loads(pickle.dumps(texture))
-    assert (twin.depth_format, twin.format) == (texture.depth_format, texture.format)
+    copied = pickle.loads(pickle.dumps(texture))
+    assert (copied.depth_format, copied.format) == (texture.depth_format, texture.format)
 
 
 def test_probes_keep_their_depth_format(renderer):

@@ -99,6 +99,7 @@ def test_a_reference_cycle_is_collected():
     assert psutil.Process().num_fds() <= before
 
 
+@pytest.mark.slow
 def test_two_hundred_contexts_leave_nothing():
     """Made, used and closed, or left to the garbage: no file descriptor, no thread, no memory."""
     done = run_python(

@@ -84,7 +84,7 @@ def test_set_face_uploads_that_face(renderer, face):
     assert_identical(got[..., :3], want)
 
 
-def test_faces_of_one_colour_are_replaced_as_pictures_arrive(renderer):
+def test_faces_of_one_color_are_replaced_as_pictures_arrive(renderer):
     """P5: usable at once, before, between and after arrival; mipmapped, seen from near enough for level 0."""
     want = np.full((6, N, N, 3), 128, np.uint8)
     cube = cc.CubeMap(want, mipmaps=True)

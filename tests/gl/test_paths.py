@@ -1,37 +1,10 @@
 """Layered and one-pass drawing give equal bytes, whatever is drawn."""
 
-import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.gl.world import OUTPUTS, perspective, phong_lights, room, smooth_environment
-from tests.reference.pattern import face_pattern
-
-
-def everything():
-    """Every material, light, blending and texture at once."""
-    world = room()
-    scene = world.scene
-    scene.environment = cc.CubeMap(smooth_environment(16), mipmaps=True)
-    for light in phong_lights()[0]:
-        scene.add(light)
-    picture = np.random.default_rng(0).integers(0, 256, (8, 8, 4), dtype=np.uint8)
-    materials = [
-        cc.PhongMaterial(color=(1, 0.5, 0.2)),
-        cc.MirrorMaterial(env_weight=0.8, f0=0.1),
-        cc.GlassMaterial(),
-        cc.BasicMaterial(color=(0.2, 1, 0.5, 0.4)),
-        cc.PhongMaterial(map=picture, double_sided=True),
-        cc.BasicMaterial(cubemap=cc.CubeMap(face_pattern(8))),
-    ]
-    for index, material in enumerate(materials):
-        angle = index * np.pi / 3
-        place = (1.3 * np.cos(angle), 0.3 * np.sin(2 * angle), 1.3 * np.sin(angle))
-        scene.add(cc.Mesh.sphere(0.3, segments=16, rings=8), material, position=place)
-    mirror = scene.add(cc.Mesh.icosphere(0.25), cc.MirrorMaterial(), position=(0, 0.8, 0))
-    mirror.environment = cc.Probe(position=(0, 0.8, 0), size=16, mipmaps=True)
-    return scene
+from tests.gl.world import OUTPUTS, everything, perspective
 
 
 @pytest.fixture(scope="module")

@@ -137,7 +137,7 @@ def test_many_lights(renderer):
     assert_close(frame.color[..., :3], expected(hits, view.eye, theirs), "phong", mask=good(hits))
 
 
-def test_a_map_multiplies_the_colour(renderer):
+def test_a_map_multiplies_the_color(renderer):
     world = World()
     picture = np.full((4, 4, 3), (51, 102, 204), np.uint8)
     world.plane(4, 4, color=(1, 1, 1), material=cc.PhongMaterial(color=(1, 0.5, 1), map=picture))

@@ -7,9 +7,8 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.gl.test_alpha import LAYERS, front, pane
-from tests.gl.test_damage import crowd, follow
-from tests.helpers import twins
+from tests.gl.panes import LAYERS, front, pane
+from tests.helpers import copies
 from tests.reference.compositing import composite
 
 
@@ -99,24 +98,6 @@ def test_an_order_that_changes_nothing_draws_nothing(renderer):
     assert renderer.stats.views_drawn == 0
 
 
-@pytest.mark.parametrize("seed", range(2))
-def test_incremental_equals_from_scratch(new_renderer, seed):
-    rng = np.random.default_rng(seed)
-    scene = crowd(rng)
-    camera = cc.PerspectiveCamera(fov=50, position=(2, 1.5, 5), target=(0, 0, 0))
-
-    def draw(renderer):
-        return renderer.render(scene, camera, (97, 71), outputs=("id",))
-
-    live, scratch = new_renderer(), new_renderer(cache_bytes=0)
-    for _ in range(8):
-        scene.nodes[rng.integers(len(scene.nodes))].render_order = rng.integers(-3, 4)
-        follow_one = draw(live), draw(scratch)
-        assert_identical(follow_one[0].color, follow_one[1].color)
-        assert_identical(follow_one[0].id, follow_one[1].id)
-    follow(live, scratch, draw, scene, rng, ["color", "id"])
-
-
 def test_it_is_the_nodes_own(renderer):
     scene = cc.Scene()
     group = scene.add(render_order=5)
@@ -124,14 +105,14 @@ def test_it_is_the_nodes_own(renderer):
     assert (group.render_order, child.render_order) == (5, 0)
 
 
-@twins
-def test_twins_keep_it(twin):
+@copies
+def test_copies_keep_it(make_copy):
     scene = cc.Scene()
     scene.add(cc.Mesh.box(), render_order=-7)
     loose = scene.add(render_order=2**31 - 1)
-    assert [node.render_order for node in twin(scene).nodes] == [-7, 2**31 - 1]
+    assert [node.render_order for node in make_copy(scene).nodes] == [-7, 2**31 - 1]
     scene.remove(loose)
-    assert twin(loose).render_order == 2**31 - 1
+    assert make_copy(loose).render_order == 2**31 - 1
 
 
 BAD = {

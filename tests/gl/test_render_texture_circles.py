@@ -371,7 +371,7 @@ def test_a_probe_by_the_shadow_of_what_it_moves(renderer):
 
 
 @pytest.mark.parametrize("kind", ["sampler2D", "samplerCube"])
-def test_what_only_colours_a_moved_caster_is_no_circle(any_path, kind):
+def test_what_only_colors_a_moved_caster_is_no_circle(any_path, kind):
     """Waves that mirror a scene with shadows: the shadow hangs on the vertices alone, and all comes to rest."""
     scene, _, above = lamp_and_floor()
     source = above if kind == "sampler2D" else cc.Probe(position=(0, 1, 0), size=8)

@@ -191,9 +191,9 @@ def test_a_texture_in_its_own_scenes_shader_is_freed():
 def test_they_pickle():
     effect = cc.ImageEffect(DOUBLE)
     texture = cc.RenderTexture(small_scene(), FLAT, size=(8, 8), effects=[effect])
-    twin, same = pickle.loads(pickle.dumps((texture, effect)))
-    assert twin.effects == (same,)
-    assert twin.scene.nodes[0].id == 1
+    copied, same = pickle.loads(pickle.dumps((texture, effect)))
+    assert copied.effects == (same,)
+    assert copied.scene.nodes[0].id == 1
 
 
 def test_errors():

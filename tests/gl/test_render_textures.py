@@ -9,7 +9,6 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.conftest import DEVICE
 from tests.gl.flat import (
     CORNERS,
     flat_camera,
@@ -22,7 +21,7 @@ from tests.gl.flat import (
     tiles,
 )
 from tests.gl.world import World, inner, perspective, triangles_of
-from tests.helpers import run_python
+from tests.helpers import DEVICE, run_python
 from tests.reference.sampling import sample_image
 
 PICTURE = random_picture(1)
@@ -179,7 +178,7 @@ def test_alpha_counts_only_where_the_material_is_translucent(renderer):
     assert (color[2:] == [0, 0, 1, 1]).all()
 
 
-def test_it_multiplies_colours_and_phong_takes_it_too(renderer):
+def test_it_multiplies_colors_and_phong_takes_it_too(renderer):
     texture = flat_texture(PICTURE)
     scene, node = screen_scene(texture)
     node.material.color = (0.5, 2, 0.25)
@@ -360,6 +359,7 @@ def test_a_texture_needed_twice_is_drawn_once(renderer):
     assert_close(color[..., :3], np.concatenate([PICTURE] * 3, axis=1), "lookup")
 
 
+@pytest.mark.slow
 def test_deep_chains_neither_overflow_nor_hang():
     """A thousand textures one in the other, drawn and let go; and thirty thousand let go undrawn."""
     run_python(

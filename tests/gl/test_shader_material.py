@@ -12,6 +12,7 @@ from tests.compare import assert_close, assert_identical
 from tests.gl.world import World, inner_smooth, perspective, smooth_environment
 from tests.reference import shading
 from tests.reference import transforms as ref
+from tests.reference.cube_faces import texel_directions
 from tests.reference.sampling import sample_faces
 
 UPRIGHT = cc.axis_angle((1, 0, 0), 90)
@@ -86,12 +87,12 @@ def test_uv_and_vertex_colors(renderer):
     node = scene.add(quad, cc.ShaderMaterial("vec3 shade(Surface s) { return vec3(s.uv, 0.0); }"))
     camera = cc.OrthographicCamera(height=2, position=(0, 0, 1))
     got = renderer.render(scene, camera, (8, 8), format="rgba32f").color
-    centres = (np.arange(8) + 0.5) / 8
-    assert_close(got[..., 0], np.broadcast_to(centres, (8, 8)), "shaded")
-    assert_close(got[..., 1], np.broadcast_to(centres[::-1, None], (8, 8)), "shaded")
+    centers = (np.arange(8) + 0.5) / 8
+    assert_close(got[..., 0], np.broadcast_to(centers, (8, 8)), "shaded")
+    assert_close(got[..., 1], np.broadcast_to(centers[::-1, None], (8, 8)), "shaded")
     node.material = cc.ShaderMaterial("vec3 shade(Surface s) { return s.color.rgb * s.color.a; }")
     got = renderer.render(scene, camera, (8, 8), format="rgba32f").color
-    t = np.broadcast_to(centres[::-1, None], (8, 8))
+    t = np.broadcast_to(centers[::-1, None], (8, 8))
     assert_close(got[..., 0], (1 - t) * (1 - t / 2), "shaded")
     node.mesh = cc.Mesh.box((2, 2, 0.1))
     got = renderer.render(scene, camera, (8, 8), format="rgba32f").color
@@ -204,6 +205,38 @@ def test_ambient_light_is_the_sum_of_the_scenes_ambient_lights(renderer):
     # Phong's model has an ambient light of 1 of its own.
     phong = shown("phong(surface, vec3(1.0, 0.5, 1.0), 0.5, 0.0, 0.0, 1.0)")
     assert_close(phong, 0.5 * np.array([1, 0.5, 1]) * (1 + np.array([0.25, 0.625, 1])), "phong")
+
+
+@pytest.mark.parametrize(("level", "row", "column"), [(0, 2, 5), (1, 1, 2), (3, 0, 0)])
+def test_a_level_of_the_environment_is_looked_up_in_its_direction(
+    any_path, rng, level, row, column
+):
+    """In the middle of a texel that level shows the texel alone, the average of its block of the finest."""
+    faces = rng.random((6, 8, 8, 3)).astype(np.float32)
+    size = 8 >> level
+    want = faces.reshape(6, size, 8 // size, size, 8 // size, 3).mean((2, 4))[:, row, column]
+    scene = cc.Scene(environment=cc.CubeMap(faces, mipmaps=True))
+    source = """
+    uniform vec3 direction; uniform float level;
+    vec3 shade(Surface s) { return environment_lod(direction, level); }"""
+    material = cc.ShaderMaterial(source, uniforms={"level": float(level)})
+    scene.add(cc.Mesh.box(1), material, position=(0, 0, -3))
+    for face, direction in enumerate(texel_directions(size)[:, row, column]):
+        material.uniforms["direction"] = direction
+        color = any_path.render(scene, FRONT, (1, 1), format="rgba32f").color[0, 0, :3]
+        np.testing.assert_allclose(color, want[face], atol=2e-3)
+
+
+@pytest.mark.parametrize("eye", [None, (2, -3, 5)])
+def test_the_vertex_stage_knows_the_eye_of_a_capture(any_path, eye):
+    source = "in vec3 seen_from; vec3 shade(Surface s) { return seen_from; }"
+    vertex = "out vec3 seen_from; void vertex(inout Vertex v) { seen_from = eye_position(); }"
+    scene = cc.Scene()
+    scene.add(cc.Mesh.box(4), cc.ShaderMaterial(source, vertex=vertex, double_sided=True))
+    position = (0.5, 0.25, -0.75)
+    cube = any_path.capture(scene, position, 4, eye=eye)
+    want = np.broadcast_to(np.array(position if eye is None else eye, np.float32), (6, 4, 4, 3))
+    np.testing.assert_allclose(cube.faces[..., :3], want, atol=1e-5)
 
 
 def test_matrices_and_eye(renderer):
@@ -686,9 +719,9 @@ def test_reload_of_text_is_told():
 
 
 @pytest.mark.parametrize(
-    "twin", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"]
+    "copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy], ids=["pickle", "deepcopy"]
 )
-def test_twins(twin, renderer, tmp_path):
+def test_copies(copied, renderer, tmp_path):
     path = tmp_path / "a.frag"
     path.write_text(
         "uniform vec3 x; uniform sampler2D t; vec3 shade(Surface s) { return x * texture(t, s.uv).g; }"
@@ -702,7 +735,7 @@ def test_twins(twin, renderer, tmp_path):
         blend="alpha",
         opacity=0.5,
     )
-    other = twin(material)
+    other = copied(material)
     assert_identical(flat(renderer, material), flat(renderer, other))
     assert (other.displacement, other.blend, other.opacity) == (0.5, "alpha", 0.5)
     assert other.vertex == material.vertex
@@ -719,9 +752,9 @@ def test_a_material_whose_probe_leads_back_to_it_pickles():
     )
     node = scene.add(cc.Mesh.box(), material)
     material.textures["r"] = cc.Probe(parent=node, exclude=[node])
-    twin_scene, twin = pickle.loads(pickle.dumps((scene, material)))
-    assert twin_scene.nodes[0].material is twin
-    assert twin.textures["r"].parent is twin_scene.nodes[0]
+    copied_scene, copied = pickle.loads(pickle.dumps((scene, material)))
+    assert copied_scene.nodes[0].material is copied
+    assert copied.textures["r"].parent is copied_scene.nodes[0]
 
 
 def test_inputs_are_mappings():

@@ -201,6 +201,7 @@ CHANGES = {
     "turn": lambda light, box: setattr(box, "rotation", cc.axis_angle((0, 1, 0), 45)),
     "scale": lambda light, box: setattr(box, "scale", 1.3),
     "parent": lambda light, box: setattr(box, "parent", box.parent.children[-1]),
+    "depth write": lambda light, box: setattr(box.material, "depth_write", False),
 }
 
 

@@ -47,6 +47,7 @@ def test_an_orthographic_frame_and_multisampling(renderer, kind):
     assert_close(got, want, "phong", mask=good & (hits.id != 5), least=0.5)
 
 
+@pytest.mark.slow
 def test_all_six_faces_of_a_capture(any_path):
     """With all kinds of light at once, and one without a shadow before them."""
     world, position = stage(), (-0.2, 1, 1.9)
@@ -142,6 +143,7 @@ def sun_at(height, kind, shadow):
     return cc.SpotLight(6 * way, -way, angle=40, shadow=shadow)
 
 
+@pytest.mark.slow
 @kinds
 @pytest.mark.parametrize("size", [32, 256, 2048])
 @pytest.mark.parametrize("radius", [0, 1, 3])
@@ -289,6 +291,7 @@ def cage(shared_renderers):
     return hits, want, same & inner(hits) & (np.abs(cosine) > 0.1), share, cube.faces[..., :3]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("edge", EDGES, ids=str)
 def test_no_seam_at_an_edge_of_a_point_lights_cube(cage, edge):
     hits, want, good, share, got = cage

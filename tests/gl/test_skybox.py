@@ -74,7 +74,7 @@ def test_it_is_behind_everything(renderer, sky):
     assert (renderer.render(sky, camera, (8, 8), format="rgba32f").color[..., 0] < 1).all()
 
 
-def test_background_colour_is_written_as_it_is(renderer):
+def test_background_color_is_written_as_it_is(renderer):
     scene = cc.Scene(background=(0.25, 0.5, 2, 0.75))
     camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 0), target=(0, 0, -1))
     color = renderer.render(scene, camera, (4, 4), format="rgba32f").color

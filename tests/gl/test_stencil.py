@@ -8,9 +8,9 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.gl.test_damage import crowd, follow
+from tests.gl.crowd import masked_crowd, ours, random_stencil
 from tests.gl.world import OUTPUTS, World, inner, inner_smooth, perspective
-from tests.helpers import twins
+from tests.helpers import copies
 from tests.reference.stencil import FUNCS, OPS, Canvas, Stencil
 
 SIZE = (24, 16)
@@ -44,24 +44,6 @@ def covered(rect):
     mask = np.zeros(SIZE[::-1], bool)
     mask[SIZE[1] - y1 : SIZE[1] - y0, x0:x1] = True
     return mask
-
-
-def random_stencil(rng):
-    if rng.random() < 0.15:
-        return None
-    return Stencil(
-        func=rng.choice(list(FUNCS), p=[0.04] + [0.12] * 6 + [0.24]),
-        reference=int(rng.choice([0, 1, 2, 3, 255, 254, rng.integers(256)])),
-        read_mask=int(rng.choice([255, 255, 1, 3, rng.integers(256)])),
-        write_mask=int(rng.choice([255, 255, 255, 6, rng.integers(256)])),
-        fail=rng.choice(list(OPS)),
-        depth_fail=rng.choice(list(OPS)),
-        depth_pass=rng.choice(list(OPS)),
-    )
-
-
-def ours(stencil):
-    return None if stencil is None else cc.Stencil(**dataclasses.asdict(stencil))
 
 
 def random_cards(rng, count, depth):
@@ -255,36 +237,7 @@ def test_translucent_things_are_counted(any_path, options):
     np.testing.assert_array_equal(frame.stencil, want)
 
 
-def masked_crowd(rng):
-    """The crowd of test_damage with random stencils and orders."""
-    scene = crowd(rng)
-    for node in scene.nodes[1:]:
-        node.material = type(node.material)(
-            opacity=node.material.opacity, double_sided=True, stencil=ours(random_stencil(rng))
-        )
-        node.render_order = rng.integers(-2, 3)
-    return scene
-
-
-@depths
-@pytest.mark.parametrize("samples", [1, 4])
-def test_incremental_equals_from_scratch(new_renderer, depth_format, samples):
-    """A stencil couples nodes where they overlap, so rectangles stay right."""
-    rng = np.random.default_rng(21)
-    scene = masked_crowd(rng)
-    camera = cc.PerspectiveCamera(fov=50, position=(2, 1.5, 5), target=(0, 0, 0))
-    names = ["stencil"] + (["depth", "id"] if DEPTHS[depth_format] else [])
-    options = {"depth_format": depth_format, "outputs": names, "samples": samples}
-    follow(
-        new_renderer(),
-        new_renderer(cache_bytes=0),
-        lambda r: r.render(scene, camera, (97, 71), **options),
-        scene,
-        rng,
-        ["color", *names],
-    )
-
-
+@pytest.mark.slow
 @depths
 @pytest.mark.parametrize("samples", [1, 4])
 def test_captures_are_the_same_on_both_paths(new_renderer, depth_format, samples):
@@ -300,6 +253,7 @@ def test_captures_are_the_same_on_both_paths(new_renderer, depth_format, samples
     assert a == b
 
 
+@pytest.mark.slow
 @depths
 def test_multisampled_outputs_equal_those_of_one_sample(renderer, depth_format):
     scene = masked_crowd(np.random.default_rng(23))
@@ -382,8 +336,8 @@ def test_it_never_changes():
             setattr(cc.Stencil(), field.name, getattr(Stencil(), field.name))
 
 
-@twins
-def test_twins(twin):
+@copies
+def test_copies(make_copy):
     stencil = cc.Stencil(
         func="gequal",
         reference=200,
@@ -393,10 +347,10 @@ def test_twins(twin):
         depth_fail="decr_wrap",
         depth_pass="invert",
     )
-    assert twin(stencil) == stencil
+    assert make_copy(stencil) == stencil
     scene = cc.Scene()
     scene.add(cc.Mesh.box(), cc.GlassMaterial(stencil=stencil))
-    assert twin(scene).nodes[0].material.stencil == stencil
+    assert make_copy(scene).nodes[0].material.stencil == stencil
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,9 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.gl.test_damage import crowd, follow
-from tests.gl.test_paths import everything
-from tests.gl.world import OUTPUTS, perspective, room
-from tests.helpers import twins
+from tests.gl.crowd import crowd
+from tests.gl.world import OUTPUTS, everything, perspective, room
+from tests.helpers import copies
 from tests.reference import transforms as ref
 from tests.reference.raycast import interior
 
@@ -56,6 +55,7 @@ def scene():
     return everything()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 @pytest.mark.parametrize("make", PAIRS.values(), ids=PAIRS)
 def test_an_anaglyph_is_both_eyes_own_frames(any_path, scene, make, options):
@@ -192,26 +192,7 @@ def test_a_thing_that_one_eye_sees(renderer):
         assert counts(renderer) == (1, 1)
 
 
-@layouts
-@pytest.mark.parametrize(
-    "options", [{}, {"samples": 4}, {"tonemap": "aces"}, {"depth_format": None}]
-)
-def test_incremental_equals_from_scratch(new_renderer, layout, options):
-    rng = np.random.default_rng(41)
-    scene = crowd(rng)
-    camera = cc.PerspectiveCamera(fov=50, position=(2, 1.5, 5), target=(0, 0, 0))
-    eyes = cc.StereoCamera.off_axis(camera, separation=0.4, convergence=5.0, layout=layout)
-
-    def draw(renderer):
-        return renderer.render(scene, eyes, whole(layout, (60, 44)), **options)
-
-    live, scratch = new_renderer(), new_renderer(cache_bytes=0)
-    follow(live, scratch, draw, scene, rng, ["color"])
-    for step in range(4):
-        (eyes.left, eyes.right)[step % 2].position = rng.uniform(1, 4, 3)
-        assert_identical(draw(live).color, draw(scratch).color)
-
-
+@pytest.mark.slow
 @layouts
 def test_layered_equals_one_pass(new_renderer, layout):
     scene = everything()
@@ -404,10 +385,10 @@ def test_properties():
     assert (eyes.left, eyes.right, eyes.layout) == (b, a, "top_bottom")
 
 
-@twins
-def test_twins(twin):
+@copies
+def test_copies(make_copy):
     eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0, layout="side_by_side")
-    other = twin(eyes)
+    other = make_copy(eyes)
     assert other.layout == "side_by_side"
     for name in ("left", "right"):
         ours, theirs = getattr(eyes, name), getattr(other, name)
@@ -416,7 +397,7 @@ def test_twins(twin):
         np.testing.assert_array_equal(theirs.projection(1.3), ours.projection(1.3))
         np.testing.assert_array_equal(theirs.shift, ours.shift)
     camera = lens()
-    shared = twin(cc.StereoCamera(camera, camera))
+    shared = make_copy(cc.StereoCamera(camera, camera))
     assert shared.left is shared.right
 
 

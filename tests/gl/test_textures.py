@@ -54,7 +54,7 @@ def test_wrapping(renderer, wrap):
     assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask], wrap), "unorm8_filter")
 
 
-def test_colour_times_map(renderer):
+def test_color_times_map(renderer):
     got, hits, mask = seen(
         renderer, quad(CORNERS), cc.BasicMaterial(color=(0.5, 2, 0.25), map=PICTURE)
     )

@@ -5,11 +5,12 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.conftest import DEVICE
 from tests.gl.world import room, smooth_environment
+from tests.helpers import DEVICE
 
 
 def mirror_scene(seed):
@@ -125,6 +126,7 @@ def test_set_face_while_drawing_gives_old_or_new_faces(new_renderer):
         thread.join()
 
 
+@pytest.mark.slow
 def test_the_gil_is_released_while_drawing(new_renderer):
     """A thread that only counts goes on counting during one long draw."""
     renderer = new_renderer()

@@ -8,6 +8,7 @@ import cubecam as cc
 from tests.reference import raycast, shading
 from tests.reference import transforms as ref
 from tests.reference.cube_faces import FORWARD
+from tests.reference.pattern import face_pattern
 from tests.reference.raycast import Box, Quad, Sphere, Triangles, interior
 
 OUTPUTS = ("distance", "z", "normal", "position", "id")
@@ -22,7 +23,7 @@ class World:
     colors: dict = field(default_factory=dict)
 
     def add(self, mesh, shape, color=(1, 1, 1), material=None, parent=None, **place):
-        """Place a mesh and its oracle twin; `place`: position, axis and degrees, scale."""
+        """Place a mesh and its oracle counterpart; `place`: position, axis and degrees, scale."""
         matrix = matrix_of(**place)
         double_sided = material.double_sided if material is not None else False
         node = self.scene.add(
@@ -198,6 +199,31 @@ def phong_lights():
     return ours, theirs
 
 
+def everything():
+    """Every material, light, blending and texture at once."""
+    world = room()
+    scene = world.scene
+    scene.environment = cc.CubeMap(smooth_environment(16), mipmaps=True)
+    for light in phong_lights()[0]:
+        scene.add(light)
+    picture = np.random.default_rng(0).integers(0, 256, (8, 8, 4), dtype=np.uint8)
+    materials = [
+        cc.PhongMaterial(color=(1, 0.5, 0.2)),
+        cc.MirrorMaterial(env_weight=0.8, f0=0.1),
+        cc.GlassMaterial(),
+        cc.BasicMaterial(color=(0.2, 1, 0.5, 0.4)),
+        cc.PhongMaterial(map=picture, double_sided=True),
+        cc.BasicMaterial(cubemap=cc.CubeMap(face_pattern(8))),
+    ]
+    for index, material in enumerate(materials):
+        angle = index * np.pi / 3
+        place = (1.3 * np.cos(angle), 0.3 * np.sin(2 * angle), 1.3 * np.sin(angle))
+        scene.add(cc.Mesh.sphere(0.3, segments=16, rings=8), material, position=place)
+    mirror = scene.add(cc.Mesh.icosphere(0.25), cc.MirrorMaterial(), position=(0, 0.8, 0))
+    mirror.environment = cc.Probe(position=(0, 0.8, 0), size=16, mipmaps=True)
+    return scene
+
+
 __all__ = [
     "FORWARD",
     "OUTPUTS",
@@ -208,6 +234,7 @@ __all__ = [
     "View",
     "World",
     "capture_hits",
+    "everything",
     "inner",
     "inner_smooth",
     "matrix_of",

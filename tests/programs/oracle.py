@@ -10,6 +10,8 @@ from tests.reference.raycast import Box, Quad
 from tests.reference.sampling import sample_faces
 
 GREY = (0.4, 0.4, 0.4)
+#: The mirror of P14 and P17.
+GOLD = np.array([0.95, 0.85, 0.4])
 LAMP = shading.Point((5, 5, 5))
 
 
@@ -36,7 +38,7 @@ def moved(*offset):
 
 
 def box(node, size, matrix, double_sided=False):
-    """The oracle's twin of a node that is a box, placed by a matrix of the document."""
+    """The oracle's counterpart of a node that is a box, placed by a matrix of the document."""
     return Box(node.id, matrix, double_sided, size=size)
 
 
@@ -45,7 +47,7 @@ def quad(node, edge, matrix):
 
 
 def mesh(node, matrix, size=None):
-    """A twin of triangles: the node's own mesh, or a file's at a size."""
+    """A counterpart of triangles: the node's own mesh, or a file's at a size."""
     shape = triangles_of(node.mesh if size is None else model(*size))
     shape.id, shape.matrix = node.id, matrix
     return shape
@@ -122,3 +124,31 @@ def photographs(size=64):
         # A slant of its own for each face, which a flip or a turn changes.
         faces[face, ..., face % 3] += 0.1 * (1 + face) * ramp[None, :] * (0.3 + ramp[:, None])
     return faces
+
+
+def stage(program, frame):
+    """Ground and actors: on a circle of 2.5 round +Y, counter-clockwise, a tenth of a radian a frame."""
+    ground = program.scene.nodes[0]
+    shapes = [quad(ground, 10, moved(0, -2, 0))]
+    colors = {ground.id: (0.4, 0.4, 1)}
+    kinds = (("bunny", (0.4, 1, 0.4)), ("teapot", (1, 0.4, 0.4)))
+    for index, (actor, (name, color)) in enumerate(zip(program.actors, kinds, strict=True)):
+        degrees = np.degrees(0.1 * frame) + 180 * index
+        shapes.append(mesh(actor, ry(degrees) @ moved(2.5, -0.5, 0), (name, 1.2)))
+        colors[actor.id] = color
+    return shapes, colors
+
+
+def predicted(events):
+    """The document's own lines: two angles that add up, and a place."""
+    angle_x = angle_y = 0.0
+    place = np.zeros(3)
+    first = np.array([0, 0, 1.0])
+    for event in events:
+        if event == "w":
+            place = place + 0.1 * (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
+        elif event == "s":
+            place = place - 0.1 * (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
+        else:
+            angle_x, angle_y = angle_x + event[0], angle_y + event[1]
+    return place, (rx(angle_y) @ ry(angle_x))[:3, :3] @ first

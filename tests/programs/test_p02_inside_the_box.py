@@ -6,7 +6,7 @@ import pytest
 from cubecam.examples import inside_the_box
 from tests.compare import assert_close
 from tests.gl.world import inner
-from tests.programs.oracle import GREY, Look, box, looked_up, photographs, rx, ry, scaled
+from tests.programs.oracle import GREY, Look, box, looked_up, photographs, predicted, scaled
 
 SIZE = (48, 48)
 #: Drags (angleX, angleY) and keys; the last lead out of the box.
@@ -23,21 +23,6 @@ SCRIPT = [
     (15, 4),
     *["w"] * 25,
 ]
-
-
-def predicted(events):
-    """The document's own lines: two angles that add up, and a place."""
-    angle_x = angle_y = 0.0
-    place = np.zeros(3)
-    first = np.array([0, 0, 1.0])
-    for event in events:
-        if event == "w":
-            place = place + 0.1 * (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
-        elif event == "s":
-            place = place - 0.1 * (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
-        else:
-            angle_x, angle_y = angle_x + event[0], angle_y + event[1]
-    return place, (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
 
 
 @pytest.mark.parametrize("script", [SCRIPT, inside_the_box.SCRIPT], ids=["script", "its own"])

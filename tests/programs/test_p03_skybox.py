@@ -6,8 +6,7 @@ import cubecam as cc
 from cubecam.examples import skybox
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import inner
-from tests.programs.oracle import Look, box, looked_up, moved, photographs
-from tests.programs.test_p02_inside_the_box import predicted
+from tests.programs.oracle import Look, box, looked_up, moved, photographs, predicted
 
 SIZE = (48, 48)
 SCRIPT = [(40, 0), (0, 12), *["w"] * 8, (-30, 5), *["s"] * 5, (200, 0), *["w"] * 20]

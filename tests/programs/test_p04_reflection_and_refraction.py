@@ -22,6 +22,7 @@ def shapes_of(program, turn):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("frame", "eta"), [(0, 1 / 1.52), (19, 1 / 1.52), (52, 1 / 2.42), (70, 1.2), (33, 1.0)]
 )
@@ -58,6 +59,7 @@ def test_every_pixel(renderer, frame, eta):
     near_enough(color, want, glass & ~balls & seen & sure, 2e-3, 6e-3, "glass teapot")
 
 
+@pytest.mark.slow
 def test_a_stretched_ball_needs_the_inverse_transpose(renderer):
     """mat3(model), as document 002 has it, would show other directions: the oracle can tell them apart."""
     images = photographs()

@@ -40,7 +40,7 @@ def test_frames(renderer, frame):
     assert_close(color, want, "unorm8_filter", mask=inner(hits))
 
 
-def test_it_is_usable_at_once_and_of_one_colour(renderer):
+def test_it_is_usable_at_once_and_of_one_color(renderer):
     program = example.build()
     picture = example.draw(program, renderer, 45, size=SIZE)
     assert (picture[..., :3] == 102).all()

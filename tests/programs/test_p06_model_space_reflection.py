@@ -36,7 +36,7 @@ def ball():
     return cc.Mesh.icosphere(0.75, subdivisions=2)
 
 
-def directions_as_colours(size=64):
+def directions_as_colors(size=64):
     """Faces that show the direction they lie in: a picture of a mirror is a picture of where it looks."""
     return unit_texel_directions(size).astype(np.float32) / 2 + 0.5
 
@@ -59,19 +59,19 @@ def per_fragment(made, hits):
 
 
 def reflected_at_vertices(made):
-    """The twins; the ray caster interpolates the left one's directions, as if they were colours."""
-    twins = made.twins()
-    twins[0].colors = documents_reflection(
+    """The copies; the ray caster interpolates the left one's directions, as if they were colours."""
+    copies = made.copies()
+    copies[0].colors = documents_reflection(
         made.look.view,
         made.matrices[0],
-        np.asarray(twins[0].positions, float),
-        np.asarray(twins[0].normals, float),
+        np.asarray(copies[0].positions, float),
+        np.asarray(copies[0].normals, float),
     )
-    return twins
+    return copies
 
 
 class Scene:
-    """The program with a mesh, and its twins for numpy."""
+    """The program with a mesh, and its copies for numpy."""
 
     def __init__(self, stretch, frame, shape=None, images=None, **options):
         self.images = photographs() if images is None else images
@@ -84,7 +84,7 @@ class Scene:
     def draw(self, renderer):
         return example.draw(self.program, renderer, self.frame, size=SIZE, format="rgba32f")
 
-    def twins(self):
+    def copies(self):
         nodes = self.program.model, self.program.world
         size = ("teapot", 1.5) if self.shape is None else None
         return [mesh(node, matrix, size) for node, matrix in zip(nodes, self.matrices, strict=True)]
@@ -95,7 +95,7 @@ class Scene:
 def test_per_fragment(renderer, stretch, frame):
     made = Scene(stretch, frame, ball())
     color = made.draw(renderer)[..., :3]
-    hits = made.look.hits(made.twins())
+    hits = made.look.hits(made.copies())
     on_model, on_world = (hits.id == node.id for node in (made.program.model, made.program.world))
     want = looked_up(made.images, per_fragment(made, hits))
     assert_close(color, want, "mirror", mask=on_model & inner_smooth(hits), least=0.03)
@@ -140,7 +140,7 @@ def both_in_one_place(renderer, stretch, images, frame=17):
     for shown, hidden in ((program.model, program.world), (program.world, program.model)):
         shown.visible, hidden.visible = True, False
         pictures.append(made.draw(renderer)[..., :3])
-    hits = made.look.hits(made.twins()[:1])
+    hits = made.look.hits(made.copies()[:1])
     return pictures, hits.hit & inner_smooth(hits)
 
 
@@ -159,7 +159,7 @@ def test_other_scales_make_one(renderer, stretch):
 @pytest.mark.parametrize(("stretch", "least", "most"), [((1, 1, 1), 0, 0.2), ((2, 1, 1), 70, 74)])
 def test_by_how_many_degrees(renderer, stretch, least, most):
     """The cubemap shows directions, so pictures tell where they look."""
-    (model, world), mask = both_in_one_place(renderer, stretch, directions_as_colours(), frame=19)
+    (model, world), mask = both_in_one_place(renderer, stretch, directions_as_colors(), frame=19)
     one, two = (normalised(picture[mask] * 2 - 1) for picture in (model, world))
     degrees = np.degrees(np.arccos(np.clip((one * two).sum(-1), -1, 1)))
     assert least <= degrees.max() <= most
@@ -222,7 +222,7 @@ def test_the_skybox_is_optional(renderer):
     for skybox in (False, True):
         made = Scene((1, 1, 1), 0, ball(), images, skybox=skybox)
         color = made.draw(renderer)
-        hits = made.look.hits(made.twins())
+        hits = made.look.hits(made.copies())
         sky = (
             looked_up(images, made.look.directions()) if skybox else np.zeros((SIZE[1], SIZE[0], 3))
         )

@@ -18,6 +18,7 @@ def order_of(layers, eye):
     return sorted(layers, key=lambda layer: -np.linalg.norm(layer[0].matrix[:3, 3] - eye))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frame", [6, 30, 78, 102])
 def test_layers(renderer, frame):
     program = example.build()

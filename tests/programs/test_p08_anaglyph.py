@@ -35,6 +35,7 @@ def test_channels_are_the_eyes_own_frames(any_path, frame, kind):
     assert (eyes[0] != eyes[1]).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frame", [10, 70])
 def test_both_eyes_against_ray_casting(renderer, frame):
     """Grey things: red and green are the same picture from two places."""

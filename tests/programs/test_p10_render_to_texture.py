@@ -23,8 +23,8 @@ def discs_at(points, frame):
     rim = np.full(points.shape[:-1], np.inf)
     for paint, radius, rounds in example.DISCS:
         angle = rounds * 2 * np.pi * frame / example.FRAMES
-        centre = (0.95 - radius) * np.array([np.cos(angle), np.sin(angle)])
-        distance = np.linalg.norm(points - centre, axis=-1)
+        center = (0.95 - radius) * np.array([np.cos(angle), np.sin(angle)])
+        distance = np.linalg.norm(points - center, axis=-1)
         layer = np.zeros((*points.shape[:-1], 4))
         layer[..., :3], layer[..., 3] = paint, np.where(distance < radius, 0.6, 0)
         color = composite(color, layer)
@@ -38,8 +38,8 @@ def test_the_texture_is_painted_in_order(any_path, frame):
     example.draw(program, any_path, frame, SIZE)
     got = any_path.read_texture(program.texture)
     assert got.shape == (512, 512, 4)
-    centres = (np.arange(512) + 0.5) / 256 - 1
-    points = np.stack(np.meshgrid(centres, -centres), axis=-1)
+    centers = (np.arange(512) + 0.5) / 256 - 1
+    points = np.stack(np.meshgrid(centers, -centers), axis=-1)
     want, rim = discs_at(points, frame)
     # The discs have corners: a polygon's edge lies inside its circle.
     assert_close(got / 255, want, "unorm8_steps", mask=rim > 0.01)

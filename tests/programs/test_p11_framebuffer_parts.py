@@ -83,7 +83,7 @@ def test_depth_of_16_bits_is_the_quantised_window_depth(drawn, frame):
 
 
 @frames
-def test_colours_of_16_bits_are_the_quantised_ones(drawn, frame):
+def test_colors_of_16_bits_are_the_quantised_ones(drawn, frame):
     _, parts, *_ = drawn(frame)
     levels = np.array([31, 63, 31])
     steps = parts["rgb565"][..., :3] / 255 * levels
@@ -114,6 +114,7 @@ def test_the_stencil_counts_what_covers_a_pixel(drawn, frame):
     assert program.things[2].material.stencil.depth_fail == "incr"
 
 
+@pytest.mark.slow
 @frames
 def test_the_shadow_against_ray_casting(drawn, frame):
     """Rays from each point towards the lamp; where they turn from free to blocked the filter is soft, and masked."""

@@ -14,7 +14,7 @@ from tests.reference.raycast import interior
 SIZE, FACE = (64, 64), 40
 
 
-def twins(program):
+def copies(program):
     shapes = [
         box(node, edge, np.asarray(node.world_matrix))
         for node, (_, edge, *_) in zip(program.cubes, example.CUBES, strict=True)
@@ -25,13 +25,14 @@ def twins(program):
     return shapes, colors
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reflector", ["sphere", "teapot"])
 @pytest.mark.parametrize("frame", [0, 31, 62])
 def test_capture_and_mirror(renderer, frame, reflector):
     images = photographs()
     program = example.build(images, reflector, probe_size=FACE, probe_format="rgba32f")
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
-    shapes, colors = twins(program)
+    shapes, colors = copies(program)
     # 90 degrees, near 1, far 100, from the origin, without what mirrors it.
     seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
     sky = looked_up(images, texel_directions(FACE))

@@ -54,6 +54,7 @@ def drawn(shared_renderers):
     return program, pictures, renderer.read_probe(program.probe).faces, shapes, colors, seen
 
 
+@pytest.mark.slow
 def test_faces(drawn, renderer):
     program, _, held, _, colors, seen = drawn
     assert set(np.unique(seen.id)) == {0, *colors}

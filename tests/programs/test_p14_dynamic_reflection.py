@@ -6,36 +6,22 @@ import pytest
 from cubecam.examples import dynamic_reflection as example
 from tests.compare import assert_close
 from tests.programs.oracle import (
+    GOLD,
     Look,
     lit,
     looked_up,
     mesh,
-    moved,
     near_enough,
-    quad,
-    ry,
     scaled,
+    stage,
     unbroken,
 )
 from tests.reference import raycast, shading
 
 SIZE, FACE = (72, 72), 40
-GOLD = np.array([0.95, 0.85, 0.4])
 
 
-def stage(program, frame):
-    """Ground and actors: on a circle of 2.5 round +Y, counter-clockwise, a tenth of a radian a frame."""
-    ground = program.scene.nodes[0]
-    shapes = [quad(ground, 10, moved(0, -2, 0))]
-    colors = {ground.id: (0.4, 0.4, 1)}
-    kinds = (("bunny", (0.4, 1, 0.4)), ("teapot", (1, 0.4, 0.4)))
-    for index, (actor, (name, color)) in enumerate(zip(program.actors, kinds, strict=True)):
-        degrees = np.degrees(0.1 * frame) + 180 * index
-        shapes.append(mesh(actor, ry(degrees) @ moved(2.5, -0.5, 0), (name, 1.2)))
-        colors[actor.id] = color
-    return shapes, colors
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize("frame", [0, 17, 40])
 def test_frames(renderer, frame):
     program = example.build(probe_size=FACE, probe_format="rgba32f")

@@ -54,6 +54,7 @@ def error(program, renderer, distance, whose, truth, hits):
     return np.abs(got - truth)[inside].mean()
 
 
+@pytest.mark.slow
 def test_shared_grows_and_own_is_smaller(renderer):
     program = example.build(probe_size=64, probe_format="rgba32f")
     shared, own = [], []
@@ -67,6 +68,7 @@ def test_shared_grows_and_own_is_smaller(renderer):
     assert own[2] < 0.4 * shared[2]
 
 
+@pytest.mark.slow
 def test_the_truth_of_the_package_is_that_of_the_reference():
     pytest.importorskip("embreex")
     program = example.build(probe_size=8)

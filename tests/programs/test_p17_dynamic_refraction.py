@@ -5,13 +5,24 @@ import pytest
 
 from cubecam.examples import dynamic_refraction as example
 from tests.compare import assert_close
-from tests.programs.oracle import Look, lit, looked_up, mesh, moved, near_enough, scaled, unbroken
-from tests.programs.test_p14_dynamic_reflection import GOLD, stage
+from tests.programs.oracle import (
+    GOLD,
+    Look,
+    lit,
+    looked_up,
+    mesh,
+    moved,
+    near_enough,
+    scaled,
+    stage,
+    unbroken,
+)
 from tests.reference import raycast, shading
 
 SIZE, FACE = (96, 96), 40
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("frame", "eta"), [(0, 1 / 1.52), (13, 1 / 1.52), (29, 1 / 1.33)])
 def test_frames(renderer, frame, eta):
     program = example.build(eta=eta, probe_size=FACE, probe_format="rgba32f")

@@ -51,8 +51,8 @@ def direction_to_face_uv(directions):
 
 def texel_directions(size):
     """(6, size, size, 3) directions of the texel centres, their component along the face's axis being 1."""
-    centres = (np.arange(size) + 0.5) / size
-    t, s = np.meshgrid(centres, centres, indexing="ij")
+    centers = (np.arange(size) + 0.5) / size
+    t, s = np.meshgrid(centers, centers, indexing="ij")
     return np.stack([face_uv_to_direction(face, s, t) for face in range(6)])
 
 

@@ -147,8 +147,8 @@ class Triangles(Shape):
 
     def _near_bounding_sphere(self, origins, directions):
         low, high = np.min(self.positions, axis=0), np.max(self.positions, axis=0)
-        centre, radius = (low + high) / 2, np.linalg.norm(high - low) / 2 * 1.001 + 1e-9
-        offset = centre - origins
+        center, radius = (low + high) / 2, np.linalg.norm(high - low) / 2 * 1.001 + 1e-9
+        offset = center - origins
         along = (offset * directions).sum(-1) / (directions * directions).sum(-1)
         miss = offset - along[:, None] * directions
         return np.flatnonzero((miss * miss).sum(-1) <= radius**2)

@@ -20,7 +20,7 @@ faces = pytest.mark.parametrize("face", range(6), ids=FACE_IDS)
 
 
 @faces
-def test_the_centre_of_a_face_is_its_axis(face):
+def test_the_center_of_a_face_is_its_axis(face):
     np.testing.assert_array_equal(face_uv_to_direction(face, 0.5, 0.5), FORWARD[face])
 
 

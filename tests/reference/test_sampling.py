@@ -14,7 +14,7 @@ from .pattern import direction_pattern, random_faces
 from .sampling import sample_faces, sample_image, sample_trilinear
 
 
-def test_texel_centres_give_the_texels(rng):
+def test_texel_centers_give_the_texels(rng):
     faces = random_faces(rng, 7)
     np.testing.assert_allclose(sample_faces(faces, texel_directions(7)), faces, atol=1e-12)
 

@@ -58,6 +58,7 @@ def test_info_without_a_device_says_why_and_fails():
     assert "no such card" in result.output
 
 
+@pytest.mark.slow
 def test_help_needs_no_egl():
     done = subprocess.run(
         [sys.executable, "-m", "cubecam", "convert", "--help"],

@@ -63,6 +63,7 @@ def test_refusals_are_compared_by_kind(script):
     assert not script.compare(one, picture(), False)[1]
 
 
+@pytest.mark.slow
 def test_a_changed_copy_differs(tmp_path):
     before = tmp_path / "before"
     package = Path(cc.__file__).parent

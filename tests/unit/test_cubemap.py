@@ -9,7 +9,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.helpers import channel_counts, dtypes, faces, twins
+from tests.helpers import channel_counts, copies, dtypes, faces
 from tests.reference.cube_faces import FACE_NAMES
 from tests.reference.pattern import face_pattern, random_faces
 
@@ -126,11 +126,11 @@ def test_equality_compares_contents():
     assert cube != "cube"
 
 
-@twins
+@copies
 @pytest.mark.parametrize("mipmaps", [False, True])
-def test_twins_are_equal_and_independent(twin, mipmaps, rng):
+def test_copies_are_equal_and_independent(make_copy, mipmaps, rng):
     cube = cc.CubeMap(random_faces(rng, 4, 3, np.float16), mipmaps=mipmaps)
-    other = twin(cube)
+    other = make_copy(cube)
     assert other == cube
     assert other.mipmaps is mipmaps
     other.set_face(2, np.zeros((4, 4, 3), np.float16))
@@ -168,3 +168,22 @@ def test_pickle_keeps_no_revision():
     for face, pixels in enumerate(face_pattern(4)):
         b.set_face(face, pixels)
     assert pickle.dumps(a) == pickle.dumps(b)
+
+
+def test_the_picture_of_a_cube_is_unmirrored_seen_from_within():
+    """Right of -Z in the middle is +X, above it +Y; each pixel shows what lies in its direction."""
+    from cubecam.pictures import cube_picture
+
+    size = 4
+    cube = cc.CubeMap(face_pattern(size))
+    picture = cube_picture(cube)
+    x, y = np.meshgrid(
+        (np.arange(size) + 0.5) / size * 2 - 1, 1 - (np.arange(size) + 0.5) / size * 2
+    )
+    one = np.ones_like(x)
+    cells = {(1, 1): (x, y, -one), (1, 2): (one, y, x), (1, 0): (-one, y, -x), (1, 3): (-x, y, one)}
+    cells |= {(0, 1): (x, one, y), (2, 1): (x, -one, -y)}
+    for (row, column), direction in cells.items():
+        cell = picture[row * size : (row + 1) * size, column * size : (column + 1) * size]
+        want = np.rint(cube.sample(np.stack(direction, axis=-1)) * 255)
+        np.testing.assert_array_equal(cell[..., :3], want[..., :3], f"row {row}, column {column}")

@@ -161,7 +161,7 @@ def test_environment_of_a_panorama_has_the_default_size():
     assert cube.faces.max() > 100  # lamps are not clipped
 
 
-def test_environment_centre_turns_the_picture():
+def test_environment_center_turns_the_picture():
     a = cc.load_environment(cc.sample_data("studio.exr"), size=32, center="-z")
     b = cc.load_environment(cc.sample_data("studio.exr"), size=32, center="+z")
     np.testing.assert_allclose(b.faces[4], a.faces[5], rtol=1e-3, atol=1e-3)
@@ -208,6 +208,44 @@ def test_a_picture_of_no_known_shape_is_refused_with_its_shape(tmp_path):
     cc.save_image(tmp_path / "a.png", np.zeros((10, 13, 3), np.uint8))
     with pytest.raises(ValueError, match=r"10.*13|13.*10"):
         cc.load_cubemap(tmp_path / "a.png")
+
+
+DOCUMENTS_NAMES = (
+    ("px", "nx", "py", "ny", "pz", "nz"),
+    ("posx", "negx", "posy", "negy", "posz", "negz"),
+    ("pos-x", "neg-x", "pos-y", "neg-y", "pos-z", "neg-z"),
+)
+
+
+@pytest.mark.parametrize("names", DOCUMENTS_NAMES, ids=lambda names: names[0])
+def test_names_of_the_six_files_say_which_face_each_holds(names, tmp_path):
+    for name in names:
+        axis, sign = "xyz".index(name[-1]), name[0] == "p"
+        color = 40 * axis + 20 * sign
+        cc.save_image(tmp_path / f"{name}.png", np.full((2, 2, 3), color, np.uint8))
+    cube = cc.load_cubemap(tmp_path / "{face}.png")
+    assert cube.faces[:, 0, 0, 0].tolist() == [20, 0, 60, 40, 100, 80]
+
+
+def test_six_files_are_written_by_the_first_names(tmp_path):
+    faces = np.arange(6, dtype=np.uint8)[:, None, None, None] * np.ones((2, 2, 3), np.uint8)
+    cc.CubeMap(faces).save(tmp_path / "sky {face}.png")
+    for number, name in enumerate(DOCUMENTS_NAMES[0]):
+        assert (cc.load_image(tmp_path / f"sky {name}.png") == number).all()
+
+
+@conventions
+def test_outputs_are_laid_out_in_the_convention_as_colors_are(convention, rng):
+    from cubecam.io.cubemap_save import arrange
+
+    ids = rng.integers(-5, 2**31 - 1, (6, 4, 4), dtype=np.int32)
+    positions = rng.random((6, 4, 4, 3)).astype(np.float32)
+    positions[2, 1, 1] = np.nan
+    for layout in ("cross", "column"):
+        want = to_layout(ids[..., None], layout, convention)
+        assert_identical(arrange(ids, layout, convention), want.astype(np.int32), layout)
+        want = to_layout(positions, layout, convention)
+        assert_identical(arrange(positions, layout, convention), want.astype(np.float32), layout)
 
 
 def test_names_of_faces_go_with_the_order():

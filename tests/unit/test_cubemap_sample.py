@@ -22,7 +22,7 @@ def test_random_directions(dtype, channels, rng):
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 64])
-def test_texel_centres_give_the_texels(size, rng):
+def test_texel_centers_give_the_texels(size, rng):
     pixels = random_faces(rng, size)
     assert_close(cc.CubeMap(pixels).sample(texel_directions(size)), pixels, "lookup")
 

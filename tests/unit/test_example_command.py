@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 import cubecam as cc
 from cubecam import examples
 from cubecam.cli.sheet import contact_sheet
-from tests.conftest import DEVICE
+from tests.helpers import DEVICE
 
 names = pytest.mark.parametrize("name", examples.NAMES)
 

@@ -9,7 +9,7 @@ from tests.reference.shading import srgb_decode, srgb_encode
 
 
 @pytest.fixture
-def colours(rng):
+def colors(rng):
     return rng.integers(0, 256, (5, 7, 3), dtype=np.uint8)
 
 
@@ -20,7 +20,7 @@ def test_png_of_8_bits_is_exact(channels, tmp_path, rng):
     assert_identical(cc.load_image(tmp_path / "a.png"), pixels)
 
 
-def test_colour_under_alpha_0_survives_a_png(tmp_path):
+def test_color_under_alpha_0_survives_a_png(tmp_path):
     """oiio:UnassociatedAlpha: else colour comes back multiplied by alpha."""
     pixels = np.full((2, 2, 4), (200, 100, 50, 0), np.uint8)
     pixels[0, 0, 3] = 7
@@ -87,13 +87,13 @@ def test_row_0_is_on_top(tmp_path):
         assert_identical(np.asarray(picture), pixels)
 
 
-def test_srgb_decodes_and_encodes_8_bits(tmp_path, colours):
-    cc.save_image(tmp_path / "a.png", colours)
+def test_srgb_decodes_and_encodes_8_bits(tmp_path, colors):
+    cc.save_image(tmp_path / "a.png", colors)
     linear = cc.load_image(tmp_path / "a.png", srgb=True)
     assert linear.dtype == np.float32
-    assert_close(linear, srgb_decode(colours / 255), "float32_maths")
+    assert_close(linear, srgb_decode(colors / 255), "float32_maths")
     cc.save_image(tmp_path / "b.png", linear, srgb=True)
-    assert_identical(cc.load_image(tmp_path / "b.png"), colours)
+    assert_identical(cc.load_image(tmp_path / "b.png"), colors)
 
 
 def test_srgb_leaves_alpha_alone(tmp_path):
@@ -127,9 +127,11 @@ def test_a_matrix_is_a_grey_picture(tmp_path):
     assert_identical(cc.load_image(tmp_path / "a.exr"), np.eye(3, dtype=np.float32)[..., None])
 
 
-def test_what_is_loaded_is_yours(tmp_path, colours):
-    cc.save_image(tmp_path / "a.png", colours)
-    cc.load_image(tmp_path / "a.png")[:] = 0
+def test_what_is_loaded_is_yours(tmp_path, colors):
+    cc.save_image(tmp_path / "a.png", colors)
+    image = cc.load_image(tmp_path / "a.png")
+    image[:] = 0
+    assert_identical(cc.load_image(tmp_path / "a.png"), colors)
 
 
 @pytest.mark.parametrize(

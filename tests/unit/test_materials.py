@@ -69,7 +69,7 @@ def test_old_names_are_gone(kind, name, value):
         kind(**{name: value})
 
 
-def test_fourth_number_of_a_colour():
+def test_fourth_number_of_a_color():
     np.testing.assert_allclose(cc.BasicMaterial(color=(1, 0, 0, 0.25)).color, [1, 0, 0, 0.25])
 
 
@@ -185,11 +185,11 @@ def test_setters_refuse_the_same_and_keep_the_old(case):
     np.testing.assert_array_equal(np.array(getattr(thing, name)), before)
 
 
-def test_colours_handed_out_are_read_only():
+def test_colors_handed_out_are_read_only():
     with pytest.raises(ValueError, match="read-only"):
         cc.BasicMaterial().color[0] = 0
 
 
 def test_unknown_arguments_are_refused():
     with pytest.raises(TypeError):
-        cc.PhongMaterial(colour=(1, 0, 0))
+        cc.PhongMaterial(color=(1, 0, 0))

@@ -7,7 +7,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close
-from tests.helpers import twins
+from tests.helpers import copies
 
 CLOSED = {
     "box": (lambda: cc.Mesh.box((1, 2, 3)), 6.0),
@@ -80,7 +80,7 @@ def test_uvs_fill_the_unit_square_and_jump_nowhere(make):
 
 
 @every
-def test_bounds_are_centred(make):
+def test_bounds_are_centered(make):
     positions = make().positions
     np.testing.assert_allclose(positions.min(0) + positions.max(0), 0, atol=2e-2)
 
@@ -167,12 +167,12 @@ def test_arrays_are_read_only():
             array[0] = 0
 
 
-@twins
-def test_twins(twin):
+@copies
+def test_copies(make_copy):
     mesh = cc.Mesh(
         [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], uvs=np.eye(3)[:, :2], colors=np.eye(3)
     )
-    other = twin(mesh)
+    other = make_copy(mesh)
     for name in ("positions", "indices", "normals", "uvs", "colors"):
         np.testing.assert_array_equal(getattr(other, name), getattr(mesh, name))
 
@@ -208,7 +208,7 @@ def test_sample_meshes(name, vertices, triangles):
 
 
 @pytest.mark.parametrize("size", [1, 2.5])
-def test_size_centres_and_scales(size):
+def test_size_centers_and_scales(size):
     positions = cc.load_mesh(cc.sample_data("bunny.obj"), size=size).positions
     low, high = positions.min(0), positions.max(0)
     np.testing.assert_allclose(low + high, 0, atol=1e-5)
@@ -247,6 +247,38 @@ def test_glb_places_its_nodes(tmp_path):
     scene.export(tmp_path / "a.glb")
     positions = cc.load_mesh(tmp_path / "a.glb").positions
     np.testing.assert_allclose([positions.min(0)[0], positions.max(0)[0]], [-0.5, 4.5])
+
+
+TRANSFORMS = {
+    "stretched": np.diag([3.0, 1, 1, 1]),
+    "mirrored": np.diag([-1.0, 1, 1, 1]),
+    "mirrored and sheared": np.array(
+        [[-2, 0.5, 0, 1], [0, 1, 0.3, 2], [0.2, 0, 0.7, 3], [0, 0, 0, 1.0]]
+    ),
+}
+
+
+@pytest.mark.parametrize("matrix", TRANSFORMS.values(), ids=TRANSFORMS)
+def test_normals_of_a_glb_node_go_by_the_inverse_transpose(tmp_path, matrix):
+    import trimesh
+
+    ball = trimesh.creation.icosphere(subdivisions=1)
+    places = np.array(ball.vertices)
+    scene = trimesh.Scene()
+    scene.add_geometry(
+        trimesh.Trimesh(places, ball.faces, vertex_normals=places, process=False), transform=matrix
+    )
+    (tmp_path / "a.glb").write_bytes(trimesh.exchange.gltf.export_glb(scene, include_normals=True))
+    mesh = cc.load_mesh(tmp_path / "a.glb")
+    linear = matrix[:3, :3]
+    # Each vertex of the unit ball is its own normal.
+    on_ball = (np.asarray(mesh.positions) - matrix[:3, 3]) @ np.linalg.inv(linear).T
+    want = on_ball @ np.linalg.inv(linear)
+    want /= np.linalg.norm(want, axis=1, keepdims=True)
+    np.testing.assert_allclose(mesh.normals, want, atol=1e-5)
+    a, b, c = np.moveaxis(corners(mesh), 1, 0)
+    faced = np.cross(b - a, c - a)
+    assert (np.einsum("ij,ij->i", faced, want[np.asarray(mesh.indices)[:, 0]]) > 0).all()
 
 
 def test_a_mesh_without_triangles_is_a_mesh_error(tmp_path):
@@ -361,20 +393,20 @@ def test_normals_set_once_are_given_and_none_makes_them_smooth_again():
     np.testing.assert_allclose(mesh.normals, [[0, -1, 0]] * 4)
 
 
-@twins
+@copies
 @pytest.mark.parametrize("normals", [None, [[1, 0, 0]] * 4], ids=["smooth", "given"])
-def test_the_normals_of_a_twin_follow_its_positions_alike(twin, normals):
+def test_the_normals_of_a_copy_follow_its_positions_alike(make_copy, normals):
     mesh = quad(normals=normals)
-    other = twin(mesh)
+    other = make_copy(mesh)
     for each in (mesh, other):
         each.positions = each.positions[:, [0, 2, 1]]
     np.testing.assert_array_equal(other.normals, mesh.normals)
 
 
-@twins
-def test_a_twin_is_a_mesh_of_its_own(twin):
+@copies
+def test_a_copy_is_a_mesh_of_its_own(make_copy):
     mesh = quad()
-    twin(mesh).positions = np.zeros((4, 3))
+    make_copy(mesh).positions = np.zeros((4, 3))
     assert mesh.positions.any()
 
 

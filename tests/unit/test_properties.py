@@ -53,7 +53,7 @@ def test_the_length_of_a_direction_does_not_matter(size, towards, factor):
 
 
 @given(sizes, st.integers(1, 40).map(lambda n: 2 * n), st.floats(0, 1e4, width=32))
-def test_one_colour_stays_that_colour(size, width, value):
+def test_one_color_stays_that_color(size, width, value):
     cube = cc.CubeMap(np.full((6, size, size, 1), value, np.float32))
     image = cube.to_equirect(width=width)
     assert np.array_equal(np.unique(image), [np.float32(value)])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.helpers import twins
+from tests.helpers import copies
 
 FIELDS = {"size": 512, "radius": 2.5, "bias": 0.01, "near": 0.1, "far": 30.0, "extent": 8.0}
 LIGHTS = [cc.PointLight, cc.DirectionalLight, cc.SpotLight]
@@ -35,10 +35,10 @@ def test_equality_and_hash():
     assert cc.Shadow() is not None
 
 
-@twins
-def test_twins(twin):
-    assert twin(cc.Shadow(**FIELDS)) == cc.Shadow(**FIELDS)
-    assert twin(cc.Shadow()) == cc.Shadow()
+@copies
+def test_copies(make_copy):
+    assert make_copy(cc.Shadow(**FIELDS)) == cc.Shadow(**FIELDS)
+    assert make_copy(cc.Shadow()) == cc.Shadow()
 
 
 BAD = {
@@ -114,11 +114,11 @@ def test_ambient_light_has_none():
         cc.AmbientLight(shadow=True)
 
 
-@twins
+@copies
 @pytest.mark.parametrize("light", LIGHTS)
-def test_a_lights_twin_keeps_its_shadow(twin, light):
-    assert twin(light(shadow=cc.Shadow(**FIELDS))).shadow == cc.Shadow(**FIELDS)
-    assert twin(light()).shadow is None
+def test_a_lights_copy_keeps_its_shadow(make_copy, light):
+    assert make_copy(light(shadow=cc.Shadow(**FIELDS))).shadow == cc.Shadow(**FIELDS)
+    assert make_copy(light()).shadow is None
 
 
 # SpotLight
@@ -132,9 +132,9 @@ def test_spot_defaults():
     assert (light.angle, light.penumbra, light.intensity, light.decay) == (30, 0, 1, 0)
 
 
-@twins
-def test_a_spots_twin(twin):
-    light = twin(
+@copies
+def test_a_copy_of_a_spot(make_copy):
+    light = make_copy(
         cc.SpotLight(
             (1, 2, 3),
             (0, 0, -3),
@@ -207,13 +207,13 @@ def test_flags_of_nodes():
     assert not other.receive_shadow
 
 
-@twins
-def test_a_nodes_twin_keeps_its_flags(twin):
+@copies
+def test_a_copy_of_a_node_keeps_its_flags(make_copy):
     scene = cc.Scene()
     scene.add(cc.Mesh.box(), cast_shadow=False)
     scene.add(cc.Mesh.box(), receive_shadow=False)
     scene.add(cc.PointLight(shadow=cc.Shadow(size=64)))
-    other = twin(scene)
+    other = make_copy(scene)
     assert [n.cast_shadow for n in other.nodes] == [False, True]
     assert [n.receive_shadow for n in other.nodes] == [True, False]
     assert other.lights[0].shadow == cc.Shadow(size=64)

@@ -154,7 +154,7 @@ def _shadow(part: dict[str, Picture], cell: tuple[int, int]) -> Picture:
 
 def _bytes(picture: Picture) -> Picture:
     """Give (H, W, 4) uint8, opaque, of uint8 or of 0..1."""
-    colour = picture[..., :3]
-    if colour.dtype != np.uint8:
-        colour = np.rint(np.clip(colour, 0, 1) * 255).astype(np.uint8)
-    return np.concatenate([colour, np.full_like(colour[..., :1], 255)], axis=2)
+    color = picture[..., :3]
+    if color.dtype != np.uint8:
+        color = np.rint(np.clip(color, 0, 1) * 255).astype(np.uint8)
+    return np.concatenate([color, np.full_like(color[..., :1], 255)], axis=2)

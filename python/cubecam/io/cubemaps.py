@@ -177,7 +177,7 @@ def _read_faces(paths: list[Path], srgb: bool) -> Array:
     faces = []
     for path in paths:
         picture = oiio.read(existing_file(path))
-        faces.append(_colours(formats.decode(picture.pixels, srgb)))
+        faces.append(_colors(formats.decode(picture.pixels, srgb)))
     shapes = [face.shape[1::-1] for face in faces]
     for path, shape in zip(paths, shapes, strict=True):
         if shape[0] != shape[1] or shape != shapes[0]:
@@ -200,7 +200,7 @@ def _with_channels(face: Array, channels: int) -> Array:
     return face
 
 
-def _colours(pixels: Array) -> Array:
+def _colors(pixels: Array) -> Array:
     if pixels.dtype.kind == "u" and pixels.dtype != np.uint8:
         raise ImageError(f"expected colours, got {pixels.dtype} whole numbers: an id map?")
     return pixels
@@ -216,7 +216,7 @@ def _from_picture(
     mipmaps: bool,
     dtype: npt.DTypeLike | None,
 ) -> CubeMap:
-    pixels = _colours(formats.decode(picture.pixels, srgb))
+    pixels = _colors(formats.decode(picture.pixels, srgb))
     height, width = pixels.shape[:2]
     if picture.environment == "cube" and layout is None:
         layout = "openexr"

@@ -11,7 +11,7 @@ from . import oiio
 from .pixels import (
     Array,
     check_picture,
-    on_colour,
+    on_color,
     srgb_decode,
     srgb_encode,
     to_float32,
@@ -55,7 +55,7 @@ FORMATS = {
 def decode(pixels: Array, srgb: bool) -> Array:
     """Turn what a file stores into what `load_image` gives."""
     if srgb and pixels.dtype in (np.uint8, np.uint16):
-        return on_colour(srgb_decode, to_float32(pixels))
+        return on_color(srgb_decode, to_float32(pixels))
     return to_float32(pixels) if pixels.dtype == np.uint16 else pixels
 
 
@@ -121,7 +121,7 @@ def fit_samples(pixels: Array, form: Format, extension: str, srgb: bool, half: b
     if "float32" in form.samples and not ("uint8" in form.samples and pixels.dtype.kind == "u"):
         return _floats(pixels, form, extension, half)
     if srgb:
-        pixels = on_colour(srgb_encode, np.clip(to_float32(pixels), 0, 1))
+        pixels = on_color(srgb_encode, np.clip(to_float32(pixels), 0, 1))
     wide = pixels.dtype == np.uint16 and "uint16" in form.samples
     return to_integers(pixels, 65535 if wide else 255)
 

@@ -33,7 +33,7 @@ def srgb_encode(values: Array) -> FloatArray:
     return encoded
 
 
-def on_colour(curve: Any, pixels: FloatArray) -> FloatArray:
+def on_color(curve: Any, pixels: FloatArray) -> FloatArray:
     """Apply a curve to the colour channels; a fourth channel is alpha and stays as it is."""
     if pixels.shape[-1] != 4:
         return np.asarray(curve(pixels), dtype=np.float32)

@@ -22,7 +22,8 @@ Key whole_key(const SceneSnapshot& scene, const ShadowView& view, TextureLookup&
     key.add(view.views.front().view_projection);
     key.add(view.views.front().position);
     for (const NodeSnapshot& node : scene.nodes) {
-        if (node.cast_shadow) add_caster(key, node, lookup);
+        // As in the layers' keys: what is drawn after the opaque nodes casts nothing.
+        if (node.cast_shadow && !node.drawn_as_transparent()) add_caster(key, node, lookup);
     }
     return key;
 }

@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/clear.hpp"
 
+#include "cubecam/image/depth_format.hpp"
+
 #include <cstddef>
 
 namespace cubecam {

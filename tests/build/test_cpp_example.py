@@ -2,43 +2,18 @@
 
 import os
 import re
-import shutil
 import subprocess
 import sys
-import sysconfig
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import cubecam as cc
+from tests.build.tools import ROOT, run, tool
 from tests.compare import assert_close
-from tests.conftest import DEVICE
+from tests.helpers import DEVICE
 
-ROOT = Path(__file__).parents[1]
-
-
-def tool(name):
-    """cmake or ninja, of this environment or of the system."""
-    beside = Path(sysconfig.get_path("scripts")) / name
-    found = str(beside) if beside.exists() else shutil.which(name)
-    assert found, f"expected {name} in {beside.parent} or on PATH"
-    return found
-
-
-def run(*command, **options):
-    done = subprocess.run(
-        [str(part) for part in command],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=600,
-        **options,
-    )
-    assert done.returncode == 0, (
-        f"{' '.join(map(str, command))}\n{done.stdout[-3000:]}\n{done.stderr[-3000:]}"
-    )
-    return done
+pytestmark = pytest.mark.build
 
 
 def read_pfm(path):

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.helpers import same_content, twins
+from tests.helpers import copies, same_content
 from tests.reference.pattern import face_pattern
 
 
@@ -33,10 +33,10 @@ def furnished():
     return scene, group, ball
 
 
-@twins
-def test_everything_is_kept(twin):
+@copies
+def test_everything_is_kept(make_copy):
     scene, *_ = furnished()
-    other = twin(scene)
+    other = make_copy(scene)
     assert same_content(other.environment, scene.environment)
     np.testing.assert_array_equal(other.background, scene.background)
     assert [type(light) for light in other.lights] == [type(light) for light in scene.lights]
@@ -52,10 +52,10 @@ def test_everything_is_kept(twin):
             np.testing.assert_array_equal(a.mesh.positions, b.mesh.positions)
 
 
-@twins
-def test_a_scene_and_its_ball_stay_together(twin):
+@copies
+def test_a_scene_and_its_ball_stay_together(make_copy):
     scene, _, ball = furnished()
-    other, other_ball = twin((scene, ball))
+    other, other_ball = make_copy((scene, ball))
     assert other_ball in other.nodes
     assert any(node is other_ball for node in other.nodes)
     assert other_ball is not ball
@@ -63,10 +63,10 @@ def test_a_scene_and_its_ball_stay_together(twin):
     assert not np.allclose(ball.position, 9)
 
 
-@twins
-def test_parents_and_probes_point_into_the_twin(twin):
+@copies
+def test_parents_and_probes_point_into_the_copy(make_copy):
     scene, *_ = furnished()
-    other = twin(scene)
+    other = make_copy(scene)
     group = next(node for node in other.nodes if node.name == "group")
     box = next(node for node in other.nodes if node.name == "box")
     assert box.parent is group
@@ -76,21 +76,21 @@ def test_parents_and_probes_point_into_the_twin(twin):
     assert (probe.size, tuple(probe.position)) == (32, (0, 1, 0))
 
 
-@twins
-def test_shared_objects_stay_shared(twin):
+@copies
+def test_shared_objects_stay_shared(make_copy):
     scene = cc.Scene()
     mesh, material, probe = cc.Mesh.box(1), cc.MirrorMaterial(), cc.Probe(position=(0, 0, 0))
     for _ in range(2):
         scene.add(mesh, material).environment = probe
-    a, b = twin(scene).nodes
+    a, b = make_copy(scene).nodes
     assert a.mesh is b.mesh
     assert a.material is b.material
     assert a.environment is b.environment
     assert a.environment is not probe
 
 
-@twins
-def test_a_cycle_of_probes_and_nodes(twin):
+@copies
+def test_a_cycle_of_probes_and_nodes(make_copy):
     """A probe attached to the node that shows it, and two mirrors with a probe on each other."""
     scene = cc.Scene()
     a, b = (
@@ -98,18 +98,18 @@ def test_a_cycle_of_probes_and_nodes(twin):
     )
     a.environment = cc.Probe(parent=b)
     b.environment = cc.Probe(parent=a, exclude=[b])
-    other_a, other_b = twin(scene).nodes
+    other_a, other_b = make_copy(scene).nodes
     assert other_a.environment.parent is other_b
     assert other_b.environment.parent is other_a
     assert list(other_b.environment.exclude) == [other_b]
 
 
-@twins
-def test_ids_go_on_where_they_stopped(twin):
+@copies
+def test_ids_go_on_where_they_stopped(make_copy):
     scene = cc.Scene()
     nodes = [scene.add() for _ in range(3)]
     scene.remove(nodes[2])
-    other = twin(scene)
+    other = make_copy(scene)
     assert [node.id for node in other.nodes] == [1, 2]
     assert other.add().id == 4
 
@@ -124,21 +124,21 @@ def test_ids_go_on_where_they_stopped(twin):
         lambda: cc.Camera(view=np.eye(4), projection=np.diag([1, 2, -1, 1])),
     ],
 )
-@twins
-def test_cameras(make, twin):
+@copies
+def test_cameras(make, make_copy):
     camera = make()
     for a, b in zip(
         (camera.view, camera.projection(1.5)),
-        (twin(camera).view, twin(camera).projection(1.5)),
+        (make_copy(camera).view, make_copy(camera).projection(1.5)),
         strict=True,
     ):
         np.testing.assert_array_equal(a, b)
 
 
-@twins
-def test_materials_and_images(twin):
+@copies
+def test_materials_and_images(make_copy):
     image = cc.Image(np.full((2, 3, 4), 7, np.uint8), mipmaps=True, wrap="clamp")
-    material = twin(
+    material = make_copy(
         cc.PhongMaterial(
             color=(1, 0.5, 0), ka=0.3, shininess=20, map=image, opacity=0.5, double_sided=True
         )
@@ -149,13 +149,13 @@ def test_materials_and_images(twin):
     np.testing.assert_array_equal(material.map.pixels, image.pixels)
 
 
-@twins
-def test_deep_trees_do_not_overflow_the_stack(twin):
+@copies
+def test_deep_trees_do_not_overflow_the_stack(make_copy):
     scene = cc.Scene()
     node = None
     for _ in range(3000):
         node = scene.add(parent=node)
-    other = twin(scene)
+    other = make_copy(scene)
     assert len(other.nodes) == 3000
     assert other.nodes[-1].parent is other.nodes[-2]
 

@@ -1,0 +1,331 @@
+"""Random edits of a FullWorld: one for every property that the stubs say can be set, and some of methods.
+
+`VALUES` has for each property ("Class.name", the class being the one that declares it) a function of the world, a
+random generator and the object to change, which gives a new value. A property without one fails
+test_incremental.py, so that none can be forgotten.
+"""
+
+import ast
+from pathlib import Path
+
+import numpy as np
+
+import cubecam as cc
+from tests.gl.full_world import (
+    EFFECT_SOURCES,
+    SOURCES,
+    VERTEX_SOURCES,
+    random_camera,
+    random_cube,
+    random_effect,
+    random_image,
+)
+
+STUB = Path(cc.__file__).parent / "_core.pyi"
+FORMATS = ("rgba8", "rgba16f", "rgba32f", "rgb565")
+DEPTHS = ("depth_component24", "depth24_stencil8", "depth_component32f", "depth_component16", None)
+
+
+def settable_properties():
+    """ "Class.property" of every property with a setter, in the order of the stubs."""
+    found = []
+    for thing in ast.parse(STUB.read_text()).body:
+        for member in thing.body if isinstance(thing, ast.ClassDef) else ():
+            decorators = getattr(member, "decorator_list", ())
+            if any(isinstance(d, ast.Attribute) and d.attr == "setter" for d in decorators):
+                found.append(f"{thing.name}.{member.name}")
+    return found
+
+
+def one(rng, *choices):
+    return choices[rng.integers(len(choices))]
+
+
+def number(low, high):
+    return lambda world, rng, thing: float(rng.uniform(low, high))
+
+
+def vector(low, high):
+    return lambda world, rng, thing: rng.uniform(low, high, 3)
+
+
+def choice(*choices):
+    return lambda world, rng, thing: one(rng, *choices)
+
+
+flag = choice(False, True)
+color = vector(0, 1)
+place = vector(-2, 2)
+
+
+def random_node(world, rng, scene=None):
+    return one(rng, *(scene or world.scene).nodes)
+
+
+def group_of(world, rng, thing):
+    """The first node of the main scene is a group; the group itself has no parent."""
+    group = world.scene.nodes[0]
+    return None if thing is group or thing not in world.scene else one(rng, None, group)
+
+
+def matrix(world, rng, thing):
+    made = np.eye(4)
+    made[:3, :3] = np.diag(rng.uniform(0.5, 1.4, 3) * rng.choice([-1, 1], 3))
+    made[:3, :3] += rng.uniform(-0.2, 0.2, (3, 3))
+    made[:3, 3] = rng.uniform(-1.5, 1.5, 3)
+    return made
+
+
+def stencil(world, rng, thing):
+    words = ("keep", "zero", "replace", "incr", "decr_wrap", "invert")
+    return one(
+        rng,
+        None,
+        cc.Stencil(
+            func=one(rng, "always", "equal", "less", "notequal"),
+            reference=int(rng.integers(3)),
+            depth_fail=one(rng, *words),
+            depth_pass=one(rng, *words),
+        ),
+    )
+
+
+def blend(world, rng, thing):
+    modes = (None, "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied")
+    factors = (
+        "zero",
+        "one",
+        "src_color",
+        "one_minus_src_alpha",
+        "dst_alpha",
+        "one_minus_dst_color",
+    )
+    equations = ("add", "subtract", "reverse_subtract", "min", "max")
+    made = cc.Blend(one(rng, *factors), one(rng, *factors), equation=one(rng, *equations))
+    return one(rng, *modes, made, made, made)
+
+
+def shadow(world, rng, thing):
+    return one(rng, None, cc.Shadow(size=int(rng.integers(16, 40)), radius=one(rng, 0, 1, 1.5)))
+
+
+def new_material(world, rng, thing):
+    makers = (cc.BasicMaterial, cc.PhongMaterial, cc.MirrorMaterial, cc.GlassMaterial)
+    return one(rng, None, one(rng, *makers)(), one(rng, *world.things(cc.Material)))
+
+
+def map_of(world, rng, thing):
+    return one(rng, None, one(rng, *world.images), random_image(rng), world.textures[0])
+
+
+def cube_of(world, rng, thing):
+    return one(rng, None, *world.cubes, *world.probes)
+
+
+def scene_of(world, rng, thing):
+    """Monitors go on showing their own room: other scenes would not have what they leave out."""
+    return world.scene if thing.scene is world.scene else one(rng, world.inner, world.spare)
+
+
+def excluded(world, rng, thing):
+    """A monitor leaves itself out, and something else."""
+    if isinstance(thing, cc.RenderTexture):
+        screens = [node for node in thing.scene.nodes if node.name == "screen"][-1:]
+        return [*screens, random_node(world, rng, thing.scene)]
+    return [random_node(world, rng) for _ in range(rng.integers(3))]
+
+
+def uniforms_of_shader(world, rng, thing):
+    return {"tone": rng.random(3)} | ({"time": float(rng.random())} if thing.vertex else {})
+
+
+def view(world, rng, thing):
+    return random_camera(rng).view
+
+
+VALUES = {
+    "Node.cast_shadow": flag,
+    "Node.environment": cube_of,
+    "Node.in_captures": flag,
+    "Node.material": new_material,
+    "Node.matrix": matrix,
+    "Node.mesh": lambda world, rng, thing: one(rng, None, *world.meshes),
+    "Node.name": choice("a", "b"),
+    "Node.parent": group_of,
+    "Node.position": place,
+    "Node.receive_shadow": flag,
+    "Node.render_order": choice(-1, 0, 1),
+    "Node.rotation": lambda world, rng, thing: rng.normal(size=4),
+    "Node.scale": lambda world, rng, thing: rng.choice([-1, 1]) * rng.uniform(0.5, 1.5, 3),
+    "Node.visible": flag,
+    "Probe.depth_format": choice(*DEPTHS),
+    "Probe.exclude": excluded,
+    "Probe.faces_per_frame": choice(1, 2, 5),
+    "Probe.far": number(1, 20),
+    "Probe.format": choice(*FORMATS),
+    "Probe.mipmaps": flag,
+    "Probe.near": number(0.01, 0.6),
+    "Probe.parent": lambda world, rng, thing: one(rng, None, random_node(world, rng)),
+    "Probe.position": vector(-1, 1),
+    "Probe.samples": choice(1, 4),
+    "Probe.size": choice(6, 9, 14),
+    "Probe.update": choice("once", "manual", 2),
+    "RenderTexture.camera": lambda world, rng, thing: random_camera(rng),
+    "RenderTexture.depth_format": choice(*DEPTHS),
+    "RenderTexture.effects": lambda world, rng, thing: [
+        random_effect(rng) for _ in range(rng.integers(3))
+    ],
+    "RenderTexture.exclude": excluded,
+    "RenderTexture.format": choice(*FORMATS),
+    "RenderTexture.mipmaps": flag,
+    "RenderTexture.name": choice("a", "b"),
+    "RenderTexture.samples": choice(1, 4),
+    "RenderTexture.scene": scene_of,
+    "RenderTexture.size": lambda world, rng, thing: tuple(rng.integers(6, 20, 2).tolist()),
+    "RenderTexture.wrap": choice("clamp", "repeat"),
+    "Scene.background": lambda world, rng, thing: one(rng, None, rng.random(4), *world.cubes),
+    "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
+    "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
+    "Mesh.normals": lambda world, rng, thing: one(
+        rng, None, rng.normal(size=thing.positions.shape)
+    ),
+    "Mesh.positions": lambda world, rng, thing: (
+        thing.positions * rng.uniform(0.8, 1.2, 3) + rng.uniform(-0.1, 0.1, 3)
+    ),
+    "Mesh.uvs": lambda world, rng, thing: one(rng, None, rng.random((len(thing.positions), 2))),
+    "Material.blend": blend,
+    "Material.color_write": choice(True, False, (True, False, True, True)),
+    "Material.depth_test": flag,
+    "Material.depth_write": choice(None, False, True),
+    "Material.double_sided": flag,
+    "Material.opacity": choice(0.3, 0.7, 1),
+    "Material.stencil": stencil,
+    "BasicMaterial.color": color,
+    "BasicMaterial.cubemap": cube_of,
+    "BasicMaterial.map": map_of,
+    "BasicMaterial.vertex_colors": flag,
+    "PhongMaterial.color": color,
+    "PhongMaterial.ka": number(0, 1),
+    "PhongMaterial.kd": number(0, 1),
+    "PhongMaterial.ks": number(0, 1),
+    "PhongMaterial.map": map_of,
+    "PhongMaterial.shininess": number(1, 30),
+    "PhongMaterial.vertex_colors": flag,
+    "MirrorMaterial.color": color,
+    "MirrorMaterial.color_weight": number(0, 1),
+    "MirrorMaterial.env_weight": number(0, 1),
+    "MirrorMaterial.f0": choice(None, 0.1, 0.6),
+    "MirrorMaterial.tint": color,
+    "GlassMaterial.ior": number(1.05, 2),
+    "GlassMaterial.fresnel": flag,
+    "GlassMaterial.tint": color,
+    "ShaderMaterial.displacement": choice(None, 0.5, 1.0),
+    "ShaderMaterial.fragment": choice(*SOURCES),
+    "ShaderMaterial.textures": lambda world, rng, thing: {
+        "picture": one(rng, random_image(rng), world.textures[0]),
+        "around": one(rng, *world.cubes, *world.probes),
+    },
+    "ShaderMaterial.uniforms": uniforms_of_shader,
+    "ShaderMaterial.vertex": choice(None, *VERTEX_SOURCES),
+    "ImageEffect.fragment": choice(*EFFECT_SOURCES),
+    "ImageEffect.textures": lambda world, rng, thing: {"veil": random_image(rng)},
+    "ImageEffect.uniforms": lambda world, rng, thing: {"strength": float(rng.random())},
+    "Light.color": color,
+    "Light.intensity": number(0, 1.5),
+    "PointLight.decay": choice(0, 1, 2),
+    "PointLight.position": vector(-4, 4),
+    "PointLight.shadow": shadow,
+    "SpotLight.angle": number(20, 60),
+    "SpotLight.decay": choice(0, 1, 2),
+    "SpotLight.direction": vector(-3, -1),
+    "SpotLight.penumbra": number(0, 1),
+    "SpotLight.position": vector(1, 4),
+    "SpotLight.shadow": shadow,
+    "DirectionalLight.direction": vector(-3, -1),
+    "DirectionalLight.shadow": shadow,
+    "Camera.view": view,
+    "PerspectiveCamera.far": number(3, 30),
+    "PerspectiveCamera.fov": number(40, 90),
+    "PerspectiveCamera.near": number(0.05, 1.5),
+    "PerspectiveCamera.position": vector(1.5, 3),
+    "PerspectiveCamera.shift": lambda world, rng, thing: rng.uniform(-0.3, 0.3, 2),
+    "PerspectiveCamera.target": lambda world, rng, thing: one(rng, None, rng.uniform(-0.5, 0.5, 3)),
+    "PerspectiveCamera.up": vector(0.1, 1),
+    "OrthographicCamera.far": number(3, 30),
+    "OrthographicCamera.height": number(3, 6),
+    "OrthographicCamera.near": number(0.05, 2),
+    "OrthographicCamera.position": vector(-4, -2),
+    "OrthographicCamera.target": lambda world, rng, thing: rng.uniform(-0.5, 0.5, 3),
+    "OrthographicCamera.up": vector(0.1, 1),
+    "StereoCamera.layout": choice("anaglyph", "side_by_side", "top_bottom"),
+    "StereoCamera.left": lambda world, rng, thing: random_camera(rng),
+    "StereoCamera.right": lambda world, rng, thing: random_camera(rng),
+}
+
+#: Values of these make probes late on purpose: afterwards they must catch up.
+LATE = {"Probe.update": "on_change", "Probe.faces_per_frame": 6}
+
+
+def edit_property(name, world, rng, draw):
+    """Set a property of a random object that has it. Gives what was changed, and how to undo that."""
+    class_name, attribute = name.split(".")
+    thing = one(rng, *world.things(getattr(cc, class_name)))
+    old = getattr(thing, attribute)
+    old = dict(old) if attribute in ("uniforms", "textures") else old
+    setattr(thing, attribute, VALUES[name](world, rng, thing))
+    if name in LATE:
+        draw()
+        node = random_node(world, rng)
+        node.position = np.array(node.position) + rng.uniform(-0.3, 0.3, 3)
+        draw()
+        setattr(thing, attribute, LATE[name])
+    return f"{name} of {thing!r}", lambda: setattr(thing, attribute, old)
+
+
+def method_set_face(world, rng, draw):
+    cube = one(rng, *world.cubes)
+    cube.set_face(int(rng.integers(6)), rng.random((4, 4, 3)).astype(np.float32))
+
+
+def method_add_node(world, rng, draw):
+    scene = one(rng, *world.scenes)
+    box, material = cc.Mesh.box(0.3), cc.PhongMaterial(color=rng.random(3))
+    scene.add(box, material, position=rng.uniform(-2, 2, 3), name="added")
+
+
+def method_remove_node(world, rng, draw):
+    method_add_node(world, rng, draw)
+    draw()
+    for scene in world.scenes:
+        for node in scene.nodes:
+            if node.name == "added":
+                scene.remove(node)
+
+
+def method_add_and_remove_lights(world, rng, draw):
+    lamp = world.scene.add(cc.SpotLight((0, 3, 0), shadow=cc.Shadow(size=16)))
+    draw()
+    world.scene.remove(lamp)
+
+
+def method_one_uniform(world, rng, draw):
+    one(rng, *world.things(cc.ShaderMaterial)).uniforms["tone"] = rng.random(3)
+    one(rng, *world.things(cc.ImageEffect)).uniforms["strength"] = float(rng.random())
+
+
+def method_one_texture(world, rng, draw):
+    material = one(rng, *world.things(cc.ShaderMaterial))
+    material.textures["around"] = one(rng, *world.cubes, *world.probes)
+
+
+def method_update_a_mesh(world, rng, draw):
+    mesh = one(rng, *world.meshes)
+    mesh.update(positions=mesh.positions[:, [2, 0, 1]], colors=rng.random(mesh.positions.shape))
+
+
+def method_move_the_camera(world, rng, draw):
+    world.cameras[0].orbit(yaw=float(rng.uniform(-30, 30)), pitch=5)
+    world.cameras[0].walk(float(rng.uniform(-0.3, 0.3)))
+
+
+METHODS = {name[7:]: value for name, value in sorted(globals().items()) if name[:7] == "method_"}

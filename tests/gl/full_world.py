@@ -1,0 +1,239 @@
+"""A small world that has at least one of everything whose properties can be set, and all pictures of it."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+import cubecam as cc
+from tests.gl.flat import quad
+
+SIZE = (24, 20)
+
+SOURCES = (
+    """uniform vec3 tone; uniform sampler2D picture; uniform samplerCube around; out vec4 heat;
+    vec3 shade(Surface s) {
+        heat = vec4(s.normal, tone.r);
+        return tone * texture(picture, s.uv).rgb + 0.4 * environment(s.normal)
+            + 0.3 * texture(around, s.normal).rgb;
+    }""",
+    """uniform vec3 tone; uniform sampler2D picture; uniform samplerCube around; out vec4 heat;
+    vec4 shade(Surface s) {
+        heat = vec4(s.position, 1.0);
+        vec3 lit = phong(s, tone, 0.1, 0.7, 0.4, 9.0);
+        return vec4(lit + texture(picture, s.uv).rgb * texture(around, s.incident).rgb, 0.7);
+    }""",
+)
+VERTEX_SOURCES = (
+    "uniform float time = 0.5; void vertex(inout Vertex v) { v.position.y += 0.2 * sin(9.0 * v.uv.x + time); }",
+    "uniform float time = 0.5; void vertex(inout Vertex v) { v.position += 0.1 * time * v.normal; }",
+)
+EFFECT_SOURCES = (
+    """uniform float strength = 0.5; uniform sampler2D veil;
+    vec3 effect(vec2 uv) { return mix(frame(uv).rgb, texture(veil, uv).rgb, strength * 0.4); }""",
+    """uniform float strength = 0.5; uniform sampler2D veil;
+    vec4 effect(vec2 uv) { return frame(uv.yx) + strength * texture(veil, uv.yx); }""",
+)
+
+
+def random_image(rng):
+    pixels = rng.integers(0, 256, (6, 5, 3), dtype=np.uint8)
+    return cc.Image(
+        pixels, mipmaps=bool(rng.integers(2)), wrap=str(rng.choice(["repeat", "clamp"]))
+    )
+
+
+def random_cube(rng):
+    return cc.CubeMap(rng.random((6, 4, 4, 3), dtype=np.float32), mipmaps=bool(rng.integers(2)))
+
+
+def random_effect(rng):
+    source = EFFECT_SOURCES[rng.integers(len(EFFECT_SOURCES))]
+    return cc.ImageEffect(source, textures={"veil": random_image(rng)})
+
+
+def random_camera(rng):
+    return cc.PerspectiveCamera(
+        fov=rng.uniform(50, 80), position=rng.uniform(2, 3, 3), target=rng.uniform(-0.3, 0.3, 3)
+    )
+
+
+def colored_box():
+    box = cc.Mesh.box(0.6)
+    colors = np.random.default_rng(5).random((len(box.positions), 3))
+    return cc.Mesh(box.positions, box.indices, normals=box.normals, uvs=box.uvs, colors=colors)
+
+
+@dataclass
+class FullWorld:
+    """`scene` is what is drawn; `inner` and `spare` are what render textures show."""
+
+    scene: cc.Scene
+    inner: cc.Scene
+    spare: cc.Scene
+    cameras: list
+    stereo: cc.StereoCamera
+    effects: list
+    meshes: list
+    cubes: list
+    images: list
+    textures: list = field(default_factory=list)
+    probes: list = field(default_factory=list)
+
+    @property
+    def scenes(self):
+        return [self.scene, self.inner, self.spare]
+
+    def things(self, kind):
+        """All objects of a class, in an order that does not change."""
+        nodes = [node for scene in self.scenes for node in scene.nodes]
+        cameras = [*self.cameras, self.stereo.left, self.stereo.right]
+        cameras += [texture.camera for texture in self.textures]
+        effects = [*self.effects, *(e for texture in self.textures for e in texture.effects)]
+        lights = [light for scene in self.scenes for light in scene.lights]
+        materials = [node.material for node in nodes if node.material is not None]
+        every = [*nodes, *self.scenes, *lights, *materials, *cameras, self.stereo, *effects]
+        every += [*self.textures, *self.probes, *self.cubes, *self.images, *self.meshes]
+        if kind is cc.Camera:  # the others make their matrices themselves
+            return [thing for thing in every if type(thing) is cc.Camera]
+        return [thing for thing in every if isinstance(thing, kind)]
+
+
+def inner_scene(rng):
+    scene = cc.Scene(background=rng.random(3), environment=random_cube(rng))
+    scene.add(cc.PointLight(position=(2, 4, 1)))
+    scene.add(cc.Mesh.box(0.6), cc.PhongMaterial(color=rng.random(3)), position=(0.7, 0, 0))
+    scene.add(cc.Mesh.box(0.5), cc.BasicMaterial(color=rng.random(3)), position=(-0.5, 0.4, 0))
+    return scene
+
+
+def full_world(rng):
+    scene = cc.Scene(environment=random_cube(rng))
+    inner, spare = inner_scene(rng), inner_scene(rng)
+    images, cubes = [random_image(rng) for _ in range(2)], [random_cube(rng) for _ in range(2)]
+    meshes = [colored_box(), cc.Mesh.sphere(0.4, 12, 6), cc.Mesh.box(0.5), cc.Mesh.plane(0.8, 0.8)]
+    camera = cc.PerspectiveCamera(fov=65, position=(3, 1, 2), target=(0, 0, 0))
+    lens = camera.projection(aspect=SIZE[0] / SIZE[1])
+    world = FullWorld(
+        scene=scene,
+        inner=inner,
+        spare=spare,
+        cameras=[
+            camera,
+            cc.OrthographicCamera(height=5, position=(-3, 2, 3), target=(0, 0, 0)),
+            cc.Camera(view=random_camera(rng).view, projection=lens),
+        ],
+        stereo=cc.StereoCamera(random_camera(rng), random_camera(rng), layout="side_by_side"),
+        effects=[random_effect(rng)],
+        meshes=meshes,
+        cubes=cubes,
+        images=images,
+    )
+    scene.add(cc.PointLight(position=(2, 4, 1), shadow=cc.Shadow(size=24)))
+    scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(size=32)))
+    scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(size=32, radius=0)))
+    scene.add(cc.PointLight(position=(-2, 1, 2), intensity=0.3))
+    scene.add(cc.AmbientLight(intensity=0.2))
+
+    lens = cc.PerspectiveCamera(fov=50, position=(0.5, 0.6, 2), target=(0, 0, 0))
+    world.textures = [
+        cc.RenderTexture(inner, lens, size=(12, 9), mipmaps=True, name="inner"),
+        cc.RenderTexture(
+            scene, random_camera(rng), size=(14, 10), effects=[random_effect(rng)], name="monitor"
+        ),
+    ]
+    group = scene.add(name="group")
+    ball, box = meshes[1], meshes[2]
+    world.probes = [
+        cc.Probe(position=(0.3, 0.2, 0.1), size=12, format="rgba32f"),
+        cc.Probe(position=(-1, 0.3, 0.5), size=10),
+        cc.Probe(size=8, format="rgba8"),
+    ]
+    mirror, glass, shown = world.probes
+    scene.add(meshes[0], cc.BasicMaterial(vertex_colors=True), position=(1.2, 0.4, -0.6))
+    scene.add(box, cc.BasicMaterial(map=images[0]), position=(-1.2, -0.4, -0.8), parent=group)
+    scene.add(box, cc.PhongMaterial(map=images[1]), position=(0.4, 1.1, 0.3), parent=group)
+    scene.add(ball, cc.MirrorMaterial(), position=(0.2, 0, 0.2), environment=mirror, scale=1.3)
+    scene.add(ball, cc.GlassMaterial(), position=(-1, 0.3, 0.5), environment=glass)
+    scene.add(ball, cc.MirrorMaterial(env_weight=0.7), position=(1, -0.5, 1))
+    scene.add(box, cc.BasicMaterial(cubemap=shown), position=(0.5, -0.7, 1.5), name="shown")
+    scene.add(
+        box, cc.BasicMaterial(color=(1, 0.5, 0.2), opacity=0.5), position=(1.5, 0.3, 0.8), scale=1.2
+    )
+    scene.add(cc.Mesh.plane(6, 5), cc.PhongMaterial(), position=(0, -1.3, 0), name="floor")
+    shader = cc.ShaderMaterial(
+        SOURCES[0],
+        vertex=VERTEX_SOURCES[0],
+        displacement=0.3,
+        uniforms={"tone": (0.6, 0.4, 0.3)},
+        textures={"picture": images[0], "around": cubes[0]},
+    )
+    scene.add(meshes[0], shader, position=(-0.5, 0.9, 1.2))
+    screens = [
+        scene.add(
+            quad(1.2, 1.2),
+            cc.PhongMaterial(map=texture, ka=0.6, double_sided=True),
+            position=(0.9 * index - 1.4, 0.2, 1 - index),
+            rotation=cc.axis_angle((0, 1, 0), 40),
+            name="screen",
+            in_captures=index == 0,
+        )
+        for index, texture in enumerate(world.textures)
+    ]
+    world.textures[1].exclude = [screens[1]]
+    return world
+
+
+def refused(call):
+    """What a call gives, or the words with which it refuses."""
+    try:
+        return call()
+    except ValueError as error:
+        return str(error)
+
+
+def pictures(renderer, world):
+    """Every picture of a world by name: arrays, or the words of a refusal."""
+    scene, found = world.scene, {}
+    camera, flat, matrices = world.cameras
+
+    def add_frame(name, eye, **options):
+        frame = refused(lambda: renderer.render(scene, eye, SIZE, **options))
+        for output in () if isinstance(frame, str) else ("color", "distance", "id", "stencil"):
+            if getattr(frame, output) is not None:
+                found[f"{name} {output}"] = getattr(frame, output)
+        if isinstance(frame, str):
+            found[name] = frame
+
+    stencils = {"depth_format": "depth32f_stencil8"}
+    outputs = ("distance", "id", "stencil")
+    add_frame("frame", camera, format="rgba32f", outputs=outputs, **stencils)
+    add_frame("effects", flat, effects=world.effects, samples=4)
+    add_frame("matrices", matrices, tonemap="aces", **stencils)
+    add_frame("stereo", world.stereo)
+    cube = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, outputs=("id",)))
+    if isinstance(cube, str):
+        found["capture"] = cube
+    else:
+        found["capture"], found["capture id"] = cube.faces, cube.id
+    options = {"outputs": ("id",), "depth_order": "farthest"}
+    behind = refused(lambda: renderer.capture(scene, (0.1, 0.2, 0.3), 10, **options))
+    if isinstance(behind, str):
+        found["farthest"] = behind
+    else:
+        found["farthest"], found["farthest id"] = behind.faces, behind.id
+    heat = refused(lambda: renderer.render(scene, camera, SIZE, outputs=("heat",)))
+    if not isinstance(heat, str):  # some node has a material that declares it
+        found["heat"] = heat.outputs["heat"]
+    for index, light in enumerate(scene.lights):
+        if getattr(light, "shadow", None) is not None:
+            shadow = refused(lambda lamp=light: renderer.shadow_map(scene, lamp))
+            found[f"shadow of light {index}"] = shadow
+    if not any(isinstance(picture, str) for picture in found.values()):
+        # After a refusal these hold what was drawn before it.
+        for index, probe in enumerate(world.probes):
+            got = refused(lambda held=probe: renderer.read_probe(held).faces)
+            found[f"probe {index}"] = got
+        for index, texture in enumerate(world.textures):
+            got = refused(lambda held=texture: renderer.read_texture(held))
+            found[f"texture {index}"] = got
+    return found

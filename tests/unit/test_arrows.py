@@ -1,0 +1,166 @@
+"""Arrows between folders go one way: C++ includes and Python imports, read from the sources.
+
+The two tables below are the one place that states who may know whom; docs/architecture.md draws them.
+"""
+
+import ast
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+#: A folder of cpp/ may include from itself and from those named before it in this order, but for the exceptions.
+CPP_ORDER = (
+    "core",
+    "math",
+    "image",
+    "cubemap",
+    "geometry",
+    "materials",
+    "scene",
+    "gl",
+    "render/resources",
+    "render/passes",
+    "render/graph",
+    "render",
+    "bindings",
+)
+#: Folders that may know less than the order says.
+CPP_KNOWS = {"gl": {"core"}, "math": {"core"}}
+
+#: The parts of python/cubecam, a part being a folder or a module, in the same way.
+PYTHON_ORDER = (
+    "_core",
+    "_old_names",
+    "_arguments",
+    "_pickling",
+    "data",  # the packaged files and their list
+    "io",
+    "pictures",
+    "navigation",
+    "_shader_inputs",
+    "_attach",
+    "cubecam",  # the package itself: __init__.py
+    "examples",
+    "demo",
+    "cli",
+    "__main__",
+)
+PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}}
+
+
+def allowed(part, order, knows):
+    return knows.get(part, set(order[: order.index(part)])) | {part}
+
+
+def cpp_folder(path):
+    """The folder of the table in which a source or a header lies; None for other headers."""
+    found = [name for name in CPP_ORDER if str(path).startswith(f"cubecam/{name}/")]
+    if str(path).startswith("bindings/"):
+        return "bindings"
+    return max(found, key=len) if found else None
+
+
+def cpp_arrows():
+    """(file, folder, folder that it includes, what it includes) of all C++ sources."""
+    for path in sorted((ROOT / "cpp").rglob("*.[ch]pp")):
+        inside = path.relative_to(ROOT / "cpp")
+        folder = cpp_folder(inside.as_posix())
+        if folder is None:
+            continue
+        for name in re.findall(r'^\s*#include "([^"]+)"', path.read_text(), re.MULTILINE):
+            other = cpp_folder(name)
+            if other is not None:
+                yield inside, folder, other, name
+
+
+def python_part(module):
+    """The part of the table that a module's dotted name below cubecam belongs to."""
+    first = module.split(".")[0]
+    return first or "cubecam"
+
+
+def python_arrows():
+    """(file, part, part that it imports), imports inside functions as well; those of types are left out."""
+    package = ROOT / "python" / "cubecam"
+    for path in sorted(package.rglob("*.py")):
+        parts = path.relative_to(package).with_suffix("").parts
+        here = parts[:-1]
+        part = python_part("" if parts == ("__init__",) else parts[0])
+        tree = ast.parse(path.read_text())
+        for_types = {
+            id(node)
+            for block in ast.walk(tree)
+            if isinstance(block, ast.If) and "TYPE_CHECKING" in ast.unparse(block.test)
+            for node in ast.walk(block)
+        }
+        for node in ast.walk(tree):
+            if id(node) in for_types:
+                continue
+            for name in imported(node, here):
+                yield path.relative_to(package), part, python_part(name)
+
+
+def imported(node, here):
+    """Dotted names below cubecam that a statement imports."""
+    if isinstance(node, ast.Import):
+        names = [name.name for name in node.names]
+        return [
+            n.partition("cubecam")[2].lstrip(".") for n in names if n.split(".")[0] == "cubecam"
+        ]
+    if not isinstance(node, ast.ImportFrom):
+        return []
+    if node.level == 0:
+        if (node.module or "").split(".")[0] != "cubecam":
+            return []
+        base = node.module.split(".")[1:]
+    else:
+        base = [*here[: len(here) - node.level + 1], *(node.module or "").split(".")]
+        base = [word for word in base if word]
+    if base:
+        return [".".join(base)]
+    known = {path.stem for path in (ROOT / "python" / "cubecam").iterdir()} | {"_core"}
+    return [name.name if name.name in known else "" for name in node.names]
+
+
+def test_every_folder_is_in_the_table():
+    sources = (ROOT / "cpp" / "cubecam").rglob("*.[ch]pp")
+    folders = {cpp_folder(path.relative_to(ROOT / "cpp").as_posix()) for path in sources}
+    assert folders == set(CPP_ORDER) - {"bindings"}
+    parts = {
+        path.stem
+        for path in (ROOT / "python" / "cubecam").iterdir()
+        if path.suffix == ".py" or (path / "__init__.py").exists()
+    }
+    assert parts - {"__init__"} == set(PYTHON_ORDER) - {"_core", "cubecam"}
+
+
+def test_cpp_includes_go_down():
+    arrows = list(cpp_arrows())
+    assert len(arrows) > 300
+    wrong = [
+        f"{file} of {folder} includes {name}"
+        for file, folder, other, name in arrows
+        if other not in allowed(folder, CPP_ORDER, CPP_KNOWS)
+    ]
+    assert wrong == []
+
+
+def test_python_imports_go_down():
+    arrows = list(python_arrows())
+    assert len(arrows) > 60
+    wrong = [
+        f"{file} of {part} imports {other}"
+        for file, part, other in arrows
+        if other not in allowed(part, PYTHON_ORDER, PYTHON_KNOWS)
+    ]
+    assert wrong == []
+
+
+def test_the_core_knows_neither_python_nor_opengl_below_gl():
+    for path in sorted((ROOT / "cpp" / "cubecam").rglob("*.[ch]pp")):
+        text = path.read_text()
+        assert not re.search(r"#include [<\"](pybind11|Python\.h)", text), path
+        folder = cpp_folder(path.relative_to(ROOT / "cpp").as_posix())
+        if CPP_ORDER.index(folder) < CPP_ORDER.index("gl"):
+            assert not re.search(r"#include <(glad|EGL|GL)/", text), path
