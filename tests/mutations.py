@@ -314,7 +314,7 @@ MUTATIONS = [
     Mutation(
         "key: what a mirror shows forgotten",
         DRAWN,
-        "key.add(found.cube.revision);",
+        "picture.textures.push_back(found.environment.revision);",
         "",
         PROBES,
     ),
@@ -335,7 +335,7 @@ MUTATIONS = [
     Mutation(
         "key: what a map shows forgotten",
         DRAWN,
-        "key.add(found.map.revision);",
+        "picture.textures.push_back(texture.revision);",
         "",
         RENDER_TEXTURES,
     ),
@@ -668,8 +668,8 @@ MUTATIONS = [
     Mutation(
         "shadow: depends on all textures",
         QUERIES,
-        "if (mentions(shader.vertex.text, name)) found.push_back(place);",
-        "found.push_back(place);",
+        "if (mentions(traits.user_code->vertex->text, traits.textures[place].name)) {",
+        "{",
         ("tests/gl/test_render_texture_circles.py",),
     ),
     Mutation(

@@ -60,14 +60,15 @@ inline py::tuple from_color_write(const glm::bvec4& write) {
     return py::make_tuple(bool(write.r), bool(write.g), bool(write.b), bool(write.a));
 }
 
-/// Defines `__init__`: a material's own arguments, from which `make` makes its parameters, then
-/// what every material has.
-template <class P, class... Own, class... Named>
-void def_init(Class<MaterialOf<P>, Material>& made, P (*make)(Own...), const Named&... named) {
+/// Defines `__init__`: a material's own arguments, from which `make` makes its kind, then what
+/// every material has.
+template <class Kind, class... Own, class... Named>
+void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
+              const Named&... named) {
     made.def(py::init([make](Own... own, float opacity, bool double_sided, const BlendLike& blend,
                              const DepthWriteLike& depth_write, bool depth_test,
                              const ColorWriteLike& color_write, const OrNone<Stencil>& stencil) {
-                 return std::make_shared<MaterialOf<P>>(
+                 return std::make_shared<MaterialOf<Kind>>(
                      make(own...),
                      SurfaceOptions{opacity, double_sided, to_blend(blend),
                                     to_depth_write(depth_write), depth_test,

@@ -30,7 +30,6 @@ __all__: list[str] = [
     "ImageEffect",
     "ImageError",
     "Light",
-    "Limits",
     "Material",
     "Mesh",
     "MeshError",
@@ -43,15 +42,14 @@ __all__: list[str] = [
     "Probe",
     "RenderTexture",
     "Renderer",
-    "RendererInfo",
     "Scene",
     "ShaderError",
     "ShaderMaterial",
     "Shadow",
     "SpotLight",
-    "Stats",
     "Stencil",
     "StereoCamera",
+    "__version__",
     "axis_angle",
     "devices",
 ]
@@ -2030,6 +2028,161 @@ class BasicMaterial(Material):
     @vertex_colors.setter
     def vertex_colors(self, arg1: bool) -> None: ...
 
+class GlassMaterial(Material):
+    """
+    Glass: F * environment(R) + (1 - F) * tint * environment(T).
+
+    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
+    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
+    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+
+    Parameters
+    ----------
+    eta : float
+        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
+    fresnel : bool
+        False: T alone.
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is refracted.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
+    >>> water.fresnel
+    True
+    """
+    def __init__(
+        self: GlassMaterial,
+        eta: typing.SupportsFloat | typing.SupportsIndex = 0.65789473,
+        fresnel: bool = True,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    @property
+    def eta(self) -> float:
+        """
+        float: refractive index outside divided by the one inside.
+        """
+    @eta.setter
+    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fresnel(self) -> bool:
+        """
+        bool: whether part of the light is reflected; False: all is refracted.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: bool) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is refracted.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class MirrorMaterial(Material):
+    """
+    A mirror: env_weight * tint * environment(R) + color_weight * color.
+
+    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
+    the scene's, a CubeMap or a Probe.
+
+    Parameters
+    ----------
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is reflected.
+    env_weight : float
+        Weight of what is reflected, not negative.
+    color : array_like (3,) or (4,)
+        Linear RGB or RGBA that the surface adds.
+    color_weight : float
+        Its weight, not negative.
+    fresnel : float, optional
+        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
+        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+        Rendering", 1994). None: it is not.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
+    >>> gold.env_weight, gold.fresnel
+    (0.78, None)
+    """
+    def __init__(
+        self: MirrorMaterial,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        color: numpy.typing.ArrayLike = (0, 0, 0),
+        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        *,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def color_weight(self) -> float:
+        """
+        float: weight of the mirror's own colour.
+        """
+    @color_weight.setter
+    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def env_weight(self) -> float:
+        """
+        float: weight of what is reflected.
+        """
+    @env_weight.setter
+    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def fresnel(self) -> float | None:
+        """
+        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is reflected.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
 class PhongMaterial(Material):
     """
     Phong's reflection model.
@@ -2137,161 +2290,6 @@ class PhongMaterial(Material):
         """
     @vertex_colors.setter
     def vertex_colors(self, arg1: bool) -> None: ...
-
-class MirrorMaterial(Material):
-    """
-    A mirror: env_weight * tint * environment(R) + color_weight * color.
-
-    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
-    the scene's, a CubeMap or a Probe.
-
-    Parameters
-    ----------
-    tint : array_like (3,) or (4,)
-        Linear RGB or RGBA, times what is reflected.
-    env_weight : float
-        Weight of what is reflected, not negative.
-    color : array_like (3,) or (4,)
-        Linear RGB or RGBA that the surface adds.
-    color_weight : float
-        Its weight, not negative.
-    fresnel : float, optional
-        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
-        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
-        Rendering", 1994). None: it is not.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
-
-    Raises
-    ------
-    ValueError
-        For a value out of its range or not finite.
-
-    Examples
-    --------
-    >>> import cubecam as cc
-    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
-    >>> gold.env_weight, gold.fresnel
-    (0.78, None)
-    """
-    def __init__(
-        self: MirrorMaterial,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
-        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        color: numpy.typing.ArrayLike = (0, 0, 0),
-        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
-        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        double_sided: bool = False,
-        blend: str | None = None,
-        depth_write: bool | None = None,
-        depth_test: bool = True,
-        color_write: bool | tuple[bool, bool, bool, bool] = True,
-        stencil: Stencil | None = None,
-    ) -> None: ...
-    @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, read-only.
-        """
-    @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
-    @property
-    def color_weight(self) -> float:
-        """
-        float: weight of the mirror's own colour.
-        """
-    @color_weight.setter
-    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def env_weight(self) -> float:
-        """
-        float: weight of what is reflected.
-        """
-    @env_weight.setter
-    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def fresnel(self) -> float | None:
-        """
-        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
-        """
-    @fresnel.setter
-    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
-    @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, times what is reflected.
-        """
-    @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
-
-class GlassMaterial(Material):
-    """
-    Glass: F * environment(R) + (1 - F) * tint * environment(T).
-
-    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
-    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
-    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
-
-    Parameters
-    ----------
-    eta : float
-        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
-    fresnel : bool
-        False: T alone.
-    tint : array_like (3,) or (4,)
-        Linear RGB or RGBA, times what is refracted.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
-
-    Raises
-    ------
-    ValueError
-        For a value out of its range or not finite.
-
-    Examples
-    --------
-    >>> import cubecam as cc
-    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
-    >>> water.fresnel
-    True
-    """
-    def __init__(
-        self: GlassMaterial,
-        eta: typing.SupportsFloat | typing.SupportsIndex = 0.6578947368421053,
-        fresnel: bool = True,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
-        *,
-        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        double_sided: bool = False,
-        blend: str | None = None,
-        depth_write: bool | None = None,
-        depth_test: bool = True,
-        color_write: bool | tuple[bool, bool, bool, bool] = True,
-        stencil: Stencil | None = None,
-    ) -> None: ...
-    @property
-    def eta(self) -> float:
-        """
-        float: refractive index outside divided by the one inside.
-        """
-    @eta.setter
-    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def fresnel(self) -> bool:
-        """
-        bool: whether part of the light is reflected; False: all is refracted.
-        """
-    @fresnel.setter
-    def fresnel(self, arg1: bool) -> None: ...
-    @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, times what is refracted.
-        """
-    @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
 
 class ShaderMaterial(Material):
     """

@@ -1,6 +1,6 @@
 // What the GLSL of a ShaderMaterial has at hand. The documentation of cubecam.ShaderMaterial lists these names: they are
 // an interface, and stay.
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
 
 // The node's matrix, from the mesh's space to the world, and what turns its normals there (to any length).
 mat4 model_matrix() {
@@ -68,9 +68,5 @@ float schlick(Surface surface, float f0) {
 }
 
 #include "include/user_fragment.glsl"
-
-// shade() may give a colour, or a colour and an alpha.
-vec4 with_alpha(vec3 color) { return vec4(color, 1.0); }
-vec4 with_alpha(vec4 color) { return color; }
 #endif
 #endif

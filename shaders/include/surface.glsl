@@ -1,15 +1,12 @@
 // What the vertex shader hands to the fragment shader; STAGE is `out` or `in`.
 //
-// Constants of a draw call travel as flat inputs, see draw.glsl. Meshes of many small triangles (DENSE) leave them in
-// their blocks: every input costs each triangle. `material` and `light_*` are where they are.
+// A few lights travel as flat inputs, as the constants of a material do (constants.glsl). Meshes of many small triangles
+// (DENSE) leave them in their blocks: every input costs each triangle. `light_*` are where they are.
 #ifdef DENSE
-#define material u_material
 #define light_position(i) u_lights[i].position
 #define light_color(i) u_lights[i].color
 #define light_cone(i) u_lights[i].cone
 #else
-flat STAGE vec4 v_material[2];
-#define material v_material
 #ifdef LIGHT_COUNT
 #if LIGHT_COUNT > 0
 flat STAGE vec4 v_light_position[LIGHT_COUNT];
@@ -34,16 +31,16 @@ STAGE vec3 v_normal;    // world, any length
 STAGE float v_height;  // dot(v_position, v_normal) at the corners
 #endif
 flat STAGE vec4 v_eye;  // see view.glsl
-#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
+#if defined(USES_UV) || defined(USER_SOURCE)
 STAGE vec2 v_uv;
 #endif
 #ifdef HAS_VERTEX_COLORS
 STAGE vec4 v_color;
 #endif
-#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
+#if defined(USES_POSITION_OBJECT) || defined(USER_SOURCE)
 STAGE vec3 v_position_object;
 #endif
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
 STAGE vec3 v_normal_object;
 #endif
 #ifdef TRANSLUCENT

@@ -1,8 +1,9 @@
-#ifdef MATERIAL_PHONG
 // B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975, with white highlights.
 // material[0]: ka * color * ambient light, shininess. material[1]: kd * color, ks.
+#include "include/tint.glsl"
+
 #if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
-vec3 light_answer(Surface surface, int index) {
+vec3 light_answer(Surface surface, vec3 tint, int index) {
     vec4 place = light_position(index);
     vec4 light = light_color(index);
     vec3 to_light = place.xyz - surface.from_origin * place.w;
@@ -13,7 +14,7 @@ vec3 light_answer(Surface surface, int index) {
     // dot(reflect(-to_light, normal), -incident)
     float r_dot_v = dot(to_light, surface.incident) - 2.0 * n_dot_l * dot(surface.normal, surface.incident);
     float highlight = pow(clamp(r_dot_v, 0.0, 1.0), material[0].a);
-    vec3 answer = n_dot_l * material[1].rgb * surface.tint + material[1].a * highlight;
+    vec3 answer = n_dot_l * material[1].rgb * tint + material[1].a * highlight;
 #ifdef LIGHT_DECAY
     answer *= place.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.a);
 #endif
@@ -25,16 +26,16 @@ vec3 light_answer(Surface surface, int index) {
 }
 #endif
 
-vec3 shade(Surface surface) {
-    vec3 result = material[0].rgb * surface.tint;
+vec4 shade(Surface surface) {
+    vec4 tint = tint_of(surface);
+    vec3 result = material[0].rgb * tint.rgb;
 #ifdef LIGHT_COUNT
     const int count = LIGHT_COUNT;
 #else
     int count = u_counts.x;
 #endif
 #if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
-    for (int i = 0; i < count; ++i) result += light_answer(surface, i);
+    for (int i = 0; i < count; ++i) result += light_answer(surface, tint.rgb, i);
 #endif
-    return result;
+    return vec4(result, tint.a);
 }
-#endif

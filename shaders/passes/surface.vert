@@ -3,7 +3,12 @@
 #define VERTEX_STAGE
 #include "include/view.glsl"
 #include "include/draw.glsl"
+#if defined(LIGHT_COUNT) && !defined(DENSE)
+#if LIGHT_COUNT > 0
 #include "include/lights.glsl"
+#endif
+#endif
+#include "include/constants.glsl"
 #include "include/surface.glsl"
 
 layout(location = 0) in vec3 a_position;
@@ -16,7 +21,7 @@ invariant gl_Position;
 #include "include/scene.glsl"
 
 void main() {
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
     vec4 color = vec4(1.0);
 #ifdef HAS_VERTEX_COLORS
     color = a_color;
@@ -39,19 +44,19 @@ void main() {
     v_height = dot(v_position, v_normal);
 #endif
     v_eye = a_view_eye;
-#ifndef DENSE
+#ifdef FLAT_MATERIAL
     v_material = u_material;
 #endif
-#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
+#if defined(USES_UV) || defined(USER_SOURCE)
     v_uv = a_uv;
 #endif
 #ifdef HAS_VERTEX_COLORS
     v_color = a_color;
 #endif
-#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
+#if defined(USES_POSITION_OBJECT) || defined(USER_SOURCE)
     v_position_object = a_position;
 #endif
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
     v_normal_object = a_normal;
 #endif
 #ifdef TRANSLUCENT

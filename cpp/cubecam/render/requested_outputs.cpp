@@ -12,9 +12,9 @@ namespace {
 std::map<std::string, int> outputs_in(const SceneSnapshot& scene) {
     std::map<std::string, int> channels;
     for (const NodeSnapshot& node : scene.nodes) {
-        const auto* shader = std::get_if<ShaderParameters>(&node.material.value.parameters);
-        if (shader == nullptr) continue;
-        for (const NamedOutput& output : declared_outputs(shader->fragment)) {
+        const auto& user = node.material.value.traits().user_code;
+        if (!user) continue;
+        for (const NamedOutput& output : declared_outputs(*user->fragment)) {
             const auto [held, added] = channels.try_emplace(output.name, output.channels);
             if (held->second == output.channels) continue;
             throw std::invalid_argument(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace cubecam {
 namespace {
@@ -20,37 +19,9 @@ glm::mat4 normal_matrix(const glm::dmat4& world) {
     return glm::mat4(glm::mat3(inverse_transpose / largest));
 }
 
-/// Each writes what shaders/<material>.glsl reads. Factors that no texture changes are multiplied
-/// here, once.
-void fill(DrawBlock& block, const BasicParameters& p, const glm::vec3&) {
-    block.material[0] = p.color;
-    block.alpha = p.color.a;
-}
-
-void fill(DrawBlock& block, const PhongParameters& p, const glm::vec3& ambient) {
-    const glm::vec3 color(p.color);
-    block.material[0] = glm::vec4(p.ka * color * ambient, p.shininess);
-    block.material[1] = glm::vec4(p.kd * color, p.ks);
-    block.alpha = p.color.a;
-}
-
-void fill(DrawBlock& block, const MirrorParameters& p, const glm::vec3&) {
-    block.material[0] = glm::vec4(p.env_weight * glm::vec3(p.tint), p.fresnel.value_or(0.0F));
-    block.material[1] = glm::vec4(p.color_weight * glm::vec3(p.color), 0.0F);
-    block.alpha = p.tint.a * p.color.a;
-}
-
-void fill(DrawBlock& block, const GlassParameters& p, const glm::vec3&) {
-    block.material[0] = glm::vec4(glm::vec3(p.tint), p.eta);
-    block.alpha = p.tint.a;
-}
-
-void fill(DrawBlock& block, const ShaderParameters&, const glm::vec3&) { block.alpha = 1.0F; }
-
 }  // namespace
 
-DrawBlock make_draw_block(const NodeSnapshot& node, const glm::dvec3& origin,
-                          const glm::vec3& ambient) {
+DrawBlock make_draw_block(const NodeSnapshot& node, const glm::dvec3& origin) {
     DrawBlock block{};
     glm::dmat4 model = node.world;
     model[3] -= glm::dvec4(origin, 0.0);
@@ -59,9 +30,7 @@ DrawBlock make_draw_block(const NodeSnapshot& node, const glm::dvec3& origin,
     block.normal_matrix = normal_matrix(node.world);
     block.node_id = node.id;
     const MaterialValue& material = node.material.value;
-    std::visit([&](const auto& parameters) { fill(block, parameters, ambient); },
-               material.parameters);
-    block.alpha *= material.surface.opacity;
+    block.alpha = material.traits().alpha * material.surface.opacity;
     return block;
 }
 

@@ -138,15 +138,17 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
 void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
                             Stats& stats) {
     const View& from = input.view.views[layer];
-    const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
+    const MaterialTraits& material = node.material.value.traits();
     const glm::dmat4 matrix = glm::translate(from.view_projection, from.position);
     const Instance instance = make_instance(from, reverse_depth(matrix), from.position, layer);
-    const DrawBlock block = make_draw_block(node, from.position, glm::vec3(1.0F));
+    const DrawBlock block = make_draw_block(node, from.position);
     instances_ = gl::create_buffer(*gl_, sizeof(instance), &instance);
     block_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, draw_binding, block_.id());
-    UserProgram& program = programs_->shadow(shader, node.mesh->colors() != nullptr);
-    program.use(shader.inputs, input.look_up(node));
+    UserProgram& program = programs_->user_shadow(material, node.mesh->colors() != nullptr);
+    const std::vector<BoundTexture> textures = input.look_up(node);
+    program.use(*material.user_code->inputs,
+                std::span(textures).subspan(material.user_code->first_texture));
     program.program().use();
     const GpuMesh& mesh = cache_->mesh(*node.mesh);
     gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,

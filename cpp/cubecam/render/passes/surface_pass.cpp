@@ -22,7 +22,6 @@ namespace {
 
 constexpr GLuint lights_binding = 1;
 constexpr GLuint shadows_binding = 2;
-constexpr GLuint map_unit = 0;
 constexpr GLuint cube_unit = 1;
 constexpr std::size_t flat_lights = 4;          // beyond that the vertex stage has no room for them
 constexpr std::size_t many_triangles = 10'000;  // of a call
@@ -149,9 +148,15 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
 
     const auto alignment =
         static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment);
-    const std::size_t stride = (sizeof(DrawBlock) + alignment - 1) / alignment * alignment;
     std::vector<Instance> instances;
     std::vector<std::byte> blocks;
+    std::vector<glm::vec4> constants;
+    const auto append = [&](const void* block, std::size_t size) {
+        const std::size_t at = blocks.size();
+        blocks.resize(at + (size + alignment - 1) / alignment * alignment);
+        std::memcpy(blocks.data() + at, block, size);
+        return static_cast<GLintptr>(at);
+    };
     const auto add = [&](const std::vector<PlannedNode>& from, std::vector<Item>& to) {
         for (const PlannedNode& planned : from) {
             const NodeSnapshot& node = input.scene.nodes[planned.node];
@@ -159,7 +164,8 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
                       nullptr,
                       {},
                       static_cast<GLuint>(instances.size()),
-                      static_cast<GLintptr>(blocks.size()),
+                      0,
+                      0,
                       &input.lookups[planned.node]};
             const auto visibilities = input.plan.visible_in(planned);
             auto visibility = visibilities.begin();
@@ -175,9 +181,14 @@ SurfacePass::Prepared SurfacePass::prepare(const PassInput& input) {
             }
             if (item.regions.empty()) continue;
             item.mesh = &cache_->mesh(*node.mesh);
-            const DrawBlock block = make_draw_block(node, origin, ambient_);
-            blocks.resize(blocks.size() + stride);
-            std::memcpy(blocks.data() + item.block, &block, sizeof(block));
+            const DrawBlock block = make_draw_block(node, origin);
+            item.block = append(&block, sizeof(block));
+            const MaterialModel& material = *node.material.value.model;
+            constants.resize(material.traits().kind->constants);
+            if (!constants.empty()) {
+                material.write_constants(ambient_, constants);
+                item.constants = append(constants.data(), constants.size() * sizeof(glm::vec4));
+            }
             to.push_back(std::move(item));
         }
     };
@@ -320,33 +331,28 @@ void SurfacePass::draw_background(const PassInput& input, const Prepared& prepar
 SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) const {
     const MaterialValue& material = node.material.value;
     SurfaceVariant variant;
-    variant.material = material.parameters.index();
+    const MaterialTraits& traits = material.traits();
+    variant.kind = traits.kind;
+    variant.switches = traits.switches;
+    variant.vertex_colors =
+        traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
     variant.double_sided = material.surface.double_sided;
     if (outputs) variant.outputs = outputs_;
     variant.blend = node.blend == Blend::alpha_keep ? Blend::alpha : node.blend;
     variant.dense = node.mesh->triangles()->size() >= dense_triangles;
-    const auto textures = [&](const auto& parameters) {
-        variant.map = node.map.index() != 0;
-        variant.vertex_colors = parameters.vertex_colors && node.mesh->colors() != nullptr;
-    };
-    if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
-        textures(*basic);
-        variant.cube = basic->cubemap.index() != 0;
-    } else if (const auto* phong = std::get_if<PhongParameters>(&material.parameters)) {
-        textures(*phong);
-        variant.lights = light_count_ <= flat_lights ? static_cast<int>(light_count_) : -1;
-        variant.decay = light_decay_;
-        variant.cone = light_cone_;
-    } else if (const auto* mirror = std::get_if<MirrorParameters>(&material.parameters)) {
-        variant.fresnel = mirror->fresnel.has_value();
-    } else if (const auto* glass = std::get_if<GlassParameters>(&material.parameters)) {
-        variant.fresnel = glass->fresnel;
-    } else {
-        const auto& shader = std::get<ShaderParameters>(material.parameters);
-        variant.vertex_colors = node.mesh->colors() != nullptr;
-        variant.moved = shader.moves_vertices();
+    if (traits.user_code) {
+        variant.moved = traits.moves_vertices();
         variant.lights = -1;
         variant.dense = true;
+    } else {
+        for (std::size_t i = 0; i < node.textures.size(); ++i) {
+            if (!is_none(node.textures[i])) variant.textures |= 1U << i;
+        }
+        if (traits.uses_lights) {
+            variant.lights = light_count_ <= flat_lights ? static_cast<int>(light_count_) : -1;
+            variant.decay = light_decay_;
+            variant.cone = light_cone_;
+        }
     }
     if (receive_shadow(node)) {
         variant.shadows = static_cast<int>(shadow_count_);
@@ -356,11 +362,25 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool outputs) c
 }
 
 const gl::Program& SurfacePass::user_program(const SurfaceVariant& variant,
-                                             const ShaderParameters& shader,
+                                             const MaterialTraits& material,
                                              const NodeTextures& lookups) {
-    UserProgram& program = programs_.surface(variant, shader);
-    program.use(shader.inputs, lookups.textures);
+    UserProgram& program = programs_.user_surface(variant, material);
+    program.use(*material.user_code->inputs,
+                std::span(lookups.textures).subspan(material.user_code->first_texture));
     return program.program();
+}
+
+/// Those that the shader looks up. A user's program binds its own.
+void SurfacePass::bind_textures(const Item& item, const SurfaceVariant& variant) {
+    for (std::size_t i = 0; i < item.lookups->textures.size(); ++i) {
+        if ((variant.textures >> i & 1U) == 0) continue;
+        const GLuint texture = item.lookups->textures[i].texture;
+        const bool cube = std::holds_alternative<CubeSourceSnapshot>(item.node->textures[i]);
+        gl_->BindTextureUnit(first_material_unit + static_cast<GLuint>(i),
+                             cube && texture == 0 ? black_.id() : texture);
+    }
+    const GLuint environment = item.lookups->environment.texture;
+    gl_->BindTextureUnit(cube_unit, environment != 0 ? environment : black_.id());
 }
 
 void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::size_t> region,
@@ -375,12 +395,11 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
             first += static_cast<GLuint>(place - item.regions.begin());
             count = 1;
         }
-        const MaterialParameters& material = item.node->material.value.parameters;
+        const MaterialTraits& material = item.node->material.value.traits();
         const SurfaceVariant variant = variant_of(*item.node, outputs);
-        const auto* shader = std::get_if<ShaderParameters>(&material);
-        const gl::Program& program = shader != nullptr
-                                         ? user_program(variant, *shader, *item.lookups)
-                                         : programs_.surface(variant);
+        const gl::Program& program = material.user_code
+                                         ? user_program(variant, material, *item.lookups)
+                                         : programs_.surface(variant, material);
         if (bound != &program) program.use();
         bound = &program;
 
@@ -389,10 +408,11 @@ void SurfacePass::draw_items(std::span<const Item> items, std::optional<std::siz
         if (outputs) write_outputs(item.node->depth_write);
         gl_->BindBufferRange(GL_UNIFORM_BUFFER, draw_binding, blocks_.id(), item.block,
                              sizeof(DrawBlock));
-        if (variant.map) gl_->BindTextureUnit(map_unit, item.lookups->map.texture);
-        const GLuint cube = item.lookups->cube.texture;
-        gl_->BindTextureUnit(cube_unit, cube != 0 ? cube : black_.id());
-
+        if (const std::size_t constants = material.kind->constants; constants > 0) {
+            gl_->BindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(), item.constants,
+                                 static_cast<GLsizeiptr>(constants * sizeof(glm::vec4)));
+        }
+        bind_textures(item, variant);
         gl_->VertexArrayVertexBuffer(item.mesh->array.id(), vertex_buffer::views, instances_.id(),
                                      0, sizeof(Instance));
         gl_->BindVertexArray(item.mesh->array.id());

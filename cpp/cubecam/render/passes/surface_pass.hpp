@@ -64,6 +64,7 @@ private:
         std::vector<std::size_t> regions;  ///< indices into PassInput::regions, ascending
         GLuint first_instance;             ///< record of the first of them
         GLintptr block;                    ///< offset of its uniform block
+        GLintptr constants;                ///< offset of the block of its material, if there is one
         const NodeTextures* lookups;
     };
 
@@ -90,8 +91,9 @@ private:
     void draw_skybox(GLuint cube, GLuint first_instance, std::size_t count, Stats& stats);
     bool use_layers(const PassInput& input, const Prepared& prepared, const Rect& whole) const;
     SurfaceVariant variant_of(const NodeSnapshot& node, bool outputs) const;
-    const gl::Program& user_program(const SurfaceVariant& variant, const ShaderParameters& shader,
+    const gl::Program& user_program(const SurfaceVariant& variant, const MaterialTraits& material,
                                     const NodeTextures& lookups);
+    void bind_textures(const Item& item, const SurfaceVariant& variant);
     void upload_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin);
     void upload_shadows(std::span<const ShadowUse> shadows, const glm::dvec3& origin);
 
