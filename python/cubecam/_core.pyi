@@ -1676,8 +1676,9 @@ class Mesh:
         positions : array_like (V, 3), optional
             Object-space positions, finite. None: they stay.
         normals : array_like (V, 3), optional
-            Outward normals of any length. None: they stay if they were given at some time; if all are
-            smooth ones that the mesh computed, they are computed anew with new positions.
+            Outward normals of any length. None: normals that were given stay, those that a primitive or
+            a file brings too; smooth ones that the mesh computed are computed anew with new positions.
+            ``mesh.normals = None`` makes them smooth.
         uvs : array_like (V, 2), optional
             Texture coordinates. None: they stay.
         colors : array_like (V, 3) or (V, 4), optional
