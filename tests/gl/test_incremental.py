@@ -17,7 +17,7 @@ from tests.gl.full_world import full_world, pictures
 from tests.gl.world import OUTPUTS
 from tests.helpers import DEVICE
 
-SEEDS = (0, 1, pytest.param(2, marks=pytest.mark.slow))
+SEEDS = (0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2)))
 
 
 def same(got, want, what):
@@ -85,7 +85,7 @@ def test_random_edits(new_renderer, seed):
             undo()
             got = pictures(live, world)
         before = got
-    assert seen > 0.6 * len(names)
+    assert seen > 0.5 * len(names)
     assert refused < 0.1 * len(names)
     with cc.Renderer(device=DEVICE) as fresh:
         same(got, pictures(fresh, world), "in the end")

@@ -192,4 +192,4 @@ def test_colors_handed_out_are_read_only():
 
 def test_unknown_arguments_are_refused():
     with pytest.raises(TypeError):
-        cc.PhongMaterial(color=(1, 0, 0))
+        cc.PhongMaterial(colour=(1, 0, 0))
