@@ -33,6 +33,9 @@ STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
+DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
+NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
+RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 
 CUBE_FACE = "cpp/cubecam/math/cube_face.hpp"
@@ -209,15 +212,15 @@ MUTATIONS = [
     Mutation(
         "translucent: near to far",
         "cpp/cubecam/render/passes/draw_plan.cpp",
-        "return a.distance > b.distance;",
-        "return a.distance < b.distance;",
+        "key.distance = -key.distance;",
+        "",
         ALPHA,
     ),
     Mutation(
         "translucent: higher order first",
         "cpp/cubecam/render/passes/draw_plan.cpp",
-        "a.order < b.order : before(a, b)",
-        "a.order > b.order : before(a, b)",
+        "SortKey key{node.render_order, 0,",
+        "SortKey key{-node.render_order, 0,",
         ("tests/gl/test_render_order.py",),
     ),
     Mutation(
@@ -272,9 +275,51 @@ MUTATIONS = [
     Mutation(
         "culling: too eager",
         "cpp/cubecam/math/frustum.hpp",
-        "return corners == 8;",
-        "return corners >= 6;",
+        "plane.offset + glm::dot(plane.reach, half);",
+        "plane.offset + 0.0 * glm::dot(plane.reach, half);",
         STATS + CAPTURE,
+    ),
+    Mutation(
+        "materials: every texture in the first unit",
+        "cpp/cubecam/render/passes/programs.cpp",
+        "std::to_string(first_material_unit + i)",
+        "std::to_string(first_material_unit)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "materials: the alpha of maps forgotten",
+        "cpp/cubecam/scene/snapshot.cpp",
+        "return texture.alpha_counts && map",
+        "return false && texture.alpha_counts && map",
+        ALPHA,
+    ),
+    Mutation(
+        "glass: the inverse of ior forgotten",
+        "cpp/cubecam/materials/glass.hpp",
+        "glm::vec4(glm::vec3(tint), 1.0F / ior)",
+        "glm::vec4(glm::vec3(tint), ior)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "phong: the model's own ambient light forgotten",
+        "cpp/cubecam/materials/phong.hpp",
+        "(1.0F + ambient)",
+        "ambient",
+        PHONG,
+    ),
+    Mutation(
+        "blend: the alpha's factor is the colour's",
+        RASTER,
+        "gl_factor(factors.src_alpha)",
+        "gl_factor(factors.src)",
+        ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "blend: the equation of the node before stays",
+        RASTER,
+        "gl.BlendEquation(free ? gl_equation(factors.equation) : GL_FUNC_ADD);",
+        "if (free) gl.BlendEquation(gl_equation(factors.equation));",
+        ("tests/gl/test_blending.py",),
     ),
     # What a picture depends on.
     Mutation(
@@ -282,15 +327,15 @@ MUTATIONS = [
     ),
     Mutation(
         "key: the node's matrix forgotten",
-        DRAWN,
-        "key.add(node.world);",
-        "",
+        "cpp/cubecam/render/resources/picture_key.cpp",
+        "a.material != b.material || a.world != b.world",
+        "a.material != b.material",
         STATS,
     ),
     Mutation(
         "damage: where a node was is left as it is",
         "cpp/cubecam/render/resources/picture_key.cpp",
-        "if (found != old.end()) add(found->second->bounds);",
+        "found.add(a.bounds);",
         "",
         ("tests/gl/test_damage.py",),
     ),
@@ -389,8 +434,8 @@ MUTATIONS = [
     Mutation(
         "openexr cube copied, not resampled",
         "python/cubecam/io/cubemap_save.py",
-        'picture = source.to_layout("openexr", "inside")',
-        'picture = source.to_layout("column", "inside")',
+        'picture = source.to_layout("openexr", dtype=resampled)',
+        'picture = source.to_layout("column", convention="inside")',
         ("tests/unit/test_cubemap_files.py",),
     ),
     Mutation(
@@ -432,8 +477,8 @@ MUTATIONS = [
     Mutation(
         "P4: eta upside down",
         "python/cubecam/examples/reflection_and_refraction.py",
-        "eta=eta, fresnel=False",
-        "eta=1 / eta, fresnel=False",
+        "ior=1 / eta, fresnel=False",
+        "ior=eta, fresnel=False",
         ("tests/programs/test_p04_reflection_and_refraction.py",),
     ),
     Mutation(
@@ -530,8 +575,8 @@ MUTATIONS = [
     ),
     Mutation(
         "key: shadow maps forgotten",
-        DRAWN,
-        "if (receive_shadow(node)) key.add(shadow_key);",
+        "cpp/cubecam/render/resources/picture_key.cpp",
+        "if (a.receives_shadows && !same_shadows) return false;",
         "",
         SHADOW_MAPS,
     ),
@@ -663,10 +708,158 @@ MUTATIONS = [
         ("tests/gl/test_render_texture_circles.py",),
     ),
     Mutation(
+        "colours: names not decoded",
+        "cpp/bindings/colors.cpp",
+        "color[i] = srgb_to_linear(bytes[static_cast<std::size_t>(i)] / 255.0);",
+        "color[i] = bytes[static_cast<std::size_t>(i)] / 255.0;",
+        ("tests/unit/test_colors.py",),
+    ),
+    Mutation(
+        "colours: alpha decoded as well",
+        "cpp/bindings/colors.cpp",
+        "color[3] = bytes[3] / 255.0;",
+        "color[3] = srgb_to_linear(bytes[3] / 255.0);",
+        ("tests/unit/test_colors.py",),
+    ),
+    Mutation(
+        "dtypes: the first piece again",
+        "cpp/cubecam/cubemap/cubemap_resample.cpp",
+        "pixels_to_floats(from, pixels.data() + i * dtype_size(from), length, line);",
+        "pixels_to_floats(from, pixels.data() + begin * dtype_size(from), length, line);",
+        ("tests/unit/test_cubemap_dtypes.py",),
+    ),
+    Mutation(
+        "resampling: dtype of a panorama not kept",
+        "cpp/bindings/bind_cubemap.cpp",
+        "const DType to = to_dtype(dtype, image.dtype());",
+        "const DType to = to_dtype(dtype, DType::float32);",
+        ("tests/unit/test_cubemap_dtypes.py",),
+    ),
+    Mutation(
+        "pickles: any format taken",
+        "cpp/bindings/bind_pickling.cpp",
+        "if (number != pickle_format)",
+        "if (number < 0)",
+        ("tests/unit/test_pickles.py",),
+    ),
+    Mutation(
+        "errors: the old name is not known",
+        "python/cubecam/_arguments.py",
+        "answer = renamed(function, name)",
+        "answer = None",
+        ("tests/unit/test_old_names.py",),
+    ),
+    Mutation(
+        "errors: arguments that are missing go unnoticed",
+        "python/cubecam/_arguments.py",
+        "if p.required and p.name not in have]",
+        "if False]",
+        ("tests/unit/test_signatures.py",),
+    ),
+    Mutation(
         "shadow: depends on all textures",
         QUERIES,
         "if (mentions(traits.user_code->vertex->text, traits.textures[place].name)) {",
         "{",
         ("tests/gl/test_render_texture_circles.py",),
+    ),
+    Mutation(
+        "farthest: cleared as for the nearest",
+        "cpp/cubecam/render/resources/depth_order.hpp",
+        "DepthState{GL_LESS, GL_LEQUAL, 1.0F}",
+        "DepthState{GL_LESS, GL_LEQUAL, 0.0F}",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "farthest: the sky over everything",
+        "shaders/passes/skybox.vert",
+        "vec4(corner, u_depth, 1.0)",
+        "vec4(corner, 0.0, 1.0)",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "farthest: depth of the background",
+        "cpp/cubecam/render/resources/repack.hpp",
+        "values[i] == clear ? 1.0F : 1.0F - values[i]",
+        "1.0F - values[i]",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "users' outputs: left as the node before wrote them",
+        "cpp/cubecam/render/passes/output_declarations.cpp",
+        "set_zero(name, output.channels);",
+        "",
+        NAMED_OUTPUTS,
+    ),
+    Mutation(
+        "users' outputs: all at one place",
+        "cpp/cubecam/render/resources/outputs.cpp",
+        "{output.name, shaded.size() + 1, output.channels, OutputType::float32, 0.0F}",
+        "{output.name, 1, output.channels, OutputType::float32, 0.0F}",
+        NAMED_OUTPUTS,
+    ),
+    Mutation(
+        "results: memory is kept for ever",
+        "cpp/cubecam/render/resources/result_pool.cpp",
+        "held_.back().call + patience < call_",
+        "held_.back().call + 1000 * patience < call_",
+        RESULT_MEMORY,
+    ),
+    Mutation(
+        "results: without a bound",
+        "cpp/cubecam/render/resources/result_pool.cpp",
+        "while (bytes_ > capacity_) {",
+        "while (false) {",
+        RESULT_MEMORY,
+    ),
+    Mutation(
+        "rgb565: rounded down",
+        "cpp/cubecam/render/resources/repack.hpp",
+        "((p & 31) * 527 + 23) >> 6",
+        "((p & 31) * 527) >> 6",
+        FORMATS,
+    ),
+    Mutation(
+        "stats: what just fits is told as too large",
+        "cpp/cubecam/render/resources/target_store.hpp",
+        "target->description().bytes() > capacity_;",
+        "target->description().bytes() >= capacity_;",
+        STATS,
+    ),
+    # Meshes set anew.
+    Mutation(
+        "snapshot: an updated mesh goes unseen",
+        "cpp/cubecam/scene/snapshot.cpp",
+        "seen_.push_back({&mesh->revision(), data->revision()});",
+        "",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: a stream set anew is not uploaded",
+        "cpp/cubecam/render/resources/gpu_cache.cpp",
+        "if (to.writable && to.bytes == bytes) {",
+        "if (to.bytes == bytes) {",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: a stream that went stays",
+        "cpp/cubecam/render/resources/gpu_cache.cpp",
+        "gl.DisableVertexArrayAttrib(array, place.attribute);",
+        "",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: 16 bits for one vertex too many",
+        "cpp/cubecam/render/resources/gpu_cache.cpp",
+        "if (data.positions()->size() > std::size_t{1} << 16) {",
+        "if (data.positions()->size() > (std::size_t{1} << 16) + 1) {",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "mesh: smooth normals stay behind",
+        "cpp/cubecam/geometry/mesh_data.cpp",
+        "} else if (moved && smooth_) {",
+        "} else if (moved && !smooth_) {",
+        ("tests/unit/test_meshes.py",),
     ),
 ]

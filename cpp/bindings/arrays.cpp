@@ -233,6 +233,16 @@ py::dtype numpy_dtype(DType dtype) {
 
 py::dtype numpy_dtype(OutputType type) { return py::dtype(output_type_name(type)); }
 
+DType to_dtype(py::handle value, DType otherwise) {
+    if (value.is_none()) return otherwise;
+    const py::dtype given = py::dtype::from_args(py::reinterpret_borrow<py::object>(value));
+    for (const DType dtype : {DType::uint8, DType::float16, DType::float32}) {
+        if (given.equal(numpy_dtype(dtype))) return dtype;
+    }
+    throw py::value_error("dtype: expected uint8, float16 or float32, got " +
+                          py::str(given).cast<std::string>());
+}
+
 PixelArray pixel_array(py::handle value, const char* name, std::string_view shape, Values values) {
     const py::array array = real_array(value, name);
     const char kind = array.dtype().kind();

@@ -109,6 +109,8 @@ py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const v
 /// The numpy type of pixels, and of an output's values.
 py::dtype numpy_dtype(DType dtype);
 py::dtype numpy_dtype(OutputType type);
+/// uint8, float16 or float32, however numpy lets one say it; None gives `otherwise`.
+DType to_dtype(py::handle value, DType otherwise);
 
 template <typename T, typename Allocator>
 py::array readonly_view(std::shared_ptr<const std::vector<T, Allocator>> values,

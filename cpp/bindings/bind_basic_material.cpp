@@ -12,7 +12,7 @@ constexpr const char* basic_doc =
 
 Parameters
 ----------
-color : array_like (3,) or (4,)
+color : array_like (3,) or (4,), or str
     Linear RGB or RGBA.
 map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture, placed by the mesh's uvs.
@@ -34,7 +34,7 @@ TypeError
 Examples
 --------
 >>> import cubecam as cc
->>> cc.BasicMaterial((1, 0, 0, .5))
+>>> cc.BasicMaterial(color=(1, 0, 0, .5))
 BasicMaterial(color=(1, 0, 0, 0.5))
 )doc";
 

@@ -38,10 +38,11 @@ py::tuple state_of(const PyFrame& frame) {
     return py::make_tuple(frame.width, frame.height, frame.color, frame.outputs);
 }
 
-PyFrame frame_from(const py::tuple& state) {
+PyFrame frame_from(const py::tuple& closed) {
+    const py::tuple state = bindings::opened_state(closed);
     if (state.size() != frame_parts) {
-        throw py::value_error("Frame: expected a pickle of this version of cubecam, got one of "
-                              "another version");
+        throw py::value_error("Frame: expected a state of " + std::to_string(frame_parts) +
+                              " parts, got " + std::to_string(state.size()));
     }
     PyFrame frame;
     frame.width = state[0].cast<int>();
@@ -112,7 +113,7 @@ is seen does not write them.
              })
         .def("__reduce__", [](const PyFrame& frame) -> py::tuple {
             const py::object restore = py::module_::import("cubecam._core").attr("_restore_frame");
-            return py::make_tuple(restore, py::make_tuple(state_of(frame)));
+            return py::make_tuple(restore, py::make_tuple(bindings::closed_state(state_of(frame))));
         });
     m.def(
         "_shaded_outputs",

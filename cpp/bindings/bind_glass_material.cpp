@@ -16,11 +16,12 @@ F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of bo
 
 Parameters
 ----------
-eta : float
-    Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
+ior : float
+    Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
+    water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
 fresnel : bool
     False: T alone.
-tint : array_like (3,) or (4,)
+tint : array_like (3,) or (4,), or str
     Linear RGB or RGBA, times what is refracted.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
@@ -33,9 +34,9 @@ ValueError
 Examples
 --------
 >>> import cubecam as cc
->>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
->>> water.fresnel
-True
+>>> water = cc.GlassMaterial(ior=1.33, tint=(.8, .9, 1))
+>>> water
+GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
 )doc";
 
 const MaterialBinding glass(Glass::name, [](py::module_& module) {

@@ -30,7 +30,7 @@ void bind_effect_class(py::module_& module) {
                  return std::make_shared<E>(EffectValue{to_user_source(fragment, "fragment"),
                                                         to_inputs(uniforms, textures)});
              }),
-             py::arg("fragment"), py::arg("uniforms") = py::none(),
+             py::arg("fragment"), py::kw_only(), py::arg("uniforms") = py::none(),
              py::arg("textures") = py::none());
     made.def_property(
         "fragment", [](const E& self) { return self.value().fragment.text; },
@@ -52,10 +52,11 @@ void bind_effect_class(py::module_& module) {
     });
     made.def("__reduce__", [](const py::object& self) {
         const EffectValue value = self.cast<const E&>().value();
-        return reduced(self,
-                       py::make_tuple(value.fragment.text, uniforms_of(value.inputs),
-                                      textures_of(value.inputs)),
-                       source_state(value.fragment));
+        py::dict arguments;
+        arguments["fragment"] = value.fragment.text;
+        arguments["uniforms"] = uniforms_of(value.inputs);
+        arguments["textures"] = textures_of(value.inputs);
+        return reduced(self, arguments, source_state(value.fragment));
     });
     def_setstate(made, "tuple", [](const py::object& self, const py::tuple& state) {
         const UserSource fragment = source_from_state(state);

@@ -22,8 +22,8 @@ constexpr const char* material_doc =
     R"doc(Base of the materials: how a surface answers light.
 
 A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
-numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
-opaque is blended over what lies behind it.
+numbers, linear, or the name of a CSS colour or "#rrggbb", which say sRGB; a fourth number, from 0 to
+1, multiplies `opacity`. What is not fully opaque is blended over what lies behind it.
 
 Every material takes these by keyword, and has them as attributes:
 
@@ -38,7 +38,8 @@ blend=None              how its colour S, of alpha a, joins what is there alread
                         "multiply": (1 - a + a S) D, alpha stays D's;
                         "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
                         is multiplied by their alpha already; opacity and the colour's alpha
-                        multiply both.
+                        multiply both;
+                        a `Blend`: as its factors say.
                         None: "alpha" where anything is translucent, else "opaque"
 depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
                         "opaque"

@@ -144,7 +144,7 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
     return renderer.capture(*snapshot, options);
 }
 
-void update(Renderer& renderer, const Scene& scene, py::handle probes) {
+void update_probes(Renderer& renderer, const Scene& scene, py::handle probes) {
     std::vector<std::shared_ptr<Probe>> wanted;
     if (py::isinstance<Probe>(probes)) {
         wanted.push_back(probes.cast<std::shared_ptr<Probe>>());
@@ -161,7 +161,7 @@ void update(Renderer& renderer, const Scene& scene, py::handle probes) {
     }
     const auto snapshot = scene.snapshot();
     const py::gil_scoped_release release;
-    renderer.update(*snapshot, wanted);
+    renderer.update_probes(*snapshot, wanted);
 }
 
 }  // namespace
@@ -218,9 +218,10 @@ Examples
 (6, 32, 32, 4)
 )");
     renderer
-        .def(py::init(&make_renderer), py::arg("device") = "auto", py::arg("layered") = py::none(),
-             py::arg("cache_bytes") = std::int64_t{256} << 20, py::arg("debug") = false)
-        .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"),
+        .def(py::init(&make_renderer), py::kw_only(), py::arg("device") = "auto",
+             py::arg("layered") = py::none(), py::arg("cache_bytes") = std::int64_t{256} << 20,
+             py::arg("debug") = false)
+        .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
              py::arg("effects") = py::tuple(), py::arg("depth_format") = "depth_component32f",
@@ -279,9 +280,9 @@ Examples
 )")
         .def("capture", &capture, py::arg("scene"),
              py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
-             py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
-             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f",
-             py::arg("samples") = 1, py::arg("eye") = py::none(),
+             py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,
+             py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
+             py::arg("format") = "rgba32f", py::arg("samples") = 1, py::arg("eye") = py::none(),
              py::arg("depth_format") = "depth_component32f", py::arg("depth_order") = "nearest",
              R"(Draw what surrounds a point into a cubemap.
 
@@ -334,7 +335,8 @@ Examples
 >>> cube.sample((0, -1, 0)).tolist(), int(cube.id[3, 8, 8])
 ([1.0, 0.0, 0.0, 1.0], 1)
 )")
-        .def("update", &update, py::arg("scene"), py::arg("probes") = py::none(),
+        .def("update_probes", &update_probes, py::arg("scene"), py::kw_only(),
+             py::arg("probes") = py::none(),
              R"(Draw probes now, whatever their ``update`` says.
 
 Parameters
@@ -347,28 +349,54 @@ Raises
 ------
 ValueError
     For a probe that no visible node uses.
+ContextError
+    After :meth:`close`, or in a forked process.
 )")
         .def(
-            "cubemap",
+            "read_probe",
             [](Renderer& self, const std::shared_ptr<Probe>& probe) {
                 const py::gil_scoped_release release;
-                return self.cubemap(probe);
+                return self.read_probe(probe);
             },
             py::arg("probe"),
             R"(What a probe holds now, in the probe's format.
+
+Parameters
+----------
+probe : Probe
+    One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+Returns
+-------
+CubeMap
+    A copy; uint8, float16 or float32, faces (6, size, size, 4).
 
 Raises
 ------
 ValueError
     If this renderer has not drawn it yet.
+ContextError
+    After :meth:`close`, or in a forked process.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene(background="teal")
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+>>> ball.environment = cc.Probe(size=8)
+>>> with cc.Renderer() as renderer:
+...     renderer.update_probes(scene)
+...     held = renderer.read_probe(ball.environment)
+>>> held.faces.shape, held.dtype.name
+((6, 8, 8, 4), 'float16')
 )")
         .def(
-            "texture",
+            "read_texture",
             [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
                 Frame held;
                 {
                     const py::gil_scoped_release release;
-                    held = self.texture(render_texture);
+                    held = self.read_texture(render_texture);
                 }
                 return py::array(PyFrame(std::move(held)).color);
             },

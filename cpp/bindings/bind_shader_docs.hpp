@@ -69,7 +69,8 @@ double-sided surfaces), ``incident`` (world, unit, from the eye to the surface),
 ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
 ``environment_lod(direction, level)`` at a level of its mipmaps.
 ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
-the light) and ``radiance``; ``vec3 ambient_light()``.
+the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
+ambient lights.
 ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
 ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
 

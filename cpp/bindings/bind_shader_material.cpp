@@ -40,7 +40,7 @@ bool reload_material(ShaderMaterial& self) {
 void bind_shader_material(py::module_& module) {
     using M = ShaderMaterial;
     auto made = declare<M, Material>(module, "ShaderMaterial", shader_material_doc);
-    def_init(made, &shader_of, py::arg("fragment"), py::arg("vertex") = py::none(),
+    def_init(made, &shader_of, py::arg("fragment"), py::kw_only(), py::arg("vertex") = py::none(),
              py::arg("uniforms") = py::none(), py::arg("textures") = py::none(),
              py::arg("displacement") = py::none());
     for_each_field<Shader>([&made](const auto& field) {

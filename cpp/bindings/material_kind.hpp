@@ -134,7 +134,7 @@ void def_fields_init(MaterialClass<Kind>& made, std::index_sequence<index...>) {
             return Kind{Conversion<kinds::FieldType<Kind, index>>::to(
                 given, std::get<index>(Kind::fields).name)...};
         };
-    def_init(made, make,
+    def_init(made, make, py::kw_only(),
              (py::arg(std::get<index>(Kind::fields).name) =
                   Conversion<kinds::FieldType<Kind, index>>::initial(
                       initial.*std::get<index>(Kind::fields).member))...);

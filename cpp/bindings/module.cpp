@@ -1,4 +1,5 @@
 // The extension module cubecam._core.
+#include "arguments.hpp"
 #include "objects.hpp"
 
 #include "cubecam/scene/node.hpp"
@@ -11,11 +12,13 @@
 #include <string>
 
 // One a topic, each in the file of its name.
+void bind_pickling(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
+void bind_blend(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
 void bind_material(pybind11::module_& module);
 void bind_image_effect(pybind11::module_& module);
@@ -70,6 +73,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which has all of it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    bind_pickling(module);
     bind_errors(module);
     bind_device(module);
     // Signatures name the classes that are declared by then, and these lead to each other.
@@ -81,6 +85,7 @@ PYBIND11_MODULE(_core, module) {
     bind_cubemap(module);
     bind_image(module);
     bind_mesh(module);
+    bind_blend(module);
     bind_stencil(module);
     bind_material(module);
     bind_image_effect(module);
@@ -95,4 +100,5 @@ PYBIND11_MODULE(_core, module) {
     bind_renderer(module);
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
+    cubecam::bindings::explain_all_arguments(module);
 }

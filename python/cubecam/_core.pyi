@@ -15,6 +15,7 @@ import numpy.typing
 __all__: list[str] = [
     "AmbientLight",
     "BasicMaterial",
+    "Blend",
     "Camera",
     "ContextError",
     "CubeMap",
@@ -289,7 +290,7 @@ class Probe:
 
     It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
     to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
-    (``renderer.cubemap(probe)``) and draws again only the faces that would come out different. Nodes
+    (``renderer.read_probe(probe)``) and draws again only the faces that would come out different. Nodes
     that use a probe are left out of it.
 
     Parameters
@@ -308,7 +309,7 @@ class Probe:
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     update : {"on_change", "once", "manual"} or int
         "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
-        by ``renderer.update``. n: on every n-th call that needs it.
+        by ``renderer.update_probes``. n: on every n-th call that needs it.
     exclude : iterable of Node
         What it does not see, whole subtrees, beside the nodes that use it.
     parent : Node, optional
@@ -337,6 +338,7 @@ class Probe:
     def __init__(
         self: Probe,
         position: numpy.typing.ArrayLike = (0, 0, 0),
+        *,
         size: typing.SupportsInt | typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
@@ -446,7 +448,7 @@ class RenderTexture:
 
     It is only a description, and may serve any number of materials in any number of scenes: give it as
     the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
-    (``renderer.texture(render_texture)``), brings them up to date before what shows them, and draws
+    (``renderer.read_texture(render_texture)``), brings them up to date before what shows them, and draws
     them again only if the picture would come out different.
 
     Parameters
@@ -506,7 +508,7 @@ class RenderTexture:
     ...         hand.rotation = cc.axis_angle((0, 0, 1), -degrees)
     ...         frame = renderer.render(scene, camera, size=(64, 48))  # shows the hand as it is now
     ...     drawn = renderer.stats.textures_updated
-    ...     picture = renderer.texture(face)
+    ...     picture = renderer.read_texture(face)
     >>> picture.shape, drawn
     ((64, 64, 4), 1)
     """
@@ -514,6 +516,7 @@ class RenderTexture:
         self: RenderTexture,
         scene: Scene,
         camera: Camera,
+        *,
         size: tuple[int, int] = (512, 512),
         format: str = "rgba8",
         samples: int = 1,
@@ -618,9 +621,9 @@ class Scene:
     ----------
     environment : CubeMap, optional
         What mirrors and glass show; see `load_environment`.
-    background : array_like (3,) or (4,), or CubeMap, optional
-        What is seen where nothing is: a linear colour, or a cubemap as skybox. None: the environment
-        if there is one, else transparent black.
+    background : array_like (3,) or (4,), str, or CubeMap, optional
+        What is seen where nothing is: a colour, or a cubemap as skybox. Numbers are linear; a CSS name or
+        "#rrggbb" says sRGB and is decoded. None: the environment if there is one, else transparent black.
 
     Raises
     ------
@@ -651,6 +654,7 @@ class Scene:
         """
     def __init__(
         self: Scene,
+        *,
         environment: CubeMap | None = None,
         background: numpy.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
@@ -871,10 +875,12 @@ class CubeMap:
     @staticmethod
     def from_equirect(
         image: typing.Any,
+        *,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
-        mipmaps: bool = False,
         sampling: str = "centers",
+        mipmaps: bool = False,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         A cube from a panorama.
@@ -891,31 +897,43 @@ class CubeMap:
             Of a face; by default the next power of two from W / pi, which loses nothing.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
             The axis at the center column.
-        mipmaps : bool, default False
-            Of the new cube.
         sampling : {"centers", "borders"}, default "centers"
             Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) will do.
+        mipmaps : bool, default False
+            Of the new cube.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            float32.
+            In `dtype`, rounded as `to_equirect` does.
+
+        Raises
+        ------
+        ValueError
+            An image that is not twice as wide as high, NaN, a size below 1, an unknown center or sampling,
+            another dtype.
+        TypeError
+            An image of bool, complex, text, or integers other than uint8.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-        CubeMap(size=64, channels=3, dtype=float32, mipmaps=False)
+        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
         """
     @staticmethod
     def from_layout(
         image: typing.Any,
+        *,
         layout: str | None = None,
         convention: str = "gl",
-        mipmaps: bool = False,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
+        mipmaps: bool = False,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         A cube from one picture of all faces, the inverse of `to_layout`.
@@ -928,15 +946,17 @@ class CubeMap:
             vertical_cross, 6:1 row, 1:6 column, 2:1 equirect. Shape never tells the convention.
         convention : {"gl", "inside", "three"}, default "gl"
             Of the faces in `image`.
-        mipmaps : bool, default False
-            Of the new cube.
         size, center
             As in `from_equirect`, for "equirect" only.
+        mipmaps : bool, default False
+            Of the new cube.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            In the dtype of `image`; float32 from "equirect" and "openexr".
+            In `dtype`, rounded as `to_equirect` does.
 
         Raises
         ------
@@ -958,7 +978,7 @@ class CubeMap:
         """
     def __getstate__(self: CubeMap) -> tuple: ...
     def __init__(
-        self: CubeMap, faces: typing.Any, convention: str = "gl", mipmaps: bool = False
+        self: CubeMap, faces: typing.Any, *, convention: str = "gl", mipmaps: bool = False
     ) -> None: ...
     def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
     def __reduce__(self) -> tuple: ...
@@ -972,19 +992,32 @@ class CubeMap:
         """
         An independent cubemap with the same contents.
         """
-    def resize(self: CubeMap, size: typing.SupportsInt | typing.SupportsIndex) -> CubeMap:
+    def resize(
+        self: CubeMap,
+        size: typing.SupportsInt | typing.SupportsIndex,
+        *,
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> CubeMap:
         """
         The same cube with faces of another size.
 
         Parameters
         ----------
         size : int
-            Shrinking averages the area of each texel; enlarging is bilinear and seamless.
+            Texels along an edge. Shrinking averages the area of each texel; enlarging is bilinear and
+            seamless.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
         CubeMap
-            Of the same dtype and mipmaps, without captured outputs.
+            In `dtype`, rounded as `to_equirect` does, with the same mipmaps, without captured outputs.
+
+        Raises
+        ------
+        ValueError
+            A size below 1, or another dtype.
 
         Examples
         --------
@@ -993,7 +1026,7 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
         """
-    def sample(self: CubeMap, directions: typing.Any, lod: typing.Any = 0.0) -> numpy.ndarray:
+    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> numpy.ndarray:
         """
         Look directions up, seamlessly and bilinearly.
 
@@ -1031,6 +1064,7 @@ class CubeMap:
     def save(
         self,
         path: str | os.PathLike[str] | collections.abc.Sequence[str | os.PathLike[str]],
+        *,
         layout: str | None = None,
         convention: str | None = None,
         width: int | None = None,
@@ -1079,7 +1113,7 @@ class CubeMap:
         True
         """
     def set_face(
-        self: CubeMap, face: typing.Any, pixels: typing.Any, convention: str = "gl"
+        self: CubeMap, face: typing.Any, pixels: typing.Any, *, convention: str = "gl"
     ) -> None:
         """
         Replace one face.
@@ -1124,7 +1158,8 @@ class CubeMap:
         Returns
         -------
         ndarray (6, N, N, C) in `dtype`
-            A copy, yours to write. ``CubeMap(array, convention)`` gives this cube back exactly.
+            A copy, yours to write. ``CubeMap(array, convention=convention)`` gives this cube
+            back exactly.
 
         Examples
         --------
@@ -1136,9 +1171,11 @@ class CubeMap:
         """
     def to_equirect(
         self: CubeMap,
+        *,
         width: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         sampling: str = "centers",
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> numpy.ndarray:
         """
         The panorama that this cube holds.
@@ -1155,20 +1192,36 @@ class CubeMap:
         sampling : {"centers", "borders"}, default "centers"
             Where samples lie. "borders": the first and last row and column lie on the edges, as in
             OpenEXR's latitude-longitude maps.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
-        ndarray (width / 2, width, C) float32
-            Yours to write. uint8 as value/255.
+        ndarray (width / 2, width, C) in `dtype`
+            Yours to write. Filtered in float32, with uint8 as value/255, then rounded to nearest; uint8 holds
+            0 to 1, and what lies outside becomes 0 or 255; float16 holds up to 65504, and what is more
+            becomes inf.
+
+        Raises
+        ------
+        ValueError
+            A width that is not even and positive, an unknown center or sampling, another dtype.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
-        >>> cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z").shape
-        (32, 64, 4)
+        >>> panorama = cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z")
+        >>> panorama.shape, panorama.dtype.name
+        ((32, 64, 4), 'float16')
         """
-    def to_layout(self: CubeMap, layout: str = "cross", convention: str = "gl") -> numpy.ndarray:
+    def to_layout(
+        self: CubeMap,
+        layout: str = "cross",
+        *,
+        convention: str = "gl",
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> numpy.ndarray:
         """
         One picture of all faces.
 
@@ -1183,17 +1236,25 @@ class CubeMap:
         convention : {"gl", "inside", "three"}, default "gl"
             Of the faces in it; the second cell is +Z, for "inside" -Z. Not looked at for "equirect" and
             "openexr", which have their own.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
-        ndarray (H, W, C)
-            In `dtype` (cells without a face are 0), float32 where resampled. Yours to write.
+        ndarray (H, W, C) in `dtype`
+            Yours to write; cells without a face are 0. In another dtype than the cube's, and where resampled,
+            numbers are rounded as `to_equirect` does.
+
+        Raises
+        ------
+        ValueError
+            An unknown layout or convention, or another dtype.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
-        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", "inside").shape
+        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", convention="inside").shape
         (24, 32, 3)
         """
     @property
@@ -1304,7 +1365,7 @@ class Image:
     def __copy__(self) -> typing.Any: ...
     def __deepcopy__(self, memo: dict) -> typing.Any: ...
     def __init__(
-        self: Image, pixels: numpy.typing.ArrayLike, mipmaps: bool = False, wrap: str = "repeat"
+        self: Image, pixels: numpy.typing.ArrayLike, *, mipmaps: bool = False, wrap: str = "repeat"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Image) -> str: ...
@@ -1623,6 +1684,7 @@ class Mesh:
         self: Mesh,
         positions: numpy.typing.ArrayLike,
         indices: numpy.typing.ArrayLike,
+        *,
         normals: numpy.typing.ArrayLike | None = None,
         uvs: numpy.typing.ArrayLike | None = None,
         colors: numpy.typing.ArrayLike | None = None,
@@ -1676,8 +1738,9 @@ class Mesh:
         positions : array_like (V, 3), optional
             Object-space positions, finite. None: they stay.
         normals : array_like (V, 3), optional
-            Outward normals of any length. None: they stay if they were given at some time; if all are
-            smooth ones that the mesh computed, they are computed anew with new positions.
+            Outward normals of any length. None: normals that were given stay, also those of primitives
+            and of `load_mesh`; smooth ones that the mesh computed are computed anew with new positions.
+            ``mesh.normals = None`` makes them smooth.
         uvs : array_like (V, 2), optional
             Texture coordinates. None: they stay.
         colors : array_like (V, 3) or (V, 4), optional
@@ -1756,6 +1819,96 @@ class Mesh:
     @uvs.setter
     def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
 
+class Blend:
+    """
+    Blending by OpenGL's own factors, for any material as ``blend=``.
+
+    With S what the surface gives and D what is there, the colour becomes src * S + dst * D, and the alpha
+    src_alpha * S + dst_alpha * D. The colour of S is not multiplied by its alpha; its alpha is the product
+    of opacity and the alphas of colour and map. Formats with limits clamp S, and the result, to 0..1. A
+    surface with a `Blend` is drawn as every blended one is: after the background, far to near, and leaving
+    no depth unless ``depth_write=True``. A Blend never changes; compared by its values.
+
+    Parameters
+    ----------
+    src : str
+        What multiplies S: "zero", "one", "src_color", "one_minus_src_color", "dst_color",
+        "one_minus_dst_color", "src_alpha", "one_minus_src_alpha", "dst_alpha", "one_minus_dst_alpha" or
+        "src_alpha_saturate", which is min(alpha of S, 1 - alpha of D) for colours and 1 for alphas.
+    dst : str
+        What multiplies D.
+    src_alpha, dst_alpha : str, optional
+        The same for the alphas, where "src_color" is the alpha of S. None takes the colour's.
+    equation : {"add", "subtract", "reverse_subtract", "min", "max"}
+        "add" as above; "subtract": src * S - dst * D; "reverse_subtract": dst * D - src * S; "min" and
+        "max" of S and D, channel by channel, whatever the factors.
+
+    Raises
+    ------
+    ValueError
+        For an unknown word.
+
+    Notes
+    -----
+    OpenGL 4.5, section 17.3.6.
+
+    Examples
+    --------
+    The plain pair of many tutorials, which blends the alpha as if it were a colour:
+
+    >>> import cubecam as cc
+    >>> pair = cc.Blend("src_alpha", "one_minus_src_alpha")
+    >>> scene = cc.Scene(background=(0, 0, 1, 1))
+    >>> pane = scene.add(cc.Mesh.box((9, 9, .1)), cc.BasicMaterial(color=(1, 0, 0), opacity=.5, blend=pair))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(8, 8),
+    ...                             format="rgba32f")
+    >>> frame.color[4, 4].tolist()
+    [0.5, 0.0, 0.5, 0.75]
+    """
+    def __eq__(self: Blend, other: Blend) -> bool: ...
+    def __hash__(self: Blend) -> int: ...
+    def __init__(
+        self: Blend,
+        src: str,
+        dst: str,
+        *,
+        src_alpha: str | None = None,
+        dst_alpha: str | None = None,
+        equation: str = "add",
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Blend) -> str: ...
+    def __setstate__(self: Blend, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def dst(self) -> str:
+        """
+        str: what multiplies the colour that is there.
+        """
+    @property
+    def dst_alpha(self) -> str:
+        """
+        str: what multiplies the alpha that is there.
+        """
+    @property
+    def equation(self) -> str:
+        """
+        str: what becomes of both products.
+        """
+    @property
+    def src(self) -> str:
+        """
+        str: what multiplies the surface's colour.
+        """
+    @property
+    def src_alpha(self) -> str:
+        """
+        str: what multiplies the surface's alpha.
+        """
+
 class Stencil:
     """
     A stencil test, and what drawing does to the stencil buffer.
@@ -1804,7 +1957,7 @@ class Stencil:
     >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
     ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
     >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
-    >>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
+    >>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil(func="equal", reference=1))
     >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
     >>> with cc.Renderer() as renderer:
     ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),
@@ -1816,6 +1969,7 @@ class Stencil:
     def __hash__(self: Stencil) -> int: ...
     def __init__(
         self: Stencil,
+        *,
         func: str = "always",
         reference: int = 0,
         read_mask: int = 255,
@@ -1883,7 +2037,8 @@ class Material:
                             "multiply": (1 - a + a S) D, alpha stays D's;
                             "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
                             is multiplied by their alpha already; opacity and the colour's alpha
-                            multiply both.
+                            multiply both;
+                            a `Blend`: as its factors say.
                             None: "alpha" where anything is translucent, else "opaque"
     depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
                             "opaque"
@@ -1904,12 +2059,12 @@ class Material:
         For unpickling.
         """
     @property
-    def blend(self) -> str | None:
+    def blend(self) -> str | Blend | None:
         """
-        str or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply" or "premultiplied"; see `Material`. None: "alpha" where anything is translucent, else "opaque".
+        str, Blend or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied" or a `Blend`; see `Material`. None: "alpha" where anything is translucent, else "opaque".
         """
     @blend.setter
-    def blend(self, arg1: str | None) -> None: ...
+    def blend(self, arg1: str | Blend | None) -> None: ...
     @property
     def color_write(self) -> tuple[bool, bool, bool, bool]:
         """
@@ -1981,19 +2136,19 @@ class BasicMaterial(Material):
     Examples
     --------
     >>> import cubecam as cc
-    >>> cc.BasicMaterial((1, 0, 0, .5))
+    >>> cc.BasicMaterial(color=(1, 0, 0, .5))
     BasicMaterial(color=(1, 0, 0, 0.5))
     """
     def __init__(
         self: BasicMaterial,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2038,8 +2193,9 @@ class GlassMaterial(Material):
 
     Parameters
     ----------
-    eta : float
-        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
+    ior : float
+        Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
+        water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
     fresnel : bool
         False: T alone.
     tint : array_like (3,) or (4,)
@@ -2055,31 +2211,24 @@ class GlassMaterial(Material):
     Examples
     --------
     >>> import cubecam as cc
-    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
-    >>> water.fresnel
-    True
+    >>> water = cc.GlassMaterial(ior=1.33, tint=(.8, .9, 1))
+    >>> water
+    GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
     """
     def __init__(
         self: GlassMaterial,
-        eta: typing.SupportsFloat | typing.SupportsIndex = 0.65789473,
+        *,
+        ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
         tint: numpy.typing.ArrayLike = (1, 1, 1),
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
     ) -> None: ...
-    @property
-    def eta(self) -> float:
-        """
-        float: refractive index outside divided by the one inside.
-        """
-    @eta.setter
-    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def fresnel(self) -> bool:
         """
@@ -2087,6 +2236,13 @@ class GlassMaterial(Material):
         """
     @fresnel.setter
     def fresnel(self, arg1: bool) -> None: ...
+    @property
+    def ior(self) -> float:
+        """
+        float: refractive index inside divided by the one outside.
+        """
+    @ior.setter
+    def ior(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tint(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -2112,9 +2268,9 @@ class MirrorMaterial(Material):
         Linear RGB or RGBA that the surface adds.
     color_weight : float
         Its weight, not negative.
-    fresnel : float, optional
-        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
-        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+    f0 : float, optional
+        The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
+        f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
         Rendering", 1994). None: it is not.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
         As of every `Material`.
@@ -2128,20 +2284,20 @@ class MirrorMaterial(Material):
     --------
     >>> import cubecam as cc
     >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
-    >>> gold.env_weight, gold.fresnel
+    >>> gold.env_weight, gold.f0
     (0.78, None)
     """
     def __init__(
         self: MirrorMaterial,
+        *,
         tint: numpy.typing.ArrayLike = (1, 1, 1),
         env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         color: numpy.typing.ArrayLike = (0, 0, 0),
         color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
+        f0: typing.SupportsFloat | typing.SupportsIndex | None = None,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2169,12 +2325,12 @@ class MirrorMaterial(Material):
     @env_weight.setter
     def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def fresnel(self) -> float | None:
+    def f0(self) -> float | None:
         """
-        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
+        float or None: the reflectance seen head-on, from 0 to 1; None reflects evenly.
         """
-    @fresnel.setter
-    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @f0.setter
+    def f0(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
     def tint(self) -> numpy.typing.NDArray[numpy.float32]:
         """
@@ -2225,6 +2381,7 @@ class PhongMaterial(Material):
     """
     def __init__(
         self: PhongMaterial,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
@@ -2232,10 +2389,9 @@ class PhongMaterial(Material):
         shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
         map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         vertex_colors: bool = False,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2358,7 +2514,8 @@ class ShaderMaterial(Material):
     ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
     ``environment_lod(direction, level)`` at a level of its mipmaps.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
-    the light) and ``radiance``; ``vec3 ambient_light()``.
+    the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
+    ambient lights.
     ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
     ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
 
@@ -2401,14 +2558,14 @@ class ShaderMaterial(Material):
     def __init__(
         self: ShaderMaterial,
         fragment: str | typing.Any | None,
+        *,
         vertex: str | typing.Any | None = None,
         uniforms: dict[str, typing.Any] | None = None,
         textures: dict[str, typing.Any] | None = None,
         displacement: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2546,6 +2703,7 @@ class ImageEffect:
     def __init__(
         self: ImageEffect,
         fragment: str | typing.Any | None,
+        *,
         uniforms: dict[str, typing.Any] | None = None,
         textures: dict[str, typing.Any] | None = None,
     ) -> None: ...
@@ -2661,13 +2819,14 @@ class Shadow:
     >>> lamp = cc.PointLight(position=(0, 3, 0), shadow=cc.Shadow(size=512, radius=2))
     >>> lamp.shadow
     Shadow(size=512, radius=2, bias=0, near=0.05, far=None, extent=None)
-    >>> lamp.shadow == cc.Shadow(512, 2)
+    >>> lamp.shadow == cc.Shadow(size=512, radius=2)
     True
     """
     def __eq__(self: Shadow, other: typing.Any) -> typing.Any: ...
     def __hash__(self: Shadow) -> int: ...
     def __init__(
         self: Shadow,
+        *,
         size: typing.SupportsInt | typing.SupportsIndex = 1024,
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         bias: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -2738,8 +2897,9 @@ class PointLight(Light):
     ----------
     position : array_like (3,)
         World space.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     decay : float
@@ -2763,6 +2923,7 @@ class PointLight(Light):
     def __init__(
         self: PointLight,
         position: numpy.typing.ArrayLike = (0, 0, 0),
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -2808,8 +2969,9 @@ class SpotLight(Light):
     penumbra : float
         Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
         it fades from the axis on. Between the cosines of the two angles it is smoothstep.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     decay : float
@@ -2832,6 +2994,7 @@ class SpotLight(Light):
         self: SpotLight,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         direction: numpy.typing.ArrayLike = (0, -1, 0),
+        *,
         angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
         penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         color: numpy.typing.ArrayLike = (1, 1, 1),
@@ -2893,8 +3056,9 @@ class DirectionalLight(Light):
     direction : array_like (3,)
         The way the light travels, in world space, of any length but 0; kept normalised. Straight down
         by default.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     shadow : Shadow, bool or None
@@ -2914,6 +3078,7 @@ class DirectionalLight(Light):
     def __init__(
         self: DirectionalLight,
         direction: numpy.typing.ArrayLike = (0, -1, 0),
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
@@ -2941,8 +3106,9 @@ class AmbientLight(Light):
 
     Parameters
     ----------
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
 
@@ -2959,6 +3125,7 @@ class AmbientLight(Light):
     """
     def __init__(
         self: AmbientLight,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
@@ -2995,7 +3162,7 @@ class Camera:
     0.5
     """
     def __init__(
-        self: Camera, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
+        self: Camera, *, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Camera) -> str: ...
@@ -3069,6 +3236,7 @@ class PerspectiveCamera(Camera):
     """
     def __init__(
         self: PerspectiveCamera,
+        *,
         fov: typing.SupportsFloat | typing.SupportsIndex = 60.0,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         target: numpy.typing.ArrayLike | None = None,
@@ -3108,7 +3276,7 @@ class PerspectiveCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
-    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+    def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the scene were turned in the hand.
 
@@ -3138,7 +3306,7 @@ class PerspectiveCamera(Camera):
         --------
         >>> import cubecam as cc
         >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-        >>> camera.orbit(30)
+        >>> camera.orbit(yaw=30)
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
@@ -3340,6 +3508,7 @@ class OrthographicCamera(Camera):
     """
     def __init__(
         self: OrthographicCamera,
+        *,
         height: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         target: numpy.typing.ArrayLike | None = None,
@@ -3378,7 +3547,7 @@ class OrthographicCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
-    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+    def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the scene were turned in the hand.
 
@@ -3408,7 +3577,7 @@ class OrthographicCamera(Camera):
         --------
         >>> import cubecam as cc
         >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-        >>> camera.orbit(30)
+        >>> camera.orbit(yaw=30)
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
@@ -3604,6 +3773,7 @@ class StereoCamera:
     @staticmethod
     def off_axis(
         camera: Camera,
+        *,
         separation: typing.SupportsFloat | typing.SupportsIndex = 0.065,
         convergence: typing.SupportsFloat | typing.SupportsIndex | None = None,
         layout: str = "anaglyph",
@@ -3645,6 +3815,7 @@ class StereoCamera:
     @staticmethod
     def toe_in(
         camera: Camera,
+        *,
         degrees: typing.SupportsFloat | typing.SupportsIndex = 4.0,
         layout: str = "anaglyph",
     ) -> StereoCamera:
@@ -3681,7 +3852,7 @@ class StereoCamera:
         [1.414, 0.0, 1.414]
         """
     def __init__(
-        self: StereoCamera, left: Camera, right: Camera, layout: str = "anaglyph"
+        self: StereoCamera, left: Camera, right: Camera, *, layout: str = "anaglyph"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: StereoCamera) -> str: ...
@@ -3971,6 +4142,7 @@ class Renderer:
     def __exit__(self: Renderer, *args) -> None: ...
     def __init__(
         self: Renderer,
+        *,
         device: typing.Any = "auto",
         layered: typing.Any = None,
         cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
@@ -3983,6 +4155,7 @@ class Renderer:
         scene: Scene,
         position: typing.Any = (0.0, 0.0, 0.0),
         size: typing.Any = 256,
+        *,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         exclude: typing.Any = (),
@@ -4049,9 +4222,52 @@ class Renderer:
         """
         Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.
         """
-    def cubemap(self: Renderer, probe: Probe) -> CubeMap:
+    def read_probe(self: Renderer, probe: Probe) -> CubeMap:
         """
         What a probe holds now, in the probe's format.
+
+        Parameters
+        ----------
+        probe : Probe
+            One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+        Returns
+        -------
+        CubeMap
+            A copy; uint8, float16 or float32, faces (6, size, size, 4).
+
+        Raises
+        ------
+        ValueError
+            If this renderer has not drawn it yet.
+        ContextError
+            After :meth:`close`, or in a forked process.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background="teal")
+        >>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+        >>> ball.environment = cc.Probe(size=8)
+        >>> with cc.Renderer() as renderer:
+        ...     renderer.update_probes(scene)
+        ...     held = renderer.read_probe(ball.environment)
+        >>> held.faces.shape, held.dtype.name
+        ((6, 8, 8, 4), 'float16')
+        """
+    def read_texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
+        """
+        What a render texture holds now, in its format.
+
+        Parameters
+        ----------
+        render_texture : RenderTexture
+            One that a picture of this renderer has shown.
+
+        Returns
+        -------
+        ndarray (H, W, 4)
+            uint8, float16 or float32, row 0 on top; the caller's own.
 
         Raises
         ------
@@ -4063,6 +4279,7 @@ class Renderer:
         scene: Scene,
         camera: Camera | StereoCamera,
         size: typing.Any,
+        *,
         outputs: typing.Any = (),
         format: str | None = "rgba8",
         samples: typing.Any = 1,
@@ -4162,26 +4379,7 @@ class Renderer:
         >>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
         ((1, 32, 32), 0.0, 3.5)
         """
-    def texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
-        """
-        What a render texture holds now, in its format.
-
-        Parameters
-        ----------
-        render_texture : RenderTexture
-            One that a picture of this renderer has shown.
-
-        Returns
-        -------
-        ndarray (H, W, 4)
-            uint8, float16 or float32, row 0 on top; the caller's own.
-
-        Raises
-        ------
-        ValueError
-            If this renderer has not drawn it yet.
-        """
-    def update(self: Renderer, scene: Scene, probes: typing.Any = None) -> None:
+    def update_probes(self: Renderer, scene: Scene, *, probes: typing.Any = None) -> None:
         """
         Draw probes now, whatever their ``update`` says.
 
@@ -4195,6 +4393,8 @@ class Renderer:
         ------
         ValueError
             For a probe that no visible node uses.
+        ContextError
+            After :meth:`close`, or in a forked process.
         """
     @property
     def closed(self) -> bool:
@@ -4211,6 +4411,11 @@ class Renderer:
         """
         Stats: of the last call.
         """
+
+def _check_pickle(format: typing.Any) -> None:
+    """
+    For unpickling: raises TypeError for a format that is not this version's.
+    """
 
 def _restore_frame(state: tuple) -> Frame:
     """
@@ -4271,4 +4476,4 @@ def devices() -> list[Device]:
         If there is no EGL library, or in a process forked after EGL was opened.
     """
 
-__version__: str = "0.1.0"
+__version__: str = "0.2.0"

@@ -1,4 +1,4 @@
-// material[0]: tint, eta = n_outside / n_inside. Without FRESNEL the refraction alone, but where there is none.
+// material[0]: tint, eta = n_outside / n_inside = 1 / ior. Without FRESNEL the refraction alone, but where there is none.
 // Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
 vec3 shade(Surface surface) {
     float eta = material[0].a;

@@ -1,5 +1,5 @@
 // B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6), 1975, with white highlights.
-// material[0]: ka * color * ambient light, shininess. material[1]: kd * color, ks.
+// material[0]: ka * color * (1 + ambient light), shininess. material[1]: kd * color, ks.
 #include "include/tint.glsl"
 
 #if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0

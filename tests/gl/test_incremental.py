@@ -46,9 +46,9 @@ def shadowed_scene(rng):
     """The same under lights with shadows, so that what moves changes what it does not touch."""
     scene = probed_scene(rng)
     scene.add(cc.Mesh.plane(6, 5), cc.PhongMaterial(), position=(0, -1.5, 0), name="floor")
-    scene.lights[0].shadow = cc.Shadow(24)
-    scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(32)))
-    scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(32, radius=0)))
+    scene.lights[0].shadow = cc.Shadow(size=24)
+    scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(size=32)))
+    scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(size=32, radius=0)))
     return scene
 
 
@@ -84,7 +84,7 @@ def edit_visible(scene, rng):
     node.visible = not node.visible
 
 
-def edit_in_probes(scene, rng):
+def edit_in_captures(scene, rng):
     node = scene.nodes[rng.integers(len(scene.nodes))]
     node.in_captures = not node.in_captures
 
@@ -111,7 +111,7 @@ def edit_light(scene, rng):
 def edit_shadow(scene, rng):
     light = scene.lights[rng.integers(len(scene.lights))]
     size, radius = int(rng.choice([16, 24, 32])), rng.choice([0, 1, 1.5])
-    light.shadow = cc.Shadow(size, radius) if rng.random() < 0.8 else None
+    light.shadow = cc.Shadow(size=size, radius=radius) if rng.random() < 0.8 else None
 
 
 def edit_casting(scene, rng):

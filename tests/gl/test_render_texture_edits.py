@@ -24,15 +24,15 @@ def textured_scene(rng):
     ball = far.add(cc.Mesh.sphere(0.4, segments=12, rings=6), cc.MirrorMaterial())
     ball.environment = cc.Probe(parent=ball, size=8, format="rgba32f")
     lens = cc.PerspectiveCamera(fov=50, position=(0.5, 0.6, 2), target=(0, 0, 0))
-    inner = cc.RenderTexture(far, lens, (12, 9), "rgba16f", mipmaps=True, name="inner")
+    inner = cc.RenderTexture(far, lens, size=(12, 9), format="rgba16f", mipmaps=True, name="inner")
 
     near = cc.Scene(background=(0.2, 0.2, 0.2, 0.5))
     near.add(quad(), cc.BasicMaterial(map=inner), position=(-0.6, -0.4, 0))
     near.add(cc.Mesh.box(0.3), cc.BasicMaterial(color=rng.random(3)), position=(0.5, 0.5, 0))
-    outer = cc.RenderTexture(near, lens, (16, 16), samples=4, name="outer")
+    outer = cc.RenderTexture(near, lens, size=(16, 16), samples=4, name="outer")
 
     room = cc.PerspectiveCamera(fov=70, position=(2, 2, 2), target=(0, 0, 0))
-    monitor = cc.RenderTexture(scene, room, (16, 12), "rgba32f", name="monitor")
+    monitor = cc.RenderTexture(scene, room, size=(16, 12), format="rgba32f", name="monitor")
     for index, texture in enumerate((inner, outer, monitor)):
         screen = scene.add(
             quad(1.5, 1.5),
@@ -152,10 +152,10 @@ def test_each_edit_alone(new_renderer, edit):
     check(pictures(live, scene, (3, 1, 2)), pictures(scratch, scene, (3, 1, 2)), edit.__name__)
     for name, texture in textures(scene).items():
         try:
-            want = scratch.texture(texture)
+            want = scratch.read_texture(texture)
         except ValueError:  # not in view
             continue
-        assert_identical(live.texture(texture), want, name)
+        assert_identical(live.read_texture(texture), want, name)
 
 
 def test_unchanged_it_draws_nothing(any_path):

@@ -18,6 +18,7 @@ struct SurfaceOptions {
     float opacity = 1.0F;  ///< 0..1, times the colour's alpha
     bool double_sided = false;
     std::optional<Blend> blend;       ///< none: alpha where anything is translucent, else opaque
+    BlendFactors blend_factors;       ///< where blend is Blend::factors
     std::optional<bool> depth_write;  ///< none: what is opaque writes depth
     bool depth_test = true;           ///< hidden by what is nearer
     glm::bvec4 color_write{true};     ///< channels of the colour that are written

@@ -5,14 +5,14 @@
 
 namespace cubecam {
 
-/// env_weight * tint * environment(R) + color_weight * color; with `fresnel` = F0, env_weight times
-/// Schlick's term.
+/// env_weight * tint * environment(R) + color_weight * color; with `f0`, env_weight times Schlick's
+/// term.
 struct Mirror {
     glm::vec4 tint{1.0F};
     float env_weight = 1.0F;
     glm::vec4 color{0.0F, 0.0F, 0.0F, 1.0F};
     float color_weight = 0.0F;
-    std::optional<float> fresnel;
+    std::optional<float> f0;  ///< reflectance seen head-on; none: the mirror reflects evenly
 
     static constexpr const char* name = "MirrorMaterial";
     static constexpr const char* shader = "materials/mirror.glsl";
@@ -21,8 +21,8 @@ struct Mirror {
         Field{"env_weight", &Mirror::env_weight, "float: weight of what is reflected."},
         Field{"color", &Mirror::color, "ndarray (4,) float32: linear RGBA, read-only."},
         Field{"color_weight", &Mirror::color_weight, "float: weight of the mirror's own colour."},
-        Field{"fresnel", &Mirror::fresnel,
-              "float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects "
+        Field{"f0", &Mirror::f0,
+              "float or None: the reflectance seen head-on, from 0 to 1; None reflects "
               "evenly."},
     };
 
@@ -31,16 +31,16 @@ struct Mirror {
         expect_not_negative(env_weight, "env_weight");
         expect_color(color, "color");
         expect_not_negative(color_weight, "color_weight");
-        if (fresnel && !(*fresnel >= 0.0F && *fresnel <= 1.0F)) {
-            expect(false, "fresnel None or a reflectance F0 from 0 to 1", describe(*fresnel));
+        if (f0 && !(*f0 >= 0.0F && *f0 <= 1.0F)) {
+            expect(false, "f0 None or a reflectance from 0 to 1", describe(*f0));
         }
     }
     float alpha() const { return tint.a * color.a; }
     std::array<glm::vec4, 2> constants(const glm::vec3&) const {
-        return {glm::vec4(env_weight * glm::vec3(tint), fresnel.value_or(0.0F)),
+        return {glm::vec4(env_weight * glm::vec3(tint), f0.value_or(0.0F)),
                 glm::vec4(color_weight * glm::vec3(color), 0.0F)};
     }
-    std::array<Switch, 1> switches() const { return {{{"FRESNEL", fresnel.has_value()}}}; }
+    std::array<Switch, 1> switches() const { return {{{"FRESNEL", f0.has_value()}}}; }
     bool uses_environment() const { return true; }
     bool uses_lights() const { return false; }
     VertexColors uses_vertex_colors() const { return VertexColors::ignored; }

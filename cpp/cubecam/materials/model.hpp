@@ -60,8 +60,8 @@ public:
 
     const MaterialTraits& traits() const { return traits_; }
 
-    /// Writes what the shader file reads as material[i]. `ambient` is the light that falls on
-    /// everything; `to` has `traits().kind->constants` elements.
+    /// Writes what the shader file reads as material[i]. `ambient` is what the scene's ambient
+    /// lights send to every surface; `to` has `traits().kind->constants` elements.
     virtual void write_constants(const glm::vec3& ambient, std::span<glm::vec4> to) const = 0;
 
     /// Whether both are of one kind and have equal parameters.

@@ -40,10 +40,11 @@ struct Phong {
         expect_positive(shininess, "shininess");
     }
     float alpha() const { return color.a; }
-    /// Factors that no texture changes are multiplied here, once.
+    /// Factors that no texture changes are multiplied here, once. The model has an ambient light of
+    /// its own, of radiance 1.
     std::array<glm::vec4, 2> constants(const glm::vec3& ambient) const {
         const glm::vec3 rgb(color);
-        return {glm::vec4(ka * rgb * ambient, shininess), glm::vec4(kd * rgb, ks)};
+        return {glm::vec4(ka * rgb * (1.0F + ambient), shininess), glm::vec4(kd * rgb, ks)};
     }
     std::array<Switch, 0> switches() const { return {}; }
     bool uses_environment() const { return false; }

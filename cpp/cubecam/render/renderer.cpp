@@ -215,8 +215,8 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
     });
 }
 
-void Renderer::update(const SceneSnapshot& scene,
-                      const std::vector<std::shared_ptr<Probe>>& probes) {
+void Renderer::update_probes(const SceneSnapshot& scene,
+                             const std::vector<std::shared_ptr<Probe>>& probes) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < scene.probes.size(); ++i) {
         const auto asked = std::find(probes.begin(), probes.end(), scene.probes[i].object);
@@ -262,19 +262,19 @@ ShadowDistances Renderer::shadow_map(const SceneSnapshot& scene,
     });
 }
 
-std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) {
+std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& probe) {
     return run([&](RendererState& gpu) {
         StatesByScene<ProbeState>* contents = gpu.probes.find(probe);
         const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
-                                        "a frame that needs it, or call update()");
+                                        "a frame that needs it, or call update_probes()");
         }
         return read_cube(gpu.context.gl(), *state->target, *gpu.results);
     });
 }
 
-Frame Renderer::texture(const std::shared_ptr<RenderTexture>& texture) {
+Frame Renderer::read_texture(const std::shared_ptr<RenderTexture>& texture) {
     return run([&](RendererState& gpu) {
         const TextureState* state = gpu.textures.find(texture);
         if (state == nullptr || state->target == nullptr) {

@@ -117,7 +117,9 @@ def capture(
             )
             drawn_by = str(renderer.info.renderer)
         written = [output]
-        cube.save(output, wanted, convention, width, center, srgb)
+        cube.save(
+            output, layout=wanted, convention=convention, width=width, center=center, srgb=srgb
+        )
         for name in more:
             written += _save_output(cube, name, output, wanted, convention or "gl")
         console = Console(soft_wrap=True)

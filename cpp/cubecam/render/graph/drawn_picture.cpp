@@ -84,7 +84,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
         const NodeSnapshot& node = scene.nodes[planned.node];
         const NodeTextures& found = lookups[planned.node];
         NodeKey key{node.id,
-                    receive_shadow(node),
+                    !shadows.empty() && receive_shadow(node),
                     {},
                     node.revision,
                     node.world,

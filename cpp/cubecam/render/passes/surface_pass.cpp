@@ -219,7 +219,9 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool instanced,
         traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
     variant.double_sided = material.surface.double_sided;
     if (outputs) variant.outputs = outputs_;
-    variant.blend = node.blend == Blend::alpha_keep ? Blend::alpha : node.blend;
+    // These want nothing else of the shader than "alpha" does.
+    const bool as_alpha = node.blend == Blend::alpha_keep || node.blend == Blend::factors;
+    variant.blend = as_alpha ? Blend::alpha : node.blend;
     variant.dense = is_dense(node);
     if (traits.user_code) {
         variant.moved = traits.moves_vertices();
