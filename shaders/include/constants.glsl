@@ -9,7 +9,9 @@ flat STAGE vec4 v_material[MATERIAL_SIZE];
 #else
 #define material u_material
 #endif
-#if (defined(FLAT_MATERIAL) && defined(VERTEX_STAGE)) || !(defined(FLAT_MATERIAL) || defined(VERTEX_STAGE))
+// Of nodes that are drawn together each has flat numbers of its own, in its record (node.glsl).
+#if (defined(FLAT_MATERIAL) && defined(VERTEX_STAGE) && !defined(INSTANCED)) || \
+    !(defined(FLAT_MATERIAL) || defined(VERTEX_STAGE))
 layout(std140, binding = 3) uniform Material {
     vec4 u_material[MATERIAL_SIZE];
 };

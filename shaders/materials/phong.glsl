@@ -3,9 +3,9 @@
 #include "include/tint.glsl"
 
 #if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
-vec3 light_answer(Surface surface, vec3 tint, int index) {
-    vec4 place = light_position(index);
-    vec4 light = light_color(index);
+vec3 light_answer(Surface surface, vec3 tint, int index, Light source) {
+    vec4 place = source.position;
+    vec4 light = source.color;
     vec3 to_light = place.xyz - surface.from_origin * place.w;
     float distance_squared = dot(to_light, to_light);
     to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface shall not be NaN
@@ -19,7 +19,7 @@ vec3 light_answer(Surface surface, vec3 tint, int index) {
     answer *= place.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.a);
 #endif
 #ifdef LIGHT_CONE
-    answer *= cone_share(light_cone(index), -to_light);
+    answer *= cone_share(source.cone, -to_light);
 #endif
     answer *= light_visibility(index, surface.from_origin, surface.normal);
     return answer * light.rgb;
@@ -29,13 +29,15 @@ vec3 light_answer(Surface surface, vec3 tint, int index) {
 vec4 shade(Surface surface) {
     vec4 tint = tint_of(surface);
     vec3 result = material[0].rgb * tint.rgb;
-#ifdef LIGHT_COUNT
-    const int count = LIGHT_COUNT;
-#else
-    int count = u_counts.x;
+#if FLAT_LIGHT_COUNT > 0
+    for (int i = 0; i < FLAT_LIGHT_COUNT; ++i) result += light_answer(surface, tint.rgb, i, flat_light(i));
 #endif
-#if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
-    for (int i = 0; i < count; ++i) result += light_answer(surface, tint.rgb, i);
+#ifndef LIGHT_COUNT
+    for (int i = 0; i < u_counts.x; ++i) result += light_answer(surface, tint.rgb, i, u_lights[i]);
+#elif LIGHT_COUNT > FLAT_LIGHT_COUNT
+    for (int i = FLAT_LIGHT_COUNT; i < LIGHT_COUNT; ++i) {
+        result += light_answer(surface, tint.rgb, i, u_lights[i]);
+    }
 #endif
     return vec4(result, tint.a);
 }

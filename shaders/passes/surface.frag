@@ -1,7 +1,7 @@
 // Every mesh: what is common here, what a material answers in its own file.
 #define STAGE in
 #ifdef USER_SOURCE
-#include "include/draw.glsl"
+#include "include/node.glsl"
 #endif
 #if defined(USES_LIGHTS) || defined(USER_SOURCE)
 #include "include/lights.glsl"

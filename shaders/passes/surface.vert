@@ -2,11 +2,9 @@
 #define STAGE out
 #define VERTEX_STAGE
 #include "include/view.glsl"
-#include "include/draw.glsl"
-#if defined(LIGHT_COUNT) && !defined(DENSE)
-#if LIGHT_COUNT > 0
+#include "include/node.glsl"
+#if FLAT_LIGHT_COUNT > 0
 #include "include/lights.glsl"
-#endif
 #endif
 #include "include/constants.glsl"
 #include "include/surface.glsl"
@@ -62,16 +60,14 @@ void main() {
 #ifdef TRANSLUCENT
     v_alpha = u_alpha;
 #endif
-#if defined(LIGHT_COUNT) && !defined(DENSE)
-#if LIGHT_COUNT > 0
-    for (int i = 0; i < LIGHT_COUNT; ++i) {
+#if FLAT_LIGHT_COUNT > 0
+    for (int i = 0; i < FLAT_LIGHT_COUNT; ++i) {
         v_light_position[i] = u_lights[i].position;
         v_light_color[i] = u_lights[i].color;
 #ifdef LIGHT_CONE
         v_light_cone[i] = u_lights[i].cone;
 #endif
     }
-#endif
 #endif
 #ifdef OUTPUTS
     v_view_position = a_view_position;

@@ -1,6 +1,6 @@
 #include "cubecam/render/passes/full_screen_pass.hpp"
 
-#include "cubecam/render/resources/instance.hpp"
+#include "cubecam/render/resources/view_record.hpp"
 
 namespace cubecam {
 
@@ -14,7 +14,8 @@ void draw_full_screen(const GladGLContext& gl, const GpuCache& cache, const Full
                       Stats& stats) {
     const GLuint array = cache.views_only().id();
     if (views.buffer != 0) {
-        gl.VertexArrayVertexBuffer(array, vertex_buffer::views, views.buffer, 0, sizeof(Instance));
+        gl.VertexArrayVertexBuffer(array, vertex_buffer::records, views.buffer, 0,
+                                   sizeof(ViewRecord));
     }
     gl.BindVertexArray(array);
     gl.DrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(views.count),

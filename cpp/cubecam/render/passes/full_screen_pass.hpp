@@ -9,8 +9,8 @@
 
 namespace cubecam {
 
-/// The records of the views that a full-screen quad is drawn for (Instance); none: one view, and a
-/// vertex shader that reads no record.
+/// The records of the views that a full-screen quad is drawn for (ViewRecord); none: one view, and
+/// a vertex shader that reads no record.
 struct FullScreenViews {
     GLuint buffer = 0;
     GLuint first = 0;

@@ -2,6 +2,7 @@
 
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
+#include "cubecam/render/resources/node_record.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -14,9 +15,8 @@
 namespace cubecam {
 namespace {
 
-/// Beyond so many, the constants of a material would cost each triangle more than they save
-/// (docs/adr/0004).
-constexpr std::size_t most_flat_constants = 2;
+/// Beyond so many, the vertex stage has no room for lights.
+constexpr int most_flat_lights = 4;
 
 /// The file that stands for the material's own in shaders/passes/surface.frag.
 constexpr std::string_view material_include = "include/material.glsl";
@@ -74,7 +74,7 @@ gl::ShaderOptions Programs::layer_options() const {
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
                                             const MaterialTraits& material) const {
-    gl::ShaderOptions options = layer_options();
+    gl::ShaderOptions options = variant.instanced ? gl::ShaderOptions() : layer_options();
     const auto define = [&options](bool wanted, const char* name) {
         if (wanted) options.defines.emplace_back(name, "1");
     };
@@ -98,8 +98,11 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.cone, "LIGHT_CONE");
     define(variant.dense, "DENSE");
     define(variant.moved, "HAS_USER_VERTEX");
+    define(variant.instanced, "INSTANCED");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
+    const int flat_lights = variant.dense ? 0 : std::clamp(variant.lights, 0, most_flat_lights);
+    options.defines.emplace_back("FLAT_LIGHT_COUNT", std::to_string(flat_lights));
     if (variant.shadows > 0) {
         options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
         options.defines.emplace_back("SHADOW_KINDS", std::to_string(variant.shadow_kinds) + "u");
@@ -117,9 +120,8 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
     gl::ShaderOptions options = surface_options(variant, material);
     add_defines(options, output_defines(variant.outputs));
     return surfaces_
-        .emplace(variant,
-                 gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                             substituted({{material_include, "", &include}})))
+        .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                                      substituted({{material_include, "", &include}})))
         .first->second;
 }
 

@@ -14,12 +14,10 @@
 
 namespace cubecam {
 
-/// Lights beyond this many are refused: they lie in a uniform block of guaranteed size.
-inline constexpr std::size_t max_lights = 256;
-
 /// Which variant of surface.vert/.frag a draw call needs.
 struct SurfaceVariant {
     const KindInfo* kind = nullptr;
+    bool instanced = false;      ///< the instances are nodes, else they are views
     std::uint32_t switches = 0;  ///< MaterialTraits::switches
     std::uint32_t textures = 0;  ///< bit i: the material's texture i shows something
     bool vertex_colors = false;
