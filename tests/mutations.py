@@ -166,8 +166,8 @@ MUTATIONS = [
     Mutation(
         "phong: ambient for each light",
         "phong.glsl",
-        "result += light_answer(surface,",
-        "result += result + light_answer(surface,",
+        "i < FLAT_LIGHT_COUNT; ++i) result += light_answer(",
+        "i < FLAT_LIGHT_COUNT; ++i) result += result + light_answer(",
         PHONG,
     ),
     Mutation(
@@ -263,9 +263,9 @@ MUTATIONS = [
     ),
     Mutation(
         "stereo: positions of both eyes count from the left one",
-        SURFACE,
-        "const glm::dvec3 origin = input.views[input.regions.front().view].position;",
-        "const glm::dvec3 origin = input.views.front().position;",
+        "surface_input.hpp",
+        "return views[regions.front().view].position;",
+        "return views.front().position;",
         STEREO,
     ),
     Mutation(
@@ -599,7 +599,7 @@ MUTATIONS = [
     ),
     Mutation(
         "spot: the penumbra's share turned round",
-        SURFACE,
+        "light_block.cpp",
         "spot.angle * (1.0 - spot.penumbra)",
         "spot.angle * spot.penumbra",
         ("tests/gl/test_spot_light.py",),
