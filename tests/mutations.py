@@ -579,7 +579,7 @@ MUTATIONS = [
     Mutation(
         "key: shadow maps forgotten",
         "picture_key.cpp",
-        "if (a.receives_shadows && !same_shadows) return false;",
+        "if (a.receive_shadow && !same_shadows) return false;",
         "",
         SHADOW_MAPS,
     ),

@@ -13,7 +13,7 @@ constexpr const char* basic_doc =
 Parameters
 ----------
 color : array_like (3,) or (4,), or str
-    Linear RGB or RGBA.
+    Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
 map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture, placed by the mesh's uvs.
 cubemap : CubeMap or Probe, optional

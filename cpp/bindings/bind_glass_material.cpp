@@ -22,7 +22,7 @@ ior : float
 fresnel : bool
     False: T alone.
 tint : array_like (3,) or (4,), or str
-    Linear RGB or RGBA, times what is refracted.
+    Linear RGB or RGBA, times what is refracted; a CSS name or "#rrggbb" says sRGB.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
     As of every `Material`.
 

@@ -16,11 +16,11 @@ the scene's, a CubeMap or a Probe.
 Parameters
 ----------
 tint : array_like (3,) or (4,), or str
-    Linear RGB or RGBA, times what is reflected.
+    Linear RGB or RGBA, times what is reflected; a CSS name or "#rrggbb" says sRGB.
 env_weight : float
     Weight of what is reflected, not negative.
 color : array_like (3,) or (4,), or str
-    Linear RGB or RGBA that the surface adds.
+    Linear RGB or RGBA that the surface adds; a CSS name or "#rrggbb" says sRGB.
 color_weight : float
     Its weight, not negative.
 f0 : float, optional

@@ -17,7 +17,7 @@ in white where N.L > 0 (B. T. Phong, "Illumination for Computer Generated Pictur
 Parameters
 ----------
 color : array_like (3,) or (4,), or str
-    Linear RGB or RGBA.
+    Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
 ka, kd, ks : float
     Ambient, diffuse and specular weights, not negative.
 shininess : float

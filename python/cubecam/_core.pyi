@@ -1847,6 +1847,8 @@ class Blend:
     ------
     ValueError
         For an unknown word.
+    TypeError
+        For what is no word.
 
     Notes
     -----
@@ -2021,8 +2023,8 @@ class Material:
     Base of the materials: how a surface answers light.
 
     A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
-    numbers, linear; a fourth, from 0 to 1, multiplies `opacity`. What is not fully
-    opaque is blended over what lies behind it.
+    numbers, linear, or the name of a CSS colour or "#rrggbb", which say sRGB; a fourth number, from 0 to
+    1, multiplies `opacity`. What is not fully opaque is blended over what lies behind it.
 
     Every material takes these by keyword, and has them as attributes:
 
@@ -2114,7 +2116,7 @@ class BasicMaterial(Material):
 
     Parameters
     ----------
-    color : array_like (3,) or (4,)
+    color : array_like (3,) or (4,), or str
         Linear RGB or RGBA.
     map : Image, array_like (H, W, C) or RenderTexture, optional
         A picture, placed by the mesh's uvs.
@@ -2198,7 +2200,7 @@ class GlassMaterial(Material):
         water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
     fresnel : bool
         False: T alone.
-    tint : array_like (3,) or (4,)
+    tint : array_like (3,) or (4,), or str
         Linear RGB or RGBA, times what is refracted.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
         As of every `Material`.
@@ -2260,11 +2262,11 @@ class MirrorMaterial(Material):
 
     Parameters
     ----------
-    tint : array_like (3,) or (4,)
+    tint : array_like (3,) or (4,), or str
         Linear RGB or RGBA, times what is reflected.
     env_weight : float
         Weight of what is reflected, not negative.
-    color : array_like (3,) or (4,)
+    color : array_like (3,) or (4,), or str
         Linear RGB or RGBA that the surface adds.
     color_weight : float
         Its weight, not negative.
@@ -2349,7 +2351,7 @@ class PhongMaterial(Material):
 
     Parameters
     ----------
-    color : array_like (3,) or (4,)
+    color : array_like (3,) or (4,), or str
         Linear RGB or RGBA.
     ka, kd, ks : float
         Ambient, diffuse and specular weights, not negative.

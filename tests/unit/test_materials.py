@@ -61,12 +61,17 @@ def test_of_a_shader_material_only_the_fragment_goes_by_position():
 
 
 @pytest.mark.parametrize(
-    ("kind", "name", "value"), [(cc.GlassMaterial, "eta", 0.5), (cc.MirrorMaterial, "fresnel", 0.5)]
+    ("kind", "old", "new"),
+    [(cc.GlassMaterial, "eta", "ior, which is 1 / eta"), (cc.MirrorMaterial, "fresnel", "f0")],
 )
-def test_old_names_are_gone(kind, name, value):
-    assert name not in dir(kind)
-    with pytest.raises(TypeError):
-        kind(**{name: value})
+def test_old_names_answer_with_the_new_ones(kind, old, new):
+    assert old not in dir(kind())
+    name = kind.__name__
+    answer = f"^{name}.{old} is now {name}.{new}$"
+    with pytest.raises(AttributeError, match=answer):
+        getattr(kind(), old)
+    with pytest.raises(TypeError, match=answer):
+        kind(**{old: 0.5})
 
 
 def test_fourth_number_of_a_color():

@@ -15,15 +15,15 @@ Dependencies ScenePicture::plan(std::vector<View> views, int width, int height,
     plan_ = make_plan(scene_, views_, width, height, wanted, depth_mode(depth_format));
     Dependencies shown;
     const bool shadows = has_shadows(scene_);
-    receives_shadows_ = false;
+    shows_shadows_ = false;
     for (const auto* nodes : {&plan_.opaque, &plan_.transparent}) {
         for (const PlannedNode& planned : *nodes) {
             const NodeSnapshot& node = scene_.nodes[planned.node];
             add_dependencies(scene_, number_, node, shown);
-            receives_shadows_ = receives_shadows_ || (shadows && receive_shadow(node));
+            shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
         }
     }
-    if (receives_shadows_) add_shadows(scene_, number_, shown);
+    if (shows_shadows_) add_shadows(scene_, number_, shown);
     return shown;
 }
 
@@ -31,7 +31,7 @@ std::size_t ScenePicture::draw_changed(Target& target, const PostProcess& post_p
                                        std::optional<Budget> budget) {
     TextureLookup lookup(context_, id_, number_);
     const std::vector<ShadowUse> shadows =
-        receives_shadows_ ? context_.shadows(number_) : std::vector<ShadowUse>();
+        shows_shadows_ ? context_.shadows(number_) : std::vector<ShadowUse>();
     DrawnPicture picture{context_.gpu, scene_,  views_,       plan_,
                          lookup,       shadows, post_process, context_.stats};
     return picture.draw_changed(target, budget);

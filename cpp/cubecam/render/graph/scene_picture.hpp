@@ -36,7 +36,7 @@ protected:
 private:
     std::vector<View> views_;
     DrawPlan plan_;
-    bool receives_shadows_ = false;
+    bool shows_shadows_ = false;
 };
 
 }  // namespace cubecam

@@ -83,8 +83,8 @@ struct Comparison {
     bool same_shadows;
 
     bool same(const NodeKey& a, const NodeKey& b) const {
-        if (a.bounds != b.bounds || a.receives_shadows != b.receives_shadows) return false;
-        if (a.receives_shadows && !same_shadows) return false;
+        if (a.bounds != b.bounds || a.receive_shadow != b.receive_shadow) return false;
+        if (a.receive_shadow && !same_shadows) return false;
         if (a.revision != b.revision &&
             (a.mesh != b.mesh || a.material != b.material || a.world != b.world)) {
             return false;

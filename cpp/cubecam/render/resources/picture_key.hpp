@@ -17,7 +17,7 @@ namespace cubecam {
 /// picture's list of textures.
 struct NodeKey {
     std::int32_t id;
-    bool receives_shadows;
+    bool receive_shadow;
     Rect bounds;
     std::uint64_t revision;  ///< NodeSnapshot::revision; equal ones need no further look
     glm::dmat4 world;
