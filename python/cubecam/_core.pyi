@@ -1704,6 +1704,8 @@ class Blend:
     ------
     ValueError
         For an unknown word.
+    TypeError
+        For what is no word.
 
     Notes
     -----

@@ -200,7 +200,8 @@ private:
             value.mesh,
             material,
             snapshot_of(value.environment),
-            snapshot_of(traits.textures, value.mesh->uvs() != nullptr),
+            traits.textured ? snapshot_of(traits.textures, value.mesh->uvs() != nullptr)
+                            : std::vector<TextureSourceSnapshot>(),
             moved && !traits.user_code->displacement,
             place.in_captures,
             blend != Blend::opaque,
