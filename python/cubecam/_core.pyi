@@ -2117,7 +2117,7 @@ class BasicMaterial(Material):
     Parameters
     ----------
     color : array_like (3,) or (4,), or str
-        Linear RGB or RGBA.
+        Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
     map : Image, array_like (H, W, C) or RenderTexture, optional
         A picture, placed by the mesh's uvs.
     cubemap : CubeMap or Probe, optional
@@ -2201,7 +2201,7 @@ class GlassMaterial(Material):
     fresnel : bool
         False: T alone.
     tint : array_like (3,) or (4,), or str
-        Linear RGB or RGBA, times what is refracted.
+        Linear RGB or RGBA, times what is refracted; a CSS name or "#rrggbb" says sRGB.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
         As of every `Material`.
 
@@ -2263,11 +2263,11 @@ class MirrorMaterial(Material):
     Parameters
     ----------
     tint : array_like (3,) or (4,), or str
-        Linear RGB or RGBA, times what is reflected.
+        Linear RGB or RGBA, times what is reflected; a CSS name or "#rrggbb" says sRGB.
     env_weight : float
         Weight of what is reflected, not negative.
     color : array_like (3,) or (4,), or str
-        Linear RGB or RGBA that the surface adds.
+        Linear RGB or RGBA that the surface adds; a CSS name or "#rrggbb" says sRGB.
     color_weight : float
         Its weight, not negative.
     f0 : float, optional
@@ -2352,7 +2352,7 @@ class PhongMaterial(Material):
     Parameters
     ----------
     color : array_like (3,) or (4,), or str
-        Linear RGB or RGBA.
+        Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
     ka, kd, ks : float
         Ambient, diffuse and specular weights, not negative.
     shininess : float

@@ -8,10 +8,9 @@ struct Light {
 };
 
 // Declared where it is read. Of a known number of lights no more than these: a driver may copy the block for each draw.
-#ifdef VERTEX_STAGE
-#define LIGHTS_READ FLAT_LIGHT_COUNT
-#elif defined(LIGHT_COUNT)
-#define LIGHTS_READ (LIGHT_COUNT > FLAT_LIGHT_COUNT ? LIGHT_COUNT : 0)
+// Both stages declare the same, or they do not link.
+#ifdef LIGHT_COUNT
+#define LIGHTS_READ LIGHT_COUNT
 #else
 #define LIGHTS_READ MAX_LIGHTS
 #endif

@@ -142,6 +142,26 @@ def test_a_map_that_does_not_say_what_its_alpha_does_is_refused(compiler):
     assert "MapAlpha" in done.stderr, done.stderr
 
 
+def test_more_textures_than_there_are_units_are_refused(compiler):
+    def many(count):
+        names = [f"map_{i}" for i in range(count)]
+        fields = "".join(f'Field{{"{n}", &Toy::{n}, MapAlpha::ignored, "Image."}}, ' for n in names)
+        members = {n: f"MapSource {n};" for n in names} | {"flag": MEMBERS["flag"]}
+        fields += 'Field{"flag", &Toy::flag, "bool."}'
+        parts = without(PARTS, "user_code") | {
+            "fields": f"static constexpr auto fields = std::tuple{{{fields}}};",
+            "alpha": "float alpha() const { return 1.0F; }",
+            "constants": "std::array<glm::vec4, 0> constants(const glm::vec3&) const { return {}; }",
+        }
+        return compiler(toy(parts, members), "-DWHOLE")
+
+    done = many(14)
+    assert done.returncode == 0, done.stderr
+    done = many(15)
+    assert done.returncode != 0
+    assert "at most 14 fields that are textures" in done.stderr, done.stderr
+
+
 def test_a_kind_with_a_wrong_type_is_refused(compiler):
     done = compiler(toy({**PARTS, "alpha": "int alpha() const { return 1; }"}))
     assert done.returncode != 0

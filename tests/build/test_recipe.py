@@ -38,8 +38,31 @@ def digests(tree):
         for path in tree.rglob("*")
         if path.is_file()
         and path.suffix != ".so"
-        and not LEFT_OUT & set(path.relative_to(tree).parts)
+        and path.relative_to(tree).parts[0] not in LEFT_OUT
+        and "__pycache__" not in path.parts
     }
+
+
+def left_out(folder, names):
+    """What shutil.copytree leaves behind: builds and caches at the top, but not tests/build."""
+    return {
+        name
+        for name in names
+        if name == "__pycache__" or (folder == str(ROOT) and name in LEFT_OUT)
+    }
+
+
+def build(tree):
+    """Compile what changed and put the module beside its package."""
+    built = subprocess.run(
+        [tool("cmake"), "--build", tree / "build", "--target", "_core"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert built.returncode == 0, built.stdout[-3000:] + built.stderr[-3000:]
+    (module,) = (tree / "build").rglob("_core.*.so")
+    shutil.copy2(module, tree / "python" / "cubecam")
 
 
 @pytest.fixture(scope="module")
@@ -49,27 +72,19 @@ def tree(tmp_path_factory):
 
     folder = tmp_path_factory.mktemp("recipe")
     made = folder / "tree"
-    shutil.copytree(ROOT, made, ignore=lambda _, names: LEFT_OUT & set(names))
+    shutil.copytree(str(ROOT), made, ignore=left_out)
     for module in (made / "python" / "cubecam").glob("_core*.so"):
         module.unlink()
     before = digests(made)
     for path, code in blocks().items():
         (made / path).write_text(code, encoding="utf-8")
     run(
-        tool("cmake"), "-S", made, "-B", folder / "build", "-G", "Ninja",
+        tool("cmake"), "-S", made, "-B", made / "build", "-G", "Ninja",
         f"-DCMAKE_MAKE_PROGRAM={tool('ninja')}", f"-DPython_EXECUTABLE={sys.executable}",
         f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", "-DCUBECAM_BUILD_MODULE=ON",
         "-DCUBECAM_WERROR=ON", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O0",
     )  # fmt: skip
-    built = subprocess.run(
-        [tool("cmake"), "--build", folder / "build", "--target", "_core"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert built.returncode == 0, built.stdout[-3000:] + built.stderr[-3000:]
-    (module,) = (folder / "build").rglob("_core.*.so")
-    shutil.copy2(module, made / "python" / "cubecam")
+    build(made)
     return made, before
 
 
@@ -93,15 +108,18 @@ def test_the_recipe_names_four_files():
     assert not [path for path in FILES if (ROOT / path).exists()]
 
 
-def test_its_own_test_passes(tree):
-    made, _ = tree
+def check_own_test(tree):
     done = run_in(
-        made, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "no:nbmake",
+        tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "no:nbmake",
         "-o", "addopts=--import-mode=importlib", "tests/gl/test_mix_material.py",
         "tests/unit/test_docstrings.py::test_examples",
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     assert " passed" in done.stdout
+
+
+def test_its_own_test_passes(tree):
+    check_own_test(tree[0])
 
 
 SCRIPT = """
@@ -137,3 +155,31 @@ def test_four_files_are_new_and_none_has_changed(tree):
     after = digests(made)
     assert {path for path in after if path not in before} == FILES
     assert {path: digest for path, digest in after.items() if path in before} == before
+
+
+def test_a_kind_of_many_numbers_reads_them_from_its_block(tree):
+    """More than two vec4 are no flat inputs any more (docs/adr/0004)."""
+    made, _ = tree
+    many = {
+        "cpp/cubecam/materials/mix.hpp": [
+            ("std::array<glm::vec4, 1>", "std::array<glm::vec4, 40>"),
+            (
+                "return {glm::vec4(share)};",
+                "std::array<glm::vec4, 40> all{}; all[39].y = share; return all;",
+            ),
+        ],
+        "shaders/materials/mix.glsl": [("material[0].x)", "material[39].y)")],
+    }
+    before = {path: (made / path).read_text(encoding="utf-8") for path in many}
+    try:
+        for path, changes in many.items():
+            text = before[path]
+            for old, new in changes:
+                assert text.count(old) == 1, old
+                text = text.replace(old, new)
+            (made / path).write_text(text, encoding="utf-8")
+        build(made)
+        check_own_test(made)
+    finally:
+        for path, text in before.items():
+            (made / path).write_text(text, encoding="utf-8")

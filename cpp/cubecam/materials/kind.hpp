@@ -152,6 +152,10 @@ struct Members<Kind, std::index_sequence<index...>> {
     static constexpr bool fit = requires { Kind{std::declval<FieldType<Kind, index>>()...}; };
     /// Whether the struct takes one more: a member that no field names.
     static constexpr bool more = requires { Kind{std::declval<FieldType<Kind, index>>()..., {}}; };
+    static constexpr std::size_t textures =
+        ((std::size_t{std::same_as<FieldType<Kind, index>, MapSource> ||
+                      std::same_as<FieldType<Kind, index>, CubeSource>}) +
+         ... + 0);
     static constexpr bool user_code = ((std::same_as<FieldType<Kind, index>, UserSource> ||
                                         std::same_as<FieldType<Kind, index>, ShaderInputs>) ||
                                        ...);

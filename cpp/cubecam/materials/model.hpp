@@ -16,6 +16,9 @@
 
 namespace cubecam {
 
+/// Textures of one material, besides a user's: the shaders have units 2 to 15 for them.
+inline constexpr std::size_t most_material_textures = 14;
+
 /// What all materials of a kind have in common. There is one object for each kind, so that pointers
 /// tell kinds apart.
 struct KindInfo {
@@ -42,6 +45,7 @@ struct MaterialTraits {
     std::vector<const char*> switch_names;  ///< every switch of the kind, set or not
     std::uint32_t switches = 0;             ///< bit i: switch_names[i] is set
     std::vector<NamedTexture> textures;     ///< in the order of the fields, none left out
+    bool textured = false;                  ///< whether any of them shows something, or is a user's
     bool uses_environment;
     bool uses_lights;
     VertexColors vertex_colors;
@@ -92,6 +96,12 @@ public:
         traits_.vertex_colors = kind_.uses_vertex_colors();
         if constexpr (kinds::HasUserCode<Kind>) traits_.user_code = kind_.user_code();
         for_each_field<Kind>([this](const auto& field) { add_textures(field); });
+        const auto shows = [this](const NamedTexture& texture) {
+            return traits_.user_code ||
+                   std::visit([](const auto* source) { return source->index() != 0; },
+                              texture.source);
+        };
+        traits_.textured = std::any_of(traits_.textures.begin(), traits_.textures.end(), shows);
     }
 
     const Kind& kind() const { return kind_; }
@@ -134,7 +144,10 @@ private:
 
     static constexpr std::size_t constant_count =
         std::tuple_size_v<decltype(std::declval<const Kind&>().constants(glm::vec3()))>;
-    static_assert(constant_count <= 1024, "a uniform block holds at most 1024 vec4");
+    static_assert(constant_count <= 1024,
+                  "a material kind has at most 1024 vec4 in its uniform block");
+    static_assert(kinds::MembersOf<Kind>::textures <= most_material_textures,
+                  "a material kind has at most 14 fields that are textures");
 
     static constexpr KindInfo info{Kind::name, Kind::shader, constant_count, names};
 

@@ -262,7 +262,8 @@ private:
             mesh,
             material,
             snapshot_of(value.environment),
-            snapshot_of(traits.textures, mesh->uvs() != nullptr),
+            traits.textured ? snapshot_of(traits.textures, mesh->uvs() != nullptr)
+                            : std::vector<TextureSourceSnapshot>(),
             moved && !traits.user_code->displacement,
             place.in_captures,
             blend != Blend::opaque,

@@ -53,8 +53,8 @@ struct NodeSnapshot {
     std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
     Material::State material;
     CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
-    /// What the material's textures show, in their order (MaterialTraits::textures). A map is none
-    /// as well if the mesh has no uvs to place it by.
+    /// What the material's textures show, in their order (MaterialTraits::textures); empty if none
+    /// shows anything. A map is none as well if the mesh has no uvs to place it by.
     std::vector<TextureSourceSnapshot> textures;
     bool unbounded;    ///< its vertices may go anywhere: it is not culled
     bool in_captures;  ///< of the node and all above it

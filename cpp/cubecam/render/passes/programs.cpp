@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -38,10 +37,6 @@ UserSource include_of(const KindInfo& kind) {
 void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
                   const MaterialTraits& material) {
     if (material.user_code) return;  // samplers are the user's own
-    if (material.textures.size() > most_material_textures) {
-        throw std::logic_error(std::string(material.kind->name) + ": expected at most " +
-                               std::to_string(most_material_textures) + " textures");
-    }
     bool uv = false;
     bool position = false;
     for (std::size_t i = 0; i < material.textures.size(); ++i) {

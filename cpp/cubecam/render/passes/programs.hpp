@@ -35,9 +35,9 @@ struct SurfaceVariant {
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 
-/// The unit of a material's first texture; units below belong to the passes.
+/// The unit of a material's first texture: units below belong to the passes, those from 16 on to
+/// shadows.
 inline constexpr unsigned first_material_unit = 2;
-inline constexpr unsigned most_material_textures = 14;  ///< units from 16 on are for shadows
 
 /// Compiled programs, made when first needed.
 class Programs {
