@@ -77,15 +77,6 @@ py::array_t<double> axis_angle(const ArrayLike& axis, double degrees) {
     return result;
 }
 
-/// Position alone, which every matrix has.
-void set_position(Placing& placing, const glm::dvec3& position) {
-    if (auto* matrix = std::get_if<glm::dmat4>(&placing)) {
-        (*matrix)[3] = glm::dvec4(position, 1.0);
-    } else {
-        std::get<Transform>(placing).position = position;
-    }
-}
-
 glm::dvec3 position_of(const Placing& placing) {
     const auto* matrix = std::get_if<glm::dmat4>(&placing);
     return matrix ? glm::dvec3((*matrix)[3]) : std::get<Transform>(placing).position;
@@ -105,7 +96,7 @@ void bind_placing(Class<Node>& node) {
         "position", [](const Node& self) { return point_array(position_of(self.value().placing)); },
         [](Node& self, const ArrayLike& value) {
             const glm::dvec3 position = to_point(value, "position");
-            self.edit([&](NodeValue& next) { set_position(next.placing, position); });
+            self.edit_placing([&](Placing& next) { set_position(next, position); });
         },
         "ndarray (3,) float64: relative to the parent, read-only.");
     node.def_property(
@@ -115,10 +106,10 @@ void bind_placing(Class<Node>& node) {
         },
         [](Node& self, const ArrayLike& value) {
             const glm::dquat rotation = to_rotation(value, "rotation");
-            self.edit([&](NodeValue& next) {
-                Transform transform = transform_of(next.placing);
+            self.edit_placing([&](Placing& next) {
+                Transform transform = transform_of(next);
                 transform.rotation = rotation;
-                next.placing = transform;
+                next = transform;
             });
         },
         "ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.");
@@ -127,10 +118,10 @@ void bind_placing(Class<Node>& node) {
         [](const Node& self) { return point_array(transform_of(self.value().placing).scale); },
         [](Node& self, const OneOf<py::float_, ArrayLike>& value) {
             const glm::dvec3 scale = to_scale(value, "scale");
-            self.edit([&](NodeValue& next) {
-                Transform transform = transform_of(next.placing);
+            self.edit_placing([&](Placing& next) {
+                Transform transform = transform_of(next);
                 transform.scale = scale;
-                next.placing = transform;
+                next = transform;
             });
         },
         "ndarray (3,) float64: along the node's own axes, read-only; one number sets all three.");
@@ -138,7 +129,7 @@ void bind_placing(Class<Node>& node) {
         "matrix", [](const Node& self) { return matrix_array(matrix_of(self.value().placing)); },
         [](Node& self, const ArrayLike& value) {
             const glm::dmat4 matrix = to_mat4(value, "matrix");
-            self.edit([&](NodeValue& next) { next.placing = matrix; });
+            self.edit_placing([&](Placing& next) { next = matrix; });
         },
         "ndarray (4, 4) float64: node to parent, read-only. Setting it replaces position, rotation"
         " and scale; it must not be singular, and its last row is (0, 0, 0, 1).");

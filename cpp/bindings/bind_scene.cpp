@@ -1,5 +1,6 @@
 // cubecam.Scene
 #include "bind_scene_docs.hpp"
+#include "node_list.hpp"
 #include "node_state.hpp"
 
 #include "cubecam/scene/scene.hpp"
@@ -68,6 +69,42 @@ void remove_thing(Scene& scene, const OneOf<Node, Light>& thing) {
     } else {
         scene.remove(to_shared<Node>(thing, "node", "a Node or a Light"));
     }
+}
+
+std::vector<std::shared_ptr<Node>> to_node_list(const Nodes& value) {
+    if (py::isinstance<Node>(value) || !py::isinstance<py::iterable>(value)) {
+        refuse(value, "nodes", "a sequence of Nodes");
+    }
+    std::vector<std::shared_ptr<Node>> nodes;
+    for (const py::handle item : py::iter(value))
+        nodes.push_back(to_shared<Node>(item, "nodes", "Nodes"));
+    return nodes;
+}
+
+void set_positions(Scene& scene, const Nodes& nodes, const ArrayLike& positions) {
+    const auto placed = to_node_list(nodes);
+    const auto rows =
+        double_array(positions, "positions", "(" + std::to_string(placed.size()) + ", 3)");
+    const double* from = rows.data();
+    scene.place(placed, [from](std::size_t i, Placing& placing) {
+        const double* row = from + 3 * i;
+        set_position(placing, glm::dvec3(row[0], row[1], row[2]));
+    });
+}
+
+void set_matrices(Scene& scene, const Nodes& nodes, const ArrayLike& matrices) {
+    const auto placed = to_node_list(nodes);
+    const auto given =
+        double_array(matrices, "matrices", "(" + std::to_string(placed.size()) + ", 4, 4)");
+    const double* from = given.data();
+    scene.place(placed, [from](std::size_t i, Placing& placing) {
+        glm::dmat4 matrix;
+        for (int row = 0; row < 4; ++row) {
+            for (int column = 0; column < 4; ++column)
+                matrix[column][row] = from[16 * i + static_cast<std::size_t>(4 * row + column)];
+        }
+        placing = matrix;
+    });
 }
 
 bool contains_thing(const Scene& scene, py::handle thing) {
@@ -166,6 +203,10 @@ void bind_scene(pybind11::module_& module) {
               py::arg("visible") = true, py::arg("in_captures") = true, py::arg("name") = "",
               py::arg("render_order") = 0, py::arg("cast_shadow") = true,
               py::arg("receive_shadow") = true, add_node_doc);
+    scene.def("set_positions", &set_positions, py::arg("nodes"), py::arg("positions"),
+              set_positions_doc);
+    scene.def("set_matrices", &set_matrices, py::arg("nodes"), py::arg("matrices"),
+              set_matrices_doc);
     scene.def("remove", &remove_thing, py::arg("thing"), remove_doc);
     scene.def("clear", &Scene::clear, "Take all nodes and lights out.");
     scene.def_property_readonly(

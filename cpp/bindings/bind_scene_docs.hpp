@@ -108,6 +108,58 @@ Examples
 ([2.0, 2.0, 2.0], 'crate')
 )doc";
 
+inline constexpr const char* set_positions_doc =
+    R"doc(Place many nodes at once, as `Node.position` does for each, in a hundredth of the time.
+
+Parameters
+----------
+nodes : sequence of Node
+    Nodes of this scene.
+positions : array_like (len(nodes), 3)
+    Relative to the parent of each, world units.
+
+Raises
+------
+ValueError
+    For another number of positions than nodes, numbers that are not finite, or a node of another scene. No node is
+    moved then.
+
+Examples
+--------
+>>> import cubecam as cc, numpy as np
+>>> scene = cc.Scene()
+>>> nodes = [scene.add(cc.Mesh.box(0.1)) for _ in range(3)]
+>>> scene.set_positions(nodes, np.eye(3))
+>>> nodes[1].position.tolist()
+[0.0, 1.0, 0.0]
+)doc";
+
+inline constexpr const char* set_matrices_doc =
+    R"doc(Place many nodes at once, as `Node.matrix` does for each.
+
+Parameters
+----------
+nodes : sequence of Node
+    Nodes of this scene.
+matrices : array_like (len(nodes), 4, 4)
+    Node to parent, for column vectors; the last row of each is (0, 0, 0, 1).
+
+Raises
+------
+ValueError
+    For another number of matrices than nodes, a matrix that is singular or not finite, or a node of another scene. No
+    node is moved then.
+
+Examples
+--------
+>>> import cubecam as cc, numpy as np
+>>> scene = cc.Scene()
+>>> nodes = [scene.add(cc.Mesh.box(0.1)) for _ in range(2)]
+>>> scene.set_matrices(nodes, [np.diag([2, 2, 2, 1]), np.eye(4)])
+>>> nodes[0].scale.tolist()
+[2.0, 2.0, 2.0]
+)doc";
+
 inline constexpr const char* remove_doc = R"doc(Take a node and all below it, or a light, out.
 
 They keep their values; ids are not used again.

@@ -793,6 +793,62 @@ class Scene:
         >>> scene.nodes, child.parent is group
         ((), True)
         """
+    def set_matrices(
+        self: Scene, nodes: collections.abc.Iterable[Node], matrices: numpy.typing.ArrayLike
+    ) -> None:
+        """
+        Place many nodes at once, as `Node.matrix` does for each.
+
+        Parameters
+        ----------
+        nodes : sequence of Node
+            Nodes of this scene.
+        matrices : array_like (len(nodes), 4, 4)
+            Node to parent, for column vectors; the last row of each is (0, 0, 0, 1).
+
+        Raises
+        ------
+        ValueError
+            For another number of matrices than nodes, a matrix that is singular or not finite, or a node of another scene. No
+            node is moved then.
+
+        Examples
+        --------
+        >>> import cubecam as cc, numpy as np
+        >>> scene = cc.Scene()
+        >>> nodes = [scene.add(cc.Mesh.box(0.1)) for _ in range(2)]
+        >>> scene.set_matrices(nodes, [np.diag([2, 2, 2, 1]), np.eye(4)])
+        >>> nodes[0].scale.tolist()
+        [2.0, 2.0, 2.0]
+        """
+    def set_positions(
+        self: Scene, nodes: collections.abc.Iterable[Node], positions: numpy.typing.ArrayLike
+    ) -> None:
+        """
+        Place many nodes at once, as `Node.position` does for each, in a hundredth of the time.
+
+        Parameters
+        ----------
+        nodes : sequence of Node
+            Nodes of this scene.
+        positions : array_like (len(nodes), 3)
+            Relative to the parent of each, world units.
+
+        Raises
+        ------
+        ValueError
+            For another number of positions than nodes, numbers that are not finite, or a node of another scene. No node is
+            moved then.
+
+        Examples
+        --------
+        >>> import cubecam as cc, numpy as np
+        >>> scene = cc.Scene()
+        >>> nodes = [scene.add(cc.Mesh.box(0.1)) for _ in range(3)]
+        >>> scene.set_positions(nodes, np.eye(3))
+        >>> nodes[1].position.tolist()
+        [0.0, 1.0, 0.0]
+        """
     @property
     def background(self) -> numpy.typing.NDArray[numpy.float32] | CubeMap | None:
         """

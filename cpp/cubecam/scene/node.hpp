@@ -60,6 +60,9 @@ struct NodeValue {
 /// rotation.
 void check(Placing& placing);
 
+/// Position alone, which every matrix has.
+void set_position(Placing& placing, const glm::dvec3& position);
+
 glm::dmat4 matrix_of(const Placing& placing);
 
 /// Position, rotation and scale: those given, or those of the matrix.
@@ -141,8 +144,17 @@ public:
         old = std::exchange(value_, std::move(next));
     }
 
-    /// As edit, of the place alone.
-    void place(Placing placing);
+    /// As edit, of the place alone: `change` gets a Placing.
+    template <class Change>
+    void edit_placing(Change&& change) {
+        const Lock lock = this->lock();
+        Placing next = value_.placing;
+        std::forward<Change>(change)(next);
+        check(next);
+        if (next == value_.placing) return;
+        value_.placing = next;
+        lock.graph->node_moved(*this);
+    }
 
     /// Null: no parent. Nodes that are in no scene come together, children and all.
     /// @throws std::invalid_argument if that would make a cycle or join a scene with anything else.

@@ -156,6 +156,27 @@ void Scene::clear() {
     lights.swap(lights_);
 }
 
+void Scene::place(std::span<const std::shared_ptr<Node>> nodes,
+                  const std::function<void(std::size_t, Placing&)>& change) {
+    const std::lock_guard lock(graph_->mutex);
+    std::vector<Placing> placings;
+    placings.reserve(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i]->graph() != graph_) {
+            throw std::invalid_argument("expected nodes of this scene, got node " +
+                                        std::to_string(nodes[i]->id()) + " of another or of none");
+        }
+        Placing& next = placings.emplace_back(nodes[i]->value_.placing);
+        change(i, next);
+        check(next);
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (placings[i] == nodes[i]->value_.placing) continue;
+        nodes[i]->value_.placing = placings[i];
+        graph_->node_moved(*nodes[i]);
+    }
+}
+
 bool Scene::contains(const Node& node) const { return node.graph() == graph_; }
 
 bool Scene::contains(const Light& light) const {

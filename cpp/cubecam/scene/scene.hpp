@@ -7,8 +7,11 @@
 
 #include <glm/glm.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -47,6 +50,11 @@ public:
     void remove(const std::shared_ptr<Light>& light);
     /// Removes all nodes and lights.
     void clear();
+
+    /// Places many nodes at once: node i by `change(i, Placing&)`. All of them are moved, or none.
+    /// @throws std::invalid_argument for a node that is not here, or as Node::edit_placing does.
+    void place(std::span<const std::shared_ptr<Node>> nodes,
+               const std::function<void(std::size_t, Placing&)>& change);
 
     bool contains(const Node& node) const;
     bool contains(const Light& light) const;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <unordered_map>
 
 namespace cubecam {
 namespace {
@@ -96,52 +96,73 @@ struct Comparison {
     }
 };
 
-/// Indices into a part of a list of nodes, by id; of equal ids, by place.
-std::vector<std::uint32_t> by_id(std::span<const NodeKey> nodes) {
-    std::vector<std::uint32_t> order(nodes.size());
-    std::iota(order.begin(), order.end(), 0U);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return nodes[a].id != nodes[b].id ? nodes[a].id < nodes[b].id : a < b;
-    });
-    return order;
-}
+/// Finds the nodes of a list by their ids. A node comes several times where views stand in several
+/// places: then the first of equal ids that was not taken yet is found.
+class NodesById {
+public:
+    explicit NodesById(std::span<const NodeKey> nodes) : next_(nodes.size(), none) {
+        std::int32_t last = 0;
+        for (const NodeKey& node : nodes) last = std::max(last, node.id);
+        // Ids are mostly dense: a table needs no sorting. Few nodes of a scene that lost many may
+        // have large ones.
+        dense_ = static_cast<std::size_t>(last) < 8 * nodes.size() + 1024;
+        if (dense_) first_.assign(static_cast<std::size_t>(last) + 1, none);
+        for (std::size_t i = nodes.size(); i-- > 0;) {
+            std::uint32_t& first = entry(nodes[i].id);
+            next_[i] = first;
+            first = static_cast<std::uint32_t>(i);
+        }
+    }
+
+    /// The place of a node, which is then taken; `none`: there is no such node.
+    std::uint32_t take(std::int32_t id) {
+        if (dense_ && static_cast<std::size_t>(id) >= first_.size()) return none;
+        std::uint32_t& first = entry(id);
+        const std::uint32_t found = first;
+        if (found != none) first = next_[found];
+        return found;
+    }
+
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+
+private:
+    std::uint32_t& entry(std::int32_t id) {
+        if (dense_) return first_[static_cast<std::size_t>(id)];
+        return sparse_.try_emplace(id, none).first->second;
+    }
+
+    bool dense_ = true;
+    std::vector<std::uint32_t> first_;  // by id
+    std::unordered_map<std::int32_t, std::uint32_t> sparse_;
+    std::vector<std::uint32_t> next_;  // place of the next node of the same id
+};
 
 /// Adds the damage of nodes that do not stand in the same order in both lists.
 void compare_unordered(const Comparison& keys, std::span<const NodeKey> before,
                        std::span<const NodeKey> now, Damage& to) {
-    const std::vector<std::uint32_t> old_order = by_id(before);
-    const std::vector<std::uint32_t> new_order = by_id(now);
-    std::vector<std::uint32_t> place_before(now.size());  // of those that did not change
-    std::vector<bool> same(now.size(), false);
-    std::size_t o = 0;
-    std::size_t n = 0;
-    while (o < old_order.size() || n < new_order.size()) {
-        const NodeKey* old_node = o < old_order.size() ? &before[old_order[o]] : nullptr;
-        const NodeKey* new_node = n < new_order.size() ? &now[new_order[n]] : nullptr;
-        if (new_node == nullptr || (old_node != nullptr && old_node->id < new_node->id)) {
-            to.add(old_node->bounds);
-            ++o;
-        } else if (old_node == nullptr || new_node->id < old_node->id) {
-            to.add(new_node->bounds);
-            ++n;
+    NodesById known(before);
+    std::vector<bool> found(before.size(), false);
+    // What did not change must also be drawn in the order it was.
+    std::uint32_t last_same = 0;
+    for (const NodeKey& node : now) {
+        if (to.is_all()) return;
+        const std::uint32_t place = known.take(node.id);
+        if (place == NodesById::none) {
+            to.add(node.bounds);
+            continue;
+        }
+        found[place] = true;
+        if (!keys.same(before[place], node)) {
+            to.add(before[place].bounds);
+            to.add(node.bounds);
+        } else if (place < last_same) {
+            return to.add_all();
         } else {
-            if (keys.same(*old_node, *new_node)) {
-                same[new_order[n]] = true;
-                place_before[new_order[n]] = old_order[o];
-            } else {
-                to.add(old_node->bounds);
-                to.add(new_node->bounds);
-            }
-            ++o;
-            ++n;
+            last_same = place;
         }
     }
-    // What did not change must also be drawn in the order it was.
-    std::uint32_t last = 0;
-    for (std::size_t i = 0; i < now.size(); ++i) {
-        if (!same[i]) continue;
-        if (place_before[i] < last) return to.add_all();
-        last = place_before[i];
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (!found[i]) to.add(before[i].bounds);
     }
 }
 
