@@ -14,8 +14,22 @@
 namespace cubecam {
 namespace {
 
-/// Beyond so many, the vertex stage has no room for lights.
-constexpr int most_flat_lights = 4;
+/// How many lights reach the fragment shader as flat inputs (docs/adr/0004): as many as the driver
+/// has room for beside everything else in shaders/include/surface.glsl.
+int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, int room) {
+    if (variant.dense || variant.lights <= 0) return 0;
+    int taken = 3;  // position, normal, eye
+    if (variant.kind->constants <= most_flat_constants) {
+        taken += static_cast<int>(variant.kind->constants);
+    }
+    taken += material.textures.empty() ? 0 : 2;  // uv, the object's own position
+    taken += variant.vertex_colors ? 1 : 0;
+    taken += variant.shadows > 0 ? 1 : 0;
+    taken += variant.blend == Blend::opaque ? 0 : 1;
+    taken += variant.outputs.any() ? 4 : 0;
+    const int each = variant.cone ? 3 : 2;
+    return std::clamp((room - taken) / each, 0, variant.lights);
+}
 
 /// The file that stands for the material's own in shaders/passes/surface.frag.
 constexpr std::string_view material_include = "include/material.glsl";
@@ -58,6 +72,10 @@ void add_defines(gl::ShaderOptions& options,
 
 }  // namespace
 
+Programs::Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {
+    gl.GetIntegerv(GL_MAX_VARYING_VECTORS, &room_);
+}
+
 gl::ShaderOptions Programs::layer_options() const {
     gl::ShaderOptions options;
     if (layered_) {
@@ -96,8 +114,8 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.instanced, "INSTANCED");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
-    const int flat_lights = variant.dense ? 0 : std::clamp(variant.lights, 0, most_flat_lights);
-    options.defines.emplace_back("FLAT_LIGHT_COUNT", std::to_string(flat_lights));
+    options.defines.emplace_back("FLAT_LIGHT_COUNT",
+                                 std::to_string(flat_lights(variant, material, room_)));
     if (variant.shadows > 0) {
         options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
         options.defines.emplace_back("SHADOW_KINDS", std::to_string(variant.shadow_kinds) + "u");

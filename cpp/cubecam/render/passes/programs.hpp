@@ -42,7 +42,7 @@ inline constexpr unsigned first_material_unit = 2;
 /// Compiled programs, made when first needed.
 class Programs {
 public:
-    Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {}
+    Programs(const GladGLContext& gl, bool layered);
 
     /// `material` is any of the variant's kind and switches.
     const gl::Program& surface(const SurfaceVariant& variant, const MaterialTraits& material);
@@ -61,6 +61,7 @@ private:
 
     const GladGLContext* gl_;
     bool layered_;
+    GLint room_ = 15;  ///< vectors that a vertex shader may hand on
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
     UserPrograms users_;
