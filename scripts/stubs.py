@@ -122,6 +122,7 @@ def generate() -> str:
         pybind11_stubgen.main([_core.__name__, "--output-dir", folder, "--exit-code"])
         text = Path(folder, "cubecam", "_core.pyi").read_text(encoding="utf-8")
     text = with_plain_enums(without_package_prefix(text))
+    text = text.replace("__all__: list = [", "__all__: list[str] = [")
     text = ruff(text, "check", "--select=I,F401", "--fix-only")
     return ruff(text, "format")
 

@@ -37,6 +37,9 @@ STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
+DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
+NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
+RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 
 CUBE_FACE = "cube_face.hpp"
@@ -163,8 +166,8 @@ MUTATIONS = [
     Mutation(
         "phong: ambient for each light",
         "phong.glsl",
-        "result += light_answer(surface,",
-        "result += result + light_answer(surface,",
+        "i < FLAT_LIGHT_COUNT; ++i) result += light_answer(",
+        "i < FLAT_LIGHT_COUNT; ++i) result += result + light_answer(",
         PHONG,
     ),
     Mutation(
@@ -212,15 +215,15 @@ MUTATIONS = [
     Mutation(
         "translucent: near to far",
         "draw_plan.cpp",
-        "return a.distance > b.distance;",
-        "return a.distance < b.distance;",
+        "key.distance = -key.distance;",
+        "",
         ALPHA,
     ),
     Mutation(
         "translucent: higher order first",
         "draw_plan.cpp",
-        "a.order < b.order : before(a, b)",
-        "a.order > b.order : before(a, b)",
+        "SortKey key{node.render_order, 0,",
+        "SortKey key{-node.render_order, 0,",
         ("tests/gl/test_render_order.py",),
     ),
     Mutation(
@@ -239,9 +242,9 @@ MUTATIONS = [
     ),
     Mutation(
         "depth: reversed as it is stored",
-        "readback.cpp",
-        "value = 1.0F - value;",
-        "value = value;",
+        "repack.hpp",
+        "values[i] = values[i] == clear ? 1.0F : 1.0F - values[i];",
+        "values[i] = values[i];",
         FORMATS,
     ),
     Mutation(
@@ -260,9 +263,9 @@ MUTATIONS = [
     ),
     Mutation(
         "stereo: positions of both eyes count from the left one",
-        SURFACE,
-        "const glm::dvec3 origin = input.views[input.regions.front().view].position;",
-        "const glm::dvec3 origin = input.views.front().position;",
+        "surface_input.hpp",
+        "return views[regions.front().view].position;",
+        "return views.front().position;",
         STEREO,
     ),
     Mutation(
@@ -275,9 +278,51 @@ MUTATIONS = [
     Mutation(
         "culling: too eager",
         "frustum.hpp",
-        "return corners == 8;",
-        "return corners >= 6;",
+        "plane.offset + glm::dot(plane.reach, half);",
+        "plane.offset + 0.0 * glm::dot(plane.reach, half);",
         STATS + CAPTURE,
+    ),
+    Mutation(
+        "materials: every texture in the first unit",
+        "programs.cpp",
+        "std::to_string(first_material_unit + i)",
+        "std::to_string(first_material_unit)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "materials: the alpha of maps forgotten",
+        "snapshot.cpp",
+        "return texture.alpha_counts && map",
+        "return false && texture.alpha_counts && map",
+        ALPHA,
+    ),
+    Mutation(
+        "glass: the inverse of ior forgotten",
+        "glass.hpp",
+        "glm::vec4(glm::vec3(tint), 1.0F / ior)",
+        "glm::vec4(glm::vec3(tint), ior)",
+        LOOKUPS,
+    ),
+    Mutation(
+        "phong: the model's own ambient light forgotten",
+        "phong.hpp",
+        "(1.0F + ambient)",
+        "ambient",
+        PHONG,
+    ),
+    Mutation(
+        "blend: the alpha's factor is the colour's",
+        RASTER,
+        "gl_factor(factors.src_alpha)",
+        "gl_factor(factors.src)",
+        ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "blend: the equation of the node before stays",
+        RASTER,
+        "gl.BlendEquation(free ? gl_equation(factors.equation) : GL_FUNC_ADD);",
+        "if (free) gl.BlendEquation(gl_equation(factors.equation));",
+        ("tests/gl/test_blending.py",),
     ),
     # What a picture depends on.
     Mutation(
@@ -285,15 +330,15 @@ MUTATIONS = [
     ),
     Mutation(
         "key: the node's matrix forgotten",
-        DRAWN,
-        "key.add(node.world);",
-        "",
+        "picture_key.cpp",
+        "a.material != b.material || a.world != b.world",
+        "a.material != b.material",
         STATS,
     ),
     Mutation(
         "damage: where a node was is left as it is",
         "picture_key.cpp",
-        "if (found != old.end()) add(found->second->bounds);",
+        "found.add(a.bounds);",
         "",
         ("tests/gl/test_damage.py",),
     ),
@@ -314,7 +359,7 @@ MUTATIONS = [
     Mutation(
         "key: what a mirror shows forgotten",
         DRAWN,
-        "key.add(found.cube.revision);",
+        "picture.textures.push_back(found.environment.revision);",
         "",
         PROBES,
     ),
@@ -335,7 +380,7 @@ MUTATIONS = [
     Mutation(
         "key: what a map shows forgotten",
         DRAWN,
-        "key.add(found.map.revision);",
+        "picture.textures.push_back(texture.revision);",
         "",
         RENDER_TEXTURES,
     ),
@@ -392,8 +437,8 @@ MUTATIONS = [
     Mutation(
         "openexr cube copied, not resampled",
         "cubemap_save.py",
-        'picture = source.to_layout("openexr", "inside")',
-        'picture = source.to_layout("column", "inside")',
+        'picture = source.to_layout("openexr", dtype=resampled)',
+        'picture = source.to_layout("column", convention="inside")',
         ("tests/unit/test_cubemap_files.py",),
     ),
     Mutation(
@@ -435,8 +480,8 @@ MUTATIONS = [
     Mutation(
         "P4: eta upside down",
         "reflection_and_refraction.py",
-        "eta=eta, fresnel=False",
-        "eta=1 / eta, fresnel=False",
+        "ior=1 / eta, fresnel=False",
+        "ior=eta, fresnel=False",
         ("tests/programs/test_p04_reflection_and_refraction.py",),
     ),
     Mutation(
@@ -533,8 +578,8 @@ MUTATIONS = [
     ),
     Mutation(
         "key: shadow maps forgotten",
-        DRAWN,
-        "if (receive_shadow(node)) key.add(shadow_key);",
+        "picture_key.cpp",
+        "if (a.receives_shadows && !same_shadows) return false;",
         "",
         SHADOW_MAPS,
     ),
@@ -554,7 +599,7 @@ MUTATIONS = [
     ),
     Mutation(
         "spot: the penumbra's share turned round",
-        SURFACE,
+        "light_block.cpp",
         "spot.angle * (1.0 - spot.penumbra)",
         "spot.angle * spot.penumbra",
         ("tests/gl/test_spot_light.py",),
@@ -666,10 +711,59 @@ MUTATIONS = [
         ("tests/gl/test_render_texture_circles.py",),
     ),
     Mutation(
+        "colours: names not decoded",
+        "colors.cpp",
+        "color[i] = srgb_to_linear(bytes[static_cast<std::size_t>(i)] / 255.0);",
+        "color[i] = bytes[static_cast<std::size_t>(i)] / 255.0;",
+        ("tests/unit/test_colors.py",),
+    ),
+    Mutation(
+        "colours: alpha decoded as well",
+        "colors.cpp",
+        "color[3] = bytes[3] / 255.0;",
+        "color[3] = srgb_to_linear(bytes[3] / 255.0);",
+        ("tests/unit/test_colors.py",),
+    ),
+    Mutation(
+        "dtypes: the first piece again",
+        "cubemap_resample.cpp",
+        "pixels_to_floats(from, pixels.data() + i * dtype_size(from), length, line);",
+        "pixels_to_floats(from, pixels.data() + begin * dtype_size(from), length, line);",
+        ("tests/unit/test_cubemap_dtypes.py",),
+    ),
+    Mutation(
+        "resampling: dtype of a panorama not kept",
+        "bind_cubemap.cpp",
+        "const DType to = to_dtype(dtype, image.dtype());",
+        "const DType to = to_dtype(dtype, DType::float32);",
+        ("tests/unit/test_cubemap_dtypes.py",),
+    ),
+    Mutation(
+        "pickles: any format taken",
+        "bind_pickling.cpp",
+        "if (number != pickle_format)",
+        "if (number < 0)",
+        ("tests/unit/test_pickles.py",),
+    ),
+    Mutation(
+        "errors: the old name is not known",
+        "_arguments.py",
+        "answer = renamed(function, name)",
+        "answer = None",
+        ("tests/unit/test_old_names.py",),
+    ),
+    Mutation(
+        "errors: arguments that are missing go unnoticed",
+        "_arguments.py",
+        "if p.required and p.name not in have]",
+        "if False]",
+        ("tests/unit/test_signatures.py",),
+    ),
+    Mutation(
         "shadow: depends on all textures",
         QUERIES,
-        "if (mentions(shader.vertex.text, name)) found.push_back(place);",
-        "found.push_back(place);",
+        "if (mentions(traits.user_code->vertex->text, traits.textures[place].name)) {",
+        "{",
         ("tests/gl/test_render_texture_circles.py",),
     ),
     # What survived a search by hand: kinds that were not tested by value.
@@ -697,8 +791,8 @@ MUTATIONS = [
     Mutation(
         "notebooks: every cubemap mirrored",
         "pictures.py",
-        'cube.to_layout("cross", "inside")',
-        'cube.to_layout("cross", "gl")',
+        'cube.to_layout("cross", convention="inside")',
+        'cube.to_layout("cross", convention="gl")',
         ("tests/unit/test_cubemap.py",),
     ),
     Mutation(
@@ -718,8 +812,8 @@ MUTATIONS = [
     Mutation(
         "output maps: the convention ignored",
         "cubemap_save.py",
-        "CubeMap(texels).to_layout(layout, convention)",
-        'CubeMap(texels).to_layout(layout, "gl")',
+        "CubeMap(texels).to_layout(layout, convention=convention)",
+        "CubeMap(texels).to_layout(layout)",
         ("tests/unit/test_cubemap_files.py",),
     ),
     Mutation(
@@ -749,5 +843,104 @@ MUTATIONS = [
         "width_ % 8 == 0",
         "width_ % 2 == 0",
         EQUIRECT,
+    ),
+    Mutation(
+        "farthest: cleared as for the nearest",
+        "depth_order.hpp",
+        "DepthState{GL_LESS, GL_LEQUAL, 1.0F}",
+        "DepthState{GL_LESS, GL_LEQUAL, 0.0F}",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "farthest: the sky over everything",
+        "skybox.vert",
+        "vec4(corner, u_depth, 1.0)",
+        "vec4(corner, 0.0, 1.0)",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "farthest: depth of the background",
+        "repack.hpp",
+        "values[i] == clear ? 1.0F : 1.0F - values[i]",
+        "1.0F - values[i]",
+        DEPTH_ORDER,
+    ),
+    Mutation(
+        "users' outputs: left as the node before wrote them",
+        "output_declarations.cpp",
+        "set_zero(name, output.channels);",
+        "",
+        NAMED_OUTPUTS,
+    ),
+    Mutation(
+        "users' outputs: all at one place",
+        "outputs.cpp",
+        "{output.name, shaded.size() + 1, output.channels, OutputType::float32, 0.0F}",
+        "{output.name, 1, output.channels, OutputType::float32, 0.0F}",
+        NAMED_OUTPUTS,
+    ),
+    Mutation(
+        "results: memory is kept for ever",
+        "result_pool.cpp",
+        "held_.back().call + patience < call_",
+        "held_.back().call + 1000 * patience < call_",
+        RESULT_MEMORY,
+    ),
+    Mutation(
+        "results: without a bound",
+        "result_pool.cpp",
+        "while (bytes_ > capacity_) {",
+        "while (false) {",
+        RESULT_MEMORY,
+    ),
+    Mutation(
+        "rgb565: rounded down",
+        "repack.hpp",
+        "((p & 31) * 527 + 23) >> 6",
+        "((p & 31) * 527) >> 6",
+        FORMATS,
+    ),
+    Mutation(
+        "stats: what just fits is told as too large",
+        "target_store.hpp",
+        "target->description().bytes() > capacity_;",
+        "target->description().bytes() >= capacity_;",
+        STATS,
+    ),
+    # Meshes set anew.
+    Mutation(
+        "snapshot: an updated mesh goes unseen",
+        "snapshot.cpp",
+        "seen_.push_back({&mesh->revision(), data->revision()});",
+        "",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: a stream set anew is not uploaded",
+        "gpu_cache.cpp",
+        "if (to.writable && to.bytes == bytes) {",
+        "if (to.bytes == bytes) {",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: a stream that went stays",
+        "gpu_cache.cpp",
+        "gl.DisableVertexArrayAttrib(array, place.attribute);",
+        "",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "gpu: 16 bits for one vertex too many",
+        "gpu_cache.cpp",
+        "if (data.positions()->size() > std::size_t{1} << 16) {",
+        "if (data.positions()->size() > (std::size_t{1} << 16) + 1) {",
+        ("tests/gl/test_dynamic_meshes.py",),
+    ),
+    Mutation(
+        "mesh: smooth normals stay behind",
+        "mesh_data.cpp",
+        "} else if (moved && smooth_) {",
+        "} else if (moved && !smooth_) {",
+        ("tests/unit/test_meshes.py",),
     ),
 ]

@@ -46,6 +46,9 @@ TOLERANCES = {
     "texture8": Tolerance(
         0.02, "a lookup in 8 bits of what was blended in 8 bits, times Phong's light", mean=6e-3
     ),
+    "unorm8_blend": Tolerance(
+        1.6 / 255, "source, factors and both products rounded to 8 bits, as llvmpipe blends them"
+    ),
     "unorm8_filter": Tolerance(
         7e-3,
         "llvmpipe filters 8-bit textures in 8-bit arithmetic: weights of 1/256, rounded twice",

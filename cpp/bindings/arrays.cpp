@@ -231,6 +231,18 @@ py::dtype numpy_dtype(DType dtype) {
                                      : py::dtype::of<float>();
 }
 
+py::dtype numpy_dtype(OutputType type) { return py::dtype(output_type_name(type)); }
+
+DType to_dtype(py::handle value, DType otherwise) {
+    if (value.is_none()) return otherwise;
+    const py::dtype given = py::dtype::from_args(py::reinterpret_borrow<py::object>(value));
+    for (const DType dtype : {DType::uint8, DType::float16, DType::float32}) {
+        if (given.equal(numpy_dtype(dtype))) return dtype;
+    }
+    throw py::value_error("dtype: expected uint8, float16 or float32, got " +
+                          py::str(given).cast<std::string>());
+}
+
 PixelArray pixel_array(py::handle value, const char* name, std::string_view shape, Values values) {
     const py::array array = real_array(value, name);
     const char kind = array.dtype().kind();
@@ -330,9 +342,17 @@ py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const v
 }
 
 py::array owned_pixels(PixelBuffer pixels, DType dtype, std::vector<py::ssize_t> shape) {
-    auto* kept = new PixelBuffer(std::move(pixels));
-    const py::capsule base(kept, [](void* at) { delete static_cast<PixelBuffer*>(at); });
-    return py::array(numpy_dtype(dtype), std::move(shape), kept->data(), base);
+    return owned_pixels(std::make_shared<PixelBuffer>(std::move(pixels)), numpy_dtype(dtype),
+                        std::move(shape));
+}
+
+py::array owned_pixels(std::shared_ptr<PixelBuffer> pixels, py::dtype dtype,
+                       std::vector<py::ssize_t> shape) {
+    void* data = pixels->data();
+    auto* kept = new std::shared_ptr<PixelBuffer>(std::move(pixels));
+    const py::capsule base(kept,
+                           [](void* at) { delete static_cast<std::shared_ptr<PixelBuffer>*>(at); });
+    return py::array(std::move(dtype), std::move(shape), data, base);
 }
 
 py::array readonly_array(const glm::dvec3& value) {

@@ -8,6 +8,7 @@
 /// object, str and dates raise TypeError; wrong shapes and values raise ValueError.
 #pragma once
 
+#include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
 
 #include <glm/mat4x4.hpp>
@@ -105,8 +106,11 @@ glm::dvec4 to_color(py::handle value, const char* name);
 /// lives.
 py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const void* data,
                         std::shared_ptr<const void> owner);
-/// The numpy type of pixels.
+/// The numpy type of pixels, and of an output's values.
 py::dtype numpy_dtype(DType dtype);
+py::dtype numpy_dtype(OutputType type);
+/// uint8, float16 or float32, however numpy lets one say it; None gives `otherwise`.
+DType to_dtype(py::handle value, DType otherwise);
 
 template <typename T, typename Allocator>
 py::array readonly_view(std::shared_ptr<const std::vector<T, Allocator>> values,
@@ -124,6 +128,9 @@ py::array owned_array(std::vector<T, Allocator> values, std::vector<py::ssize_t>
 }
 /// The same for raw pixels of a dtype.
 py::array owned_pixels(PixelBuffer pixels, DType dtype, std::vector<py::ssize_t> shape);
+/// The same for memory that has an owner already, who must be the only one.
+py::array owned_pixels(std::shared_ptr<PixelBuffer> pixels, py::dtype dtype,
+                       std::vector<py::ssize_t> shape);
 
 /// Copies, read-only, so that `node.position[1] = 3` raises instead of doing nothing.
 py::array readonly_array(const glm::dvec3& value);

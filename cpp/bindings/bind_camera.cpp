@@ -1,4 +1,5 @@
 // cubecam.Camera and the cameras below it.
+#include "arguments.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -202,10 +203,10 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
                 return std::make_shared<C>(Lens{size, near, far, to_shift(shift)},
                                            placement(position, target, up));
             }),
-            py::arg(opening) = Lens{}.*field, py::arg("position") = py::make_tuple(0, 0, 0),
-            py::arg("target") = py::none(), py::arg("up") = py::make_tuple(0, 1, 0),
-            py::arg("near") = Lens{}.near, py::arg("far") = Lens{}.far,
-            py::arg("shift") = py::make_tuple(0, 0));
+            py::kw_only(), py::arg(opening) = Lens{}.*field,
+            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
+            py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
+            py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0));
         bind_shift(made);
     } else {
         made.def(
@@ -213,9 +214,10 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
                         const ArrayLike& up, double near, double far) {
                 return std::make_shared<C>(Lens{size, near, far}, placement(position, target, up));
             }),
-            py::arg(opening) = Lens{}.*field, py::arg("position") = py::make_tuple(0, 0, 0),
-            py::arg("target") = py::none(), py::arg("up") = py::make_tuple(0, 1, 0),
-            py::arg("near") = Lens{}.near, py::arg("far") = Lens{}.far);
+            py::kw_only(), py::arg(opening) = Lens{}.*field,
+            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
+            py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
+            py::arg("far") = Lens{}.far);
     }
     number<Lens>(made, opening, field, opening_doc);
     number<Lens>(made, "near", &Lens::near, "float: nothing nearer is seen; world units.");
@@ -247,17 +249,17 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
                ", target=" + (p.target ? tuple_text(*p.target) : "None") + ")";
     });
     made.def("__reduce__", [opening](const py::object& self) {
-        py::list state;
-        for (const char* name : {opening, "position", "target", "up", "near", "far", "shift"}) {
-            if (py::hasattr(self, name)) state.append(self.attr(name));
-        }
-        return reduced(self, py::tuple(state));
+        py::dict arguments =
+            attributes_of(self, opening, "position", "target", "up", "near", "far");
+        if (py::hasattr(self, "shift")) arguments["shift"] = self.attr("shift");
+        return reduced(self, arguments);
     });
 }
 
 /// Camera.__init__ called on an object of a class below it makes pybind11 (3.1) end the process.
 void guard_init(Class<Camera>& camera) {
     const py::object init = camera.attr("__init__");
+    explain_arguments(init, "Camera");
     const auto doc = init.attr("__doc__").cast<std::string>();
     py::options options;
     options.disable_function_signatures();
@@ -288,7 +290,7 @@ void bind_camera(pybind11::module_& module) {
                  return std::make_shared<Camera>(
                      Matrices{to_mat4(view, "view"), to_mat4(projection, "projection")});
              }),
-             py::arg("view"), py::arg("projection"))
+             py::kw_only(), py::arg("view"), py::arg("projection"))
         .def_property(
             "view", [](const Camera& self) { return matrix_array(self.matrices(1.0).view); },
             [](Camera& self, const ArrayLike& value) {
@@ -304,7 +306,9 @@ void bind_camera(pybind11::module_& module) {
             py::arg("aspect") = 1.0, projection_doc)
         .def("__repr__", [](const Camera&) { return "Camera(view, projection)"; })
         .def("__reduce__", [](const py::object& self) {
-            return reduced(self, py::make_tuple(self.attr("view"), self.attr("projection")()));
+            py::dict arguments = attributes_of(self, "view");
+            arguments["projection"] = self.attr("projection")();
+            return reduced(self, arguments);
         });
     guard_init(camera);
     bind_placed<PerspectiveLens>(module, "PerspectiveCamera", perspective_doc, "fov",

@@ -8,15 +8,18 @@
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
 #include "cubecam/cubemap/cubemap_resample.hpp"
+#include "cubecam/render/resources/outputs.hpp"
 
 #include <pybind11/native_enum.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
 
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace py = pybind11;
 
@@ -25,6 +28,7 @@ namespace cubecam::bindings {
 namespace {
 
 using CubePtr = std::shared_ptr<CubeMap>;
+using DTypeOrNone = OneOf<DTypeLike, py::none>;
 
 std::vector<py::ssize_t> face_shape(int size, int channels) { return {6, size, size, channels}; }
 
@@ -44,19 +48,6 @@ PixelBuffer copy_pixels(const std::byte* from, std::size_t bytes) {
         std::memcpy(to.data() + begin, from + begin, end - begin);
     });
     return to;
-}
-
-/// float32 pixels as another dtype.
-PixelBuffer narrow_pixels(PixelBuffer pixels, DType dtype) {
-    if (dtype == DType::float32) return pixels;
-    const auto* values = reinterpret_cast<const float*>(pixels.data());
-    const std::size_t count = pixels.size() / sizeof(float);
-    PixelBuffer narrow(count * dtype_size(dtype));
-    parallel_for(0, count, std::size_t{1} << 18, [&](std::size_t begin, std::size_t end) {
-        floats_to_pixels(dtype, values + begin, end - begin,
-                         narrow.data() + begin * dtype_size(dtype));
-    });
-    return narrow;
 }
 
 Sampling parse_sampling(const std::string& name) {
@@ -180,53 +171,55 @@ py::array sample(const CubeMap& cube, const py::object& directions, const py::ob
     return result;
 }
 
-/// Refuses float pictures that memory cannot hold.
-void check_floats(double width, double height, int channels) {
-    check_memory(4.0 * width * height * channels,
+/// Refuses pictures that memory cannot hold.
+void check_picture(double width, double height, int channels, DType dtype) {
+    check_memory(static_cast<double>(dtype_size(dtype)) * width * height * channels,
                  std::to_string(static_cast<long long>(width)) + " x " +
                      std::to_string(static_cast<long long>(height)) + " pixels");
 }
 
 py::array to_equirect(const CubeMap& cube, std::optional<int> width, const std::string& center_name,
-                      const std::string& sampling_name) {
+                      const std::string& sampling_name, const DTypeOrNone& dtype) {
     const Center center = parse_center(center_name);
     const Sampling sampling = parse_sampling(sampling_name);
     const auto state = cube.data();
+    const DType to = to_dtype(dtype, state->dtype);
     const int columns = to_size(width.value_or(4 * state->size), "width");
-    check_floats(columns, columns / 2.0, state->channels);
-    Buffer<float> pixels;
+    check_picture(columns, columns / 2.0, state->channels, to);
+    PixelBuffer pixels;
     {
         const py::gil_scoped_release release;
-        pixels = cube_to_equirect(*state, columns, center, sampling);
+        pixels = cube_to_equirect(*state, columns, center, sampling, to);
     }
-    return owned_array(std::move(pixels), {columns / 2, columns, state->channels});
+    return owned_pixels(std::move(pixels), to, {columns / 2, columns, state->channels});
 }
 
 CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center center, bool mipmaps,
-                      Sampling sampling) {
+                      Sampling sampling, DType to) {
     const int height = to_size(image.shape(0), "image");
     const int width = to_size(image.shape(1), "image");
     const auto channels = static_cast<int>(image.shape(2));
     const int n = to_size(size.value_or(default_face_size(width)), "size");
-    check_floats(n, 6.0 * n, channels);
+    check_picture(n, 6.0 * n, channels, to);
     const py::gil_scoped_release release;
     PixelBuffer faces = equirect_to_cube(
-        {image.data(), width, height, channels, image.dtype(), center, sampling}, n);
-    return std::make_shared<CubeMap>(n, channels, DType::float32, std::move(faces), mipmaps);
+        {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to);
+    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps);
 }
 
 CubePtr from_layout(const py::object& value, const std::optional<std::string>& layout_name,
-                    const std::string& convention_name, bool mipmaps, std::optional<int> size,
-                    const std::string& center_name) {
+                    const std::string& convention_name, std::optional<int> size,
+                    const std::string& center_name, bool mipmaps, const DTypeOrNone& dtype) {
     const Convention convention = parse_convention(convention_name);
     const Center center = parse_center(center_name);
     const PixelArray image = pixel_array(value, "image", "(H, W, C)");
+    const DType to = to_dtype(dtype, image.dtype());
     const int height = to_size(image.shape(0), "image");
     const int width = to_size(image.shape(1), "image");
     const Layout layout =
         layout_name ? parse_layout(*layout_name) : recognize_layout(width, height);
     if (layout == Layout::equirect) {
-        return from_equirect(image, size, center, mipmaps, Sampling::centers);
+        return from_equirect(image, size, center, mipmaps, Sampling::centers, to);
     }
     if (size) throw py::value_error("size: expected with an equirect only; see CubeMap.resize");
     const bool openexr = layout == Layout::openexr;
@@ -242,11 +235,11 @@ CubePtr from_layout(const py::object& value, const std::optional<std::string>& l
         faces = convert_faces(faces.data(), n, texel, given, Convention::gl);
     if (openexr) {
         const CubeMap bordered(n, channels, image.dtype(), std::move(faces));
-        PixelBuffer centered =
-            resample_faces(*bordered.data(), Sampling::borders, n, Sampling::centers);
-        return std::make_shared<CubeMap>(n, channels, DType::float32, std::move(centered), mipmaps);
+        faces = resample_faces(*bordered.data(), Sampling::borders, n, Sampling::centers, to);
+    } else if (to != image.dtype()) {
+        faces = convert_pixels(faces, image.dtype(), to);
     }
-    return std::make_shared<CubeMap>(n, channels, image.dtype(), std::move(faces), mipmaps);
+    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps);
 }
 
 py::array to_convention(const CubeMap& cube, const std::string& name) {
@@ -264,86 +257,121 @@ py::array to_convention(const CubeMap& cube, const std::string& name) {
 }
 
 py::array to_layout(const CubeMap& cube, const std::string& layout_name,
-                    const std::string& convention_name) {
+                    const std::string& convention_name, const DTypeOrNone& dtype) {
     const Layout layout = parse_layout(layout_name);
     const Convention convention = parse_convention(convention_name);
-    if (layout == Layout::equirect) return to_equirect(cube, std::nullopt, "-z", "centers");
+    if (layout == Layout::equirect) return to_equirect(cube, std::nullopt, "-z", "centers", dtype);
     const auto state = cube.data();
     const bool openexr = layout == Layout::openexr;
-    const DType dtype = openexr ? DType::float32 : state->dtype;
+    const DType to = to_dtype(dtype, state->dtype);
     const PictureSize shape = layout_size(openexr ? Layout::column : layout, state->size);
     PixelBuffer picture;
     {
         const py::gil_scoped_release release;
-        const std::size_t texel = static_cast<std::size_t>(state->channels) * dtype_size(dtype);
-        PixelBuffer faces;
+        const auto channels = static_cast<std::size_t>(state->channels);
         if (openexr) {
-            faces = resample_faces(*state, Sampling::centers, state->size, Sampling::borders);
-            picture =
-                convert_faces(faces.data(), state->size, texel, Convention::gl, Convention::inside);
+            const PixelBuffer faces =
+                resample_faces(*state, Sampling::centers, state->size, Sampling::borders, to);
+            picture = convert_faces(faces.data(), state->size, channels * dtype_size(to),
+                                    Convention::gl, Convention::inside);
         } else {
-            faces = convert_faces(state->pixels->data(), state->size, texel, Convention::gl,
-                                  convention);
+            const std::size_t texel = channels * dtype_size(state->dtype);
+            const PixelBuffer faces = convert_faces(state->pixels->data(), state->size, texel,
+                                                    Convention::gl, convention);
             picture = faces_to_picture(faces.data(), state->size, texel, layout, convention);
+            if (to != state->dtype) picture = convert_pixels(picture, state->dtype, to);
         }
     }
-    return owned_pixels(std::move(picture), dtype, {shape.height, shape.width, state->channels});
+    return owned_pixels(std::move(picture), to, {shape.height, shape.width, state->channels});
 }
 
-CubePtr resize(const CubeMap& cube, int size) {
+CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
     to_size(size, "size");
     const auto state = cube.data();
-    check_floats(size, 6.0 * size, state->channels);
+    const DType to = to_dtype(dtype, state->dtype);
+    check_picture(size, 6.0 * size, state->channels, to);
     const py::gil_scoped_release release;
-    PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers);
-    return std::make_shared<CubeMap>(size, state->channels, state->dtype,
-                                     narrow_pixels(std::move(faces), state->dtype), state->mipmaps);
+    PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers, to);
+    return std::make_shared<CubeMap>(size, state->channels, to, std::move(faces), state->mipmaps);
 }
 
-template <typename T>
-py::object output_view(const CubeMap& cube, std::shared_ptr<const Buffer<T>> values,
-                       int components) {
-    if (!values) return py::none();
+py::array output_view(const CubeMap& cube, const OutputValues& output) {
     const int n = cube.data()->size;
     std::vector<py::ssize_t> shape = {6, n, n};
-    if (components > 1) shape.push_back(components);
-    return readonly_view(std::move(values), std::move(shape));
+    if (output.channels > 1) shape.push_back(output.channels);
+    return readonly_view(numpy_dtype(output.type), std::move(shape), output.values->data(),
+                         output.values);
 }
 
-template <typename T>
-std::shared_ptr<const Buffer<T>> copy_output(const py::object& value, const char* name, int size,
-                                             bool vector) {
-    if (value.is_none()) return nullptr;
-    const auto array = value.cast<py::array_t<T, py::array::c_style | py::array::forcecast>>();
-    const std::string n = std::to_string(size);
-    check_shape(array, name, "(6, " + n + ", " + n + (vector ? ", 3)" : ")"));
-    return std::make_shared<const Buffer<T>>(array.data(), array.data() + array.size());
+py::object output_of(const CubeMap& cube, std::string_view name) {
+    const OutputValues* output = find_output(cube.outputs(), name);
+    return output == nullptr ? py::object(py::none()) : py::object(output_view(cube, *output));
 }
+
+py::typing::Dict<py::str, py::array> outputs_of(const CubeMap& cube) {
+    py::typing::Dict<py::str, py::array> outputs;
+    for (const OutputValues& output : cube.outputs()) {
+        outputs[py::str(output.name)] = output_view(cube, output);
+    }
+    return outputs;
+}
+
+/// What outputs_of gave, of a cube of this size. Names that the table does not have are those of
+/// users' materials, float32 with one to four channels.
+OutputList copy_outputs(const py::dict& arrays, int size) {
+    OutputList outputs;
+    for (const auto& [key, value] : arrays) {
+        OutputValues output;
+        output.name = key.cast<std::string>();
+        const auto* row = std::find_if(output_table.begin(), output_table.end(),
+                                       [&](const OutputRow& r) { return r.name == output.name; });
+        py::array array = value.cast<py::array>();
+        output.channels =
+            array.ndim() == 4 ? static_cast<int>(std::clamp<py::ssize_t>(array.shape(3), 1, 4)) : 1;
+        if (row != output_table.end()) {
+            output.channels = row->channels;
+            output.type = row->type;
+        }
+        std::string shape = "(6";
+        for (int i = 0; i < 2; ++i) shape += ", " + std::to_string(size);
+        if (output.channels > 1) shape += ", " + std::to_string(output.channels);
+        check_shape(array, output.name.c_str(), shape + ")");
+        array =
+            py::module_::import("numpy").attr("ascontiguousarray")(array, numpy_dtype(output.type));
+        output.values = std::make_shared<PixelBuffer>(copy_pixels(
+            static_cast<const std::byte*>(array.data()), static_cast<std::size_t>(array.nbytes())));
+        outputs.push_back(std::move(output));
+    }
+    return outputs;
+}
+
+constexpr std::size_t cube_parts = 3;
 
 py::tuple get_state(const CubeMap& cube) {
-    const CapturedOutputs outputs = cube.outputs();
-    return py::make_tuple(
-        faces_view(cube), cube.data()->mipmaps, output_view(cube, outputs.distance, 1),
-        output_view(cube, outputs.z, 1), output_view(cube, outputs.normal, 3),
-        output_view(cube, outputs.position, 3), output_view(cube, outputs.id, 1),
-        output_view(cube, outputs.depth, 1), output_view(cube, outputs.stencil, 1));
+    return closed_state(py::make_tuple(faces_view(cube), cube.data()->mipmaps, outputs_of(cube)));
 }
 
 /// NaN is let through: what was rendered may hold it, and what was pickled must come back.
-CubePtr from_state(const py::tuple& state) {
-    if (state.size() != 9) throw py::value_error("CubeMap: expected a state of 9 parts");
+CubePtr from_state(const py::tuple& closed) {
+    const py::tuple state = opened_state(closed);
+    if (state.size() != cube_parts) {
+        throw py::value_error("CubeMap: expected a state of " + std::to_string(cube_parts) +
+                              " parts, got " + std::to_string(state.size()));
+    }
     const PixelArray pixels = pixel_array(state[0], "faces", "(6, N, N, C)", Values::any);
     const int size = to_size(pixels.shape(1), "faces");
-    CapturedOutputs outputs = {copy_output<float>(state[2], "distance", size, false),
-                               copy_output<float>(state[3], "z", size, false),
-                               copy_output<float>(state[4], "normal", size, true),
-                               copy_output<float>(state[5], "position", size, true),
-                               copy_output<std::int32_t>(state[6], "id", size, false),
-                               copy_output<float>(state[7], "depth", size, false),
-                               copy_output<std::uint8_t>(state[8], "stencil", size, false)};
     return std::make_shared<CubeMap>(size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
                                      copy_pixels(pixels.data(), pixels.bytes()),
-                                     state[1].cast<bool>(), std::move(outputs));
+                                     state[1].cast<bool>(),
+                                     copy_outputs(state[2].cast<py::dict>(), size));
+}
+
+std::string captured_doc(const OutputRow& row) {
+    return "ndarray (6, N, N" + (row.channels > 1 ? ", " + std::to_string(row.channels) : "") +
+           ") " + output_type_name(row.type) +
+           ", read-only, of a capture that requested it, or "
+           "None: " +
+           std::string(row.meaning) + ".";
 }
 
 py::tuple reduce(const py::object& self) {
@@ -377,7 +405,7 @@ void bind_cubemap(py::module_& module) {
     module.attr("Face").attr("__module__") = "cubecam";
 
     auto cube = bindings::declare<CubeMap>(module, "CubeMap", docs::cubemap);
-    cube.def(py::init(&make_cube), py::arg("faces"), py::arg("convention") = "gl",
+    cube.def(py::init(&make_cube), py::arg("faces"), py::kw_only(), py::arg("convention") = "gl",
              py::arg("mipmaps") = false)
         .def_property_readonly("faces", &faces_view, docs::faces)
         .def_property_readonly(
@@ -390,48 +418,41 @@ void bind_cubemap(py::module_& module) {
             "numpy.dtype: uint8, float16 or float32.")
         .def_property_readonly(
             "mipmaps", [](const CubeMap& c) { return c.data()->mipmaps; },
-            "Whether lookups are trilinear, bool.")
-        .def_property_readonly(
-            "distance", [](const CubeMap& c) { return output_view(c, c.outputs().distance, 1); },
-            docs::distance)
-        .def_property_readonly(
-            "z", [](const CubeMap& c) { return output_view(c, c.outputs().z, 1); }, docs::z)
-        .def_property_readonly(
-            "normal", [](const CubeMap& c) { return output_view(c, c.outputs().normal, 3); },
-            docs::normal)
-        .def_property_readonly(
-            "position", [](const CubeMap& c) { return output_view(c, c.outputs().position, 3); },
-            docs::position)
-        .def_property_readonly(
-            "id", [](const CubeMap& c) { return output_view(c, c.outputs().id, 1); }, docs::id)
-        .def_property_readonly(
-            "depth", [](const CubeMap& c) { return output_view(c, c.outputs().depth, 1); },
-            docs::depth)
-        .def_property_readonly(
-            "stencil", [](const CubeMap& c) { return output_view(c, c.outputs().stencil, 1); },
-            docs::stencil);
+            "Whether lookups are trilinear, bool.");
+    for (const OutputRow& row : output_table) {
+        cube.def_property_readonly(
+            row.name.data(), [name = row.name](const CubeMap& c) { return output_of(c, name); },
+            captured_doc(row).c_str());
+    }
+    cube.def_property_readonly("outputs", &outputs_of, docs::outputs);
 
-    cube.def("set_face", &set_face, py::arg("face"), py::arg("pixels"),
+    cube.def("set_face", &set_face, py::arg("face"), py::arg("pixels"), py::kw_only(),
              py::arg("convention") = "gl", docs::set_face)
-        .def("sample", &sample, py::arg("directions"), py::arg("lod") = 0.0, docs::sample)
-        .def("to_equirect", &to_equirect, py::arg("width") = py::none(), py::arg("center") = "-z",
-             py::arg("sampling") = "centers", docs::to_equirect)
+        .def("sample", &sample, py::arg("directions"), py::kw_only(), py::arg("lod") = 0.0,
+             docs::sample)
+        .def("to_equirect", &to_equirect, py::kw_only(), py::arg("width") = py::none(),
+             py::arg("center") = "-z", py::arg("sampling") = "centers",
+             py::arg("dtype") = py::none(), docs::to_equirect)
         .def_static(
             "from_equirect",
             [](const py::object& image, std::optional<int> size, const std::string& center,
-               bool mipmaps, const std::string& sampling) {
-                return from_equirect(pixel_array(image, "image", "(H, W, C)"), size,
-                                     parse_center(center), mipmaps, parse_sampling(sampling));
+               const std::string& sampling, bool mipmaps, const DTypeOrNone& dtype) {
+                const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
+                return from_equirect(pixels, size, parse_center(center), mipmaps,
+                                     parse_sampling(sampling), to_dtype(dtype, pixels.dtype()));
             },
-            py::arg("image"), py::arg("size") = py::none(), py::arg("center") = "-z",
-            py::arg("mipmaps") = false, py::arg("sampling") = "centers", docs::from_equirect)
+            py::arg("image"), py::kw_only(), py::arg("size") = py::none(), py::arg("center") = "-z",
+            py::arg("sampling") = "centers", py::arg("mipmaps") = false,
+            py::arg("dtype") = py::none(), docs::from_equirect)
         .def("to_convention", &to_convention, py::arg("convention"), docs::to_convention)
-        .def("to_layout", &to_layout, py::arg("layout") = "cross", py::arg("convention") = "gl",
-             docs::to_layout)
-        .def_static("from_layout", &from_layout, py::arg("image"), py::arg("layout") = py::none(),
-                    py::arg("convention") = "gl", py::arg("mipmaps") = false,
-                    py::arg("size") = py::none(), py::arg("center") = "-z", docs::from_layout)
-        .def("resize", &resize, py::arg("size"), docs::resize);
+        .def("to_layout", &to_layout, py::arg("layout") = "cross", py::kw_only(),
+             py::arg("convention") = "gl", py::arg("dtype") = py::none(), docs::to_layout)
+        .def_static("from_layout", &from_layout, py::arg("image"), py::kw_only(),
+                    py::arg("layout") = py::none(), py::arg("convention") = "gl",
+                    py::arg("size") = py::none(), py::arg("center") = "-z",
+                    py::arg("mipmaps") = false, py::arg("dtype") = py::none(), docs::from_layout)
+        .def("resize", &resize, py::arg("size"), py::kw_only(), py::arg("dtype") = py::none(),
+             docs::resize);
 
     const auto duplicate = [](const CubeMap& c) { return std::make_shared<CubeMap>(c); };
     cube.def("copy", duplicate, "An independent cubemap with the same contents.")

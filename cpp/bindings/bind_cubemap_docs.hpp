@@ -96,18 +96,28 @@ center : {"-z", "+z", "+x", "-x"}, default "-z"
 sampling : {"centers", "borders"}, default "centers"
     Where samples lie. "borders": the first and last row and column lie on the edges, as in
     OpenEXR's latitude-longitude maps.
+dtype : dtype, optional
+    "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
 Returns
 -------
-ndarray (width / 2, width, C) float32
-    Yours to write. uint8 as value/255.
+ndarray (width / 2, width, C) in `dtype`
+    Yours to write. Filtered in float32, with uint8 as value/255, then rounded to nearest; uint8 holds
+    0 to 1, and what lies outside becomes 0 or 255; float16 holds up to 65504, and what is more
+    becomes inf.
+
+Raises
+------
+ValueError
+    A width that is not even and positive, an unknown center or sampling, another dtype.
 
 Examples
 --------
 >>> import numpy as np
 >>> import cubecam as cc
->>> cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z").shape
-(32, 64, 4)
+>>> panorama = cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z")
+>>> panorama.shape, panorama.dtype.name
+((32, 64, 4), 'float16')
 )doc";
 
 inline constexpr const char* from_equirect = R"doc(A cube from a panorama.
@@ -124,22 +134,32 @@ size : int, optional
     Of a face; by default the next power of two from W / pi, which loses nothing.
 center : {"-z", "+z", "+x", "-x"}, default "-z"
     The axis at the center column.
-mipmaps : bool, default False
-    Of the new cube.
 sampling : {"centers", "borders"}, default "centers"
     Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) will do.
+mipmaps : bool, default False
+    Of the new cube.
+dtype : dtype, optional
+    "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
 Returns
 -------
 CubeMap
-    float32.
+    In `dtype`, rounded as `to_equirect` does.
+
+Raises
+------
+ValueError
+    An image that is not twice as wide as high, NaN, a size below 1, an unknown center or sampling,
+    another dtype.
+TypeError
+    An image of bool, complex, text, or integers other than uint8.
 
 Examples
 --------
 >>> import numpy as np
 >>> import cubecam as cc
 >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-CubeMap(size=64, channels=3, dtype=float32, mipmaps=False)
+CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
 )doc";
 
 inline constexpr const char* set_face = R"doc(Replace one face.
@@ -183,7 +203,8 @@ convention : {"gl", "inside", "three"}
 Returns
 -------
 ndarray (6, N, N, C) in `dtype`
-    A copy, yours to write. ``CubeMap(array, convention)`` gives this cube back exactly.
+    A copy, yours to write. ``CubeMap(array, convention=convention)`` gives this cube
+    back exactly.
 
 Examples
 --------
@@ -207,17 +228,25 @@ layout : {"cross", "vertical_cross", "row", "column", "equirect", "openexr"}, de
 convention : {"gl", "inside", "three"}, default "gl"
     Of the faces in it; the second cell is +Z, for "inside" -Z. Not looked at for "equirect" and
     "openexr", which have their own.
+dtype : dtype, optional
+    "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
 Returns
 -------
-ndarray (H, W, C)
-    In `dtype` (cells without a face are 0), float32 where resampled. Yours to write.
+ndarray (H, W, C) in `dtype`
+    Yours to write; cells without a face are 0. In another dtype than the cube's, and where resampled,
+    numbers are rounded as `to_equirect` does.
+
+Raises
+------
+ValueError
+    An unknown layout or convention, or another dtype.
 
 Examples
 --------
 >>> import numpy as np
 >>> import cubecam as cc
->>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", "inside").shape
+>>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", convention="inside").shape
 (24, 32, 3)
 )doc";
 
@@ -232,15 +261,17 @@ layout : str, optional
     vertical_cross, 6:1 row, 1:6 column, 2:1 equirect. Shape never tells the convention.
 convention : {"gl", "inside", "three"}, default "gl"
     Of the faces in `image`.
-mipmaps : bool, default False
-    Of the new cube.
 size, center
     As in `from_equirect`, for "equirect" only.
+mipmaps : bool, default False
+    Of the new cube.
+dtype : dtype, optional
+    "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
 Returns
 -------
 CubeMap
-    In the dtype of `image`; float32 from "equirect" and "openexr".
+    In `dtype`, rounded as `to_equirect` does.
 
 Raises
 ------
@@ -260,12 +291,20 @@ inline constexpr const char* resize = R"doc(The same cube with faces of another 
 Parameters
 ----------
 size : int
-    Shrinking averages the area of each texel; enlarging is bilinear and seamless.
+    Texels along an edge. Shrinking averages the area of each texel; enlarging is bilinear and
+    seamless.
+dtype : dtype, optional
+    "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
 Returns
 -------
 CubeMap
-    Of the same dtype and mipmaps, without captured outputs.
+    In `dtype`, rounded as `to_equirect` does, with the same mipmaps, without captured outputs.
+
+Raises
+------
+ValueError
+    A size below 1, or another dtype.
 
 Examples
 --------
@@ -275,25 +314,12 @@ Examples
 (6, 2, 2, 3)
 )doc";
 
-inline constexpr const char* distance =
-    "Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is "
-    "nothing, or None. Read-only.";
-inline constexpr const char* z = "Captured distance along each face's axis, ndarray (6, N, N) "
-                                 "float32 in world units, +inf where "
-                                 "there is nothing, or None. Read-only.";
-inline constexpr const char* normal = "Captured world shading normals towards the viewer, ndarray "
-                                      "(6, N, N, 3) float32, 0 where there "
-                                      "is nothing, or None. Read-only.";
-inline constexpr const char* position =
-    "Captured world positions, ndarray (6, N, N, 3) float32, NaN where there is nothing, or None. "
-    "Read-only.";
-inline constexpr const char* id =
-    "Captured `node.id`, ndarray (6, N, N) int32, 0 where there is nothing, or None. Read-only.";
-inline constexpr const char* depth =
-    "Captured window-space z, ndarray (6, N, N) float32: 0 at the near plane, 1 at the far plane "
-    "and "
-    "where there is nothing, as fine as ``depth_format`` keeps it; or None. Read-only.";
-inline constexpr const char* stencil =
-    "Captured stencil buffer, ndarray (6, N, N) uint8, 0 where nothing wrote, or None. Read-only.";
+inline constexpr const char* outputs =
+    R"doc(dict of str to ndarray: what a capture holds besides `faces`, by name. Read-only arrays.
+
+Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and (6, N, N) for float; 0 where the node
+that is seen does not write them.
+)doc";
 
 }  // namespace cubecam::docs

@@ -2,63 +2,73 @@
 #include "frame.hpp"
 #include "objects.hpp"
 
+#include "cubecam/render/resources/outputs.hpp"
+
 #include <pybind11/stl.h>
+#include <pybind11/typing.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace cubecam {
 
-PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height) {
-    const auto rows = static_cast<py::ssize_t>(frame.height);
-    const auto columns = static_cast<py::ssize_t>(frame.width);
-    color = py::none();
-    if (!frame.color.empty()) {
-        color = owned_pixels(std::move(frame.color), dtype_of(frame.format), {rows, columns, 4});
+PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height), color(py::none()) {
+    const std::vector<py::ssize_t> flat = {frame.height, frame.width};
+    const auto with_channels = [&flat](int channels) {
+        std::vector<py::ssize_t> shape = flat;
+        if (channels > 1) shape.push_back(channels);
+        return shape;
+    };
+    if (frame.color != nullptr) {
+        color = owned_pixels(std::move(frame.color), numpy_dtype(dtype_of(frame.format)),
+                             with_channels(4));
     }
-    const auto flat = [&](auto&& values) -> py::object {
-        if (values.empty()) return py::none();
-        return owned_array(std::move(values), {rows, columns});
-    };
-    const auto vectors = [&](Buffer<float>&& values) -> py::object {
-        if (values.empty()) return py::none();
-        return owned_array(std::move(values), {rows, columns, 3});
-    };
-    distance = flat(std::move(frame.distance));
-    z = flat(std::move(frame.z));
-    normal = vectors(std::move(frame.normal));
-    position = vectors(std::move(frame.position));
-    id = flat(std::move(frame.id));
-    depth = flat(std::move(frame.depth));
-    stencil = flat(std::move(frame.stencil));
+    for (OutputValues& output : frame.outputs) {
+        outputs[py::str(output.name)] = owned_pixels(
+            std::move(output.values), numpy_dtype(output.type), with_channels(output.channels));
+    }
 }
 
 namespace {
 
+constexpr py::ssize_t frame_parts = 4;
+
 py::tuple state_of(const PyFrame& frame) {
-    return py::make_tuple(frame.width, frame.height, frame.color, frame.distance, frame.z,
-                          frame.normal, frame.position, frame.id, frame.depth, frame.stencil);
+    return py::make_tuple(frame.width, frame.height, frame.color, frame.outputs);
 }
 
-PyFrame frame_from(const py::tuple& state) {
+PyFrame frame_from(const py::tuple& closed) {
+    const py::tuple state = bindings::opened_state(closed);
+    if (state.size() != frame_parts) {
+        throw py::value_error("Frame: expected a state of " + std::to_string(frame_parts) +
+                              " parts, got " + std::to_string(state.size()));
+    }
     PyFrame frame;
     frame.width = state[0].cast<int>();
     frame.height = state[1].cast<int>();
     frame.color = state[2];
-    frame.distance = state[3];
-    frame.z = state[4];
-    frame.normal = state[5];
-    frame.position = state[6];
-    frame.id = state[7];
-    frame.depth = state[8];
-    frame.stencil = state[9];
+    frame.outputs = state[3].cast<py::dict>();
     return frame;
+}
+
+py::object output_of(const PyFrame& frame, std::string_view name) {
+    const py::str key(name.data(), name.size());
+    return frame.outputs.contains(key) ? py::object(frame.outputs[key]) : py::none();
+}
+
+std::string frame_doc(const OutputRow& row) {
+    return "ndarray (H, W" + (row.channels > 1 ? ", " + std::to_string(row.channels) : "") + ") " +
+           output_type_name(row.type) + ": " + std::string(row.meaning) + ".";
 }
 
 }  // namespace
 
 void bind_frame(py::module_& m) {
-    bindings::declare<PyFrame>(
+    auto frame_class = bindings::declare<PyFrame>(
         m, "Frame", R"(A rendered picture: arrays with row 0 on top, each the caller's own.
 
-What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
+What was not requested by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
 `stencil` are what those buffers hold in the end.
 
 Examples
@@ -69,28 +79,27 @@ Examples
 ...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 2))
 >>> frame.color.shape, frame.color[0, 0].tolist()
 ((2, 4, 4), [255, 0, 0, 255])
-)")
+)");
+    for (const OutputRow& row : output_table) {
+        frame_class.def_property_readonly(
+            row.name.data(), [name = row.name](const PyFrame& f) { return output_of(f, name); },
+            frame_doc(row).c_str());
+    }
+    frame_class
         .def_readonly("color", &PyFrame::color,
                       "ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear "
                       "unless encoded. None with ``format=None``.")
-        .def_readonly("distance", &PyFrame::distance,
-                      "ndarray (H, W) float32: length of the ray, world units; +inf where nothing "
-                      "was hit. In an "
-                      "orthographic picture it counts from the near plane.")
-        .def_readonly("z", &PyFrame::z,
-                      "ndarray (H, W) float32: distance along the camera's axis, world units; +inf "
-                      "background.")
-        .def_readonly("normal", &PyFrame::normal,
-                      "ndarray (H, W, 3) float32: world shading normal, unit length, towards the "
-                      "viewer; 0 background.")
-        .def_readonly("position", &PyFrame::position,
-                      "ndarray (H, W, 3) float32: world position; NaN background.")
-        .def_readonly("id", &PyFrame::id,
-                      "ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.")
-        .def_readonly("depth", &PyFrame::depth,
-                      "ndarray (H, W) float32: OpenGL's window-space z, 0 at the near plane, 1 at "
-                      "the far plane and where nothing is, as fine as ``depth_format`` keeps it.")
-        .def_readonly("stencil", &PyFrame::stencil, "ndarray (H, W) uint8: 0 background.")
+        .def_property_readonly(
+            "outputs",
+            [](const PyFrame& f) {
+                return f.outputs.attr("copy")().cast<py::typing::Dict<py::str, py::array>>();
+            },
+            R"(dict of str to ndarray: the outputs that were requested, by name.
+
+Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for float; 0 where the node that
+is seen does not write them.
+)")
         .def_property_readonly(
             "size", [](const PyFrame& f) { return py::make_tuple(f.width, f.height); },
             "tuple of int: (width, height), pixels.")
@@ -104,8 +113,18 @@ Examples
              })
         .def("__reduce__", [](const PyFrame& frame) -> py::tuple {
             const py::object restore = py::module_::import("cubecam._core").attr("_restore_frame");
-            return py::make_tuple(restore, py::make_tuple(state_of(frame)));
+            return py::make_tuple(restore, py::make_tuple(bindings::closed_state(state_of(frame))));
         });
+    m.def(
+        "_shaded_outputs",
+        [] {
+            std::vector<std::string_view> names;
+            for (const OutputRow& row : output_table) {
+                if (row.source == OutputSource::shader) names.push_back(row.name);
+            }
+            return names;
+        },
+        "Names of the outputs that shaders write, for the command line.");
     m.def("_restore_frame", &frame_from, py::arg("state"), "For unpickling.");
 }
 

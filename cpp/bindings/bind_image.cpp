@@ -76,7 +76,7 @@ void bind_image(pybind11::module_& module) {
     namespace py = pybind11;
 
     declare<Image>(module, "Image", image_doc)
-        .def(py::init(&make_image), py::arg("pixels"), py::arg("mipmaps") = false,
+        .def(py::init(&make_image), py::arg("pixels"), py::kw_only(), py::arg("mipmaps") = false,
              py::arg("wrap") = "repeat")
         .def_property_readonly("pixels", &image_pixels,
                                "ndarray (H, W, C): a read-only view, row 0 on top.")
@@ -95,8 +95,7 @@ void bind_image(pybind11::module_& module) {
         .def("__repr__", &represent_image)
         .def("__reduce__",
              [](const py::object& self) {
-                 return reduced(self, py::make_tuple(self.attr("pixels"), self.attr("mipmaps"),
-                                                     self.attr("wrap")));
+                 return reduced(self, attributes_of(self, "pixels", "mipmaps", "wrap"));
              })
         // What never changes need not be copied.
         .def("__copy__", [](const py::object& self) { return self; })

@@ -26,8 +26,9 @@ Parameters
 ----------
 position : array_like (3,)
     World space.
-color : array_like (3,)
-    Linear RGB, not negative.
+color : array_like (3,) or str
+    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+    decoded to linear. Light has no alpha: "transparent" raises ValueError.
 intensity : float
     Times color, not negative.
 decay : float
@@ -64,8 +65,9 @@ angle : float
 penumbra : float
     Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
     it fades from the axis on. Between the cosines of the two angles it is smoothstep.
-color : array_like (3,)
-    Linear RGB, not negative.
+color : array_like (3,) or str
+    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+    decoded to linear. Light has no alpha: "transparent" raises ValueError.
 intensity : float
     Times color, not negative.
 decay : float
@@ -92,8 +94,9 @@ Parameters
 direction : array_like (3,)
     The way the light travels, in world space, of any length but 0; kept normalised. Straight down
     by default.
-color : array_like (3,)
-    Linear RGB, not negative.
+color : array_like (3,) or str
+    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+    decoded to linear. Light has no alpha: "transparent" raises ValueError.
 intensity : float
     Times color, not negative.
 shadow : Shadow, bool or None
@@ -115,8 +118,9 @@ constexpr const char* ambient_doc = R"doc(Light that comes from everywhere alike
 
 Parameters
 ----------
-color : array_like (3,)
-    Linear RGB, not negative.
+color : array_like (3,) or str
+    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+    decoded to linear. Light has no alpha: "transparent" raises ValueError.
 intensity : float
     Times color, not negative.
 
@@ -192,7 +196,7 @@ void bind_point(py::module_& module) {
                       PointParameters{to_point(position, "position"), decay},
                       to_rgb(color, "color"), intensity, to_shadow(shadow));
               }),
-              py::arg("position") = py::make_tuple(0, 0, 0),
+              py::arg("position") = py::make_tuple(0, 0, 0), py::kw_only(),
               py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
               py::arg("decay") = 0.0, py::arg("shadow") = py::none());
     bind_vector(light, "position", &PointParameters::position, position_text);
@@ -205,9 +209,8 @@ void bind_point(py::module_& module) {
                ", decay=" + describe(p.decay) + shadow_text(value);
     });
     light.def("__reduce__", [](const py::object& self) {
-        return reduced(self, py::make_tuple(self.attr("position"), self.attr("color"),
-                                            self.attr("intensity"), self.attr("decay"),
-                                            self.attr("shadow")));
+        return reduced(self,
+                       attributes_of(self, "position", "color", "intensity", "decay", "shadow"));
     });
 }
 
@@ -222,9 +225,10 @@ void bind_spot(py::module_& module) {
                       to_rgb(color, "color"), intensity, to_shadow(shadow));
               }),
               py::arg("position") = py::make_tuple(0, 0, 0),
-              py::arg("direction") = py::make_tuple(0, -1, 0), py::arg("angle") = 30.0,
-              py::arg("penumbra") = 0.0, py::arg("color") = py::make_tuple(1, 1, 1),
-              py::arg("intensity") = 1.0, py::arg("decay") = 0.0, py::arg("shadow") = py::none());
+              py::arg("direction") = py::make_tuple(0, -1, 0), py::kw_only(),
+              py::arg("angle") = 30.0, py::arg("penumbra") = 0.0,
+              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
+              py::arg("decay") = 0.0, py::arg("shadow") = py::none());
     bind_vector(light, "position", &SpotParameters::position, position_text);
     bind_vector(light, "direction", &SpotParameters::direction, direction_text);
     bind_number(light, "angle", &SpotParameters::angle,
@@ -242,10 +246,8 @@ void bind_spot(py::module_& module) {
                ", decay=" + describe(p.decay) + shadow_text(value);
     });
     light.def("__reduce__", [](const py::object& self) {
-        return reduced(self, py::make_tuple(self.attr("position"), self.attr("direction"),
-                                            self.attr("angle"), self.attr("penumbra"),
-                                            self.attr("color"), self.attr("intensity"),
-                                            self.attr("decay"), self.attr("shadow")));
+        return reduced(self, attributes_of(self, "position", "direction", "angle", "penumbra",
+                                           "color", "intensity", "decay", "shadow"));
     });
 }
 
@@ -257,7 +259,7 @@ void bind_directional(py::module_& module) {
                       DirectionalParameters{to_point(direction, "direction")},
                       to_rgb(color, "color"), intensity, to_shadow(shadow));
               }),
-              py::arg("direction") = py::make_tuple(0, -1, 0),
+              py::arg("direction") = py::make_tuple(0, -1, 0), py::kw_only(),
               py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
               py::arg("shadow") = py::none());
     bind_vector(light, "direction", &DirectionalParameters::direction, direction_text);
@@ -269,8 +271,7 @@ void bind_directional(py::module_& module) {
                shadow_text(value);
     });
     light.def("__reduce__", [](const py::object& self) {
-        return reduced(self, py::make_tuple(self.attr("direction"), self.attr("color"),
-                                            self.attr("intensity"), self.attr("shadow")));
+        return reduced(self, attributes_of(self, "direction", "color", "intensity", "shadow"));
     });
 }
 
@@ -280,13 +281,13 @@ void bind_ambient(py::module_& module) {
                  return std::make_shared<AmbientLight>(AmbientParameters{}, to_rgb(color, "color"),
                                                        intensity);
              }),
-             py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0)
+             py::kw_only(), py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0)
         .def("__repr__",
              [](const AmbientLight& self) {
                  return "AmbientLight(" + light_text(self.value()) + ")";
              })
         .def("__reduce__", [](const py::object& self) {
-            return reduced(self, py::make_tuple(self.attr("color"), self.attr("intensity")));
+            return reduced(self, attributes_of(self, "color", "intensity"));
         });
 }
 

@@ -217,7 +217,7 @@ void bind_mesh(pybind11::module_& module) {
     namespace py = pybind11;
 
     auto mesh = declare<Mesh>(module, "Mesh", mesh_doc);
-    mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"),
+    mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"), py::kw_only(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none());
     bind_primitives(mesh);
@@ -239,10 +239,10 @@ void bind_mesh(pybind11::module_& module) {
 
     mesh.def("__repr__", &represent_mesh);
     mesh.def("__reduce__", [](const py::object& self) {
+        py::dict arguments =
+            attributes_of(self, "positions", "indices", "normals", "uvs", "colors");
         // Smooth normals are computed anew, so that the twin's follow its positions, too.
-        py::object normals = self.attr("normals");
-        if (self.cast<const Mesh&>().data()->smooth()) normals = py::none();
-        return reduced(self, py::make_tuple(self.attr("positions"), self.attr("indices"), normals,
-                                            self.attr("uvs"), self.attr("colors")));
+        if (self.cast<const Mesh&>().data()->smooth()) arguments["normals"] = py::none();
+        return reduced(self, arguments);
     });
 }

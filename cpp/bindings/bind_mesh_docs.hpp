@@ -80,8 +80,8 @@ Parameters
 positions : array_like (V, 3), optional
     Object-space positions, finite. None: they stay.
 normals : array_like (V, 3), optional
-    Outward normals of any length. None: normals that were given stay, those that a primitive or
-    a file brings too; smooth ones that the mesh computed are computed anew with new positions.
+    Outward normals of any length. None: normals that were given stay, also those of primitives
+    and of `load_mesh`; smooth ones that the mesh computed are computed anew with new positions.
     ``mesh.normals = None`` makes them smooth.
 uvs : array_like (V, 2), optional
     Texture coordinates. None: they stay.

@@ -259,8 +259,9 @@ void bind_node(pybind11::module_& module) {
         if (const auto scene = self->scene()) {
             return py::make_tuple(call("_restore", self->id()), py::make_tuple(scene));
         }
-        return py::make_tuple(call("_loose", self->id()), py::make_tuple(py::type::of<Scene>()),
-                              py::make_tuple(state_of_node(self->value()), ancestors(*self)));
+        return py::make_tuple(
+            call("_loose", self->id()), py::make_tuple(py::type::of<Scene>()),
+            closed_state(py::make_tuple(state_of_node(self->value()), ancestors(*self))));
     });
     def_setstate(node, "tuple", [](Node& self, const py::tuple& state) {
         const NodeValue value = node_from_state(state[0]);

@@ -26,7 +26,7 @@ constexpr const char* probe_doc = R"doc(A cubemap that keeps itself true to the 
 
 It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
 to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
-(``renderer.cubemap(probe)``) and draws again only the faces that would come out different. Nodes
+(``renderer.read_probe(probe)``) and draws again only the faces that would come out different. Nodes
 that use a probe are left out of it.
 
 Parameters
@@ -45,7 +45,7 @@ samples : int
     Samples of each texel, for smooth edges (MSAA); 1 is none.
 update : {"on_change", "once", "manual"} or int
     "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
-    by ``renderer.update``. n: on every n-th call that needs it.
+    by ``renderer.update_probes``. n: on every n-th call that needs it.
 exclude : iterable of Node
     What it does not see, whole subtrees, beside the nodes that use it.
 parent : Node, optional
@@ -171,7 +171,7 @@ void bind_probe(pybind11::module_& module) {
     static_cast<void>(module);
     auto probe = declared<Probe>();
     probe.attr("__doc__") = probe_doc;
-    probe.def(py::init(&make_probe), py::arg("position") = py::make_tuple(0, 0, 0),
+    probe.def(py::init(&make_probe), py::arg("position") = py::make_tuple(0, 0, 0), py::kw_only(),
               py::arg("size") = 256, py::arg("near") = 0.05, py::arg("far") = 1000.0,
               py::arg("format") = "rgba16f", py::arg("mipmaps") = false, py::arg("samples") = 1,
               py::arg("update") = "on_change", py::arg("exclude") = py::tuple(),
@@ -232,11 +232,8 @@ void bind_probe(pybind11::module_& module) {
     // Nodes go into the state: they may use the probe themselves.
     probe.def("__reduce__", [](const py::object& self) {
         return reduced(self,
-                       py::make_tuple(self.attr("position"), self.attr("size"), self.attr("near"),
-                                      self.attr("far"), self.attr("format"), self.attr("mipmaps"),
-                                      self.attr("samples"), self.attr("update"), py::tuple(),
-                                      py::none(), self.attr("faces_per_frame"),
-                                      self.attr("depth_format")),
+                       attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",
+                                     "samples", "update", "faces_per_frame", "depth_format"),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

@@ -31,7 +31,7 @@ constexpr const char* render_texture_doc =
 
 It is only a description, and may serve any number of materials in any number of scenes: give it as
 the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
-(``renderer.texture(render_texture)``), brings them up to date before what shows them, and draws
+(``renderer.read_texture(render_texture)``), brings them up to date before what shows them, and draws
 them again only if the picture would come out different.
 
 Parameters
@@ -91,7 +91,7 @@ Examples
 ...         hand.rotation = cc.axis_angle((0, 0, 1), -degrees)
 ...         frame = renderer.render(scene, camera, size=(64, 48))  # shows the hand as it is now
 ...     drawn = renderer.stats.textures_updated
-...     picture = renderer.texture(face)
+...     picture = renderer.read_texture(face)
 >>> picture.shape, drawn
 ((64, 64, 4), 1)
 )doc";
@@ -251,11 +251,11 @@ std::string represent_render_texture(const RenderTexture& self) {
 /// The scene goes into the state: its nodes may show the texture. What stands for it, and for the
 /// camera, until then is empty.
 py::tuple reduce_render_texture(const py::object& self) {
-    return reduced(self,
-                   py::make_tuple(py::type::of<Scene>()(), py::type::of<PerspectiveCamera>()(),
-                                  self.attr("size"), self.attr("format"), self.attr("samples"),
-                                  self.attr("mipmaps"), self.attr("wrap"), py::tuple(),
-                                  self.attr("name")),
+    py::dict arguments =
+        attributes_of(self, "size", "format", "samples", "mipmaps", "wrap", "name");
+    arguments["scene"] = py::type::of<Scene>()();
+    arguments["camera"] = py::type::of<PerspectiveCamera>()();
+    return reduced(self, arguments,
                    py::make_tuple(self.attr("scene"), self.attr("camera"), self.attr("exclude"),
                                   self.attr("effects"), self.attr("depth_format")));
 }
@@ -272,7 +272,7 @@ void bind_render_texture(pybind11::module_& module) {
     static_cast<void>(module);
     auto made = declared<RenderTexture>();
     made.attr("__doc__") = render_texture_doc;
-    made.def(py::init(&make_render_texture), py::arg("scene"), py::arg("camera"),
+    made.def(py::init(&make_render_texture), py::arg("scene"), py::arg("camera"), py::kw_only(),
              py::arg("size") = py::make_tuple(512, 512), py::arg("format") = "rgba8",
              py::arg("samples") = 1, py::arg("mipmaps") = false, py::arg("wrap") = "clamp",
              py::arg("exclude") = py::tuple(), py::arg("name") = "",

@@ -24,7 +24,7 @@
 namespace cubecam {
 namespace {
 
-Outputs to_outputs(py::handle value) {
+RequestedOutputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
     std::vector<std::string> names;
     if (!py::isinstance<py::iterable>(value)) {
@@ -121,7 +121,8 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
                                  py::handle size, double near, double far, py::handle exclude,
                                  py::handle outputs, const std::optional<std::string>& format,
                                  py::handle samples, py::handle eye,
-                                 const std::optional<std::string>& depth_format) {
+                                 const std::optional<std::string>& depth_format,
+                                 const std::string& depth_order) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -136,13 +137,14 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
     options.format = parse_format(*format);
     options.samples = to_int(samples, "samples");
     options.depth_format = bindings::to_depth_format(depth_format);
+    options.depth_order = parse_depth_order(depth_order);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     const auto snapshot = scene.snapshot();
     const py::gil_scoped_release release;
     return renderer.capture(*snapshot, options);
 }
 
-void update(Renderer& renderer, const Scene& scene, py::handle probes) {
+void update_probes(Renderer& renderer, const Scene& scene, py::handle probes) {
     std::vector<std::shared_ptr<Probe>> wanted;
     if (py::isinstance<Probe>(probes)) {
         wanted.push_back(probes.cast<std::shared_ptr<Probe>>());
@@ -159,7 +161,7 @@ void update(Renderer& renderer, const Scene& scene, py::handle probes) {
     }
     const auto snapshot = scene.snapshot();
     const py::gil_scoped_release release;
-    renderer.update(*snapshot, wanted);
+    renderer.update_probes(*snapshot, wanted);
 }
 
 }  // namespace
@@ -189,8 +191,10 @@ layered : bool or None
     Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
     the same bytes on llvmpipe.
 cache_bytes : int
-    GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. Default
-    256 MiB.
+    GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. At most as
+    much main memory is kept of results that were let go, for the next ones of their size; what eight calls found no
+    use for is freed, and all of it by :meth:`close`. Default 256 MiB; ``stats.pictures_not_kept`` tells whether a
+    picture is larger than that.
 debug : bool
     Ask for a debug context, whose errors tell more.
 
@@ -214,9 +218,10 @@ Examples
 (6, 32, 32, 4)
 )");
     renderer
-        .def(py::init(&make_renderer), py::arg("device") = "auto", py::arg("layered") = py::none(),
-             py::arg("cache_bytes") = std::int64_t{256} << 20, py::arg("debug") = false)
-        .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"),
+        .def(py::init(&make_renderer), py::kw_only(), py::arg("device") = "auto",
+             py::arg("layered") = py::none(), py::arg("cache_bytes") = std::int64_t{256} << 20,
+             py::arg("debug") = false)
+        .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
              py::arg("effects") = py::tuple(), py::arg("depth_format") = "depth_component32f",
@@ -231,7 +236,8 @@ camera : Camera or StereoCamera
 size : (int, int)
     (width, height), pixels.
 outputs : sequence of str
-    Besides colour: any of "distance", "z", "normal", "position", "id", and of "depth" and "stencil", what those
+    Besides colour: any of "distance", "z", "normal", "position", "id", of the outputs that the GLSL of a
+    :class:`ShaderMaterial` of a visible node declares, and of "depth" and "stencil", what those
     buffers hold in the end.
 format : str or None
     "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
@@ -274,10 +280,10 @@ Examples
 )")
         .def("capture", &capture, py::arg("scene"),
              py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
-             py::arg("near") = 0.05, py::arg("far") = 1000.0, py::arg("exclude") = py::tuple(),
-             py::arg("outputs") = py::tuple(), py::arg("format") = "rgba32f",
-             py::arg("samples") = 1, py::arg("eye") = py::none(),
-             py::arg("depth_format") = "depth_component32f",
+             py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,
+             py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
+             py::arg("format") = "rgba32f", py::arg("samples") = 1, py::arg("eye") = py::none(),
+             py::arg("depth_format") = "depth_component32f", py::arg("depth_order") = "nearest",
              R"(Draw what surrounds a point into a cubemap.
 
 Parameters
@@ -292,7 +298,8 @@ near, far : float
 exclude : sequence of Node
     Left out, with all below them.
 outputs : sequence of str
-    Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil".
+    Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil", and of the outputs that
+    the GLSL of a :class:`ShaderMaterial` of a visible node declares.
 format : str
     "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
 samples : int
@@ -301,6 +308,11 @@ eye : array_like (3,) or None
     From where highlights and mirrors are seen; None: from ``position``.
 depth_format : str or None
     The depth and stencil buffer, see :meth:`render`.
+depth_order : str
+    "nearest", or "farthest": colour and outputs are those of the farthest opaque surface along each ray between
+    ``near`` and ``far``, the background where there is none. Single-sided materials show their front faces alone, so
+    the far side of a body counts with ``double_sided=True``. Of translucent nodes shows what is farther still. It
+    wants a depth buffer.
 
 Returns
 -------
@@ -323,7 +335,8 @@ Examples
 >>> cube.sample((0, -1, 0)).tolist(), int(cube.id[3, 8, 8])
 ([1.0, 0.0, 0.0, 1.0], 1)
 )")
-        .def("update", &update, py::arg("scene"), py::arg("probes") = py::none(),
+        .def("update_probes", &update_probes, py::arg("scene"), py::kw_only(),
+             py::arg("probes") = py::none(),
              R"(Draw probes now, whatever their ``update`` says.
 
 Parameters
@@ -336,28 +349,54 @@ Raises
 ------
 ValueError
     For a probe that no visible node uses.
+ContextError
+    After :meth:`close`, or in a forked process.
 )")
         .def(
-            "cubemap",
+            "read_probe",
             [](Renderer& self, const std::shared_ptr<Probe>& probe) {
                 const py::gil_scoped_release release;
-                return self.cubemap(probe);
+                return self.read_probe(probe);
             },
             py::arg("probe"),
             R"(What a probe holds now, in the probe's format.
+
+Parameters
+----------
+probe : Probe
+    One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+Returns
+-------
+CubeMap
+    A copy; uint8, float16 or float32, faces (6, size, size, 4).
 
 Raises
 ------
 ValueError
     If this renderer has not drawn it yet.
+ContextError
+    After :meth:`close`, or in a forked process.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene(background="teal")
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+>>> ball.environment = cc.Probe(size=8)
+>>> with cc.Renderer() as renderer:
+...     renderer.update_probes(scene)
+...     held = renderer.read_probe(ball.environment)
+>>> held.faces.shape, held.dtype.name
+((6, 8, 8, 4), 'float16')
 )")
         .def(
-            "texture",
+            "read_texture",
             [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
                 Frame held;
                 {
                     const py::gil_scoped_release release;
-                    held = self.texture(render_texture);
+                    held = self.read_texture(render_texture);
                 }
                 return py::array(PyFrame(std::move(held)).color);
             },

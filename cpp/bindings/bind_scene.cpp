@@ -23,8 +23,8 @@ std::shared_ptr<CubeMap> to_environment(py::handle value) {
 Background to_background(py::handle value) {
     if (value.is_none()) return {};
     if (py::isinstance<CubeMap>(value)) return py::cast<std::shared_ptr<CubeMap>>(value);
-    if (py::isinstance<py::str>(value) || !py::isinstance<py::sequence>(value)) {
-        refuse(value, "background", "3 or 4 numbers, a CubeMap or None");
+    if (!py::isinstance<py::sequence>(value)) {  // a text is one
+        refuse(value, "background", "a colour, a CubeMap or None");
     }
     return to_rgba(value, "background");
 }
@@ -135,11 +135,11 @@ void bind_scene(pybind11::module_& module) {
     static_cast<void>(module);
     auto scene = declared<Scene>();
     scene.attr("__doc__") = scene_doc;
-    scene.def(py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background) {
-                  return std::make_shared<Scene>(to_environment(environment),
-                                                 to_background(background));
-              }),
-              py::arg("environment") = py::none(), py::arg("background") = py::none());
+    scene.def(
+        py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background) {
+            return std::make_shared<Scene>(to_environment(environment), to_background(background));
+        }),
+        py::kw_only(), py::arg("environment") = py::none(), py::arg("background") = py::none());
     scene.def_property(
         "environment", [](const Scene& self) { return or_none(self.environment()); },
         [](Scene& self, const OrNone<CubeMap>& value) {

@@ -11,9 +11,9 @@ Parameters
 ----------
 environment : CubeMap, optional
     What mirrors and glass show; see `load_environment`.
-background : array_like (3,) or (4,), or CubeMap, optional
-    What is seen where nothing is: a linear colour, or a cubemap as skybox. None: the environment
-    if there is one, else transparent black.
+background : array_like (3,) or (4,), str, or CubeMap, optional
+    What is seen where nothing is: a colour, or a cubemap as skybox. Numbers are linear; a CSS name or
+    "#rrggbb" says sRGB and is decoded. None: the environment if there is one, else transparent black.
 
 Raises
 ------

@@ -48,7 +48,13 @@ ShaderError
 
 Notes
 -----
-What the source has at hand; names that begin with ``u_``, ``v_``, ``a_`` or ``gl_`` are taken.
+Outputs of one's own: ``out vec4 heat;`` in `fragment`, of float, vec2, vec3 or vec4 and without a
+layout, is a buffer that ``outputs=("heat",)`` requests and ``frame.outputs["heat"]`` and
+``cube.outputs["heat"]`` hold: float32, 0 where the node that is seen does not write it. Only opaque nodes
+that leave depth write them, and colour and these outputs together are limited by the driver's draw
+buffers (8 as a rule). Without a request it is a variable.
+
+What the source has at hand; names that begin with ``u_``, ``v_``, ``a_``, ``o_`` or ``gl_`` are taken.
 
 In both stages: ``mat4 model_matrix()`` (mesh to world), ``mat3 normal_matrix()`` (its inverse
 transpose, to any length), ``vec3 eye_position()`` (world; of perspective views).
@@ -63,7 +69,8 @@ double-sided surfaces), ``incident`` (world, unit, from the eye to the surface),
 ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
 ``environment_lod(direction, level)`` at a level of its mipmaps.
 ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
-the light) and ``radiance``; ``vec3 ambient_light()``.
+the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
+ambient lights.
 ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
 ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
 
@@ -89,6 +96,19 @@ The mirror of document 000 in GLSL, on a ball that follows the scene:
 >>> gold.uniforms["share"] = .5
 >>> sorted(gold.uniforms)
 ['color', 'share']
+
+An output of its own, how far above the floor a surface lies:
+
+>>> marked = cc.ShaderMaterial('''
+...     out float height;
+...     vec3 shade(Surface surface) { height = surface.position.y; return surface.color.rgb; }
+... ''')
+>>> scene = cc.Scene()
+>>> box = scene.add(cc.Mesh.box(2), marked, position=(0, 3, 0))
+>>> with cc.Renderer() as renderer:
+...     cube = renderer.capture(scene, size=4, outputs=("height",))
+>>> cube.outputs["height"].shape, float(cube.outputs["height"].max())
+((6, 4, 4), 2.0)
 )doc";
 
 inline constexpr const char* image_effect_doc =

@@ -60,7 +60,7 @@ Examples
 >>> lamp = cc.PointLight(position=(0, 3, 0), shadow=cc.Shadow(size=512, radius=2))
 >>> lamp.shadow
 Shadow(size=512, radius=2, bias=0, near=0.05, far=None, extent=None)
->>> lamp.shadow == cc.Shadow(512, 2)
+>>> lamp.shadow == cc.Shadow(size=512, radius=2)
 True
 )doc";
 
@@ -90,7 +90,7 @@ void bind_shadow(pybind11::module_& module) {
                  check(*shadow);
                  return shadow;
              }),
-             py::arg("size") = 1024, py::arg("radius") = 1.0, py::arg("bias") = 0.0,
+             py::kw_only(), py::arg("size") = 1024, py::arg("radius") = 1.0, py::arg("bias") = 0.0,
              py::arg("near") = 0.05, py::arg("far") = py::none(), py::arg("extent") = py::none())
         .def_readonly("size", &Shadow::size, "int: texels a side of the map.")
         .def_readonly("radius", &Shadow::radius, "float: of the filter, texels.")
@@ -118,6 +118,7 @@ void bind_shadow(pybind11::module_& module) {
                         ", extent=" + or_none_text(self.extent) + ")";
              })
         .def("__reduce__", [](const py::object& self) {
-            return reduced(self, fields(self.cast<const Shadow&>()));
+            return reduced(self,
+                           attributes_of(self, "size", "radius", "bias", "near", "far", "extent"));
         });
 }

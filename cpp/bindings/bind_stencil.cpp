@@ -58,7 +58,7 @@ A disc as a window: invisible itself, it lets the red plane behind it show withi
 >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
 ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
 >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
->>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
+>>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil(func="equal", reference=1))
 >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
 >>> with cc.Renderer() as renderer:
 ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),
@@ -122,9 +122,10 @@ void bind_stencil(pybind11::module_& module) {
 
     auto stencil = declare<Stencil>(module, "Stencil", stencil_doc);
     stencil
-        .def(py::init(&make_stencil), py::arg("func") = "always", py::arg("reference") = 0,
-             py::arg("read_mask") = 255, py::arg("write_mask") = 255, py::arg("fail") = "keep",
-             py::arg("depth_fail") = "keep", py::arg("depth_pass") = "keep")
+        .def(py::init(&make_stencil), py::kw_only(), py::arg("func") = "always",
+             py::arg("reference") = 0, py::arg("read_mask") = 255, py::arg("write_mask") = 255,
+             py::arg("fail") = "keep", py::arg("depth_fail") = "keep",
+             py::arg("depth_pass") = "keep")
         .def_property_readonly("func", word_of(&Stencil::func), "str: the comparison.")
         .def_readonly("reference", &Stencil::reference, "int: what is compared and written.")
         .def_readonly("read_mask", &Stencil::read_mask, "int: the bits that are compared.")
@@ -139,6 +140,7 @@ void bind_stencil(pybind11::module_& module) {
         .def("__hash__", [](const Stencil& self) { return py::hash(stencil_state(self)); })
         .def("__repr__", &represent_stencil)
         .def("__reduce__", [](const py::object& self) {
-            return reduced(self, stencil_state(self.cast<const Stencil&>()));
+            return reduced(self, attributes_of(self, "func", "reference", "read_mask", "write_mask",
+                                               "fail", "depth_fail", "depth_pass"));
         });
 }

@@ -152,7 +152,7 @@ void bind_stereo(pybind11::module_& module) {
                  return std::make_shared<StereoCamera>(to_eye(left, "left"), to_eye(right, "right"),
                                                        parse_stereo_layout(layout));
              }),
-             py::arg("left"), py::arg("right"), py::arg("layout") = "anaglyph")
+             py::arg("left"), py::arg("right"), py::kw_only(), py::arg("layout") = "anaglyph")
         .def_static(
             "off_axis",
             [](const Eye& camera, double separation, std::optional<double> convergence,
@@ -161,14 +161,15 @@ void bind_stereo(pybind11::module_& module) {
                     off_axis_eyes(to_eye(camera, "camera")->value(), separation, convergence),
                     layout);
             },
-            py::arg("camera"), py::arg("separation") = 0.065, py::arg("convergence") = py::none(),
-            py::arg("layout") = "anaglyph", off_axis_doc)
+            py::arg("camera"), py::kw_only(), py::arg("separation") = 0.065,
+            py::arg("convergence") = py::none(), py::arg("layout") = "anaglyph", off_axis_doc)
         .def_static(
             "toe_in",
             [](const Eye& camera, double degrees, const std::string& layout) {
                 return stereo_of(toe_in_eyes(to_eye(camera, "camera")->value(), degrees), layout);
             },
-            py::arg("camera"), py::arg("degrees") = 4.0, py::arg("layout") = "anaglyph", toe_in_doc)
+            py::arg("camera"), py::kw_only(), py::arg("degrees") = 4.0,
+            py::arg("layout") = "anaglyph", toe_in_doc)
         .def_property(
             "left", &StereoCamera::left,
             [](StereoCamera& self, const Eye& value) { self.set_left(to_eye(value, "left")); },
@@ -191,7 +192,6 @@ void bind_stereo(pybind11::module_& module) {
                         std::string(to_string(self.layout())) + "')";
              })
         .def("__reduce__", [](const py::object& self) {
-            return reduced(
-                self, py::make_tuple(self.attr("left"), self.attr("right"), self.attr("layout")));
+            return reduced(self, attributes_of(self, "left", "right", "layout"));
         });
 }

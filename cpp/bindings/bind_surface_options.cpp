@@ -34,13 +34,13 @@ void bind_surface_options(Class<Material>& material) {
         },
         "bool: True shows both sides, its normal turned to the viewer; False culls back faces.");
     surface_property(
-        material, "blend", [](const SurfaceOptions& s) { return from_blend(s.blend); },
+        material, "blend", [](const SurfaceOptions& s) { return from_blend(s); },
         [](Material& self, const BlendLike& value) {
-            const auto blend = to_blend(value);
-            edit_surface(self, [&](SurfaceOptions& s) { s.blend = blend; });
+            edit_surface(self, [&](SurfaceOptions& s) { set_blend(s, value); });
         },
-        "str or None: how it joins what is drawn already: \"opaque\", \"alpha\", "
-        "\"alpha_keep\", \"additive\", \"multiply\" or \"premultiplied\"; see `Material`. "
+        "str, Blend or None: how it joins what is drawn already: \"opaque\", \"alpha\", "
+        "\"alpha_keep\", \"additive\", \"multiply\", \"premultiplied\" or a `Blend`; see "
+        "`Material`. "
         "None: \"alpha\" where anything is translucent, else \"opaque\".");
     surface_property(
         material, "depth_write",

@@ -15,7 +15,8 @@ struct PyFrame {
 
     int width = 0;
     int height = 0;
-    py::object color, distance, z, normal, position, id, depth, stencil;
+    py::object color;
+    py::dict outputs;  ///< arrays by name
 };
 
 void bind_frame(py::module_& m);

@@ -1,4 +1,5 @@
 // The extension module cubecam._core.
+#include "arguments.hpp"
 #include "objects.hpp"
 
 #include "cubecam/scene/node.hpp"
@@ -8,15 +9,19 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+
 // One a topic, each in the file of its name.
+void bind_pickling(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
+void bind_blend(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
 void bind_material(pybind11::module_& module);
-void bind_shader(pybind11::module_& module);
+void bind_image_effect(pybind11::module_& module);
 void bind_shadow(pybind11::module_& module);
 void bind_light(pybind11::module_& module);
 void bind_camera(pybind11::module_& module);
@@ -44,6 +49,23 @@ static void refuse_pickling(pybind11::module_& module) {
     }
 }
 
+/// The list of what `from cubecam._core import *` gives, which is what cubecam exports: so a new
+/// class is exported without another line in python/cubecam/__init__.py.
+static pybind11::list exported_names(const pybind11::module_& module) {
+    namespace py = pybind11;
+    // Classes of what Renderer.info and Renderer.stats give; nobody makes one.
+    const py::tuple inner = py::make_tuple("Limits", "RendererInfo", "Stats");
+    py::list names;
+    for (const auto& [name, thing] : module.attr("__dict__").cast<py::dict>()) {
+        const auto text = name.cast<std::string>();
+        if (text.starts_with('_') || inner.contains(name)) continue;
+        names.append(name);
+    }
+    names.append("__version__");
+    names.attr("sort")();
+    return names;
+}
+
 PYBIND11_MODULE(_core, module) {
     using namespace cubecam;
     using cubecam::bindings::declare;
@@ -51,6 +73,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which has all of it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    bind_pickling(module);
     bind_errors(module);
     bind_device(module);
     // Signatures name the classes that are declared by then, and these lead to each other.
@@ -62,9 +85,10 @@ PYBIND11_MODULE(_core, module) {
     bind_cubemap(module);
     bind_image(module);
     bind_mesh(module);
+    bind_blend(module);
     bind_stencil(module);
     bind_material(module);
-    bind_shader(module);
+    bind_image_effect(module);
     bind_shadow(module);
     bind_light(module);
     bind_camera(module);
@@ -75,4 +99,6 @@ PYBIND11_MODULE(_core, module) {
     bind_scene(module);
     bind_renderer(module);
     refuse_pickling(module);
+    module.attr("__all__") = exported_names(module);
+    cubecam::bindings::explain_all_arguments(module);
 }

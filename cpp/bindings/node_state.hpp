@@ -64,7 +64,6 @@ inline py::tuple state_of_node(const NodeValue& value) {
 }
 
 inline NodeValue node_from_state(const py::tuple& state) {
-    const std::size_t size = state.size();  // older pickles end earlier
     return {to_placing(state[2], state[3], state[4], state[5]),
             to_mesh(state[0]),
             to_material(state[1]),
@@ -72,9 +71,9 @@ inline NodeValue node_from_state(const py::tuple& state) {
             state[7].cast<bool>(),
             state[8].cast<bool>(),
             state[9].cast<std::string>(),
-            size > 10 ? to_render_order(state[10]) : 0,
-            size <= 11 || state[11].cast<bool>(),
-            size <= 12 || state[12].cast<bool>()};
+            to_render_order(state[10]),
+            state[11].cast<bool>(),
+            state[12].cast<bool>()};
 }
 
 }  // namespace cubecam::bindings

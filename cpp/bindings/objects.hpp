@@ -57,6 +57,12 @@ class ArrayLike : public py::object {
     using object::object;
 };
 
+/// The same for all that numpy makes a dtype of.
+class DTypeLike : public py::object {
+    PYBIND11_OBJECT_DEFAULT(DTypeLike, object, any_object)
+    using object::object;
+};
+
 template <class T>
 using OrNone = OneOf<T, py::none>;
 
@@ -87,14 +93,39 @@ OrNone<T> or_none(const std::shared_ptr<T>& object) {
     return py::cast(object);
 }
 
-/// For `__reduce__`: pickle keeps the object made of `args` in its memo before it pickles `state`,
-/// so that the state may lead back to the object.
-inline py::tuple reduced(py::handle self, py::tuple args) {
-    return py::make_tuple(py::type::handle_of(self), std::move(args));
+/// What every pickle says, and unpickling checks. It goes up when what is pickled changes; 0.1 said
+/// nothing.
+constexpr int pickle_format = 2;
+
+/// Raises TypeError unless a pickle says `pickle_format`.
+void check_pickle(py::handle format);
+
+/// A state as pickles hold it, and back.
+inline py::tuple closed_state(py::object state) {
+    return py::make_tuple(pickle_format, std::move(state));
+}
+py::object opened_state(py::handle state);
+
+/// For `__reduce__`: an object is made anew of arguments by position (a tuple) or by name (a dict).
+/// Pickle keeps the object in its memo before it pickles `state`, so that the state may lead back
+/// to the object.
+inline py::tuple reduced(py::handle self, py::object args) {
+    const py::object remake = py::module_::import("cubecam._pickling").attr("remake");
+    return py::make_tuple(
+        remake, py::make_tuple(pickle_format, py::type::handle_of(self), std::move(args)));
 }
 
-inline py::tuple reduced(py::handle self, py::tuple args, py::object state) {
-    return py::make_tuple(py::type::handle_of(self), std::move(args), std::move(state));
+inline py::tuple reduced(py::handle self, py::object args, py::object state) {
+    return py::tuple(reduced(self, std::move(args)) +
+                     py::make_tuple(closed_state(std::move(state))));
+}
+
+/// Attributes by name: arguments for `reduced`.
+template <class... Names>
+py::dict attributes_of(py::handle self, const Names&... names) {
+    py::dict values;
+    ((values[names] = self.attr(names)), ...);
+    return values;
 }
 
 /// Defines `__setstate__` as a method of an object that exists: of a function made by that name
@@ -106,9 +137,12 @@ void def_setstate(Bound& bound, const char* state_type, Function&& function) {
                             ") -> None\n\nFor unpickling.";
     py::options options;
     options.disable_function_signatures();
-    bound.attr("__setstate__") =
-        py::cpp_function(std::forward<Function>(function), py::name("_set_state"),
-                         py::is_method(bound), py::arg("state"), doc.c_str());
+    const py::object set =
+        py::cpp_function(std::forward<Function>(function), py::name("_set_state"), py::arg("self"),
+                         py::arg("state"));
+    bound.attr("__setstate__") = py::cpp_function(
+        [set](const py::object& self, const py::object& state) { set(self, opened_state(state)); },
+        py::name("_set_state"), py::is_method(bound), py::arg("state"), doc.c_str());
 }
 
 }  // namespace cubecam::bindings
@@ -123,6 +157,11 @@ struct handle_type_name<cubecam::bindings::OneOf<Types...>> {
 template <>
 struct handle_type_name<cubecam::bindings::ArrayLike> {
     static constexpr auto name = const_name("numpy.typing.ArrayLike");
+};
+
+template <>
+struct handle_type_name<cubecam::bindings::DTypeLike> {
+    static constexpr auto name = const_name("numpy.typing.DTypeLike");
 };
 
 }  // namespace pybind11::detail

@@ -13,6 +13,8 @@
 
 namespace cubecam::bindings {
 
+using MappingLike = OneOf<py::typing::Dict<py::str, py::object>, py::none>;
+
 /// GLSL itself, or a path of a file that holds it.
 using SourceLike = OneOf<py::str, py::typing::Optional<py::object>>;
 
@@ -35,6 +37,16 @@ py::dict textures_of(const ShaderInputs& inputs);
 std::string inputs_text(const ShaderInputs& inputs);
 /// The file's name, or how many lines there are.
 std::string source_text(const UserSource& source);
+
+/// Text of a source and the file it is from.
+inline py::tuple source_state(const UserSource& source) {
+    return py::make_tuple(source.text, source.path);
+}
+
+inline UserSource source_from_state(const py::handle& state) {
+    const auto pair = py::reinterpret_borrow<py::tuple>(state);
+    return {pair[0].cast<std::string>(), pair[1].cast<std::string>()};
+}
 
 /// What python/cubecam/_shader_inputs.py makes the mappings `uniforms` and `textures` of. `get`
 /// gives an object's inputs, `edit` changes them.

@@ -14,7 +14,7 @@
 
 namespace cubecam::bindings {
 
-using BlendLike = OneOf<py::str, py::none>;
+using BlendLike = OneOf<py::str, BlendFactors, py::none>;
 using DepthWriteLike = OneOf<py::bool_, py::none>;
 using ColorWriteLike = OneOf<py::bool_, py::typing::Tuple<bool, bool, bool, bool>>;
 
@@ -27,14 +27,27 @@ inline bool to_bool(py::handle value, const char* name, const char* expected) {
     return py::bool_(py::reinterpret_borrow<py::object>(value));
 }
 
-inline std::optional<Blend> to_blend(py::handle value) {
-    if (value.is_none()) return std::nullopt;
-    if (!py::isinstance<py::str>(value)) refuse(value, "blend", "the name of a mode or None");
-    return parse_blend(value.cast<std::string>());
+inline void set_blend(SurfaceOptions& surface, py::handle value) {
+    std::optional<Blend> blend;
+    BlendFactors factors;
+    if (py::isinstance<BlendFactors>(value)) {
+        blend = Blend::factors;
+        factors = value.cast<const BlendFactors&>();
+    } else if (py::isinstance<py::str>(value)) {
+        blend = parse_blend(value.cast<std::string>());
+    } else if (!value.is_none()) {
+        refuse(value, "blend", "the name of a mode, a Blend or None");
+    }
+    surface.blend = blend;
+    surface.blend_factors = factors;
 }
 
-inline BlendLike from_blend(const std::optional<Blend>& blend) {
-    return blend ? py::object(py::str(std::string(to_string(*blend)))) : py::none();
+inline BlendLike from_blend(const SurfaceOptions& surface) {
+    if (!surface.blend) return py::none();
+    if (*surface.blend == Blend::factors) {
+        return py::cast(std::make_shared<BlendFactors>(surface.blend_factors));
+    }
+    return py::str(std::string(to_string(*surface.blend)));
 }
 
 inline std::optional<bool> to_depth_write(py::handle value) {
@@ -60,20 +73,25 @@ inline py::tuple from_color_write(const glm::bvec4& write) {
     return py::make_tuple(bool(write.r), bool(write.g), bool(write.b), bool(write.a));
 }
 
-/// Defines `__init__`: a material's own arguments, from which `make` makes its parameters, then
-/// what every material has.
-template <class P, class... Own, class... Named>
-void def_init(Class<MaterialOf<P>, Material>& made, P (*make)(Own...), const Named&... named) {
+/// Defines `__init__`: a material's own arguments, from which `make` makes its kind, then what
+/// every material has.
+template <class Kind, class... Own, class... Named>
+void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
+              const Named&... named) {
     made.def(py::init([make](Own... own, float opacity, bool double_sided, const BlendLike& blend,
                              const DepthWriteLike& depth_write, bool depth_test,
                              const ColorWriteLike& color_write, const OrNone<Stencil>& stencil) {
-                 return std::make_shared<MaterialOf<P>>(
-                     make(own...),
-                     SurfaceOptions{opacity, double_sided, to_blend(blend),
-                                    to_depth_write(depth_write), depth_test,
-                                    to_color_write(color_write), to_stencil(stencil)});
+                 SurfaceOptions surface;
+                 surface.opacity = opacity;
+                 surface.double_sided = double_sided;
+                 set_blend(surface, blend);
+                 surface.depth_write = to_depth_write(depth_write);
+                 surface.depth_test = depth_test;
+                 surface.color_write = to_color_write(color_write);
+                 surface.stencil = to_stencil(stencil);
+                 return std::make_shared<MaterialOf<Kind>>(make(own...), surface);
              }),
-             named..., py::kw_only(), py::arg("opacity") = 1.0F, py::arg("double_sided") = false,
+             named..., py::arg("opacity") = 1.0F, py::arg("double_sided") = false,
              py::arg("blend") = py::none(), py::arg("depth_write") = py::none(),
              py::arg("depth_test") = true, py::arg("color_write") = true,
              py::arg("stencil") = py::none());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "arrays.hpp"
+#include "colors.hpp"
 #include "objects.hpp"
 
 #include "cubecam/core/checks.hpp"
@@ -53,13 +54,25 @@ inline glm::dquat to_rotation(py::handle value, const char* name) {
     return {v.x, v.y, v.z, v.w};
 }
 
-/// 3 or 4 numbers, linear; the fourth, alpha, is 1 where it is not given.
+/// 3 or 4 numbers, linear; the fourth, alpha, is 1 where it is not given. Or a text as
+/// `parse_color` takes it.
 inline glm::vec4 to_rgba(py::handle value, const char* name) {
+    if (py::isinstance<py::str>(value)) {
+        return glm::vec4(parse_color(value.cast<std::string>(), name));
+    }
     return glm::vec4(to_color(value, name));
 }
 
+/// The same without alpha.
 inline glm::vec3 to_rgb(py::handle value, const char* name) {
-    return glm::vec3(to_point(value, name));
+    if (!py::isinstance<py::str>(value)) return glm::vec3(to_point(value, name));
+    const auto text = value.cast<std::string>();
+    const glm::dvec4 color = parse_color(text, name);
+    if (color.a != 1.0) {
+        throw py::value_error(std::string(name) + ": expected a colour without alpha, got '" +
+                              text + "'");
+    }
+    return glm::vec3(color);
 }
 
 /// A parameter that is kept in float32, as the decimal number that was typed: 0.2, not 0.200000003.

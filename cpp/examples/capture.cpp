@@ -6,6 +6,9 @@
 // file's rows bottom to top as the PFM format has them, so that a picture viewer shows row 0 of the
 // face (t = 0) on top.
 #include "cubecam/geometry/primitives.hpp"
+#include "cubecam/materials/basic.hpp"
+#include "cubecam/materials/mirror.hpp"
+#include "cubecam/materials/phong.hpp"
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/render/renderer.hpp"
 
@@ -35,15 +38,15 @@ void build(Scene& scene) {
     scene.set_background(glm::vec4(0.4F, 0.4F, 0.4F, 1.0F));
     scene.add(std::make_shared<PointLight>(PointParameters{{5.0, 5.0, 5.0}}));
 
-    PhongParameters floor;
+    Phong floor;
     floor.color = {0.4F, 0.4F, 1.0F, 1.0F};
     add(scene, primitives::plane(10.0, 10.0), std::make_shared<PhongMaterial>(floor),
         {0.0, -2.0, 0.0});
-    PhongParameters green;
+    Phong green;
     green.color = {0.4F, 1.0F, 0.4F, 1.0F};
     add(scene, primitives::box(glm::dvec3(1.0)), std::make_shared<PhongMaterial>(green),
         {2.0, 0.0, 0.5});
-    BasicParameters red;
+    Basic red;
     red.color = {1.0F, 0.4F, 0.4F, 1.0F};
     add(scene, primitives::sphere(0.5), std::make_shared<BasicMaterial>(red), {-0.5, 0.25, -2.0});
 

@@ -219,8 +219,10 @@ void test_an_edge_back_inside_a_circle_of_probes() {
         CHECK(back(2, 2));
         CHECK(!back(2, 3));
         CHECK(!graph.is_edge_back(make_id(frame, start), make_id(probe, start)));
-        CHECK(!back(2, 9));  // no picture of this graph
-        CHECK(!back(9, 2));
+        const PictureId unknown = make_id(probe, 1, 5);  // its place would be that of probe 2
+        CHECK(!graph.is_edge_back(make_id(probe, 2), unknown));
+        CHECK(!graph.is_edge_back(unknown, make_id(probe, 0)));
+        CHECK(!back(2, 99));
     }
     // What is seen by edges back alone is planned but not drawn.
     CHECK_EQUAL(drawn(world, {make_id(frame, 0)}), "probe3 probe2 probe1 probe0 frame0");

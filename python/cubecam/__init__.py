@@ -14,93 +14,16 @@ library for files; both happen when they are first used.
 
 from __future__ import annotations
 
-from . import _attach
-from ._core import (
-    AmbientLight,
-    BasicMaterial,
-    Camera,
-    ContextError,
-    CubeMap,
-    Device,
-    DirectionalLight,
-    Error,
-    Face,
-    FileError,
-    Frame,
-    GlassMaterial,
-    GlError,
-    Image,
-    ImageEffect,
-    ImageError,
-    Light,
-    Material,
-    Mesh,
-    MeshError,
-    MirrorMaterial,
-    Node,
-    OrthographicCamera,
-    PerspectiveCamera,
-    PhongMaterial,
-    PointLight,
-    Probe,
-    Renderer,
-    RenderTexture,
-    Scene,
-    ShaderError,
-    ShaderMaterial,
-    Shadow,
-    SpotLight,
-    Stencil,
-    StereoCamera,
-    __version__,
-    axis_angle,
-    devices,
-)
+from . import _attach, _core
+from ._core import *  # noqa: F403 - what _core.__all__ lists, so that a new class is exported at once
+from ._core import __version__
 from .data import sample_data
 from .io.cubemaps import load_cubemap, load_environment
 from .io.images import load_image, save_animation, save_image
 from .io.meshes import load_mesh
 
 __all__ = [
-    "AmbientLight",
-    "BasicMaterial",
-    "Camera",
-    "ContextError",
-    "CubeMap",
-    "Device",
-    "DirectionalLight",
-    "Error",
-    "Face",
-    "FileError",
-    "Frame",
-    "GlError",
-    "GlassMaterial",
-    "Image",
-    "ImageEffect",
-    "ImageError",
-    "Light",
-    "Material",
-    "Mesh",
-    "MeshError",
-    "MirrorMaterial",
-    "Node",
-    "OrthographicCamera",
-    "PerspectiveCamera",
-    "PhongMaterial",
-    "PointLight",
-    "Probe",
-    "RenderTexture",
-    "Renderer",
-    "Scene",
-    "ShaderError",
-    "ShaderMaterial",
-    "Shadow",
-    "SpotLight",
-    "Stencil",
-    "StereoCamera",
     "__version__",
-    "axis_angle",
-    "devices",
     "load_cubemap",
     "load_environment",
     "load_image",
@@ -109,5 +32,6 @@ __all__ = [
     "save_animation",
     "save_image",
 ]
+__all__ += _core.__all__
 
 _attach.attach()

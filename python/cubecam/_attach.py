@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _shader_inputs, navigation
+from . import _old_names, _shader_inputs, navigation
 from ._core import (
     CubeMap,
     Frame,
@@ -65,3 +65,4 @@ def attach() -> None:
     for camera in (PerspectiveCamera, OrthographicCamera):
         for name in ("yaw", "pitch", "walk", "strafe", "orbit", "look"):
             _attach(camera, name, getattr(navigation, name))
+    _old_names.answer_old_names()

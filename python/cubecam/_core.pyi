@@ -15,6 +15,7 @@ import numpy.typing
 __all__: list[str] = [
     "AmbientLight",
     "BasicMaterial",
+    "Blend",
     "Camera",
     "ContextError",
     "CubeMap",
@@ -30,7 +31,6 @@ __all__: list[str] = [
     "ImageEffect",
     "ImageError",
     "Light",
-    "Limits",
     "Material",
     "Mesh",
     "MeshError",
@@ -43,15 +43,14 @@ __all__: list[str] = [
     "Probe",
     "RenderTexture",
     "Renderer",
-    "RendererInfo",
     "Scene",
     "ShaderError",
     "ShaderMaterial",
     "Shadow",
     "SpotLight",
-    "Stats",
     "Stencil",
     "StereoCamera",
+    "__version__",
     "axis_angle",
     "devices",
 ]
@@ -291,7 +290,7 @@ class Probe:
 
     It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
     to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
-    (``renderer.cubemap(probe)``) and draws again only the faces that would come out different. Nodes
+    (``renderer.read_probe(probe)``) and draws again only the faces that would come out different. Nodes
     that use a probe are left out of it.
 
     Parameters
@@ -310,7 +309,7 @@ class Probe:
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     update : {"on_change", "once", "manual"} or int
         "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
-        by ``renderer.update``. n: on every n-th call that needs it.
+        by ``renderer.update_probes``. n: on every n-th call that needs it.
     exclude : iterable of Node
         What it does not see, whole subtrees, beside the nodes that use it.
     parent : Node, optional
@@ -339,6 +338,7 @@ class Probe:
     def __init__(
         self: Probe,
         position: numpy.typing.ArrayLike = (0, 0, 0),
+        *,
         size: typing.SupportsInt | typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
@@ -448,7 +448,7 @@ class RenderTexture:
 
     It is only a description, and may serve any number of materials in any number of scenes: give it as
     the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
-    (``renderer.texture(render_texture)``), brings them up to date before what shows them, and draws
+    (``renderer.read_texture(render_texture)``), brings them up to date before what shows them, and draws
     them again only if the picture would come out different.
 
     Parameters
@@ -508,7 +508,7 @@ class RenderTexture:
     ...         hand.rotation = cc.axis_angle((0, 0, 1), -degrees)
     ...         frame = renderer.render(scene, camera, size=(64, 48))  # shows the hand as it is now
     ...     drawn = renderer.stats.textures_updated
-    ...     picture = renderer.texture(face)
+    ...     picture = renderer.read_texture(face)
     >>> picture.shape, drawn
     ((64, 64, 4), 1)
     """
@@ -516,6 +516,7 @@ class RenderTexture:
         self: RenderTexture,
         scene: Scene,
         camera: Camera,
+        *,
         size: tuple[int, int] = (512, 512),
         format: str = "rgba8",
         samples: int = 1,
@@ -620,9 +621,9 @@ class Scene:
     ----------
     environment : CubeMap, optional
         What mirrors and glass show; see `load_environment`.
-    background : array_like (3,) or (4,), or CubeMap, optional
-        What is seen where nothing is: a linear colour, or a cubemap as skybox. None: the environment
-        if there is one, else transparent black.
+    background : array_like (3,) or (4,), str, or CubeMap, optional
+        What is seen where nothing is: a colour, or a cubemap as skybox. Numbers are linear; a CSS name or
+        "#rrggbb" says sRGB and is decoded. None: the environment if there is one, else transparent black.
 
     Raises
     ------
@@ -653,6 +654,7 @@ class Scene:
         """
     def __init__(
         self: Scene,
+        *,
         environment: CubeMap | None = None,
         background: numpy.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
@@ -873,10 +875,12 @@ class CubeMap:
     @staticmethod
     def from_equirect(
         image: typing.Any,
+        *,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
-        mipmaps: bool = False,
         sampling: str = "centers",
+        mipmaps: bool = False,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         A cube from a panorama.
@@ -893,31 +897,43 @@ class CubeMap:
             Of a face; by default the next power of two from W / pi, which loses nothing.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
             The axis at the center column.
-        mipmaps : bool, default False
-            Of the new cube.
         sampling : {"centers", "borders"}, default "centers"
             Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) will do.
+        mipmaps : bool, default False
+            Of the new cube.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            float32.
+            In `dtype`, rounded as `to_equirect` does.
+
+        Raises
+        ------
+        ValueError
+            An image that is not twice as wide as high, NaN, a size below 1, an unknown center or sampling,
+            another dtype.
+        TypeError
+            An image of bool, complex, text, or integers other than uint8.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-        CubeMap(size=64, channels=3, dtype=float32, mipmaps=False)
+        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
         """
     @staticmethod
     def from_layout(
         image: typing.Any,
+        *,
         layout: str | None = None,
         convention: str = "gl",
-        mipmaps: bool = False,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
+        mipmaps: bool = False,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         A cube from one picture of all faces, the inverse of `to_layout`.
@@ -930,15 +946,17 @@ class CubeMap:
             vertical_cross, 6:1 row, 1:6 column, 2:1 equirect. Shape never tells the convention.
         convention : {"gl", "inside", "three"}, default "gl"
             Of the faces in `image`.
-        mipmaps : bool, default False
-            Of the new cube.
         size, center
             As in `from_equirect`, for "equirect" only.
+        mipmaps : bool, default False
+            Of the new cube.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            In the dtype of `image`; float32 from "equirect" and "openexr".
+            In `dtype`, rounded as `to_equirect` does.
 
         Raises
         ------
@@ -960,7 +978,7 @@ class CubeMap:
         """
     def __getstate__(self: CubeMap) -> tuple: ...
     def __init__(
-        self: CubeMap, faces: typing.Any, convention: str = "gl", mipmaps: bool = False
+        self: CubeMap, faces: typing.Any, *, convention: str = "gl", mipmaps: bool = False
     ) -> None: ...
     def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
     def __reduce__(self) -> tuple: ...
@@ -974,19 +992,32 @@ class CubeMap:
         """
         An independent cubemap with the same contents.
         """
-    def resize(self: CubeMap, size: typing.SupportsInt | typing.SupportsIndex) -> CubeMap:
+    def resize(
+        self: CubeMap,
+        size: typing.SupportsInt | typing.SupportsIndex,
+        *,
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> CubeMap:
         """
         The same cube with faces of another size.
 
         Parameters
         ----------
         size : int
-            Shrinking averages the area of each texel; enlarging is bilinear and seamless.
+            Texels along an edge. Shrinking averages the area of each texel; enlarging is bilinear and
+            seamless.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
         CubeMap
-            Of the same dtype and mipmaps, without captured outputs.
+            In `dtype`, rounded as `to_equirect` does, with the same mipmaps, without captured outputs.
+
+        Raises
+        ------
+        ValueError
+            A size below 1, or another dtype.
 
         Examples
         --------
@@ -995,7 +1026,7 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
         """
-    def sample(self: CubeMap, directions: typing.Any, lod: typing.Any = 0.0) -> numpy.ndarray:
+    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> numpy.ndarray:
         """
         Look directions up, seamlessly and bilinearly.
 
@@ -1033,6 +1064,7 @@ class CubeMap:
     def save(
         self,
         path: str | os.PathLike[str] | collections.abc.Sequence[str | os.PathLike[str]],
+        *,
         layout: str | None = None,
         convention: str | None = None,
         width: int | None = None,
@@ -1081,7 +1113,7 @@ class CubeMap:
         True
         """
     def set_face(
-        self: CubeMap, face: typing.Any, pixels: typing.Any, convention: str = "gl"
+        self: CubeMap, face: typing.Any, pixels: typing.Any, *, convention: str = "gl"
     ) -> None:
         """
         Replace one face.
@@ -1126,7 +1158,8 @@ class CubeMap:
         Returns
         -------
         ndarray (6, N, N, C) in `dtype`
-            A copy, yours to write. ``CubeMap(array, convention)`` gives this cube back exactly.
+            A copy, yours to write. ``CubeMap(array, convention=convention)`` gives this cube
+            back exactly.
 
         Examples
         --------
@@ -1138,9 +1171,11 @@ class CubeMap:
         """
     def to_equirect(
         self: CubeMap,
+        *,
         width: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         sampling: str = "centers",
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> numpy.ndarray:
         """
         The panorama that this cube holds.
@@ -1157,20 +1192,36 @@ class CubeMap:
         sampling : {"centers", "borders"}, default "centers"
             Where samples lie. "borders": the first and last row and column lie on the edges, as in
             OpenEXR's latitude-longitude maps.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
-        ndarray (width / 2, width, C) float32
-            Yours to write. uint8 as value/255.
+        ndarray (width / 2, width, C) in `dtype`
+            Yours to write. Filtered in float32, with uint8 as value/255, then rounded to nearest; uint8 holds
+            0 to 1, and what lies outside becomes 0 or 255; float16 holds up to 65504, and what is more
+            becomes inf.
+
+        Raises
+        ------
+        ValueError
+            A width that is not even and positive, an unknown center or sampling, another dtype.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
-        >>> cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z").shape
-        (32, 64, 4)
+        >>> panorama = cc.CubeMap(np.ones((6, 16, 16, 4), np.float16)).to_equirect(center="+z")
+        >>> panorama.shape, panorama.dtype.name
+        ((32, 64, 4), 'float16')
         """
-    def to_layout(self: CubeMap, layout: str = "cross", convention: str = "gl") -> numpy.ndarray:
+    def to_layout(
+        self: CubeMap,
+        layout: str = "cross",
+        *,
+        convention: str = "gl",
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> numpy.ndarray:
         """
         One picture of all faces.
 
@@ -1185,17 +1236,25 @@ class CubeMap:
         convention : {"gl", "inside", "three"}, default "gl"
             Of the faces in it; the second cell is +Z, for "inside" -Z. Not looked at for "equirect" and
             "openexr", which have their own.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
 
         Returns
         -------
-        ndarray (H, W, C)
-            In `dtype` (cells without a face are 0), float32 where resampled. Yours to write.
+        ndarray (H, W, C) in `dtype`
+            Yours to write; cells without a face are 0. In another dtype than the cube's, and where resampled,
+            numbers are rounded as `to_equirect` does.
+
+        Raises
+        ------
+        ValueError
+            An unknown layout or convention, or another dtype.
 
         Examples
         --------
         >>> import numpy as np
         >>> import cubecam as cc
-        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", "inside").shape
+        >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", convention="inside").shape
         (24, 32, 3)
         """
     @property
@@ -1206,12 +1265,12 @@ class CubeMap:
     @property
     def depth(self) -> typing.Any:
         """
-        Captured window-space z, ndarray (6, N, N) float32: 0 at the near plane, 1 at the far plane and where there is nothing, as fine as ``depth_format`` keeps it; or None. Read-only.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
         """
     @property
     def distance(self) -> typing.Any:
         """
-        Captured length of the ray, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
     def dtype(self) -> numpy.dtype[typing.Any]:
@@ -1228,7 +1287,7 @@ class CubeMap:
     @property
     def id(self) -> typing.Any:
         """
-        Captured `node.id`, ndarray (6, N, N) int32, 0 where there is nothing, or None. Read-only.
+        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of what is seen; 0 background.
         """
     @property
     def mipmaps(self) -> bool:
@@ -1238,12 +1297,21 @@ class CubeMap:
     @property
     def normal(self) -> typing.Any:
         """
-        Captured world shading normals towards the viewer, ndarray (6, N, N, 3) float32, 0 where there is nothing, or None. Read-only.
+        ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world shading normal, unit length, towards the viewer; 0 background.
+        """
+    @property
+    def outputs(self) -> dict[str, numpy.ndarray]:
+        """
+        dict of str to ndarray: what a capture holds besides `faces`, by name. Read-only arrays.
+
+        Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+        float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and (6, N, N) for float; 0 where the node
+        that is seen does not write them.
         """
     @property
     def position(self) -> typing.Any:
         """
-        Captured world positions, ndarray (6, N, N, 3) float32, NaN where there is nothing, or None. Read-only.
+        ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world position; NaN background.
         """
     @property
     def size(self) -> int:
@@ -1253,12 +1321,12 @@ class CubeMap:
     @property
     def stencil(self) -> typing.Any:
         """
-        Captured stencil buffer, ndarray (6, N, N) uint8, 0 where nothing wrote, or None. Read-only.
+        ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: what the stencil buffer holds in the end; 0 background.
         """
     @property
     def z(self) -> typing.Any:
         """
-        Captured distance along each face's axis, ndarray (6, N, N) float32 in world units, +inf where there is nothing, or None. Read-only.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: distance along the camera's axis, or a face's, world units; +inf background.
         """
 
 class Image:
@@ -1297,7 +1365,7 @@ class Image:
     def __copy__(self) -> typing.Any: ...
     def __deepcopy__(self, memo: dict) -> typing.Any: ...
     def __init__(
-        self: Image, pixels: numpy.typing.ArrayLike, mipmaps: bool = False, wrap: str = "repeat"
+        self: Image, pixels: numpy.typing.ArrayLike, *, mipmaps: bool = False, wrap: str = "repeat"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Image) -> str: ...
@@ -1616,6 +1684,7 @@ class Mesh:
         self: Mesh,
         positions: numpy.typing.ArrayLike,
         indices: numpy.typing.ArrayLike,
+        *,
         normals: numpy.typing.ArrayLike | None = None,
         uvs: numpy.typing.ArrayLike | None = None,
         colors: numpy.typing.ArrayLike | None = None,
@@ -1669,8 +1738,9 @@ class Mesh:
         positions : array_like (V, 3), optional
             Object-space positions, finite. None: they stay.
         normals : array_like (V, 3), optional
-            Outward normals of any length. None: they stay if they were given at some time; if all are
-            smooth ones that the mesh computed, they are computed anew with new positions.
+            Outward normals of any length. None: normals that were given stay, also those of primitives
+            and of `load_mesh`; smooth ones that the mesh computed are computed anew with new positions.
+            ``mesh.normals = None`` makes them smooth.
         uvs : array_like (V, 2), optional
             Texture coordinates. None: they stay.
         colors : array_like (V, 3) or (V, 4), optional
@@ -1749,6 +1819,96 @@ class Mesh:
     @uvs.setter
     def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
 
+class Blend:
+    """
+    Blending by OpenGL's own factors, for any material as ``blend=``.
+
+    With S what the surface gives and D what is there, the colour becomes src * S + dst * D, and the alpha
+    src_alpha * S + dst_alpha * D. The colour of S is not multiplied by its alpha; its alpha is the product
+    of opacity and the alphas of colour and map. Formats with limits clamp S, and the result, to 0..1. A
+    surface with a `Blend` is drawn as every blended one is: after the background, far to near, and leaving
+    no depth unless ``depth_write=True``. A Blend never changes; compared by its values.
+
+    Parameters
+    ----------
+    src : str
+        What multiplies S: "zero", "one", "src_color", "one_minus_src_color", "dst_color",
+        "one_minus_dst_color", "src_alpha", "one_minus_src_alpha", "dst_alpha", "one_minus_dst_alpha" or
+        "src_alpha_saturate", which is min(alpha of S, 1 - alpha of D) for colours and 1 for alphas.
+    dst : str
+        What multiplies D.
+    src_alpha, dst_alpha : str, optional
+        The same for the alphas, where "src_color" is the alpha of S. None takes the colour's.
+    equation : {"add", "subtract", "reverse_subtract", "min", "max"}
+        "add" as above; "subtract": src * S - dst * D; "reverse_subtract": dst * D - src * S; "min" and
+        "max" of S and D, channel by channel, whatever the factors.
+
+    Raises
+    ------
+    ValueError
+        For an unknown word.
+
+    Notes
+    -----
+    OpenGL 4.5, section 17.3.6.
+
+    Examples
+    --------
+    The plain pair of many tutorials, which blends the alpha as if it were a colour:
+
+    >>> import cubecam as cc
+    >>> pair = cc.Blend("src_alpha", "one_minus_src_alpha")
+    >>> scene = cc.Scene(background=(0, 0, 1, 1))
+    >>> pane = scene.add(cc.Mesh.box((9, 9, .1)), cc.BasicMaterial(color=(1, 0, 0), opacity=.5, blend=pair))
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(8, 8),
+    ...                             format="rgba32f")
+    >>> frame.color[4, 4].tolist()
+    [0.5, 0.0, 0.5, 0.75]
+    """
+    def __eq__(self: Blend, other: Blend) -> bool: ...
+    def __hash__(self: Blend) -> int: ...
+    def __init__(
+        self: Blend,
+        src: str,
+        dst: str,
+        *,
+        src_alpha: str | None = None,
+        dst_alpha: str | None = None,
+        equation: str = "add",
+    ) -> None: ...
+    def __reduce__(self) -> tuple: ...
+    def __repr__(self: Blend) -> str: ...
+    def __setstate__(self: Blend, state: tuple) -> None:
+        """
+        For unpickling.
+        """
+    @property
+    def dst(self) -> str:
+        """
+        str: what multiplies the colour that is there.
+        """
+    @property
+    def dst_alpha(self) -> str:
+        """
+        str: what multiplies the alpha that is there.
+        """
+    @property
+    def equation(self) -> str:
+        """
+        str: what becomes of both products.
+        """
+    @property
+    def src(self) -> str:
+        """
+        str: what multiplies the surface's colour.
+        """
+    @property
+    def src_alpha(self) -> str:
+        """
+        str: what multiplies the surface's alpha.
+        """
+
 class Stencil:
     """
     A stencil test, and what drawing does to the stencil buffer.
@@ -1797,7 +1957,7 @@ class Stencil:
     >>> hole = cc.BasicMaterial(color_write=False, depth_write=False,
     ...                         stencil=cc.Stencil(reference=1, depth_pass="replace"))
     >>> disc = scene.add(cc.Mesh.sphere(.5), hole, scale=(1, 1, .01), position=(0, 0, 1), render_order=-1)
-    >>> seen = cc.BasicMaterial((1, 0, 0), stencil=cc.Stencil("equal", 1))
+    >>> seen = cc.BasicMaterial(color=(1, 0, 0), stencil=cc.Stencil(func="equal", reference=1))
     >>> plane = scene.add(cc.Mesh.box((4, 4, .1)), seen)
     >>> with cc.Renderer() as renderer:
     ...     frame = renderer.render(scene, cc.PerspectiveCamera(position=(0, 0, 3)), size=(32, 32),
@@ -1809,6 +1969,7 @@ class Stencil:
     def __hash__(self: Stencil) -> int: ...
     def __init__(
         self: Stencil,
+        *,
         func: str = "always",
         reference: int = 0,
         read_mask: int = 255,
@@ -1876,7 +2037,8 @@ class Material:
                             "multiply": (1 - a + a S) D, alpha stays D's;
                             "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
                             is multiplied by their alpha already; opacity and the colour's alpha
-                            multiply both.
+                            multiply both;
+                            a `Blend`: as its factors say.
                             None: "alpha" where anything is translucent, else "opaque"
     depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
                             "opaque"
@@ -1897,12 +2059,12 @@ class Material:
         For unpickling.
         """
     @property
-    def blend(self) -> str | None:
+    def blend(self) -> str | Blend | None:
         """
-        str or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply" or "premultiplied"; see `Material`. None: "alpha" where anything is translucent, else "opaque".
+        str, Blend or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied" or a `Blend`; see `Material`. None: "alpha" where anything is translucent, else "opaque".
         """
     @blend.setter
-    def blend(self, arg1: str | None) -> None: ...
+    def blend(self, arg1: str | Blend | None) -> None: ...
     @property
     def color_write(self) -> tuple[bool, bool, bool, bool]:
         """
@@ -1974,19 +2136,19 @@ class BasicMaterial(Material):
     Examples
     --------
     >>> import cubecam as cc
-    >>> cc.BasicMaterial((1, 0, 0, .5))
+    >>> cc.BasicMaterial(color=(1, 0, 0, .5))
     BasicMaterial(color=(1, 0, 0, 0.5))
     """
     def __init__(
         self: BasicMaterial,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2020,6 +2182,162 @@ class BasicMaterial(Material):
         """
     @vertex_colors.setter
     def vertex_colors(self, arg1: bool) -> None: ...
+
+class GlassMaterial(Material):
+    """
+    Glass: F * environment(R) + (1 - F) * tint * environment(T).
+
+    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
+    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
+    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+
+    Parameters
+    ----------
+    ior : float
+        Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
+        water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
+    fresnel : bool
+        False: T alone.
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is refracted.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> water = cc.GlassMaterial(ior=1.33, tint=(.8, .9, 1))
+    >>> water
+    GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
+    """
+    def __init__(
+        self: GlassMaterial,
+        *,
+        ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
+        fresnel: bool = True,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | Blend | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    @property
+    def fresnel(self) -> bool:
+        """
+        bool: whether part of the light is reflected; False: all is refracted.
+        """
+    @fresnel.setter
+    def fresnel(self, arg1: bool) -> None: ...
+    @property
+    def ior(self) -> float:
+        """
+        float: refractive index inside divided by the one outside.
+        """
+    @ior.setter
+    def ior(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is refracted.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+
+class MirrorMaterial(Material):
+    """
+    A mirror: env_weight * tint * environment(R) + color_weight * color.
+
+    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
+    the scene's, a CubeMap or a Probe.
+
+    Parameters
+    ----------
+    tint : array_like (3,) or (4,)
+        Linear RGB or RGBA, times what is reflected.
+    env_weight : float
+        Weight of what is reflected, not negative.
+    color : array_like (3,) or (4,)
+        Linear RGB or RGBA that the surface adds.
+    color_weight : float
+        Its weight, not negative.
+    f0 : float, optional
+        The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
+        f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+        Rendering", 1994). None: it is not.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+        As of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
+    >>> gold.env_weight, gold.f0
+    (0.78, None)
+    """
+    def __init__(
+        self: MirrorMaterial,
+        *,
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        color: numpy.typing.ArrayLike = (0, 0, 0),
+        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        f0: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: str | Blend | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+    ) -> None: ...
+    @property
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, read-only.
+        """
+    @color.setter
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def color_weight(self) -> float:
+        """
+        float: weight of the mirror's own colour.
+        """
+    @color_weight.setter
+    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def env_weight(self) -> float:
+        """
+        float: weight of what is reflected.
+        """
+    @env_weight.setter
+    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def f0(self) -> float | None:
+        """
+        float or None: the reflectance seen head-on, from 0 to 1; None reflects evenly.
+        """
+    @f0.setter
+    def f0(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    @property
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+        """
+        ndarray (4,) float32: linear RGBA, times what is reflected.
+        """
+    @tint.setter
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
 
 class PhongMaterial(Material):
     """
@@ -2063,6 +2381,7 @@ class PhongMaterial(Material):
     """
     def __init__(
         self: PhongMaterial,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
@@ -2070,10 +2389,9 @@ class PhongMaterial(Material):
         shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
         map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         vertex_colors: bool = False,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2129,161 +2447,6 @@ class PhongMaterial(Material):
     @vertex_colors.setter
     def vertex_colors(self, arg1: bool) -> None: ...
 
-class MirrorMaterial(Material):
-    """
-    A mirror: env_weight * tint * environment(R) + color_weight * color.
-
-    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
-    the scene's, a CubeMap or a Probe.
-
-    Parameters
-    ----------
-    tint : array_like (3,) or (4,)
-        Linear RGB or RGBA, times what is reflected.
-    env_weight : float
-        Weight of what is reflected, not negative.
-    color : array_like (3,) or (4,)
-        Linear RGB or RGBA that the surface adds.
-    color_weight : float
-        Its weight, not negative.
-    fresnel : float, optional
-        F0, the reflectance seen head-on, from 0 to 1: env_weight is multiplied by
-        F0 + (1 - F0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
-        Rendering", 1994). None: it is not.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
-
-    Raises
-    ------
-    ValueError
-        For a value out of its range or not finite.
-
-    Examples
-    --------
-    >>> import cubecam as cc
-    >>> gold = cc.MirrorMaterial(color=(.95, .85, .4), env_weight=.78, color_weight=.3)
-    >>> gold.env_weight, gold.fresnel
-    (0.78, None)
-    """
-    def __init__(
-        self: MirrorMaterial,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
-        env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        color: numpy.typing.ArrayLike = (0, 0, 0),
-        color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        fresnel: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
-        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        double_sided: bool = False,
-        blend: str | None = None,
-        depth_write: bool | None = None,
-        depth_test: bool = True,
-        color_write: bool | tuple[bool, bool, bool, bool] = True,
-        stencil: Stencil | None = None,
-    ) -> None: ...
-    @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, read-only.
-        """
-    @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
-    @property
-    def color_weight(self) -> float:
-        """
-        float: weight of the mirror's own colour.
-        """
-    @color_weight.setter
-    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def env_weight(self) -> float:
-        """
-        float: weight of what is reflected.
-        """
-    @env_weight.setter
-    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def fresnel(self) -> float | None:
-        """
-        float or None: F0, the reflectance seen head-on, from 0 to 1; None reflects evenly.
-        """
-    @fresnel.setter
-    def fresnel(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
-    @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, times what is reflected.
-        """
-    @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
-
-class GlassMaterial(Material):
-    """
-    Glass: F * environment(R) + (1 - F) * tint * environment(T).
-
-    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
-    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
-    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
-
-    Parameters
-    ----------
-    eta : float
-        Refractive index outside divided by the one inside, above 0; 1/1.52 is air to window glass.
-    fresnel : bool
-        False: T alone.
-    tint : array_like (3,) or (4,)
-        Linear RGB or RGBA, times what is refracted.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
-
-    Raises
-    ------
-    ValueError
-        For a value out of its range or not finite.
-
-    Examples
-    --------
-    >>> import cubecam as cc
-    >>> water = cc.GlassMaterial(eta=1 / 1.33, tint=(.8, .9, 1))
-    >>> water.fresnel
-    True
-    """
-    def __init__(
-        self: GlassMaterial,
-        eta: typing.SupportsFloat | typing.SupportsIndex = 0.6578947368421053,
-        fresnel: bool = True,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
-        *,
-        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        double_sided: bool = False,
-        blend: str | None = None,
-        depth_write: bool | None = None,
-        depth_test: bool = True,
-        color_write: bool | tuple[bool, bool, bool, bool] = True,
-        stencil: Stencil | None = None,
-    ) -> None: ...
-    @property
-    def eta(self) -> float:
-        """
-        float: refractive index outside divided by the one inside.
-        """
-    @eta.setter
-    def eta(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
-    @property
-    def fresnel(self) -> bool:
-        """
-        bool: whether part of the light is reflected; False: all is refracted.
-        """
-    @fresnel.setter
-    def fresnel(self, arg1: bool) -> None: ...
-    @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
-        """
-        ndarray (4,) float32: linear RGBA, times what is refracted.
-        """
-    @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
-
 class ShaderMaterial(Material):
     """
     A material of one's own, in GLSL (4.50 core) with the scene at hand.
@@ -2330,7 +2493,13 @@ class ShaderMaterial(Material):
 
     Notes
     -----
-    What the source has at hand; names that begin with ``u_``, ``v_``, ``a_`` or ``gl_`` are taken.
+    Outputs of one's own: ``out vec4 heat;`` in `fragment`, of float, vec2, vec3 or vec4 and without a
+    layout, is a buffer that ``outputs=("heat",)`` requests and ``frame.outputs["heat"]`` and
+    ``cube.outputs["heat"]`` hold: float32, 0 where the node that is seen does not write it. Only opaque nodes
+    that leave depth write them, and colour and these outputs together are limited by the driver's draw
+    buffers (8 as a rule). Without a request it is a variable.
+
+    What the source has at hand; names that begin with ``u_``, ``v_``, ``a_``, ``o_`` or ``gl_`` are taken.
 
     In both stages: ``mat4 model_matrix()`` (mesh to world), ``mat3 normal_matrix()`` (its inverse
     transpose, to any length), ``vec3 eye_position()`` (world; of perspective views).
@@ -2345,7 +2514,8 @@ class ShaderMaterial(Material):
     ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
     ``environment_lod(direction, level)`` at a level of its mipmaps.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
-    the light) and ``radiance``; ``vec3 ambient_light()``.
+    the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
+    ambient lights.
     ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
     ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
 
@@ -2371,18 +2541,31 @@ class ShaderMaterial(Material):
     >>> gold.uniforms["share"] = .5
     >>> sorted(gold.uniforms)
     ['color', 'share']
+
+    An output of its own, how far above the floor a surface lies:
+
+    >>> marked = cc.ShaderMaterial('''
+    ...     out float height;
+    ...     vec3 shade(Surface surface) { height = surface.position.y; return surface.color.rgb; }
+    ... ''')
+    >>> scene = cc.Scene()
+    >>> box = scene.add(cc.Mesh.box(2), marked, position=(0, 3, 0))
+    >>> with cc.Renderer() as renderer:
+    ...     cube = renderer.capture(scene, size=4, outputs=("height",))
+    >>> cube.outputs["height"].shape, float(cube.outputs["height"].max())
+    ((6, 4, 4), 2.0)
     """
     def __init__(
         self: ShaderMaterial,
         fragment: str | typing.Any | None,
+        *,
         vertex: str | typing.Any | None = None,
         uniforms: dict[str, typing.Any] | None = None,
         textures: dict[str, typing.Any] | None = None,
         displacement: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        *,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | None = None,
+        blend: str | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2520,6 +2703,7 @@ class ImageEffect:
     def __init__(
         self: ImageEffect,
         fragment: str | typing.Any | None,
+        *,
         uniforms: dict[str, typing.Any] | None = None,
         textures: dict[str, typing.Any] | None = None,
     ) -> None: ...
@@ -2635,13 +2819,14 @@ class Shadow:
     >>> lamp = cc.PointLight(position=(0, 3, 0), shadow=cc.Shadow(size=512, radius=2))
     >>> lamp.shadow
     Shadow(size=512, radius=2, bias=0, near=0.05, far=None, extent=None)
-    >>> lamp.shadow == cc.Shadow(512, 2)
+    >>> lamp.shadow == cc.Shadow(size=512, radius=2)
     True
     """
     def __eq__(self: Shadow, other: typing.Any) -> typing.Any: ...
     def __hash__(self: Shadow) -> int: ...
     def __init__(
         self: Shadow,
+        *,
         size: typing.SupportsInt | typing.SupportsIndex = 1024,
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         bias: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -2712,8 +2897,9 @@ class PointLight(Light):
     ----------
     position : array_like (3,)
         World space.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     decay : float
@@ -2737,6 +2923,7 @@ class PointLight(Light):
     def __init__(
         self: PointLight,
         position: numpy.typing.ArrayLike = (0, 0, 0),
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
@@ -2782,8 +2969,9 @@ class SpotLight(Light):
     penumbra : float
         Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
         it fades from the axis on. Between the cosines of the two angles it is smoothstep.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     decay : float
@@ -2806,6 +2994,7 @@ class SpotLight(Light):
         self: SpotLight,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         direction: numpy.typing.ArrayLike = (0, -1, 0),
+        *,
         angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
         penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         color: numpy.typing.ArrayLike = (1, 1, 1),
@@ -2867,8 +3056,9 @@ class DirectionalLight(Light):
     direction : array_like (3,)
         The way the light travels, in world space, of any length but 0; kept normalised. Straight down
         by default.
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
     shadow : Shadow, bool or None
@@ -2888,6 +3078,7 @@ class DirectionalLight(Light):
     def __init__(
         self: DirectionalLight,
         direction: numpy.typing.ArrayLike = (0, -1, 0),
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
@@ -2915,8 +3106,9 @@ class AmbientLight(Light):
 
     Parameters
     ----------
-    color : array_like (3,)
-        Linear RGB, not negative.
+    color : array_like (3,) or str
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
+        decoded to linear. Light has no alpha: "transparent" raises ValueError.
     intensity : float
         Times color, not negative.
 
@@ -2933,6 +3125,7 @@ class AmbientLight(Light):
     """
     def __init__(
         self: AmbientLight,
+        *,
         color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
@@ -2969,7 +3162,7 @@ class Camera:
     0.5
     """
     def __init__(
-        self: Camera, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
+        self: Camera, *, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Camera) -> str: ...
@@ -3043,6 +3236,7 @@ class PerspectiveCamera(Camera):
     """
     def __init__(
         self: PerspectiveCamera,
+        *,
         fov: typing.SupportsFloat | typing.SupportsIndex = 60.0,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         target: numpy.typing.ArrayLike | None = None,
@@ -3082,7 +3276,7 @@ class PerspectiveCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
-    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+    def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the scene were turned in the hand.
 
@@ -3112,7 +3306,7 @@ class PerspectiveCamera(Camera):
         --------
         >>> import cubecam as cc
         >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-        >>> camera.orbit(30)
+        >>> camera.orbit(yaw=30)
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
@@ -3314,6 +3508,7 @@ class OrthographicCamera(Camera):
     """
     def __init__(
         self: OrthographicCamera,
+        *,
         height: typing.SupportsFloat | typing.SupportsIndex = 2.0,
         position: numpy.typing.ArrayLike = (0, 0, 0),
         target: numpy.typing.ArrayLike | None = None,
@@ -3352,7 +3547,7 @@ class OrthographicCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
-    def orbit(self, yaw: float = 0.0, pitch: float = 0.0) -> None:
+    def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the scene were turned in the hand.
 
@@ -3382,7 +3577,7 @@ class OrthographicCamera(Camera):
         --------
         >>> import cubecam as cc
         >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-        >>> camera.orbit(30)
+        >>> camera.orbit(yaw=30)
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
@@ -3578,6 +3773,7 @@ class StereoCamera:
     @staticmethod
     def off_axis(
         camera: Camera,
+        *,
         separation: typing.SupportsFloat | typing.SupportsIndex = 0.065,
         convergence: typing.SupportsFloat | typing.SupportsIndex | None = None,
         layout: str = "anaglyph",
@@ -3619,6 +3815,7 @@ class StereoCamera:
     @staticmethod
     def toe_in(
         camera: Camera,
+        *,
         degrees: typing.SupportsFloat | typing.SupportsIndex = 4.0,
         layout: str = "anaglyph",
     ) -> StereoCamera:
@@ -3655,7 +3852,7 @@ class StereoCamera:
         [1.414, 0.0, 1.414]
         """
     def __init__(
-        self: StereoCamera, left: Camera, right: Camera, layout: str = "anaglyph"
+        self: StereoCamera, left: Camera, right: Camera, *, layout: str = "anaglyph"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: StereoCamera) -> str: ...
@@ -3696,6 +3893,11 @@ class Stats:
     def milliseconds(self) -> float:
         """
         float: the whole call, reading back included.
+        """
+    @property
+    def pictures_not_kept(self) -> int:
+        """
+        int: frames and captures whose buffers take more than the renderer's ``cache_bytes``, so that the next call must draw them again.
         """
     @property
     def probes_updated(self) -> int:
@@ -3820,7 +4022,7 @@ class Frame:
     """
     A rendered picture: arrays with row 0 on top, each the caller's own.
 
-    What was not asked for by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
+    What was not requested by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
     `stencil` are what those buffers hold in the end.
 
     Examples
@@ -3851,7 +4053,7 @@ class Frame:
     @property
     def distance(self) -> typing.Any:
         """
-        ndarray (H, W) float32: length of the ray, world units; +inf where nothing was hit. In an orthographic picture it counts from the near plane.
+        ndarray (H, W) float32: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
     def id(self) -> typing.Any:
@@ -3862,6 +4064,15 @@ class Frame:
     def normal(self) -> typing.Any:
         """
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
+        """
+    @property
+    def outputs(self) -> dict[str, numpy.ndarray]:
+        """
+        dict of str to ndarray: the outputs that were requested, by name.
+
+        Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
+        float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for float; 0 where the node that
+        is seen does not write them.
         """
     @property
     def position(self) -> typing.Any:
@@ -3876,12 +4087,12 @@ class Frame:
     @property
     def stencil(self) -> typing.Any:
         """
-        ndarray (H, W) uint8: 0 background.
+        ndarray (H, W) uint8: what the stencil buffer holds in the end; 0 background.
         """
     @property
     def z(self) -> typing.Any:
         """
-        ndarray (H, W) float32: distance along the camera's axis, world units; +inf background.
+        ndarray (H, W) float32: distance along the camera's axis, or a face's, world units; +inf background.
         """
 
 class Renderer:
@@ -3901,8 +4112,10 @@ class Renderer:
         Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
         the same bytes on llvmpipe.
     cache_bytes : int
-        GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. Default
-        256 MiB.
+        GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. At most as
+        much main memory is kept of results that were let go, for the next ones of their size; what eight calls found no
+        use for is freed, and all of it by :meth:`close`. Default 256 MiB; ``stats.pictures_not_kept`` tells whether a
+        picture is larger than that.
     debug : bool
         Ask for a debug context, whose errors tell more.
 
@@ -3929,6 +4142,7 @@ class Renderer:
     def __exit__(self: Renderer, *args) -> None: ...
     def __init__(
         self: Renderer,
+        *,
         device: typing.Any = "auto",
         layered: typing.Any = None,
         cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
@@ -3941,6 +4155,7 @@ class Renderer:
         scene: Scene,
         position: typing.Any = (0.0, 0.0, 0.0),
         size: typing.Any = 256,
+        *,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         exclude: typing.Any = (),
@@ -3949,6 +4164,7 @@ class Renderer:
         samples: typing.Any = 1,
         eye: typing.Any = None,
         depth_format: str | None = "depth_component32f",
+        depth_order: str = "nearest",
     ) -> CubeMap:
         """
         Draw what surrounds a point into a cubemap.
@@ -3965,7 +4181,8 @@ class Renderer:
         exclude : sequence of Node
             Left out, with all below them.
         outputs : sequence of str
-            Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil".
+            Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil", and of the outputs that
+            the GLSL of a :class:`ShaderMaterial` of a visible node declares.
         format : str
             "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
         samples : int
@@ -3974,6 +4191,11 @@ class Renderer:
             From where highlights and mirrors are seen; None: from ``position``.
         depth_format : str or None
             The depth and stencil buffer, see :meth:`render`.
+        depth_order : str
+            "nearest", or "farthest": colour and outputs are those of the farthest opaque surface along each ray between
+            ``near`` and ``far``, the background where there is none. Single-sided materials show their front faces alone, so
+            the far side of a body counts with ``double_sided=True``. Of translucent nodes shows what is farther still. It
+            wants a depth buffer.
 
         Returns
         -------
@@ -4000,9 +4222,52 @@ class Renderer:
         """
         Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.
         """
-    def cubemap(self: Renderer, probe: Probe) -> CubeMap:
+    def read_probe(self: Renderer, probe: Probe) -> CubeMap:
         """
         What a probe holds now, in the probe's format.
+
+        Parameters
+        ----------
+        probe : Probe
+            One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+        Returns
+        -------
+        CubeMap
+            A copy; uint8, float16 or float32, faces (6, size, size, 4).
+
+        Raises
+        ------
+        ValueError
+            If this renderer has not drawn it yet.
+        ContextError
+            After :meth:`close`, or in a forked process.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene(background="teal")
+        >>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+        >>> ball.environment = cc.Probe(size=8)
+        >>> with cc.Renderer() as renderer:
+        ...     renderer.update_probes(scene)
+        ...     held = renderer.read_probe(ball.environment)
+        >>> held.faces.shape, held.dtype.name
+        ((6, 8, 8, 4), 'float16')
+        """
+    def read_texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
+        """
+        What a render texture holds now, in its format.
+
+        Parameters
+        ----------
+        render_texture : RenderTexture
+            One that a picture of this renderer has shown.
+
+        Returns
+        -------
+        ndarray (H, W, 4)
+            uint8, float16 or float32, row 0 on top; the caller's own.
 
         Raises
         ------
@@ -4014,6 +4279,7 @@ class Renderer:
         scene: Scene,
         camera: Camera | StereoCamera,
         size: typing.Any,
+        *,
         outputs: typing.Any = (),
         format: str | None = "rgba8",
         samples: typing.Any = 1,
@@ -4034,7 +4300,8 @@ class Renderer:
         size : (int, int)
             (width, height), pixels.
         outputs : sequence of str
-            Besides colour: any of "distance", "z", "normal", "position", "id", and of "depth" and "stencil", what those
+            Besides colour: any of "distance", "z", "normal", "position", "id", of the outputs that the GLSL of a
+            :class:`ShaderMaterial` of a visible node declares, and of "depth" and "stencil", what those
             buffers hold in the end.
         format : str or None
             "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
@@ -4112,26 +4379,7 @@ class Renderer:
         >>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
         ((1, 32, 32), 0.0, 3.5)
         """
-    def texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
-        """
-        What a render texture holds now, in its format.
-
-        Parameters
-        ----------
-        render_texture : RenderTexture
-            One that a picture of this renderer has shown.
-
-        Returns
-        -------
-        ndarray (H, W, 4)
-            uint8, float16 or float32, row 0 on top; the caller's own.
-
-        Raises
-        ------
-        ValueError
-            If this renderer has not drawn it yet.
-        """
-    def update(self: Renderer, scene: Scene, probes: typing.Any = None) -> None:
+    def update_probes(self: Renderer, scene: Scene, *, probes: typing.Any = None) -> None:
         """
         Draw probes now, whatever their ``update`` says.
 
@@ -4145,6 +4393,8 @@ class Renderer:
         ------
         ValueError
             For a probe that no visible node uses.
+        ContextError
+            After :meth:`close`, or in a forked process.
         """
     @property
     def closed(self) -> bool:
@@ -4162,9 +4412,19 @@ class Renderer:
         Stats: of the last call.
         """
 
+def _check_pickle(format: typing.Any) -> None:
+    """
+    For unpickling: raises TypeError for a format that is not this version's.
+    """
+
 def _restore_frame(state: tuple) -> Frame:
     """
     For unpickling.
+    """
+
+def _shaded_outputs() -> list[str]:
+    """
+    Names of the outputs that shaders write, for the command line.
     """
 
 def axis_angle(
@@ -4216,4 +4476,4 @@ def devices() -> list[Device]:
         If there is no EGL library, or in a process forked after EGL was opened.
     """
 
-__version__: str = "0.1.0"
+__version__: str = "0.2.0"

@@ -68,7 +68,7 @@ class DemoScene:
             node.rotation = axis_angle((0, 1, 0), own)
 
 
-def build_scene(environment: CubeMap | None = None, probe_size: int = 256) -> DemoScene:
+def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) -> DemoScene:
     """Build the scene: a ground, a bunny, a teapot, and a mirror ball that follows both.
 
     Parameters
@@ -121,6 +121,7 @@ class Step:
 
 def run(
     out: PathLike = "out",
+    *,
     frames: int = 36,
     size: int = 512,
     device: str | int | None = None,

@@ -150,7 +150,7 @@ def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> N
 
 
 def orbit(
-    camera: PerspectiveCamera | OrthographicCamera, yaw: float = 0.0, pitch: float = 0.0
+    camera: PerspectiveCamera | OrthographicCamera, *, yaw: float = 0.0, pitch: float = 0.0
 ) -> None:
     """Move round the target, as if the scene were turned in the hand.
 
@@ -180,7 +180,7 @@ def orbit(
     --------
     >>> import cubecam as cc
     >>> camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-    >>> camera.orbit(30)
+    >>> camera.orbit(yaw=30)
     >>> camera.position.round(3).tolist()
     [-2.0, 0.0, 3.464]
     """

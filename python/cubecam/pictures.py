@@ -52,7 +52,7 @@ def cube_picture(cube: CubeMap) -> Array:
 
     uint8 (3N, 4N, 4); cells that no face covers are transparent, the rest is opaque.
     """
-    picture = for_screen(cube.to_layout("cross", "inside"))
+    picture = for_screen(cube.to_layout("cross", convention="inside"))
     covered = np.zeros((*picture.shape[:2], 1), np.uint8)
     covered[cube.size : 2 * cube.size] = 255
     covered[:, cube.size : 2 * cube.size] = 255

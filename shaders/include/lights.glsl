@@ -7,11 +7,21 @@ struct Light {
     vec4 cone;      // spot lights: xyz: the way they point, stretched; w: see cone_share. Others: all 0, but w of 1
 };
 
+// Declared where it is read. Of a known number of lights no more than these: a driver may copy the block for each draw.
+#ifdef VERTEX_STAGE
+#define LIGHTS_READ FLAT_LIGHT_COUNT
+#elif defined(LIGHT_COUNT)
+#define LIGHTS_READ (LIGHT_COUNT > FLAT_LIGHT_COUNT ? LIGHT_COUNT : 0)
+#else
+#define LIGHTS_READ MAX_LIGHTS
+#endif
+#if defined(VERTEX_STAGE) || !defined(LIGHT_COUNT) || LIGHT_COUNT > FLAT_LIGHT_COUNT
 layout(std140, binding = 1) uniform Lights {
-    ivec4 u_counts;   // x: number of lights
-    vec4 u_ambient;   // rgb: 1, the models' own ambient light, plus the scene's
-    Light u_lights[MAX_LIGHTS];
+    ivec4 u_counts;  // x: number of lights
+    vec4 u_ambient;  // rgb: the scene's ambient lights
+    Light u_lights[LIGHTS_READ];
 };
+#endif
 
 // How much of a spot light goes a way (unit length, from the light): 0 outside its cone, 1 where the penumbra ends.
 float cone_share(vec4 cone, vec3 way) {

@@ -1,6 +1,6 @@
 // What the GLSL of a ShaderMaterial has at hand. The documentation of cubecam.ShaderMaterial lists these names: they are
 // an interface, and stay.
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
 
 // The node's matrix, from the mesh's space to the world, and what turns its normals there (to any length).
 mat4 model_matrix() {
@@ -27,7 +27,7 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // The environment at a chosen level of detail; 0 is the finest.
 vec3 environment_lod(vec3 direction_world, float level) { return textureLod(u_cube, direction_world, level).rgb; }
 
-// 1, the ambient light that Phong's model has of its own, plus the scene's ambient lights.
+// The scene's ambient lights, added up.
 vec3 ambient_light() { return u_ambient.rgb; }
 
 int light_count() { return u_counts.x; }
@@ -50,7 +50,7 @@ LightSample sample_light(int index, Surface surface) {
 
 // As PhongMaterial has it.
 vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess) {
-    vec3 result = ka * color * ambient_light();
+    vec3 result = ka * color * (1.0 + ambient_light());  // the model has an ambient light of 1 of its own
     for (int i = 0; i < light_count(); ++i) {
         LightSample light = sample_light(i, surface);
         float n_dot_l = dot(surface.normal, light.direction);
@@ -68,9 +68,5 @@ float schlick(Surface surface, float f0) {
 }
 
 #include "include/user_fragment.glsl"
-
-// shade() may give a colour, or a colour and an alpha.
-vec4 with_alpha(vec3 color) { return vec4(color, 1.0); }
-vec4 with_alpha(vec4 color) { return color; }
 #endif
 #endif

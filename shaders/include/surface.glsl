@@ -1,30 +1,12 @@
 // What the vertex shader hands to the fragment shader; STAGE is `out` or `in`.
 //
-// Constants of a draw call travel as flat inputs, see draw.glsl. Meshes of many small triangles (DENSE) leave them in
-// their blocks: every input costs each triangle. `material` and `light_*` are where they are.
-#ifdef DENSE
-#define material u_material
-#define light_position(i) u_lights[i].position
-#define light_color(i) u_lights[i].color
-#define light_cone(i) u_lights[i].cone
-#else
-flat STAGE vec4 v_material[2];
-#define material v_material
-#ifdef LIGHT_COUNT
-#if LIGHT_COUNT > 0
-flat STAGE vec4 v_light_position[LIGHT_COUNT];
-flat STAGE vec4 v_light_color[LIGHT_COUNT];
+// A few lights travel as flat inputs, as the constants of a material do (constants.glsl). Meshes of many small triangles
+// (DENSE) leave them in their blocks: every input costs each triangle.
+#if FLAT_LIGHT_COUNT > 0
+flat STAGE vec4 v_light_position[FLAT_LIGHT_COUNT];
+flat STAGE vec4 v_light_color[FLAT_LIGHT_COUNT];
 #ifdef LIGHT_CONE
-flat STAGE vec4 v_light_cone[LIGHT_COUNT];
-#endif
-#endif
-#define light_position(i) v_light_position[i]
-#define light_color(i) v_light_color[i]
-#define light_cone(i) v_light_cone[i]
-#else
-#define light_position(i) u_lights[i].position
-#define light_color(i) u_lights[i].color
-#define light_cone(i) u_lights[i].cone
+flat STAGE vec4 v_light_cone[FLAT_LIGHT_COUNT];
 #endif
 #endif
 
@@ -34,16 +16,16 @@ STAGE vec3 v_normal;    // world, any length
 STAGE float v_height;  // dot(v_position, v_normal) at the corners
 #endif
 flat STAGE vec4 v_eye;  // see view.glsl
-#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
+#if defined(USES_UV) || defined(USER_SOURCE)
 STAGE vec2 v_uv;
 #endif
 #ifdef HAS_VERTEX_COLORS
 STAGE vec4 v_color;
 #endif
-#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
+#if defined(USES_POSITION_OBJECT) || defined(USER_SOURCE)
 STAGE vec3 v_position_object;
 #endif
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
 STAGE vec3 v_normal_object;
 #endif
 #ifdef TRANSLUCENT
@@ -54,4 +36,15 @@ flat STAGE vec4 v_view_position;
 flat STAGE vec3 v_view_forward;
 flat STAGE vec3 v_origin;
 flat STAGE int v_node_id;
+#endif
+#if FLAT_LIGHT_COUNT > 0 && !defined(VERTEX_STAGE)
+
+// Light `i` of the first FLAT_LIGHT_COUNT.
+Light flat_light(int i) {
+#ifdef LIGHT_CONE
+    return Light(v_light_position[i], v_light_color[i], v_light_cone[i]);
+#else
+    return Light(v_light_position[i], v_light_color[i], vec4(0.0, 0.0, 0.0, 1.0));
+#endif
+}
 #endif

@@ -1,10 +1,15 @@
-#ifdef MATERIAL_BASIC
 // Unlit. material[0].rgb: colour.
-vec3 shade(Surface surface) {
-    vec3 color = material[0].rgb * surface.tint;
-#ifdef HAS_CUBE
-    color *= environment(surface.position_object);
+#include "include/tint.glsl"
+
+#ifdef HAS_CUBEMAP
+layout(binding = UNIT_CUBEMAP) uniform samplerCube u_cubemap;
 #endif
-    return color;
+
+vec4 shade(Surface surface) {
+    vec4 tint = tint_of(surface);
+    vec3 color = material[0].rgb * tint.rgb;
+#ifdef HAS_CUBEMAP
+    color *= texture(u_cubemap, surface.position_object).rgb;
+#endif
+    return vec4(color, tint.a);
 }
-#endif

@@ -1,5 +1,4 @@
-#ifdef MATERIAL_GLASS
-// material[0]: tint, eta = n_outside / n_inside. Without FRESNEL the refraction alone, but where there is none.
+// material[0]: tint, eta = n_outside / n_inside = 1 / ior. Without FRESNEL the refraction alone, but where there is none.
 // Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
 vec3 shade(Surface surface) {
     float eta = material[0].a;
@@ -20,4 +19,3 @@ vec3 shade(Surface surface) {
     // Both lookups for every fragment: a mipmapped one takes its level from the neighbours'.
     return f * environment(reflected) + (1.0 - f) * material[0].rgb * environment(total ? reflected : refracted);
 }
-#endif

@@ -1,5 +1,4 @@
-#ifdef MATERIAL_MIRROR
-// material[0]: env_weight * tint, F0 (with FRESNEL). material[1].rgb: color_weight * color.
+// material[0]: env_weight * tint, f0 (with FRESNEL). material[1].rgb: color_weight * color.
 // Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994.
 vec3 shade(Surface surface) {
     vec3 reflected = material[0].rgb * environment(reflect(surface.incident, surface.normal));
@@ -10,4 +9,3 @@ vec3 shade(Surface surface) {
 #endif
     return reflected + material[1].rgb;
 }
-#endif

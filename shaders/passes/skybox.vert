@@ -1,6 +1,8 @@
-// The background as one quad on the far plane. Here a_view_matrix takes clip space to the world, translation left
+// The background as one quad, where nothing else was drawn. Here a_view_matrix takes clip space to the world, translation left
 // out, so walking does not move the sky.
 #include "include/view.glsl"
+
+layout(location = 0) uniform float u_depth;  // what the depth buffer was cleared to
 
 out vec4 v_near;
 out vec4 v_far;
@@ -9,6 +11,6 @@ void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     v_near = a_view_matrix * vec4(corner, -1.0, 1.0);
     v_far = a_view_matrix * vec4(corner, 1.0, 1.0);
-    gl_Position = vec4(corner, 0.0, 1.0);  // depth is reversed: 0 is the far plane
+    gl_Position = vec4(corner, u_depth, 1.0);
     route_to_layer();
 }

@@ -1,49 +1,54 @@
 // Every mesh: what is common here, what a material answers in its own file.
 #define STAGE in
-#include "include/draw.glsl"
+#ifdef USER_SOURCE
+#include "include/node.glsl"
+#endif
+#if defined(USES_LIGHTS) || defined(USER_SOURCE)
 #include "include/lights.glsl"
+#endif
+#include "include/constants.glsl"
 #include "include/surface.glsl"
 
 struct Surface {
     vec3 from_origin;      // world, from u_origin
-    vec3 position_object;  // with HAS_CUBE
+    vec3 position_object;  // with USES_POSITION_OBJECT, as of every material that shows a cubemap
     vec3 normal;           // world, unit length, towards the viewer on double-sided surfaces
     vec3 incident;         // world, unit length, from the eye to the surface
-    vec3 tint;             // map times vertex colour
-#ifdef MATERIAL_SHADER
+    vec2 uv;               // with USES_UV, as of every material that shows a map
+    vec4 color;            // the vertices', white where the mesh has none or the material ignores them
+#ifdef USER_SOURCE
     vec3 position;       // world
     vec3 normal_object;  // any length
-    vec2 uv;
-    vec4 color;  // the vertices', white where the mesh has none
 #endif
 };
 
+#if defined(USES_ENVIRONMENT) || defined(USER_SOURCE)
 #include "include/environment.glsl"
-#include "include/shadows.glsl"
-#include "materials/basic.glsl"
-#include "materials/phong.glsl"
-#include "materials/mirror.glsl"
-#include "materials/glass.glsl"
-#include "include/scene.glsl"
-
-#ifdef HAS_MAP
-layout(binding = 0) uniform sampler2D u_map;
 #endif
+#if defined(USES_LIGHTS) || defined(USER_SOURCE)
+#include "include/shadows.glsl"
+#endif
+#include "include/material.glsl"
+
+// shade() may give a colour, or a colour and an alpha.
+vec4 with_alpha(vec3 color) { return vec4(color, 1.0); }
+vec4 with_alpha(vec4 color) { return color; }
 
 layout(location = 0) out vec4 o_color;
 #ifdef OUTPUTS
-layout(location = 1) out float o_distance;
-layout(location = 2) out float o_z;
-layout(location = 3) out vec4 o_normal;
-layout(location = 4) out vec4 o_position;
-layout(location = 5) out int o_id;
+// `o_<name>` of each row of output_table (cpp/cubecam/render/resources/outputs.hpp): an output of the program where it
+// is requested, else a variable.
+OUTPUT_DECLARATIONS
 #endif
 
 void main() {
+#ifdef OUTPUT_ZEROS
+    OUTPUT_ZEROS  // of the outputs that users' sources declare
+#endif
     Surface surface;
     surface.from_origin = v_position;
     surface.position_object = vec3(0.0);
-#ifdef HAS_CUBE
+#if defined(USES_POSITION_OBJECT) || defined(USER_SOURCE)
     surface.position_object = v_position_object;
 #endif
     // A mesh may bring normals of no length; they shall not become NaN.
@@ -57,33 +62,27 @@ void main() {
     find_facet(v_position, side * v_normal, side * v_height);
 #endif
     surface.incident = v_eye.w == 0.0 ? normalize(v_position - v_eye.xyz) : v_eye.xyz;
-    vec4 tint = vec4(1.0);
-#ifdef HAS_MAP
-    tint *= texture(u_map, v_uv);
+    surface.uv = vec2(0.0);
+#if defined(USES_UV) || defined(USER_SOURCE)
+    surface.uv = v_uv;
 #endif
+    surface.color = vec4(1.0);
 #ifdef HAS_VERTEX_COLORS
-    tint *= v_color;
+    surface.color = v_color;
 #endif
-    surface.tint = tint.rgb;
-
-#ifdef MATERIAL_SHADER
-    surface.position_object = v_position_object;
+#ifdef USER_SOURCE
     surface.position = v_position + u_origin.xyz;
     surface.normal_object = v_normal_object;
-    surface.uv = v_uv;
-    surface.color = tint;
+#endif
+
     vec4 shaded = with_alpha(shade(surface));
     o_color.rgb = shaded.rgb;
-    tint.a = shaded.a;
-#else
-    o_color.rgb = shade(surface);
-#endif
 #ifdef TRANSLUCENT
-    o_color.a = tint.a * v_alpha;
+    o_color.a = shaded.a * v_alpha;
 #else
     o_color.a = 1.0;
 #endif
-    // What the blending of blend.cpp wants of its source.
+    // What the blending of raster_state.cpp wants of its source.
 #if defined(BLEND_ADDITIVE)
     o_color.rgb *= o_color.a;
 #elif defined(BLEND_MULTIPLY)
@@ -96,8 +95,8 @@ void main() {
     float z = dot(from_view, v_view_forward);
     o_z = z;
     o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;
-    o_normal = vec4(surface.normal, 0.0);
-    o_position = vec4(v_position + v_origin, 1.0);
+    o_normal = surface.normal;
+    o_position = v_position + v_origin;
     o_id = v_node_id;
 #endif
 }

@@ -2,8 +2,11 @@
 #define STAGE out
 #define VERTEX_STAGE
 #include "include/view.glsl"
-#include "include/draw.glsl"
+#include "include/node.glsl"
+#if FLAT_LIGHT_COUNT > 0
 #include "include/lights.glsl"
+#endif
+#include "include/constants.glsl"
 #include "include/surface.glsl"
 
 layout(location = 0) in vec3 a_position;
@@ -16,7 +19,7 @@ invariant gl_Position;
 #include "include/scene.glsl"
 
 void main() {
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
     vec4 color = vec4(1.0);
 #ifdef HAS_VERTEX_COLORS
     color = a_color;
@@ -39,34 +42,32 @@ void main() {
     v_height = dot(v_position, v_normal);
 #endif
     v_eye = a_view_eye;
-#ifndef DENSE
+#ifdef FLAT_MATERIAL
     v_material = u_material;
 #endif
-#if defined(HAS_MAP) || defined(MATERIAL_SHADER)
+#if defined(USES_UV) || defined(USER_SOURCE)
     v_uv = a_uv;
 #endif
 #ifdef HAS_VERTEX_COLORS
     v_color = a_color;
 #endif
-#if defined(HAS_CUBE) || defined(MATERIAL_SHADER)
+#if defined(USES_POSITION_OBJECT) || defined(USER_SOURCE)
     v_position_object = a_position;
 #endif
-#ifdef MATERIAL_SHADER
+#ifdef USER_SOURCE
     v_normal_object = a_normal;
 #endif
 #ifdef TRANSLUCENT
     v_alpha = u_alpha;
 #endif
-#if defined(LIGHT_COUNT) && !defined(DENSE)
-#if LIGHT_COUNT > 0
-    for (int i = 0; i < LIGHT_COUNT; ++i) {
+#if FLAT_LIGHT_COUNT > 0
+    for (int i = 0; i < FLAT_LIGHT_COUNT; ++i) {
         v_light_position[i] = u_lights[i].position;
         v_light_color[i] = u_lights[i].color;
 #ifdef LIGHT_CONE
         v_light_cone[i] = u_lights[i].cone;
 #endif
     }
-#endif
 #endif
 #ifdef OUTPUTS
     v_view_position = a_view_position;

@@ -91,7 +91,7 @@ def stencil(world, rng, thing):
 
 
 def shadow(world, rng, thing):
-    return one(rng, None, cc.Shadow(int(rng.integers(16, 40)), radius=one(rng, 0, 1, 1.5)))
+    return one(rng, None, cc.Shadow(size=int(rng.integers(16, 40)), radius=one(rng, 0, 1, 1.5)))
 
 
 def new_material(world, rng, thing):
@@ -201,9 +201,9 @@ VALUES = {
     "MirrorMaterial.color": color,
     "MirrorMaterial.color_weight": number(0, 1),
     "MirrorMaterial.env_weight": number(0, 1),
-    "MirrorMaterial.fresnel": choice(None, 0.1, 0.6),
+    "MirrorMaterial.f0": choice(None, 0.1, 0.6),
     "MirrorMaterial.tint": color,
-    "GlassMaterial.eta": number(0.5, 0.95),
+    "GlassMaterial.ior": number(0.7, 2),
     "GlassMaterial.fresnel": flag,
     "GlassMaterial.tint": color,
     "ShaderMaterial.displacement": choice(None, 0.5, 1.0),
@@ -290,7 +290,7 @@ def method_remove_node(world, rng, draw):
 
 
 def method_add_and_remove_lights(world, rng, draw):
-    lamp = world.scene.add(cc.SpotLight((0, 3, 0), shadow=cc.Shadow(16)))
+    lamp = world.scene.add(cc.SpotLight((0, 3, 0), shadow=cc.Shadow(size=16)))
     draw()
     world.scene.remove(lamp)
 

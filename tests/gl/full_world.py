@@ -126,9 +126,9 @@ def full_world(rng):
         cubes=cubes,
         images=images,
     )
-    scene.add(cc.PointLight(position=(2, 4, 1), shadow=cc.Shadow(24)))
-    scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(32)))
-    scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(32, radius=0)))
+    scene.add(cc.PointLight(position=(2, 4, 1), shadow=cc.Shadow(size=24)))
+    scene.add(cc.DirectionalLight((-1, -2, 0.4), intensity=0.4, shadow=cc.Shadow(size=32)))
+    scene.add(cc.SpotLight((2, 3, 2), (-2, -3, -2), angle=50, shadow=cc.Shadow(size=32, radius=0)))
     scene.add(cc.PointLight(position=(-2, 1, 2), intensity=0.3))
     scene.add(cc.AmbientLight(intensity=0.2))
 
@@ -220,9 +220,9 @@ def pictures(renderer, world):
     if not any(isinstance(picture, str) for picture in found.values()):
         # After a refusal these hold what was drawn before it.
         for index, probe in enumerate(world.probes):
-            got = refused(lambda held=probe: renderer.cubemap(held).faces)
+            got = refused(lambda held=probe: renderer.read_probe(held).faces)
             found[f"probe {index}"] = got
         for index, texture in enumerate(world.textures):
-            got = refused(lambda held=texture: renderer.texture(held))
+            got = refused(lambda held=texture: renderer.read_texture(held))
             found[f"texture {index}"] = got
     return found

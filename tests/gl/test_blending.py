@@ -54,6 +54,146 @@ def test_the_four_sources_of_alpha_count_alike(renderer, mode):
     assert_close(got, np.broadcast_to(want, got.shape), "blend")
 
 
+FACTORS = {
+    "zero": lambda s, d: np.zeros(4),
+    "one": lambda s, d: np.ones(4),
+    "src_color": lambda s, d: s,
+    "one_minus_src_color": lambda s, d: 1 - s,
+    "dst_color": lambda s, d: d,
+    "one_minus_dst_color": lambda s, d: 1 - d,
+    "src_alpha": lambda s, d: np.full(4, s[3]),
+    "one_minus_src_alpha": lambda s, d: np.full(4, 1 - s[3]),
+    "dst_alpha": lambda s, d: np.full(4, d[3]),
+    "one_minus_dst_alpha": lambda s, d: np.full(4, 1 - d[3]),
+    "src_alpha_saturate": lambda s, d: np.array([min(s[3], 1 - d[3])] * 3 + [1]),
+}
+EQUATIONS = {
+    "add": lambda s, d, source, target: s * source + d * target,
+    "subtract": lambda s, d, source, target: s * source - d * target,
+    "reverse_subtract": lambda s, d, source, target: d * target - s * source,
+    "min": lambda s, d, source, target: np.minimum(s, d),
+    "max": lambda s, d, source, target: np.maximum(s, d),
+}
+
+
+def blended(factors, source, ground, clamp):
+    """OpenGL 4.5, section 17.3.6; `clamp`: a format that holds 0 to 1 alone."""
+    s, d = np.array(source, float), np.array(ground, float)
+    if clamp:
+        s = np.clip(s, 0, 1)
+        d = np.round(d * 255) / 255
+    source_factor, target_factor = (
+        np.append(FACTORS[color](s, d)[:3], FACTORS[alpha](s, d)[3])
+        for color, alpha in (
+            (factors.src, factors.src_alpha),
+            (factors.dst, factors.dst_alpha),
+        )
+    )
+    result = EQUATIONS[factors.equation](s, d, source_factor, target_factor)
+    return np.clip(result, 0, 1) if clamp else result
+
+
+@pytest.mark.parametrize("pixels", ["rgba32f", "rgba8"])
+@pytest.mark.parametrize("src", FACTORS)
+def test_every_pair_of_factors(renderer, pixels, src):
+    source, ground = (1.5, 0.2, 0.4, 0.25), (0.3, 0.6, 0.9, 0.5)
+    material = cc.BasicMaterial(color=source)
+    scene = cc.Scene(background=ground)
+    pane(scene, material)
+    for dst in FACTORS:
+        material.blend = cc.Blend(src, dst)
+        got = renderer.render(scene, CAMERA, (4, 4), format=pixels).color
+        want = blended(material.blend, source, ground, pixels == "rgba8")
+        check_blended(got, want, f"{src} {dst}")
+
+
+def check_blended(got, want, what):
+    want = np.broadcast_to(want, got.shape)
+    try:
+        if got.dtype == np.uint8:
+            assert_close(got / 255, want, "unorm8_blend")
+        else:
+            assert_close(got, want, "blend")
+    except AssertionError as error:
+        raise AssertionError(f"{what}: {error}") from error
+
+
+@pytest.mark.parametrize("pixels", ["rgba32f", "rgba8"])
+@pytest.mark.parametrize("equation", EQUATIONS)
+@pytest.mark.parametrize("ground", GROUNDS)
+def test_every_equation_with_factors_of_their_own_for_alpha(any_path, pixels, equation, ground):
+    source = (0.9, 0.2, 0.4, 0.25)
+    scene = cc.Scene(background=ground)
+    material = cc.BasicMaterial(color=source[:3], opacity=source[3])
+    pane(scene, material)
+    for src_alpha, dst_alpha in (("one", "one"), ("dst_alpha", "zero"), (None, None)):
+        material.blend = cc.Blend(
+            "src_alpha", "one", src_alpha=src_alpha, dst_alpha=dst_alpha, equation=equation
+        )
+        got = any_path.render(scene, CAMERA, (4, 4), format=pixels).color
+        check_blended(got, blended(material.blend, source, ground, pixels == "rgba8"), equation)
+
+
+def test_a_blend_is_drawn_as_what_is_blended_and_leaves_the_next_as_it_is(any_path):
+    """The nearest, drawn last, by a mode: the equation of the one before does not stay."""
+    scene = cc.Scene(background=(0.5, 0.5, 0.5, 1))
+    least = cc.BasicMaterial(color=(0.25, 1, 1), blend=cc.Blend("one", "one", equation="min"))
+    pane(scene, least, -3)
+    pane(scene, cc.BasicMaterial(color=(0.125, 0, 0), blend="additive"), -2)
+    frame = draw(any_path, scene, outputs=("id",))
+    assert frame.color[1, 1].tolist() == [0.375, 0.5, 0.5, 2]
+    assert (frame.id == 0).all()
+
+
+def test_a_blend_compares_prints_and_pickles():
+    plain = cc.Blend("src_alpha", "one_minus_src_alpha")
+    assert repr(plain) == "Blend('src_alpha', 'one_minus_src_alpha')"
+    assert (plain.src_alpha, plain.dst_alpha) == ("src_alpha", "one_minus_src_alpha")
+    assert plain.equation == "add"
+    whole = cc.Blend("one", "dst_color", src_alpha="zero", dst_alpha="one", equation="max")
+    assert repr(whole) == (
+        "Blend('one', 'dst_color', src_alpha='zero', dst_alpha='one', equation='max')"
+    )
+    for one in (plain, whole):
+        material = cc.PhongMaterial(blend=one)
+        assert f"blend={one!r}" in repr(material)
+        for copied in (pickle.loads(pickle.dumps(one)), copy.deepcopy(one)):
+            assert copied == one
+            assert hash(copied) == hash(one)
+        for copied in (pickle.loads(pickle.dumps(material)), copy.deepcopy(material)):
+            assert copied.blend == one
+    assert plain != whole
+    assert plain != "alpha"
+
+
+def test_setting_an_equal_blend_redraws_nothing(fresh_renderer):
+    scene = cc.Scene(background=(0.3, 0.6, 0.9, 0.5))
+    material = cc.BasicMaterial(color=(1, 0.2, 0.1), blend=cc.Blend("one", "one"))
+    pane(scene, material)
+    draw(fresh_renderer, scene)
+    for made, drawn in ((cc.Blend("one", "one"), 0), (cc.Blend("one", "zero"), 1)):
+        material.blend = made
+        draw(fresh_renderer, scene)
+        assert fresh_renderer.stats.views_drawn == drawn
+
+
+@pytest.mark.parametrize(
+    ("words", "more", "error", "told"),
+    [
+        (("src", "one"), {}, ValueError, "src: expected 'zero', 'one', .* got 'src'"),
+        (("one", "SRC_ALPHA"), {}, ValueError, "dst: expected .* got 'SRC_ALPHA'"),
+        (("one", "one"), {"src_alpha": "half"}, ValueError, "src_alpha: expected .* got 'half'"),
+        (("one", "one"), {"dst_alpha": 1}, TypeError, "dst_alpha: expected .* got int"),
+        (("one", "one"), {"equation": "times"}, ValueError, "equation: expected 'add', .* 'times'"),
+        (("one",), {}, TypeError, "dst"),
+        (("one", "one", "one"), {}, TypeError, "src_alpha"),
+    ],
+)
+def test_bad_blends_are_told(words, more, error, told):
+    with pytest.raises(error, match=told):
+        cc.Blend(*words, **more)
+
+
 @pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
 def test_modes_mix_from_far_to_near(any_path, order):
     layers = [
@@ -219,7 +359,7 @@ def test_every_material_has_them_and_pickles_them(kind):
             ValueError,
             "'opaque', 'alpha', 'alpha_keep', 'additive', 'multiply', 'premultiplied'",
         ),
-        ("blend", 1, TypeError, "blend: expected the name of a mode or None, got int"),
+        ("blend", 1, TypeError, "blend: expected the name of a mode, a Blend or None, got int"),
         ("depth_write", "yes", TypeError, "depth_write: expected True, False or None, got str"),
         ("color_write", (True, False), ValueError, "expected a bool or four .* got 2 values"),
         ("color_write", (1.0, 0, 0, 0), TypeError, "color_write: expected a bool or four"),

@@ -7,9 +7,10 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.conftest import DEVICE
+from tests.helpers import DEVICE
 
 NAMES = ("positions", "normals", "uvs", "colors")
+RAW = "vec3 shade(Surface surface) { return vec3(surface.uv, 0.0) + 0.3 * surface.color.rgb; }"
 CAMERA = {"fov": 60, "position": (0, 1, 4), "target": (0, 0, 0)}
 
 
@@ -31,17 +32,19 @@ def sheet(rng, colors=True):
 
 
 class Stage:
-    """A scene whose sheets share a mesh: one plain, one textured, one seen in a mirror, all with shadows."""
+    """A scene whose sheets share a mesh: one shows its colours, one its texture, one the bare numbers."""
 
     def __init__(self, mesh, picture):
         self.mesh = mesh
         self.scene = cc.Scene(background=(0.1, 0.2, 0.3, 1))
-        self.scene.add(cc.PointLight(position=(1, 4, 2), shadow=cc.Shadow(32)))
+        self.scene.add(cc.PointLight(position=(1, 4, 2), shadow=cc.Shadow(size=32)))
         self.scene.add(cc.Mesh.plane(8, 8), cc.PhongMaterial(), position=(0, -1, 0))
         painted = cc.PhongMaterial(vertex_colors=True, double_sided=True)
         shown = cc.PhongMaterial(map=picture, double_sided=True)
         self.scene.add(mesh, painted, position=(-1, 0, 0))
         self.scene.add(mesh, shown, position=(1, 0.3, 0), rotation=cc.axis_angle((1, 0, 0), 50))
+        raw = cc.ShaderMaterial(RAW, double_sided=True)
+        self.scene.add(mesh, raw, position=(0, 1.6, -0.5), rotation=cc.axis_angle((1, 0, 0), 60))
         ball = self.scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial(), position=(0, 0.5, 1.5))
         ball.environment = cc.Probe(position=(0, 0.5, 1.5), size=24)
         self.camera = cc.PerspectiveCamera(**CAMERA)

@@ -46,8 +46,8 @@ REFUSED = """
 CALLS = {
     "capture": "lambda: renderer.capture(scene, size=4)",
     "render": "lambda: renderer.render(scene, camera, (4, 4))",
-    "update": "lambda: renderer.update(scene)",
-    "cubemap": "lambda: renderer.cubemap(probe)",
+    "update": "lambda: renderer.update_probes(scene)",
+    "cubemap": "lambda: renderer.read_probe(probe)",
     "Renderer": "lambda: cc.Renderer()",
     "devices": "lambda: cc.devices()",
 }

@@ -161,7 +161,7 @@ def test_rgb565_values_are_the_quantised_ones(any_path):
         color = np.array([level // 2 / 31, level / 63, 1 - level // 2 / 31])
         off = color + 0.3 / 63 * (-1) ** level  # not on a level, and on this side of the boundary
         scene = cc.Scene(background=np.clip(off, 0, 1))
-        box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color), position=(0.2, 0.1, -2))
+        box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=color), position=(0.2, 0.1, -2))
         cube = any_path.capture(scene, size=8, format="rgb565", outputs=("id",))
         want = np.where(cube.id[..., None] == box.id, as_565(color), as_565(off))
         assert cube.faces.dtype == np.uint8
@@ -188,7 +188,7 @@ def test_rgb565_has_no_alpha(renderer):
         0,
         255,
     ]
-    pane = cc.BasicMaterial((0, 0, 1), opacity=16 / 31, double_sided=True)
+    pane = cc.BasicMaterial(color=(0, 0, 1), opacity=16 / 31, double_sided=True)
     scene.add(cc.Mesh.plane(9, 9), pane, position=(0, -1, 0))
     faces = renderer.capture(scene, size=2, format="rgb565").faces
     np.testing.assert_array_equal(faces[3, 0, 0], as_565(np.array([15, 0, 16]) / 31))
@@ -213,7 +213,7 @@ def test_rgb565_probe_is_looked_up(renderer):
     frame = renderer.render(scene, camera, (8, 8), format="rgba32f", outputs=("id",))
     levels = np.round(np.array([0.4, 0.5, 0.6]) * [31, 63, 31]) / [31, 63, 31]
     np.testing.assert_allclose(frame.color[4, 4, :3], levels, atol=1e-2)
-    assert (renderer.cubemap(ball.environment).faces == as_565(np.array([0.4, 0.5, 0.6]))).all()
+    assert (renderer.read_probe(ball.environment).faces == as_565(np.array([0.4, 0.5, 0.6]))).all()
 
 
 # Depth.
@@ -315,8 +315,10 @@ def test_other_outputs_do_not_hang_on_the_depth_format(renderer, depth_format):
 def test_sixteen_bits_cannot_tell_far_things_apart(renderer):
     """Two walls a hundredth of a unit apart, 50 units away: a step there is far more."""
     scene = cc.Scene()
-    far = scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial((1, 0, 0)), position=(0, 0, -51))
-    scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial((0, 1, 0)), position=(0, 0, -50.99))
+    far = scene.add(
+        cc.Mesh.box((99, 99, 1)), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, -51)
+    )
+    scene.add(cc.Mesh.box((99, 99, 1)), cc.BasicMaterial(color=(0, 1, 0)), position=(0, 0, -50.99))
     far.render_order = -1
     camera = cc.PerspectiveCamera(fov=60, near=0.1, far=1000)
     seen = {
@@ -467,13 +469,13 @@ def test_the_painter_in_captures_and_probes(new_renderer, depth_format):
     assert (cubes[0].faces != with_depth).any()
     ball = world.scene.add(cc.Mesh.sphere(0.1), cc.MirrorMaterial())
     ball.environment = cc.Probe(size=24, format="rgba32f", depth_format=depth_format)
-    layered.update(world.scene)
-    assert_identical(layered.cubemap(ball.environment).faces, cubes[0].faces)
+    layered.update_probes(world.scene)
+    assert_identical(layered.read_probe(ball.environment).faces, cubes[0].faces)
 
 
 def test_the_sky_is_behind_the_painter(renderer):
     scene = cc.Scene(background=cc.CubeMap(smooth_environment(8)))
-    scene.add(cc.Mesh.box(1), cc.BasicMaterial((1, 0, 0)), position=(0, 0, -3))
+    scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, -3))
     camera = cc.PerspectiveCamera(fov=50)
     a, b = (
         renderer.render(scene, camera, (32, 24), depth_format=name).color
@@ -592,7 +594,7 @@ def test_render_textures_have_them_too(renderer, options):
     outer.add(cc.Mesh.plane(2, 2), cc.BasicMaterial(map=texture), position=(0, -1, 0))
     camera = cc.PerspectiveCamera(fov=50, position=(0, 3, 0), target=(0, -1, 0), up=(0, 0, -1))
     renderer.render(outer, camera, (20, 20))
-    held = renderer.texture(texture)
+    held = renderer.read_texture(texture)
     want = renderer.render(scene, inner_camera, (40, 30), **options).color
     assert_identical(getattr(held, "color", held), want)
     copied = pickle.loads(pickle.dumps(texture))

@@ -17,8 +17,8 @@ CAMERA = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
 CALLS = {
     "capture": lambda r, s: r.capture(s, size=4),
     "render": lambda r, s: r.render(s, cc.PerspectiveCamera(**CAMERA), (4, 4)),
-    "update": lambda r, s: r.update(s),
-    "cubemap": lambda r, s: r.cubemap(cc.Probe(position=(0, 0, 0))),
+    "update": lambda r, s: r.update_probes(s),
+    "cubemap": lambda r, s: r.read_probe(cc.Probe(position=(0, 0, 0))),
 }
 
 

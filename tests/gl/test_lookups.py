@@ -61,7 +61,7 @@ def test_mirror(renderer, make_view, fresnel):
         env_weight=0.78,
         color=(0.95, 0.85, 0.4),
         color_weight=0.3,
-        fresnel=fresnel,
+        f0=fresnel,
     )
     got, incident, normal = drawn(renderer, ball(material), make_view())
     weight = 0.78
@@ -76,7 +76,7 @@ def test_mirror(renderer, make_view, fresnel):
 @pytest.mark.parametrize("eta", [1 / 1.52, 1 / 2.4, 1.0, 1.3])
 @pytest.mark.parametrize("fresnel", [True, False])
 def test_glass(renderer, make_view, eta, fresnel):
-    material = cc.GlassMaterial(eta=eta, fresnel=fresnel, tint=(0.8, 1, 0.9))
+    material = cc.GlassMaterial(ior=1 / eta, fresnel=fresnel, tint=(0.8, 1, 0.9))
     got, incident, normal = drawn(renderer, ball(material), make_view())
     bent = shading.refract(incident, normal, eta)
     gone = ~bent.any(-1)
@@ -99,7 +99,7 @@ def test_glass(renderer, make_view, eta, fresnel):
 
 
 def test_total_reflection_shows_the_mirror_image(renderer):
-    material = cc.GlassMaterial(eta=1.5)
+    material = cc.GlassMaterial(ior=1 / 1.5)
     got, incident, normal = drawn(renderer, ball(material), VIEWS["perspective"]())
     k = 1 - 1.5**2 * (1 - shading.dot(incident, normal)[:, 0] ** 2)
     total = k < -0.03

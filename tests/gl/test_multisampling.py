@@ -86,8 +86,8 @@ def test_a_probe_may_be_multisampled(renderer):
     scene = half_plane()
     ball = scene.add(cc.Mesh.sphere(0.1), cc.MirrorMaterial())
     ball.environment = cc.Probe(position=(0, 0, 0), size=32, samples=4, format="rgba32f")
-    renderer.update(scene)
-    got = renderer.cubemap(ball.environment).faces
+    renderer.update_probes(scene)
+    got = renderer.read_probe(ball.environment).faces
     assert_identical(got, renderer.capture(scene, size=32, samples=4, exclude=[ball]).faces)
 
 

@@ -47,7 +47,7 @@ def test_frames_with_a_probe(both, scene):
     ]
     same(*frames, ("color", *OUTPUTS))
     probe = scene.nodes[-1].environment
-    same(*(r.cubemap(probe) for r in both), ("faces",))
+    same(*(r.read_probe(probe) for r in both), ("faces",))
 
 
 def test_layered_true_is_the_same_as_auto(new_renderer, both, scene):

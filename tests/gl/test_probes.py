@@ -37,7 +37,7 @@ def test_on_change_is_always_true(any_path):
     for x in (1.5, -1.5, 2.0):
         box.position = (x, 0, 0.3)
         frame(any_path, scene)
-        held = any_path.cubemap(ball.environment).faces
+        held = any_path.read_probe(ball.environment).faces
         assert_identical(held, truth(any_path, scene, ball))
         assert (held[0 if x > 0 else 1, ..., 0] == 1).any()
 
@@ -55,7 +55,7 @@ def test_the_ball_shows_what_its_probe_holds(renderer):
 def test_formats_and_mipmaps(renderer, fmt, mipmaps):
     scene, _, ball = stage(format=fmt, mipmaps=mipmaps)
     frame(renderer, scene)
-    held = renderer.cubemap(ball.environment)
+    held = renderer.read_probe(ball.environment)
     assert held.mipmaps is mipmaps
     assert_identical(held.faces, truth(renderer, scene, ball, format=fmt))
 
@@ -63,7 +63,7 @@ def test_formats_and_mipmaps(renderer, fmt, mipmaps):
 def test_near_far_and_size(renderer):
     scene, _, ball = stage(size=20, near=1.0, far=1.3)
     frame(renderer, scene)
-    held = renderer.cubemap(ball.environment)
+    held = renderer.read_probe(ball.environment)
     assert_identical(held.faces, truth(renderer, scene, ball, size=20, near=1.0, far=1.3))
     assert held.size == 20
 
@@ -71,28 +71,28 @@ def test_near_far_and_size(renderer):
 def test_once_draws_the_first_time_it_is_needed(renderer):
     scene, box, ball = stage(update="once")
     frame(renderer, scene)
-    first = renderer.cubemap(ball.environment).faces
+    first = renderer.read_probe(ball.environment).faces
     assert_identical(first, truth(renderer, scene, ball))
     box.position = (-1.5, 0, 0)
     frame(renderer, scene)
-    assert_identical(renderer.cubemap(ball.environment).faces, first)
-    renderer.update(scene, [ball.environment])
-    assert_identical(renderer.cubemap(ball.environment).faces, truth(renderer, scene, ball))
+    assert_identical(renderer.read_probe(ball.environment).faces, first)
+    renderer.update_probes(scene, probes=[ball.environment])
+    assert_identical(renderer.read_probe(ball.environment).faces, truth(renderer, scene, ball))
 
 
 def test_manual_draws_only_when_told(renderer):
     scene, box, ball = stage(update="manual")
-    renderer.update(scene, [ball.environment])
-    first = renderer.cubemap(ball.environment).faces
+    renderer.update_probes(scene, probes=[ball.environment])
+    first = renderer.read_probe(ball.environment).faces
     assert_identical(first, truth(renderer, scene, ball))
     shown = frame(renderer, scene)
     box.material = cc.BasicMaterial(color=(0, 1, 0))
     after = frame(renderer, scene)
-    assert_identical(renderer.cubemap(ball.environment).faces, first)
+    assert_identical(renderer.read_probe(ball.environment).faces, first)
     center = (slice(10, 16), slice(10, 14))
     assert_identical(after[center], shown[center])
-    renderer.update(scene, [ball.environment])
-    assert_identical(renderer.cubemap(ball.environment).faces, truth(renderer, scene, ball))
+    renderer.update_probes(scene, probes=[ball.environment])
+    assert_identical(renderer.read_probe(ball.environment).faces, truth(renderer, scene, ball))
     assert (frame(renderer, scene) != after).any()
 
 
@@ -102,7 +102,7 @@ def test_every_third_frame(renderer):
     for step in range(7):
         box.material.color = (step / 8, 0, 0)
         frame(renderer, scene)
-        seen.append(renderer.cubemap(ball.environment).faces.copy())
+        seen.append(renderer.read_probe(ball.environment).faces.copy())
     changed = [bool((a != b).any()) for a, b in itertools.pairwise(seen)]
     assert changed == [False, False, True, False, False, True]
 
@@ -115,7 +115,7 @@ def test_faces_per_frame_spreads_the_work(renderer):
     want = None
     for step in range(1, 4):
         frame(renderer, scene)
-        held = renderer.cubemap(ball.environment).faces
+        held = renderer.read_probe(ball.environment).faces
         want = truth(renderer, scene, ball)
         assert sum(np.array_equal(a, b) for a, b in zip(held, want, strict=True)) == 2 * step
     assert_identical(held, want)
@@ -149,7 +149,7 @@ def test_users_are_left_out_and_still_receive(renderer):
     other = scene.add(cc.Mesh.sphere(0.4), cc.MirrorMaterial(), position=(0, 1, -1.5))
     other.environment = ball.environment
     frame(renderer, scene)
-    held = renderer.cubemap(ball.environment).faces
+    held = renderer.read_probe(ball.environment).faces
     assert_identical(held, truth(renderer, scene, ball, exclude=[ball, other]))
     assert (frame(renderer, scene)[..., 3] == 1).any()
 
@@ -161,7 +161,7 @@ def test_a_material_that_shows_a_probe_is_left_out_too(renderer):
     )
     frame(renderer, scene)
     assert_identical(
-        renderer.cubemap(ball.environment).faces,
+        renderer.read_probe(ball.environment).faces,
         truth(renderer, scene, ball, exclude=[ball, shown]),
     )
 
@@ -174,16 +174,16 @@ def test_exclude_covers_subtrees(renderer):
     ball.environment.exclude = [box]
     frame(renderer, scene)
     assert_identical(
-        renderer.cubemap(ball.environment).faces,
+        renderer.read_probe(ball.environment).faces,
         truth(renderer, scene, ball, exclude=[ball, box, child]),
     )
 
 
-def test_in_probes_false_is_absent_from_captures_and_probes_but_drawn(renderer):
+def test_in_captures_false_is_absent_from_captures_and_probes_but_drawn(renderer):
     scene, box, ball = stage()
     box.in_captures = False
     shown = frame(renderer, scene)
-    held = renderer.cubemap(ball.environment).faces
+    held = renderer.read_probe(ball.environment).faces
     assert_identical(held, truth(renderer, scene, ball, exclude=[ball, box]))
     assert_identical(renderer.capture(scene, size=16, exclude=[ball]).faces, held)
     assert ((shown[..., :3] == [1, 0, 0]).all(-1)).any()
@@ -197,13 +197,13 @@ def test_attached_to_a_node_it_follows_the_position_only(renderer):
     ball.environment = cc.Probe(parent=ball, size=16, format="rgba32f")
     frame(renderer, scene)
     where = np.asarray(ball.world_matrix)[:3, 3]
-    held = renderer.cubemap(ball.environment).faces
+    held = renderer.read_probe(ball.environment).faces
     assert_identical(held, truth(renderer, scene, ball, position=where))
     pivot.position = (0.2, 0.1, 0)
     frame(renderer, scene)
     where = np.asarray(ball.world_matrix)[:3, 3]
     assert_identical(
-        renderer.cubemap(ball.environment).faces, truth(renderer, scene, ball, position=where)
+        renderer.read_probe(ball.environment).faces, truth(renderer, scene, ball, position=where)
     )
 
 
@@ -217,10 +217,10 @@ def test_what_a_probe_depends_on_is_drawn_first(renderer):
     box.position = (1.5, 0.2, 0.4)
     frame(renderer, scene)
     assert_identical(
-        renderer.cubemap(a.environment).faces, truth(renderer, scene, a, exclude=[a, b])
+        renderer.read_probe(a.environment).faces, truth(renderer, scene, a, exclude=[a, b])
     )
     assert_identical(
-        renderer.cubemap(b.environment).faces,
+        renderer.read_probe(b.environment).faces,
         truth(renderer, scene, b, exclude=[b], position=(0, 1, 1)),
     )
 
@@ -245,8 +245,8 @@ def test_in_a_cycle_the_edge_back_shows_the_environment(new_renderer):
 
 def test_update_and_cubemap_without_a_frame(renderer):
     scene, _, ball = stage()
-    renderer.update(scene)
-    assert_identical(renderer.cubemap(ball.environment).faces, truth(renderer, scene, ball))
+    renderer.update_probes(scene)
+    assert_identical(renderer.read_probe(ball.environment).faces, truth(renderer, scene, ball))
 
 
 def test_contents_live_in_the_renderer(new_renderer):
@@ -256,7 +256,7 @@ def test_contents_live_in_the_renderer(new_renderer):
     frame(a, scene)
     box.position = (-1.5, 0, 0)
     frame(b, scene)
-    held_a, held_b = (r.cubemap(ball.environment).faces for r in (a, b))
+    held_a, held_b = (r.read_probe(ball.environment).faces for r in (a, b))
     assert (held_a != held_b).any()
     assert_identical(held_b, truth(b, scene, ball))
 
@@ -264,7 +264,7 @@ def test_contents_live_in_the_renderer(new_renderer):
 def test_what_is_handed_out_is_a_copy(renderer):
     scene, box, ball = stage()
     frame(renderer, scene)
-    held = renderer.cubemap(ball.environment)
+    held = renderer.read_probe(ball.environment)
     kept = held.faces.copy()
     box.position = (-1.5, 0, 0)
     frame(renderer, scene)
@@ -273,7 +273,7 @@ def test_what_is_handed_out_is_a_copy(renderer):
 
 def test_a_probe_that_was_never_drawn_is_refused(renderer):
     with pytest.raises((ValueError, KeyError), match="probe"):
-        renderer.cubemap(cc.Probe(position=(0, 0, 0)))
+        renderer.read_probe(cc.Probe(position=(0, 0, 0)))
 
 
 def test_a_probe_on_a_cubemap_material_shows_by_object_space(renderer):
@@ -284,7 +284,7 @@ def test_a_probe_on_a_cubemap_material_shows_by_object_space(renderer):
     shown = scene.add(cc.Mesh.box(1), cc.BasicMaterial(cubemap=probe), position=(0, 0, 2))
     camera = cc.OrthographicCamera(height=0.9, position=(0, 0, 5), target=(0, 0, 2))
     color = renderer.render(scene, camera, (9, 9), format="rgba32f").color
-    held = renderer.cubemap(probe)
+    held = renderer.read_probe(probe)
     x = (np.arange(9) - 4) / 9 * 0.9
     directions = np.stack(
         [*np.broadcast_arrays(x[None, :], -x[:, None]), np.full((9, 9), 0.5)], axis=-1
@@ -300,7 +300,7 @@ def test_reflections_use_the_probe_per_pixel(renderer):
     camera = cc.PerspectiveCamera(fov=20, position=(0, 0, 2), target=(0, 0, 0))
     color = renderer.render(scene, camera, (33, 33), format="rgba32f").color
     np.testing.assert_allclose(color[16, 16], [1, 0, 0, 1], atol=1e-6)
-    held = renderer.cubemap(ball.environment)
+    held = renderer.read_probe(ball.environment)
     incident = normalised([0.16, 0, -1.0])
     # where that ray meets the ball
     b = 2 * -incident[2]

@@ -143,7 +143,7 @@ class TestP14:
         for layered in (None, False):
             renderer = shared_renderers(layered)
             frame = renderer.render(world.scene, view.camera, view.size, format="rgba32f")
-            held = renderer.cubemap(ball.environment)
+            held = renderer.read_probe(ball.environment)
             assert_close(held.faces, lit(world, seen, (0, 0, 0)), "phong", mask=inner_smooth(seen))
             self.check(frame.color, held, hits, world, view, ball)
 
@@ -181,7 +181,7 @@ class TestP14:
         ball.material = cc.GlassMaterial(fresnel=False)
         view = perspective((0, 1, 5), (0, 0, 0), fov=30, size=(64, 64), near=1, far=100)
         frame = renderer.render(world.scene, view.camera, view.size, format="rgba32f")
-        held = renderer.cubemap(ball.environment)
+        held = renderer.read_probe(ball.environment)
         hits = view.hits(world.shapes)
         mask = inner_smooth(hits) & (hits.id == ball.id)
         bent = shading.refract(view.directions()[mask], hits.normal[mask], 1 / 1.52)
@@ -209,8 +209,8 @@ class TestP12:
         ball.environment = cc.Probe(
             position=(0, 0, 0), size=SIZE, near=NEAR, far=FAR, format="rgba32f"
         )
-        any_path.update(world.scene)
-        held = any_path.cubemap(ball.environment)
+        any_path.update_probes(world.scene)
+        held = any_path.read_probe(ball.environment)
         hits = capture_hits(world, size=SIZE, near=NEAR, far=FAR, shapes=world.without(ball))
         want = world.paint(hits)
         want[~hits.hit, :3] = sample_faces(environment, texel_directions(SIZE))[~hits.hit]

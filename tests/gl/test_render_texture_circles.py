@@ -17,7 +17,7 @@ OUT = "; leave the nodes that show it out with exclude="
 
 def empty(name=""):
     """A texture of an empty scene."""
-    return cc.RenderTexture(cc.Scene(), flat_camera(9, 6), (9, 6), "rgba32f", name=name)
+    return cc.RenderTexture(cc.Scene(), flat_camera(9, 6), size=(9, 6), format="rgba32f", name=name)
 
 
 def show(texture, scene, **place):
@@ -77,7 +77,7 @@ def test_nothing_is_drawn_before_it_is_refused(renderer):
     show(a, a.scene, position=(0, 0, 1))
     refused(renderer, 'RenderTexture "a" shows itself: "a" -> "a"', lambda: look(renderer, a.scene))
     with pytest.raises(ValueError, match="one that this renderer has drawn"):
-        renderer.texture(fine)
+        renderer.read_texture(fine)
 
 
 def test_the_chain_is_the_shortest(renderer):
@@ -115,8 +115,8 @@ def test_by_way_of_a_probe(renderer):
     a, screen, ball, text = by_probe()
     refused(renderer, text, lambda: look(renderer, a.scene))
     refused(renderer, text, lambda: renderer.capture(a.scene, size=8))
-    refused(renderer, text, lambda: renderer.update(a.scene))
-    refused(renderer, text, lambda: renderer.update(a.scene, ball.environment))
+    refused(renderer, text, lambda: renderer.update_probes(a.scene))
+    refused(renderer, text, lambda: renderer.update_probes(a.scene, probes=ball.environment))
     ball.environment.exclude = [screen]
     look(renderer, a.scene)
     ball.environment.exclude = []
@@ -217,10 +217,10 @@ def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
     """Two monitors: the left shows the room with the right one, the right the room alone."""
     room = cc.Scene(background=(0.2, 0, 0))
     left, right = (
-        cc.RenderTexture(room, flat_camera(9, 6), (9, 6), "rgba32f", name=name)
+        cc.RenderTexture(room, flat_camera(9, 6), size=(9, 6), format="rgba32f", name=name)
         for name in ("left", "right")
     )
-    room.add(quad(2, 2), cc.BasicMaterial((0, 1, 0)), position=(6, 4, -1))
+    room.add(quad(2, 2), cc.BasicMaterial(color=(0, 1, 0)), position=(6, 4, -1))
     a = room.add(quad(4, 3), cc.BasicMaterial(map=left))
     b = room.add(quad(4, 3), cc.BasicMaterial(map=right), position=(5, 0, 0))
     left.exclude = [a]
@@ -236,9 +236,9 @@ def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
     assert renderer.stats.textures_updated == 2
     assert_identical(color, look(new_renderer(), room))
     background = np.float32([0.2, 0, 0])
-    assert (renderer.texture(right)[..., :3] == background).all(-1).sum() == 54 - 4
+    assert (renderer.read_texture(right)[..., :3] == background).all(-1).sum() == 54 - 4
     # The right monitor hides none of the green but shows it small.
-    assert (renderer.texture(left)[..., :3] != background).any(-1).sum() > 4
+    assert (renderer.read_texture(left)[..., :3] != background).any(-1).sum() > 4
 
 
 def test_two_scenes_that_show_each_other_on_two_threads(new_renderer):
@@ -290,7 +290,8 @@ def test_each_scene_is_seen_at_one_moment(new_renderer):
     inner_scene = cc.Scene(background=(0, 0, 0, 1))
     box = inner_scene.add(quad(), cc.BasicMaterial())
     textures = [
-        cc.RenderTexture(inner_scene, flat_camera(9, 1), (9, 1), "rgba32f") for _ in range(2)
+        cc.RenderTexture(inner_scene, flat_camera(9, 1), size=(9, 1), format="rgba32f")
+        for _ in range(2)
     ]
     scene = cc.Scene()
     for row, texture in enumerate(textures):
@@ -327,10 +328,10 @@ BY_SHADOW = OUT + ", those that cast by it with cast_shadow=False"
 def lamp_and_floor():
     """A scene in which shadows fall, and a texture that looks at it from above."""
     scene = cc.Scene()
-    scene.add(cc.PointLight((0, 3, 0), shadow=cc.Shadow(32)))
+    scene.add(cc.PointLight((0, 3, 0), shadow=cc.Shadow(size=32)))
     floor = scene.add(cc.Mesh.plane(6, 6), cc.PhongMaterial(ks=0), position=(0, -1, 0))
     eye = cc.PerspectiveCamera(position=(0, 5, 0.01), target=(0, 0, 0))
-    return scene, floor, cc.RenderTexture(scene, eye, (8, 8), "rgba32f", name="above")
+    return scene, floor, cc.RenderTexture(scene, eye, size=(8, 8), format="rgba32f", name="above")
 
 
 def from_aside(renderer, scene):
@@ -341,7 +342,7 @@ def from_aside(renderer, scene):
 def test_by_the_shadow_of_what_it_moves(any_path):
     """Left out of the texture it still casts there; not so without its shadow, or where none is received."""
     scene, floor, above = lamp_and_floor()
-    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, MOVED, textures={"t": above}))
+    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, vertex=MOVED, textures={"t": above}))
     above.exclude = [box]
     text = 'RenderTexture "above" shows itself: "above" -> "above"' + BY_SHADOW
     with pytest.raises(ValueError, match="shows itself") as error:
@@ -361,7 +362,7 @@ def test_a_probe_by_the_shadow_of_what_it_moves(renderer):
     scene, _, _ = lamp_and_floor()
     probe = cc.Probe(position=(0, 1, 0), size=8)
     box = scene.add(
-        cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, MOVED_BY_CUBE, textures={"t": probe})
+        cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, vertex=MOVED_BY_CUBE, textures={"t": probe})
     )
     way = f"the probe of node {box.id}"
     with pytest.raises(ValueError, match="shows itself") as error:
@@ -377,7 +378,9 @@ def test_what_only_colors_a_moved_caster_is_no_circle(any_path, kind):
     coordinate = "s.uv" if kind == "sampler2D" else "s.normal"
     fragment = f"uniform {kind} t; vec3 shade(Surface s) {{ return texture(t, {coordinate}).rgb; }}"
     wave = "void vertex(inout Vertex v) { v.position.y += 0.1; }"
-    box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(fragment, wave, textures={"t": source}))
+    box = scene.add(
+        cc.Mesh.box(0.8), cc.ShaderMaterial(fragment, vertex=wave, textures={"t": source})
+    )
     above.exclude = [box]
     first = from_aside(any_path, scene)
     assert_identical(from_aside(any_path, scene), first)

@@ -42,17 +42,19 @@ PLUS = "vec3 effect(vec2 uv) { return frame(uv).rgb + vec3(uv, 0.0); }"
 def test_passes_run_over_the_texture(any_path):
     plain = draw(any_path, small_scene())
     effects = [cc.ImageEffect(DOUBLE), cc.ImageEffect(PLUS)]
-    texture = cc.RenderTexture(small_scene(), FLAT, (12, 12), format="rgba32f", effects=effects)
+    texture = cc.RenderTexture(
+        small_scene(), FLAT, size=(12, 12), format="rgba32f", effects=effects
+    )
     got = draw(any_path, screen(texture))
     u = np.broadcast_to((np.arange(12) + 0.5) / 12, (12, 12))
     want = 2 * plain[..., :3] + np.stack([u, u.T[::-1], 0 * u], axis=-1)
     assert_close(got[..., :3], want, "lookup")
-    assert_close(any_path.texture(texture)[..., :3], want, "float32_maths")
+    assert_close(any_path.read_texture(texture)[..., :3], want, "float32_maths")
 
 
 def test_a_pass_alone_makes_a_picture(renderer):
     checks = "vec4 effect(vec2 uv) { return vec4(vec3(mod(floor(uv.x * 4.0), 2.0)), 1.0); }"
-    texture = cc.RenderTexture(cc.Scene(), FLAT, (12, 12), effects=[cc.ImageEffect(checks)])
+    texture = cc.RenderTexture(cc.Scene(), FLAT, size=(12, 12), effects=[cc.ImageEffect(checks)])
     got = draw(renderer, screen(texture))
     want = np.arange(12) // 3 % 2
     assert_identical(got[..., 0], np.broadcast_to(want.astype(np.float32), (12, 12)).copy())
@@ -61,7 +63,12 @@ def test_a_pass_alone_makes_a_picture(renderer):
 def test_mipmaps_are_made_of_the_finished_picture(renderer):
     ramp = "vec4 effect(vec2 uv) { return vec4(uv.x); }"
     texture = cc.RenderTexture(
-        cc.Scene(), FLAT, (16, 16), "rgba32f", mipmaps=True, effects=[cc.ImageEffect(ramp)]
+        cc.Scene(),
+        FLAT,
+        size=(16, 16),
+        format="rgba32f",
+        mipmaps=True,
+        effects=[cc.ImageEffect(ramp)],
     )
     scene = cc.Scene()
     scene.add(QUAD, cc.BasicMaterial(map=texture))
@@ -71,7 +78,7 @@ def test_mipmaps_are_made_of_the_finished_picture(renderer):
 
 def test_a_shader_material_shows_a_render_texture_of_this_frame(any_path):
     inner = small_scene()
-    texture = cc.RenderTexture(inner, FLAT, (12, 12), "rgba32f")
+    texture = cc.RenderTexture(inner, FLAT, size=(12, 12), format="rgba32f")
     material = cc.ShaderMaterial(
         "uniform sampler2D t; vec3 shade(Surface s) { return texture(t, s.uv).bgr; }",
         textures={"t": texture},
@@ -90,7 +97,7 @@ def test_a_shader_material_shows_a_render_texture_of_this_frame(any_path):
 def test_effects_mix_render_textures(renderer):
     left, right = small_scene(), cc.Scene(background=(0.8, 0.1, 0.4, 1))
     textures = {
-        name: cc.RenderTexture(scene, FLAT, (12, 12), "rgba32f")
+        name: cc.RenderTexture(scene, FLAT, size=(12, 12), format="rgba32f")
         for name, scene in (("a", left), ("b", right))
     }
     mix = cc.ImageEffect(
@@ -106,24 +113,24 @@ def test_effects_mix_render_textures(renderer):
 
 
 def test_a_pass_over_another_texture(renderer):
-    source = cc.RenderTexture(small_scene(), FLAT, (12, 12), "rgba32f")
+    source = cc.RenderTexture(small_scene(), FLAT, size=(12, 12), format="rgba32f")
     invert = cc.ImageEffect(
         "uniform sampler2D t; vec4 effect(vec2 uv) { return vec4(1.0 - texture(t, uv).rgb, 1.0); }",
         textures={"t": source},
     )
-    second = cc.RenderTexture(cc.Scene(), FLAT, (12, 12), "rgba32f", effects=[invert])
+    second = cc.RenderTexture(cc.Scene(), FLAT, size=(12, 12), format="rgba32f", effects=[invert])
     got = draw(renderer, screen(second))
     assert_close(got[..., :3], 1 - draw(renderer, small_scene())[..., :3], "lookup")
 
 
 def test_changes_anywhere_in_the_chain_redraw(fresh_renderer):
     inner = small_scene()
-    source = cc.RenderTexture(inner, FLAT, (8, 8))
+    source = cc.RenderTexture(inner, FLAT, size=(8, 8))
     effect = cc.ImageEffect(
         "uniform float k = 1.0; uniform sampler2D t; vec3 effect(vec2 uv) { return k * texture(t, uv).rgb; }",
         textures={"t": source},
     )
-    scene = screen(cc.RenderTexture(cc.Scene(), FLAT, (8, 8), effects=[effect]))
+    scene = screen(cc.RenderTexture(cc.Scene(), FLAT, size=(8, 8), effects=[effect]))
 
     def drawn():
         draw(fresh_renderer, scene, 8)
@@ -140,7 +147,7 @@ def test_changes_anywhere_in_the_chain_redraw(fresh_renderer):
 
 def test_circles_through_shaders_and_passes_are_refused_by_name(renderer):
     inner = cc.Scene()
-    texture = cc.RenderTexture(inner, FLAT, (8, 8), name="hall")
+    texture = cc.RenderTexture(inner, FLAT, size=(8, 8), name="hall")
     inner.add(
         QUAD,
         cc.ShaderMaterial(
@@ -150,8 +157,8 @@ def test_circles_through_shaders_and_passes_are_refused_by_name(renderer):
     )
     with pytest.raises(ValueError, match='RenderTexture "hall" shows itself: "hall" -> "hall"'):
         draw(renderer, screen(texture))
-    mirror = cc.RenderTexture(cc.Scene(), FLAT, (8, 8), name="one")
-    other = cc.RenderTexture(screen(mirror), FLAT, (8, 8), name="two")
+    mirror = cc.RenderTexture(cc.Scene(), FLAT, size=(8, 8), name="one")
+    other = cc.RenderTexture(screen(mirror), FLAT, size=(8, 8), name="two")
     mirror.effects = [
         cc.ImageEffect(
             "uniform sampler2D t; vec4 effect(vec2 uv) { return texture(t, uv); }",
@@ -167,7 +174,7 @@ def test_a_texture_in_its_own_scenes_shader_is_freed():
     alive = []
     for _ in range(60):
         inner = cc.Scene()
-        texture = cc.RenderTexture(inner, FLAT, (8, 8))
+        texture = cc.RenderTexture(inner, FLAT, size=(8, 8))
         inner.add(
             QUAD,
             cc.ShaderMaterial(
@@ -183,7 +190,7 @@ def test_a_texture_in_its_own_scenes_shader_is_freed():
 
 def test_they_pickle():
     effect = cc.ImageEffect(DOUBLE)
-    texture = cc.RenderTexture(small_scene(), FLAT, (8, 8), effects=[effect])
+    texture = cc.RenderTexture(small_scene(), FLAT, size=(8, 8), effects=[effect])
     copied, same = pickle.loads(pickle.dumps((texture, effect)))
     assert copied.effects == (same,)
     assert copied.scene.nodes[0].id == 1

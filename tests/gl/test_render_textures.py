@@ -45,14 +45,14 @@ def test_texture_gives_what_it_holds_row_0_on_top(renderer):
     for fmt, dtype in {"rgba8": "uint8", "rgba16f": "float16", "rgba32f": "float32"}.items():
         texture = flat_texture(PICTURE, format=fmt)
         look(renderer, screen_scene(texture)[0])
-        held = renderer.texture(texture)
+        held = renderer.read_texture(texture)
         assert (held.shape, held.dtype) == ((6, 9, 4), dtype)
         if fmt == "rgba8":
             assert_identical(held[..., :3], np.round(PICTURE * 255).astype(np.uint8))
         else:
             assert_close(held[..., :3], PICTURE, "half" if fmt == "rgba16f" else "float32_maths")
         held[:] = 0  # the caller's own
-        assert renderer.texture(texture).any()
+        assert renderer.read_texture(texture).any()
 
 
 @pytest.mark.parametrize("samples", [1, 4])
@@ -61,12 +61,14 @@ def test_it_holds_what_a_frame_of_its_scene_shows(any_path, fmt, samples):
     inner_scene = cc.Scene(background=(0.2, 0.4, 0.1, 0.5))
     inner_scene.add(cc.PointLight(position=(3, 4, 5)))
     inner_scene.add(cc.Mesh.sphere(1), cc.PhongMaterial(color=(1, 0.3, 0.2)), position=(0.3, 0, 0))
-    inner_scene.add(cc.Mesh.box(0.7), cc.BasicMaterial((0, 1, 0, 0.5)), position=(-0.6, 0.2, 1))
+    inner_scene.add(
+        cc.Mesh.box(0.7), cc.BasicMaterial(color=(0, 1, 0, 0.5)), position=(-0.6, 0.2, 1)
+    )
     camera = cc.PerspectiveCamera(fov=50, position=(0, 1, 4), target=(0, 0, 0))
     texture = cc.RenderTexture(inner_scene, camera, size=(20, 14), format=fmt, samples=samples)
     look(any_path, screen_scene(texture)[0])
     want = any_path.render(inner_scene, camera, (20, 14), format=fmt, samples=samples).color
-    assert_identical(any_path.texture(texture), want)
+    assert_identical(any_path.read_texture(texture), want)
 
 
 def test_perspective_camera_takes_its_aspect_from_the_size(renderer):
@@ -75,7 +77,7 @@ def test_perspective_camera_takes_its_aspect_from_the_size(renderer):
     camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 2), target=(0, 0, 0))
     texture = cc.RenderTexture(inner_scene, camera, size=(40, 10))
     look(renderer, screen_scene(texture)[0])
-    held = renderer.texture(texture)[..., 3] > 0
+    held = renderer.read_texture(texture)[..., 3] > 0
     # 3 wide of the 2 tan(30) * 4 = 4.5 (at z .05 a little more) that the picture spans
     assert held.any(axis=0).sum() == pytest.approx(
         40 * 3 / (2 * np.tan(np.pi / 6) * 1.95 * 4), abs=1
@@ -140,10 +142,10 @@ def test_multisampling_smooths_edges(renderer):
     levels = {}
     for samples in (1, 4):
         texture = cc.RenderTexture(
-            inner_scene, flat_camera(8, 6), (32, 24), "rgba32f", samples=samples
+            inner_scene, flat_camera(8, 6), size=(32, 24), format="rgba32f", samples=samples
         )
         look(renderer, screen_scene(texture)[0], 32, 24)
-        levels[samples] = set(np.unique(renderer.texture(texture)[..., 0]))
+        levels[samples] = set(np.unique(renderer.read_texture(texture)[..., 0]))
     assert levels[1] == {0, 1}
     assert levels[4] == {0, 0.25, 0.5, 0.75, 1} & levels[4]
     assert len(levels[4]) > 2
@@ -152,7 +154,7 @@ def test_multisampling_smooths_edges(renderer):
 def test_light_above_one_is_kept_in_half_floats_and_clipped_in_bytes(renderer):
     inner_scene = cc.Scene(background=(4, 0.5, 1000))
     for fmt, want in {"rgba8": (1, 0.5, 1), "rgba16f": (4, 0.5, 1000)}.items():
-        texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), (4, 4), fmt)
+        texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), size=(4, 4), format=fmt)
         color = look(renderer, screen_scene(texture)[0], 4, 4)
         np.testing.assert_allclose(color[..., :3], np.broadcast_to(want, (4, 4, 3)), atol=2e-3)
 
@@ -164,7 +166,7 @@ def test_alpha_counts_only_where_the_material_is_translucent(renderer):
     inner_scene.add(
         tiles(picture), cc.BasicMaterial(color=(1, 0, 0), vertex_colors=True), position=(0, 2, 0)
     )
-    texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), (4, 4), "rgba32f")
+    texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), size=(4, 4), format="rgba32f")
     scene, node = screen_scene(texture)
     scene.background = (0, 0, 1)
     color = look(renderer, scene, 4, 4)
@@ -194,7 +196,7 @@ def test_every_frame_shows_this_frames_picture(any_path):
     """P10. One texel is lit, and goes on by one each frame."""
     inner_scene = cc.Scene(background=(0, 0, 0, 1))
     dot = inner_scene.add(quad(), cc.BasicMaterial(color=(1, 0.5, 0.25)), position=(0, 5, 0))
-    texture = cc.RenderTexture(inner_scene, flat_camera(9, 6), (9, 6), "rgba32f")
+    texture = cc.RenderTexture(inner_scene, flat_camera(9, 6), size=(9, 6), format="rgba32f")
     scene, _ = screen_scene(texture)
     for column in range(9):
         dot.position = (column, 5, 0)
@@ -253,7 +255,7 @@ def test_setting_equal_values_changes_nothing(renderer):
 def test_only_the_pixels_that_show_it_are_drawn_again(renderer):
     texture = flat_texture(PICTURE)
     scene, _ = screen_scene(texture)
-    far = scene.add(cc.Mesh.box(0.5), cc.BasicMaterial((1, 0, 0)), position=(30, 3, 0))
+    far = scene.add(cc.Mesh.box(0.5), cc.BasicMaterial(color=(1, 0, 0)), position=(30, 3, 0))
     look(renderer, scene, 40, 6)
     texture.scene.background = (0, 1, 0)
     look(renderer, scene, 40, 6)
@@ -268,7 +270,7 @@ def test_what_is_not_in_view_is_not_drawn(renderer):
     look(renderer, scene)
     assert renderer.stats.textures_updated == 0
     with pytest.raises(ValueError, match="drawn"):
-        renderer.texture(texture)
+        renderer.read_texture(texture)
     node.position, node.visible = (0, 0, 0), False
     look(renderer, scene)
     assert renderer.stats.textures_updated == 0
@@ -289,8 +291,8 @@ def test_exclude_covers_subtrees_and_forgets_the_dead(renderer):
     texture = flat_texture(PICTURE)
     inner_scene = texture.scene
     cover = inner_scene.add(position=(0, 0, 1))
-    inner_scene.add(quad(9, 3), cc.BasicMaterial((1, 0, 0)), parent=cover)
-    other = inner_scene.add(quad(9, 1), cc.BasicMaterial((0, 1, 0)), position=(0, 5, 1))
+    inner_scene.add(quad(9, 3), cc.BasicMaterial(color=(1, 0, 0)), parent=cover)
+    other = inner_scene.add(quad(9, 1), cc.BasicMaterial(color=(0, 1, 0)), position=(0, 5, 1))
     scene, _ = screen_scene(texture)
     texture.exclude = [cover, scene.nodes[0]]  # a node of another scene is none of its own
     want = PICTURE.copy()
@@ -317,7 +319,7 @@ def chain(count, **options):
         textures.insert(
             0,
             cc.RenderTexture(
-                scene, flat_camera(9, 6), (9, 6), "rgba32f", name=f"t{index}", **options
+                scene, flat_camera(9, 6), size=(9, 6), format="rgba32f", name=f"t{index}", **options
             ),
         )
     return textures
@@ -346,7 +348,7 @@ def test_a_texture_needed_twice_is_drawn_once(renderer):
     """By two others and by the frame."""
     picture = flat_texture(PICTURE)
     left, right = (
-        cc.RenderTexture(screen_scene(picture)[0], flat_camera(9, 6), (9, 6), "rgba32f")
+        cc.RenderTexture(screen_scene(picture)[0], flat_camera(9, 6), size=(9, 6), format="rgba32f")
         for _ in range(2)
     )
     scene = cc.Scene()
@@ -420,7 +422,7 @@ def test_probes_and_mirrors_show_this_frames_texture(any_path):
     for picture in (SQUARE, SQUARE[::-1], SQUARE[:, ::-1]):
         texture.scene.nodes[0].mesh = tiles(picture)
         seen.append(any_path.render(scene, camera, (24, 24), format="rgba32f").color)
-        held = any_path.cubemap(ball.environment)
+        held = any_path.read_probe(ball.environment)
         assert_close(held.to_convention("inside")[5][..., :3], picture, "lookup")
     assert (seen[0] != seen[1]).any()
     assert (seen[1] != seen[2]).any()
@@ -432,11 +434,13 @@ def test_probes_and_mirrors_show_this_frames_texture(any_path):
 
 def test_a_textures_scene_may_hold_mirrors_with_probes(any_path, new_renderer):
     inner_scene = cc.Scene(background=(0.1, 0.2, 0.3))
-    box = inner_scene.add(cc.Mesh.box(0.5), cc.BasicMaterial((1, 0, 0)), position=(1.2, 0, 0.8))
+    box = inner_scene.add(
+        cc.Mesh.box(0.5), cc.BasicMaterial(color=(1, 0, 0)), position=(1.2, 0, 0.8)
+    )
     ball = inner_scene.add(cc.Mesh.sphere(0.6), cc.MirrorMaterial())
     ball.environment = cc.Probe(size=16, format="rgba32f")
     camera = cc.PerspectiveCamera(fov=50, position=(0, 0.5, 3), target=(0, 0, 0))
-    texture = cc.RenderTexture(inner_scene, camera, (16, 12), "rgba32f")
+    texture = cc.RenderTexture(inner_scene, camera, size=(16, 12), format="rgba32f")
     scene, _ = screen_scene(texture)
     for x in (1.2, 0.4, -1.0):
         box.position = (x, 0.2, 0.9)
@@ -444,7 +448,7 @@ def test_a_textures_scene_may_hold_mirrors_with_probes(any_path, new_renderer):
         stats = any_path.stats
         assert (stats.textures_updated, stats.probes_updated) == (1, 1)
         want = new_renderer().render(inner_scene, camera, (16, 12), format="rgba32f").color
-        assert_identical(any_path.texture(texture), want)
+        assert_identical(any_path.read_texture(texture), want)
         assert_close(color, want, "lookup")
 
 
@@ -469,15 +473,15 @@ def test_contents_live_in_the_renderer(new_renderer):
     scene, _ = screen_scene(texture)
     a, b = new_renderer(), new_renderer()
     look(a, scene)
-    held = a.texture(texture)
+    held = a.read_texture(texture)
     texture.scene.nodes[0].mesh = tiles(OTHER)
     look(b, scene)
-    assert_identical(a.texture(texture), held)
-    assert (b.texture(texture) != held).any()
+    assert_identical(a.read_texture(texture), held)
+    assert (b.read_texture(texture) != held).any()
     a.close()
     with pytest.raises(cc.ContextError, match="closed"):
-        a.texture(texture)
-    assert_close(b.texture(texture)[..., :3], OTHER, "float32_maths")
+        a.read_texture(texture)
+    assert_close(b.read_texture(texture)[..., :3], OTHER, "float32_maths")
     assert_close(look(b, scene)[..., :3], OTHER, "lookup")
 
 
@@ -485,13 +489,13 @@ def test_a_texture_that_was_never_drawn_is_refused(renderer):
     with pytest.raises(
         ValueError, match="render_texture: expected one that this renderer has drawn"
     ):
-        renderer.texture(flat_texture(PICTURE))
+        renderer.read_texture(flat_texture(PICTURE))
 
 
 @pytest.mark.parametrize("wrong", [None, "screen", cc.Probe])
 def test_what_is_no_render_texture(renderer, wrong):
     with pytest.raises(TypeError):
-        renderer.texture(wrong() if wrong is cc.Probe else wrong)
+        renderer.read_texture(wrong() if wrong is cc.Probe else wrong)
 
 
 def test_one_probe_in_two_scenes_of_a_call_is_true_to_each(renderer, new_renderer):
@@ -504,12 +508,12 @@ def test_one_probe_in_two_scenes_of_a_call_is_true_to_each(renderer, new_rendere
         return scene
 
     camera = cc.PerspectiveCamera(fov=30, position=(0, 0, 4), target=(0, 0, 0))
-    texture = cc.RenderTexture(hall((0, 1, 0)), camera, (8, 8), "rgba32f")
+    texture = cc.RenderTexture(hall((0, 1, 0)), camera, size=(8, 8), format="rgba32f")
     scene = hall((1, 0, 0))
     scene.add(quad(1, 1), cc.BasicMaterial(map=texture), position=(0.6, 0, 0))
     for _ in range(2):
         color = renderer.render(scene, camera, (24, 24), format="rgba32f").color
-        assert (renderer.texture(texture)[..., :3] == [0, 1, 0]).all()
+        assert (renderer.read_texture(texture)[..., :3] == [0, 1, 0]).all()
         assert (color[12, 8, :3] == [1, 0, 0]).all()
     assert renderer.stats.views_drawn == 0
     assert_identical(new_renderer().render(scene, camera, (24, 24), format="rgba32f").color, color)
@@ -521,12 +525,12 @@ def test_one_probe_in_two_scenes_of_a_call_is_true_to_each(renderer, new_rendere
 def monitor_room():
     """A room, and a monitor in it that shows the room without the monitor."""
     scene = cc.Scene(background=(0.1, 0.1, 0.3))
-    box = scene.add(cc.Mesh.box(0.6), cc.BasicMaterial((1, 0.2, 0)), position=(-0.8, 0, 0))
+    box = scene.add(cc.Mesh.box(0.6), cc.BasicMaterial(color=(1, 0.2, 0)), position=(-0.8, 0, 0))
     texture = cc.RenderTexture(
         scene,
         cc.PerspectiveCamera(fov=60, position=(0.5, 1, 3), target=(0, 0, 0)),
-        (16, 12),
-        "rgba32f",
+        size=(16, 12),
+        format="rgba32f",
         name="monitor",
     )
     screen = scene.add(quad(1.6, 1.2), cc.BasicMaterial(map=texture), position=(0, -0.3, 0.2))
@@ -543,7 +547,7 @@ def test_a_monitor_shows_its_room(any_path, new_renderer):
         screen.visible = False
         want = new_renderer().render(scene, texture.camera, (16, 12), format="rgba32f").color
         screen.visible = True
-        assert_identical(any_path.texture(texture), want)
+        assert_identical(any_path.read_texture(texture), want)
         assert_identical(
             color, new_renderer().render(scene, camera, (24, 18), format="rgba32f").color
         )
@@ -569,17 +573,17 @@ def test_probes_are_counted_once_a_call_however_often_their_scene_is_drawn(rende
     renderer.render(scene, camera, (24, 18))
     assert renderer.stats.probes_updated == 0
     box.material.color = (0, 1, 1)
-    renderer.update(scene, ball.environment)
+    renderer.update_probes(scene, probes=ball.environment)
     assert renderer.stats.probes_updated == 1
 
 
 def test_tonemapping_is_the_frames_alone(renderer):
     inner_scene = cc.Scene(background=(3, 3, 3))
-    texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), (4, 4), "rgba32f")
+    texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), size=(4, 4), format="rgba32f")
     scene, _ = screen_scene(texture)
     color = look(renderer, scene, 4, 4, tonemap="reinhard")
     np.testing.assert_allclose(color[..., :3], 0.75, atol=1e-4)
-    assert (renderer.texture(texture)[..., :3] == 3).all()
+    assert (renderer.read_texture(texture)[..., :3] == 3).all()
 
 
 # Every property, alone, on a live renderer.
@@ -610,7 +614,7 @@ def test_each_edit_equals_a_drawing_from_scratch(new_renderer, edit):
     assert (after != before).any() or edit is EDITS["samples"]
     scratch = new_renderer()
     assert_identical(after, look(scratch, scene))
-    assert_identical(live.texture(texture), scratch.texture(texture))
+    assert_identical(live.read_texture(texture), scratch.read_texture(texture))
 
 
 # Memory.
@@ -623,7 +627,9 @@ def test_contents_go_with_their_texture(new_renderer):
 
     def one(index):
         inner_scene = cc.Scene(background=(index, 0, 0))
-        texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), (512, 512), "rgba32f")
+        texture = cc.RenderTexture(
+            inner_scene, flat_camera(4, 4), size=(512, 512), format="rgba32f"
+        )
         look(renderer, screen_scene(texture)[0], 4, 4)
 
     for index in range(8):
@@ -662,6 +668,6 @@ def test_layered_equals_one_pass(shared_renderers):
     for layered in (None, False):
         with cc.Renderer(device=DEVICE, layered=layered) as renderer:
             cube = renderer.capture(scene, size=12)
-            got.append((cube.faces, renderer.texture(texture)))
+            got.append((cube.faces, renderer.read_texture(texture)))
     for a, b in zip(*got, strict=True):
         assert_identical(a, b)

@@ -129,10 +129,12 @@ LIGHTS = {
 
 def product_light(light):
     if isinstance(light, shading.Point):
-        return cc.PointLight(light.position, light.color, light.intensity, light.decay)
+        return cc.PointLight(
+            light.position, color=light.color, intensity=light.intensity, decay=light.decay
+        )
     if isinstance(light, shading.Directional):
-        return cc.DirectionalLight(light.travels, light.color, light.intensity)
-    return cc.AmbientLight(light.color, light.intensity)
+        return cc.DirectionalLight(light.travels, color=light.color, intensity=light.intensity)
+    return cc.AmbientLight(color=light.color, intensity=light.intensity)
 
 
 @pytest.mark.parametrize("lights", LIGHTS.values(), ids=LIGHTS)
@@ -185,7 +187,7 @@ def test_a_lambert_of_ones_own_from_sampled_lights(renderer):
 
 def test_schlick_and_ambient(renderer):
     assert_close(constant(renderer, "schlick(surface, 0.25)"), [0.25] * 3, "shaded")
-    assert constant(renderer, "ambient_light()").tolist() == [1, 1, 1]
+    assert constant(renderer, "ambient_light()").tolist() == [0, 0, 0]
     assert constant(renderer, "float(light_count())").tolist() == [0, 0, 0]
 
 
@@ -219,6 +221,22 @@ def test_the_vertex_stage_knows_the_eye_of_a_capture(any_path, eye):
     cube = any_path.capture(scene, position, 4, eye=eye)
     want = np.broadcast_to(np.array(position if eye is None else eye, np.float32), (6, 4, 4, 3))
     np.testing.assert_allclose(cube.faces[..., :3], want, atol=1e-5)
+
+
+def test_ambient_light_is_the_sum_of_the_scenes_ambient_lights(renderer):
+    def shown(expression):
+        scene = cc.Scene()
+        scene.add(cc.AmbientLight(color=(0.5, 0.25, 0), intensity=0.5))
+        scene.add(cc.AmbientLight(color=(0, 0.5, 1)))
+        source = f"vec3 shade(Surface surface) {{ return {expression}; }}"
+        scene.add(cc.Mesh.plane(8, 8), cc.ShaderMaterial(source), rotation=UPRIGHT)
+        camera = cc.OrthographicCamera(height=4, position=(0, 0, 3))
+        return renderer.render(scene, camera, (3, 3), format="rgba32f").color[1, 1, :3]
+
+    assert shown("ambient_light()").tolist() == [0.25, 0.625, 1]
+    # Phong's model has an ambient light of 1 of its own.
+    phong = shown("phong(surface, vec3(1.0, 0.5, 1.0), 0.5, 0.0, 0.0, 1.0)")
+    assert_close(phong, 0.5 * np.array([1, 0.5, 1]) * (1 + np.array([0.25, 0.625, 1])), "phong")
 
 
 def test_matrices_and_eye(renderer):
@@ -348,7 +366,7 @@ def test_vertices_move_and_hand_on_what_they_like(any_path):
         vertex.normal = vec3(-height, 1.0, 0.0);
     }"""
     fragment = "in vec3 v_from; vec3 shade(Surface s) { return v_from; }"
-    material = cc.ShaderMaterial(fragment, vertex, uniforms={"height": 0.5})
+    material = cc.ShaderMaterial(fragment, vertex=vertex, uniforms={"height": 0.5})
     scene = cc.Scene()
     scene.add(cc.Mesh.plane(2, 2), material, rotation=UPRIGHT)
     camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 3), target=(0, 0, 0))
@@ -373,7 +391,7 @@ PLAIN = "vec3 shade(Surface s) { return vec3(1.0); }"
 def test_what_moves_into_the_picture_is_seen(any_path, displacement):
     scene = cc.Scene()
     material = cc.ShaderMaterial(
-        PLAIN, MOVER, uniforms={"by": (0, 0, 0)}, displacement=displacement
+        PLAIN, vertex=MOVER, uniforms={"by": (0, 0, 0)}, displacement=displacement
     )
     scene.add(cc.Mesh.box(0.3), material, position=(-9, 0, -3))
     assert any_path.render(scene, FRONT, (9, 9)).color.max() == 0
@@ -385,7 +403,7 @@ def test_what_moves_into_the_picture_is_seen(any_path, displacement):
 
 def test_a_bound_culls(fresh_renderer):
     scene = cc.Scene()
-    material = cc.ShaderMaterial(PLAIN, MOVER, uniforms={"by": (0, 0, 0)}, displacement=0.1)
+    material = cc.ShaderMaterial(PLAIN, vertex=MOVER, uniforms={"by": (0, 0, 0)}, displacement=0.1)
     scene.add(cc.Mesh.box(0.3), material, position=(-9, 0, -3))
     fresh_renderer.render(scene, FRONT, (9, 9))
     assert fresh_renderer.stats.draw_calls == 0
@@ -397,7 +415,7 @@ def test_a_bound_culls(fresh_renderer):
 def test_moved_vertices_redraw_what_they_leave(new_renderer):
     scene = cc.Scene(background=(0.2, 0.2, 0.2))
     scene.add(cc.Mesh.box(0.2), cc.BasicMaterial(color=(0, 1, 0)), position=(0.4, 0.2, -3.5))
-    material = cc.ShaderMaterial(PLAIN, MOVER, uniforms={"by": (0, 0, 0)}, displacement=0.6)
+    material = cc.ShaderMaterial(PLAIN, vertex=MOVER, uniforms={"by": (0, 0, 0)}, displacement=0.6)
     scene.add(cc.Mesh.box(0.2), material, position=(-0.3, 0, -3))
     kept = new_renderer()
     for step in range(5):
@@ -524,7 +542,9 @@ def test_errors_of_the_vertex_source_name_it(renderer):
     with pytest.raises(cc.ShaderError) as error:
         flat(
             renderer,
-            cc.ShaderMaterial(PLAIN, "\nvoid vertex(inout Vertex v) { v.positions = vec3(0); }"),
+            cc.ShaderMaterial(
+                PLAIN, vertex="\nvoid vertex(inout Vertex v) { v.positions = vec3(0); }"
+            ),
         )
     assert "vertex:2(" in str(error.value)
 
@@ -671,7 +691,7 @@ def test_reload_reads_the_files_again(renderer, tmp_path):
     fragment, vertex = tmp_path / "paint.frag", tmp_path / "move.vert"
     fragment.write_text("vec3 shade(Surface s) { return vec3(1.0, 0.0, 0.0); }")
     vertex.write_text("void vertex(inout Vertex v) {}")
-    material = cc.ShaderMaterial(fragment, vertex)
+    material = cc.ShaderMaterial(fragment, vertex=vertex)
     assert flat(renderer, material)[0, 0].tolist() == [1, 0, 0, 1]
     assert material.reload() is False
     fragment.write_text("vec3 shade(Surface s) {\n  return vec3(0.0, 1.0, wrong);\n}")
@@ -708,7 +728,7 @@ def test_copies(copied, renderer, tmp_path):
     )
     material = cc.ShaderMaterial(
         path,
-        "void vertex(inout Vertex v) {}",
+        vertex="void vertex(inout Vertex v) {}",
         uniforms={"x": (1, 2, 3)},
         textures={"t": np.full((1, 1, 3), 0.5, np.float32)},
         displacement=0.5,

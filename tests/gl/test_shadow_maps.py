@@ -22,7 +22,7 @@ VIEW = perspective((-2.5, 1, 0.1), (-1, 0, 0), fov=25, size=(32, 24))
 def hovering(kind="directional", **options):
     """A floor, a box over it that the camera does not see, and a light from the upper right."""
     scene = cc.Scene()
-    shadow = cc.Shadow(128, **options)
+    shadow = cc.Shadow(size=128, **options)
     floor = scene.add(cc.Mesh.plane(8, 6), cc.PhongMaterial(ks=0), name="floor")
     box = scene.add(cc.Mesh.box(0.8), cc.PhongMaterial(), position=(0.2, 1.2, 0), name="box")
     light = {
@@ -119,7 +119,7 @@ def test_what_receives(renderer):
 def test_shadows_belong_to_the_scene_and_not_to_the_picture(renderer):
     """Left out of a capture, of all probes, or of its own probe: a node still casts there."""
     scene, _, box, light = hovering()
-    light.shadow = cc.Shadow(256)
+    light.shadow = cc.Shadow(size=256)
     where = {"position": (-1.7, 1.2, 0), "size": 32}
     whole = renderer.capture(scene, **where).faces[3]
     assert 0.1 < (whole[..., 0] < 0.21).mean() < 1
@@ -129,8 +129,8 @@ def test_shadows_belong_to_the_scene_and_not_to_the_picture(renderer):
     box.in_captures = True
     box.material = cc.MirrorMaterial()
     box.environment = probe = cc.Probe(position=(-1.7, 1.2, 0), size=32, format="rgba32f")
-    renderer.update(scene)
-    np.testing.assert_allclose(renderer.cubemap(probe).faces[3], whole, atol=1e-6)
+    renderer.update_probes(scene)
+    np.testing.assert_allclose(renderer.read_probe(probe).faces[3], whole, atol=1e-6)
 
 
 @kinds
@@ -160,7 +160,7 @@ def test_only_the_layers_that_see_a_change_are_drawn(renderer):
         scene.add(cc.Mesh.box(0.5), cc.PhongMaterial(), position=place)
         for place in ((3, 0, 0), (-3, 0, 0), (0, 3, 0), (0, 0, 3), (0, 0, -3))
     ]
-    scene.add(cc.PointLight(shadow=cc.Shadow(64)))
+    scene.add(cc.PointLight(shadow=cc.Shadow(size=64)))
     picture(renderer, scene)
     for box in boxes:
         box.position = np.array(box.position) * 1.1
@@ -179,23 +179,23 @@ def test_what_a_map_does_not_hang_on(renderer, kind):
         lambda: setattr(floor.material, "color", (1, 0, 0)),
         lambda: setattr(floor, "receive_shadow", True),
         lambda: setattr(scene, "background", (0.1, 0.2, 0.3)),
-        lambda: setattr(light, "shadow", cc.Shadow(128, bias=0.01)),
-        lambda: setattr(light, "shadow", cc.Shadow(128, bias=0.01)),
+        lambda: setattr(light, "shadow", cc.Shadow(size=128, bias=0.01)),
+        lambda: setattr(light, "shadow", cc.Shadow(size=128, bias=0.01)),
         lambda: scene.add(cc.Mesh.box(1), cc.BasicMaterial(), position=(9, 0, 0), visible=False),
     ):
         change()
         picture(renderer, scene, perspective((1, 4, 1), (0, 0, 0)))
         renderer.capture(scene, position=(-1, 0.5, 0), size=8)
         assert renderer.stats.shadow_views_drawn == 0
-    light.shadow = cc.Shadow(64)
+    light.shadow = cc.Shadow(size=64)
     picture(renderer, scene)
     assert renderer.stats.shadow_views_drawn == LAYERS[kind]
 
 
 CHANGES = {
-    "size": lambda light, box: setattr(light, "shadow", cc.Shadow(64)),
-    "radius": lambda light, box: setattr(light, "shadow", cc.Shadow(128, radius=3)),
-    "bias": lambda light, box: setattr(light, "shadow", cc.Shadow(128, bias=1.8)),
+    "size": lambda light, box: setattr(light, "shadow", cc.Shadow(size=64)),
+    "radius": lambda light, box: setattr(light, "shadow", cc.Shadow(size=128, radius=3)),
+    "bias": lambda light, box: setattr(light, "shadow", cc.Shadow(size=128, bias=1.8)),
     "none": lambda light, box: setattr(light, "shadow", None),
     "mesh": lambda light, box: setattr(box, "mesh", cc.Mesh.sphere(0.4)),
     "turn": lambda light, box: setattr(box, "rotation", cc.axis_angle((0, 1, 0), 45)),
@@ -322,7 +322,7 @@ def test_a_directional_lights_map(renderer):
     world.plane(6, 4, material=solid, position=(0.5, 0, 0.25))
     world.box((1, 1, 0.5), material=solid, position=(1, 2, 0))
     world.box((0.5, 0.5, 0.5), material=solid, position=(-1, 1, 1))
-    light = world.scene.add(cc.DirectionalLight((0, -1, 0), shadow=cc.Shadow(size, extent=5)))
+    light = world.scene.add(cc.DirectionalLight((0, -1, 0), shadow=cc.Shadow(size=size, extent=5)))
     got = renderer.shadow_map(world.scene, light)
     assert got.shape == (1, size, size)
     edge = np.ones((size, size), bool)
@@ -346,7 +346,7 @@ def test_a_directional_map_holds_all_casters(renderer):
     """Whatever their place and size, and wherever the camera looks; one flat caster included."""
     for direction in ((-1, -2, 0.5), (0, 1, 0), (1, 0, 0), (0.3, -0.1, 5)):
         scene = cc.Scene()
-        light = scene.add(cc.DirectionalLight(direction, shadow=cc.Shadow(64)))
+        light = scene.add(cc.DirectionalLight(direction, shadow=cc.Shadow(size=64)))
         for place, size in (((5, 1, -3), 1), ((-40, 2, 7), 3)):
             scene.add(cc.Mesh.box(size), position=place, rotation=cc.axis_angle((1, 2, 3), 50))
         depth = renderer.shadow_map(scene, light)
@@ -387,13 +387,42 @@ def test_shadow_map_refuses_what_has_none(renderer):
         renderer.shadow_map(scene, scene.nodes[0])
 
 
+def test_a_map_shows_casters_where_a_render_texture_moves_them(renderer):
+    """The texture is brought up to date first, also when the map alone is read."""
+    moved = """uniform sampler2D t;
+    void vertex(inout Vertex v) { v.position.x += textureLod(t, vec2(0.5), 0.0).r; }"""
+    red = cc.Scene(background=(0.25, 0, 0, 1))
+    texture = cc.RenderTexture(red, cc.PerspectiveCamera(), size=(4, 4), format="rgba32f")
+    material = cc.ShaderMaterial(
+        "vec3 shade(Surface s) { return vec3(1); }", moved, textures={"t": texture}
+    )
+    lamp = cc.PointLight((0, 3, 0), shadow=cc.Shadow(size=32))
+    scene = cc.Scene()
+    scene.add(lamp)
+    scene.add(cc.Mesh.box(0.8), material)
+    for x, drawn in ((0.25, 1), (0.25, 0), (-0.5, 1)):
+        red.background = (x, 0, 0, 1)
+        got = renderer.shadow_map(scene, lamp)
+        assert (renderer.stats.textures_updated, renderer.stats.shadow_views_drawn > 0) == (
+            drawn,
+            drawn == 1,
+        )
+        plain = cc.Scene()
+        plain.add(lamp)
+        plain.add(cc.Mesh.box(0.8), position=(x, 0, 0))
+        want = renderer.shadow_map(plain, lamp)
+        assert np.isfinite(want).any()
+        assert_close(1 / got, 1 / want, "float32_maths")
+        renderer.shadow_map(scene, lamp)
+
+
 # Limits.
 
 
 def test_a_size_beyond_the_driver_is_refused(renderer):
     scene, _, _, light = hovering()
     largest = renderer.info.limits.max_texture_size
-    light.shadow = cc.Shadow(largest + 1)
+    light.shadow = cc.Shadow(size=largest + 1)
     for call in (
         lambda: picture(renderer, scene),
         lambda: renderer.capture(scene, size=8),
@@ -401,7 +430,7 @@ def test_a_size_beyond_the_driver_is_refused(renderer):
     ):
         with pytest.raises(ValueError, match=f"at most {largest} texels .GL_MAX_TEXTURE_SIZE"):
             call()
-    light.shadow = cc.Shadow(128)
+    light.shadow = cc.Shadow(size=128)
     assert dark(renderer, scene) > 0.1
 
 
@@ -409,16 +438,16 @@ def test_sixteen_lights_have_shadows_and_a_seventeenth_is_refused(renderer):
     scene, _, _, light = hovering()
     for index in range(15):
         scene.add(
-            cc.PointLight((2, 3, index - 7), intensity=0, shadow=cc.Shadow(16, radius=0))
+            cc.PointLight((2, 3, index - 7), intensity=0, shadow=cc.Shadow(size=16, radius=0))
             if index % 2
-            else cc.DirectionalLight((-1, -1, index), intensity=0, shadow=cc.Shadow(16))
+            else cc.DirectionalLight((-1, -1, index), intensity=0, shadow=cc.Shadow(size=16))
         )
     assert dark(renderer, scene) > 0.1
     light.intensity = 0
     last = scene.lights[-1]
     last.intensity = 1
     last.direction = (-1, -1, 0)
-    last.shadow = cc.Shadow(256)
+    last.shadow = cc.Shadow(size=256)
     assert dark(renderer, scene) > 0.03
     scene.add(cc.SpotLight(shadow=True))
     with pytest.raises(
@@ -430,7 +459,11 @@ def test_sixteen_lights_have_shadows_and_a_seventeenth_is_refused(renderer):
 @kinds
 def test_the_smallest_map_and_the_widest_filter(renderer, kind):
     scene, _, _, light = hovering(kind)
-    for shadow in (cc.Shadow(8, radius=0), cc.Shadow(72, radius=16), cc.Shadow(33, radius=0.3)):
+    for shadow in (
+        cc.Shadow(size=8, radius=0),
+        cc.Shadow(size=72, radius=16),
+        cc.Shadow(size=33, radius=0.3),
+    ):
         light.shadow = shadow
         color = picture(renderer, scene)[..., 0]
         assert np.isfinite(color).all()
@@ -442,14 +475,14 @@ def test_lights_in_odd_places(renderer):
     """On a surface, in a corner of a mesh, far away, on the camera: finite, and no crash."""
     scene, _, _, _ = hovering()
     for light in (
-        cc.PointLight((0, 0, 0), shadow=cc.Shadow(32)),
-        cc.PointLight((0.6, 1.6, 0.4), shadow=cc.Shadow(32, near=1e-6)),
-        cc.PointLight((1e7, 1e7, 0), shadow=cc.Shadow(32)),
-        cc.PointLight((-2.5, 1, 0.1), shadow=cc.Shadow(32, near=1e-30, far=1e30)),
-        cc.SpotLight((0, 0.01, 0), (1, 0, 0), angle=89.99, shadow=cc.Shadow(32)),
-        cc.SpotLight((0, 3, 0), (1e-30, -1e-30, 0), angle=1e-3, shadow=cc.Shadow(32)),
-        cc.DirectionalLight((1, 0, 0), shadow=cc.Shadow(32, extent=1e-20)),
-        cc.DirectionalLight((0, 1, 0), shadow=cc.Shadow(32, extent=1e20)),
+        cc.PointLight((0, 0, 0), shadow=cc.Shadow(size=32)),
+        cc.PointLight((0.6, 1.6, 0.4), shadow=cc.Shadow(size=32, near=1e-6)),
+        cc.PointLight((1e7, 1e7, 0), shadow=cc.Shadow(size=32)),
+        cc.PointLight((-2.5, 1, 0.1), shadow=cc.Shadow(size=32, near=1e-30, far=1e30)),
+        cc.SpotLight((0, 0.01, 0), (1, 0, 0), angle=89.99, shadow=cc.Shadow(size=32)),
+        cc.SpotLight((0, 3, 0), (1e-30, -1e-30, 0), angle=1e-3, shadow=cc.Shadow(size=32)),
+        cc.DirectionalLight((1, 0, 0), shadow=cc.Shadow(size=32, extent=1e-20)),
+        cc.DirectionalLight((0, 1, 0), shadow=cc.Shadow(size=32, extent=1e20)),
     ):
         scene.add(light)
         assert np.isfinite(picture(renderer, scene)).all()
@@ -464,7 +497,7 @@ def test_maps_go_with_their_lights(renderer):
 
     def come_and_go(count):
         for index in range(count):
-            light = scene.add(cc.PointLight((2, 3, index / 100), shadow=cc.Shadow(512)))
+            light = scene.add(cc.PointLight((2, 3, index / 100), shadow=cc.Shadow(size=512)))
             picture(renderer, scene)
             scene.remove(light)
         del light

@@ -75,7 +75,7 @@ def test_in_a_probe_and_in_the_mirror_that_shows_it(renderer):
     mirror.environment = probe = cc.Probe(position=position, size=48, format="rgba32f")
     view = perspective((0.2, 3, 0.2), position, size=(64, 48), fov=30)
     got = picture(renderer, world.scene, view)
-    cube = renderer.cubemap(probe)
+    cube = renderer.read_probe(probe)
     seen = with_shapes(
         capture_hits(world, position, 48, shapes=world.without(mirror)), world.shapes
     )
@@ -156,7 +156,7 @@ def test_a_plane_does_not_shadow_itself(renderer, kind, size, radius):
     tilt = np.asarray(floor.world_matrix)[:3, :3]
     view = perspective((2, 4, 6), (0, 0, 0), size=(48, 36))
     for height in HEIGHTS:
-        light = scene.add(sun_at(height, kind, cc.Shadow(size, radius)))
+        light = scene.add(sun_at(height, kind, cc.Shadow(size=size, radius=radius)))
         name = "direction" if kind == "directional" else "position"
         setattr(light, name, tilt @ getattr(light, name))
         if kind == "spot":
@@ -184,7 +184,7 @@ def test_a_ball_has_no_stripes(renderer, kind, mesh, size):
     scene.add(
         mesh(), cc.PhongMaterial(), scale=(1, 1.3, 0.8), rotation=cc.axis_angle((1, 2, 3), 40)
     )
-    light = scene.add(sun_at(20, kind, cc.Shadow(size)))
+    light = scene.add(sun_at(20, kind, cc.Shadow(size=size)))
     view = perspective((-3, 1, 1), (0, 0, 0), size=(96, 72), fov=45)
     got = picture(renderer, scene, view)
     light.shadow = None
@@ -199,7 +199,7 @@ def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
     scene = cc.Scene()
     scene.add(card, cc.PhongMaterial())
     way = np.array([0.3, 2, -0.6])
-    shadow = cc.Shadow(256)
+    shadow = cc.Shadow(size=256)
     light = scene.add(
         {
             "directional": cc.DirectionalLight(-way, shadow=shadow),
@@ -239,7 +239,7 @@ def test_contact(renderer, kind, size, thing):
             cc.Mesh.box((width, 1, 2)), cc.PhongMaterial(**matte), position=(-width / 2, 0.5, 0)
         )
     way = np.array([-3, 3, 0.4])
-    shadow = cc.Shadow(size)
+    shadow = cc.Shadow(size=size)
     light, texel = {
         "directional": (cc.DirectionalLight(-way, shadow=shadow), 7 / size),
         "spot": (cc.SpotLight(way, -way, angle=40, shadow=shadow), 2 * 0.84 * 4.3 / (size - 6)),
@@ -281,7 +281,7 @@ def cage(shared_renderers):
             axis=(1, 2, index),
             degrees=40 * index,
         )
-    lamp = Lamp(cc.PointLight(PLACE, shadow=cc.Shadow(512)), shading.Point(PLACE), 2 / 506)
+    lamp = Lamp(cc.PointLight(PLACE, shadow=cc.Shadow(size=512)), shading.Point(PLACE), 2 / 506)
     world.scene.add(lamp.ours)
     eye = (0.3, -0.1, 0.2)
     cube = shared_renderers(None).capture(world.scene, position=eye, size=96)
@@ -337,7 +337,7 @@ def profile(renderer, shadow, kind="directional"):
 
 @pytest.mark.parametrize("kind", ["directional", "point"])
 def test_the_filter_widens_the_edge_and_keeps_its_place(renderer, kind):
-    shares = [profile(renderer, cc.Shadow(128, radius), kind) for radius in (0, 1, 3)]
+    shares = [profile(renderer, cc.Shadow(size=128, radius=radius), kind) for radius in (0, 1, 3)]
     widths = [((share > 0.02) & (share < 0.98)).sum(axis=1).mean() for share in shares]
     assert widths[0] < 0.6 * widths[1] < 0.5 * widths[2]
     for share in shares:
@@ -352,7 +352,7 @@ def test_the_filter_widens_the_edge_and_keeps_its_place(renderer, kind):
 
 def test_shares_are_continuous(renderer):
     """No step from pixel to pixel larger than the ramp's slope allows, in a picture of a few texels."""
-    share = profile(renderer, cc.Shadow(32, 1))
+    share = profile(renderer, cc.Shadow(size=32, radius=1))
     # 120 pixels over 2 units, texels of about 0.2: twelve pixels a texel, and a ramp of three texels.
     assert np.abs(np.diff(share, axis=1)).max() < 2.5 / 36
     assert np.abs(np.diff(share, axis=0)).max() < 2.5 / 36
@@ -372,11 +372,11 @@ def test_bias_hides_what_is_near(renderer):
         light.shadow = shadow
         return (np.abs(picture(renderer, scene, view) - plain) > 0.05).mean()
 
-    assert shadowed(cc.Shadow(256)) > 0.03
-    assert shadowed(cc.Shadow(256, bias=0.4)) > 0.03
-    assert shadowed(cc.Shadow(256, bias=0.5)) == 0
+    assert shadowed(cc.Shadow(size=256)) > 0.03
+    assert shadowed(cc.Shadow(size=256, bias=0.4)) > 0.03
+    assert shadowed(cc.Shadow(size=256, bias=0.5)) == 0
     card.position = (0, 0.5, 0)
-    assert shadowed(cc.Shadow(256, bias=0.5)) > 0.03
+    assert shadowed(cc.Shadow(size=256, bias=0.5)) > 0.03
 
 
 def test_extent_is_what_a_directional_map_covers(renderer):
@@ -384,7 +384,7 @@ def test_extent_is_what_a_directional_map_covers(renderer):
     scene = cc.Scene()
     floor = scene.add(cc.Mesh.plane(40, 40), cc.PhongMaterial())
     boxes = [scene.add(cc.Mesh.box(0.5), cc.PhongMaterial(), position=(x, 0.5, 0)) for x in (0, 6)]
-    light = scene.add(cc.DirectionalLight((-1, -1, 0), shadow=cc.Shadow(256, extent=4)))
+    light = scene.add(cc.DirectionalLight((-1, -1, 0), shadow=cc.Shadow(size=256, extent=4)))
     views = [
         perspective((box.position[0] - 1, 2, 0.1), (box.position[0] - 0.6, 0, 0), size=(32, 24))
         for box in boxes
@@ -394,9 +394,9 @@ def test_extent_is_what_a_directional_map_covers(renderer):
     plain = [picture(renderer, scene, view) for view in views]
     assert (np.abs(small[0] - plain[0]) > 0.05).mean() > 0.05
     np.testing.assert_allclose(small[1], plain[1], atol=1e-5)
-    light.shadow = cc.Shadow(256, extent=4)
+    light.shadow = cc.Shadow(size=256, extent=4)
     floor.cast_shadow = False  # now the casters' middle is between the boxes
-    light.shadow = cc.Shadow(256)
+    light.shadow = cc.Shadow(size=256)
     assert (np.abs(picture(renderer, scene, views[1]) - plain[1]) > 0.05).mean() > 0.05
 
 
@@ -412,7 +412,7 @@ def test_near_and_far_cut_off_what_casts(renderer, kind):
     plain = picture(renderer, scene, view)
 
     def shadowed(**options):
-        light.shadow = cc.Shadow(256, **options)
+        light.shadow = cc.Shadow(size=256, **options)
         return (np.abs(picture(renderer, scene, view) - plain) > 0.05).any()
 
     assert shadowed()

@@ -58,7 +58,10 @@ def test_a_frame(renderer, options):
 def test_beside_other_lights_in_a_capture(any_path, count):
     """The others know no cone; six lights come from their block."""
     world = room()
-    ours = [cc.SpotLight(PLACE, WAY, 35, 0.6, (1, 0.5, 0.2), 0.8), cc.PointLight((2, 3, -1))]
+    ours = [
+        cc.SpotLight(PLACE, WAY, angle=35, penumbra=0.6, color=(1, 0.5, 0.2), intensity=0.8),
+        cc.PointLight((2, 3, -1)),
+    ]
     theirs = [shading.Spot(PLACE, WAY, 35, 0.6, (1, 0.5, 0.2), 0.8), shading.Point((2, 3, -1))]
     for x in range(count - 2):
         ours += [cc.DirectionalLight((x, -1, 1), intensity=0.1)]

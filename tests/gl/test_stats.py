@@ -269,3 +269,18 @@ def test_culling_leaves_nothing_out(renderer, scale):
     hits = capture_hits(None, size=16, shapes=[shape])
     cube = renderer.capture(scene, size=16, outputs=("id",))
     assert (cube.id != hits.id).mean() < 0.01
+
+
+def test_pictures_that_do_not_fit_the_cache_are_counted(new_renderer):
+    """A face of 16 x 16 texels takes 20 bytes a texel: rgba32f and a depth of 32 bits."""
+    needed = 6 * 16 * 16 * 20
+    scene = cc.Scene(background=(1, 0, 0))
+    for cache_bytes, not_kept, skipped in ((needed, 0, 6), (needed - 1, 1, 0), (0, 1, 0)):
+        renderer = new_renderer(cache_bytes=cache_bytes)
+        for _ in range(2):
+            renderer.capture(scene, size=16)
+            assert renderer.stats.pictures_not_kept == not_kept, cache_bytes
+        assert renderer.stats.views_skipped == skipped, cache_bytes
+        renderer.render(scene, cc.PerspectiveCamera(), (4, 4))
+        assert renderer.stats.pictures_not_kept == (cache_bytes == 0)
+        assert "pictures_not_kept=" in repr(renderer.stats)

@@ -32,7 +32,7 @@ def card(scene, rect, z, color, stencil, order, **more):
     x0, y0, x1, y1 = rect
     return scene.add(
         cc.Mesh.plane(x1 - x0, y1 - y0),
-        cc.BasicMaterial(color, stencil=stencil, **more),
+        cc.BasicMaterial(color=color, stencil=stencil, **more),
         position=((x0 + x1) / 2, (y0 + y1) / 2, z),
         rotation=UPRIGHT,
         render_order=order,
@@ -87,7 +87,14 @@ def test_every_comparison(renderer, func, read_mask):
             cc.Stencil(reference=value, depth_pass="replace"),
             index,
         )
-    card(scene, (0, 0, *SIZE), 1, (1, 1, 1), cc.Stencil(func, 2, read_mask), 9)
+    card(
+        scene,
+        (0, 0, *SIZE),
+        1,
+        (1, 1, 1),
+        cc.Stencil(func=func, reference=2, read_mask=read_mask),
+        9,
+    )
     frame = renderer.render(scene, screen(), SIZE, depth_format="depth24_stencil8")
     want = Stencil(func, 2, read_mask).test(np.array(values))
     np.testing.assert_array_equal(frame.color[5, 2::4, 0] == 255, want)
@@ -122,14 +129,14 @@ def disc_and_plane(func, depth_first=-1):
         cc.Mesh.icosphere(0.8, subdivisions=3),
         (0.2, 1, 0.3),
         material=cc.BasicMaterial(
-            (0.2, 1, 0.3), stencil=cc.Stencil(reference=5, depth_pass="replace")
+            color=(0.2, 1, 0.3), stencil=cc.Stencil(reference=5, depth_pass="replace")
         ),
         position=(0.3, -0.2, -1),
     ).render_order = depth_first
     world.box(
         (2.4, 2, 0.2),
         (1, 0.2, 0.1),
-        material=cc.BasicMaterial((1, 0.2, 0.1), stencil=cc.Stencil(func, 5)),
+        material=cc.BasicMaterial(color=(1, 0.2, 0.1), stencil=cc.Stencil(func=func, reference=5)),
         position=(-0.3, 0.1, 0.6),
         degrees=20,
     )
@@ -180,7 +187,7 @@ def test_a_window_leaves_nothing_of_itself(any_path, samples):
         stencil=cc.Stencil(reference=5, depth_pass="replace"),
     )
     world.mesh(cc.Mesh.icosphere(0.8, subdivisions=3), material=hole, position=(-0.4, -0.2, 1.2))
-    seen = cc.BasicMaterial((1, 0.2, 0.1), stencil=cc.Stencil("equal", 5))
+    seen = cc.BasicMaterial(color=(1, 0.2, 0.1), stencil=cc.Stencil(func="equal", reference=5))
     world.box((2.4, 2, 0.2), (1, 0.2, 0.1), material=seen, position=(0.3, 0.1, 0), degrees=20)
     world.scene.nodes[0].render_order = -1
     frame = any_path.render(
@@ -271,10 +278,10 @@ def test_a_changed_stencil_is_drawn_and_an_equal_one_is_not(renderer, fresh_rend
         return r.render(world.scene, view.camera, view.size, depth_format="depth24_stencil8").color
 
     before = draw(renderer)
-    wall.stencil = cc.Stencil("equal", 5)
+    wall.stencil = cc.Stencil(func="equal", reference=5)
     draw(renderer)
     assert renderer.stats.views_drawn == 0
-    wall.stencil = cc.Stencil("notequal", 5)
+    wall.stencil = cc.Stencil(func="notequal", reference=5)
     after = draw(renderer)
     assert renderer.stats.views_drawn == 1
     assert (before != after).any()
@@ -290,15 +297,15 @@ def test_a_probe_with_a_stencil(renderer):
         position=(0.3, 0.2, 4), size=24, format="rgba32f", depth_format="depth24_stencil8"
     )
     ball.environment = probe
-    renderer.update(world.scene)
+    renderer.update_probes(world.scene)
     options = {"position": (0.3, 0.2, 4), "size": 24, "exclude": [ball]}
     masked = renderer.capture(world.scene, depth_format="depth24_stencil8", **options).faces
     plain = renderer.capture(world.scene, **options).faces
-    assert_identical(renderer.cubemap(probe).faces, masked)
+    assert_identical(renderer.read_probe(probe).faces, masked)
     assert (masked != plain).any()
     probe.depth_format = "depth_component32f"
-    renderer.update(world.scene)
-    assert_identical(renderer.cubemap(probe).faces, plain)
+    renderer.update_probes(world.scene)
+    assert_identical(renderer.read_probe(probe).faces, plain)
 
 
 # The value object, and the property.
@@ -311,12 +318,12 @@ def test_defaults_repr_and_equality():
     for field in dataclasses.fields(Stencil):
         assert getattr(stencil, field.name) == field.default
     assert repr(stencil) == "Stencil()"
-    assert repr(cc.Stencil("equal", 3, write_mask=0)) == (
+    assert repr(cc.Stencil(func="equal", reference=3, write_mask=0)) == (
         "Stencil(func='equal', reference=3, write_mask=0)"
     )
-    same = cc.Stencil("less", reference=7, depth_pass="incr")
-    assert same == cc.Stencil("less", 7, depth_pass="incr")
-    assert hash(same) == hash(cc.Stencil("less", 7, depth_pass="incr"))
+    same = cc.Stencil(func="less", reference=7, depth_pass="incr")
+    assert same == cc.Stencil(func="less", reference=7, depth_pass="incr")
+    assert hash(same) == hash(cc.Stencil(func="less", reference=7, depth_pass="incr"))
     for field in dataclasses.fields(Stencil):
         other = {"func": "equal"}.get(field.name, 9 if field.type is int else "zero")
         assert cc.Stencil(**{field.name: other}) != stencil, field.name
@@ -331,7 +338,15 @@ def test_it_never_changes():
 
 @copies
 def test_copies(make_copy):
-    stencil = cc.Stencil("gequal", 200, 15, 240, "zero", "decr_wrap", "invert")
+    stencil = cc.Stencil(
+        func="gequal",
+        reference=200,
+        read_mask=15,
+        write_mask=240,
+        fail="zero",
+        depth_fail="decr_wrap",
+        depth_pass="invert",
+    )
     assert make_copy(stencil) == stencil
     scene = cc.Scene()
     scene.add(cc.Mesh.box(), cc.GlassMaterial(stencil=stencil))

@@ -26,9 +26,9 @@ OPTIONS = {
     "sixteen bits": {"depth_format": "depth_component16"},
 }
 PAIRS = {
-    "off axis": lambda camera: cc.StereoCamera.off_axis(camera, 0.3, 4.0),
-    "parallel": lambda camera: cc.StereoCamera.off_axis(camera, 0.3),
-    "toe in": lambda camera: cc.StereoCamera.toe_in(camera, 6),
+    "off axis": lambda camera: cc.StereoCamera.off_axis(camera, separation=0.3, convergence=4.0),
+    "parallel": lambda camera: cc.StereoCamera.off_axis(camera, separation=0.3),
+    "toe in": lambda camera: cc.StereoCamera.toe_in(camera, degrees=6),
     "of two kinds": lambda camera: cc.StereoCamera(
         camera, cc.OrthographicCamera(height=5, position=(3, 1, -2), target=(0, 0, 0))
     ),
@@ -74,7 +74,7 @@ def test_an_anaglyph_is_both_eyes_own_frames(any_path, scene, make, options):
 @pytest.mark.parametrize("layout", ["side_by_side", "top_bottom"])
 def test_halves_are_both_eyes_own_frames(any_path, scene, layout, options):
     """Outputs alike."""
-    eyes = cc.StereoCamera.off_axis(lens(), 0.3, 4.0, layout)
+    eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0, layout=layout)
     options = {
         "outputs": (*OUTPUTS, "depth", "stencil"), "depth_format": "depth24_stencil8", **options
     }  # fmt: skip
@@ -103,7 +103,7 @@ vec4 effect(vec2 uv) {
 @pytest.mark.parametrize("count", [1, 3])
 def test_effects_run_over_each_eye(any_path, scene, options, count):
     """Which know of their neighbours, and must not see the other eye's."""
-    eyes = cc.StereoCamera.off_axis(lens(), 0.3, 4.0)
+    eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0)
     effects = [cc.ImageEffect(EFFECT) for _ in range(count)]
     left, right = (
         any_path.render(scene, camera, SIZE, effects=effects, **options).color
@@ -155,7 +155,7 @@ def counts(renderer):
 
 def test_only_the_eye_that_changed_is_drawn(any_path):
     scene = room().scene
-    eyes = cc.StereoCamera.off_axis(lens(), 0.3, 4.0)
+    eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0)
     any_path.render(scene, eyes, SIZE)
     assert counts(any_path) == (2, 0)
     any_path.render(scene, eyes, SIZE)
@@ -179,7 +179,8 @@ def test_a_thing_that_one_eye_sees(renderer):
     """Eyes that look away from each other: each has its own nodes in its key."""
     scene = cc.Scene()
     nodes = [
-        scene.add(cc.Mesh.box(1), cc.BasicMaterial((1, 0, 0)), position=(x, 0, 0)) for x in (-9, 9)
+        scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=(1, 0, 0)), position=(x, 0, 0))
+        for x in (-9, 9)
     ]
     eyes = cc.StereoCamera(
         *[cc.PerspectiveCamera(fov=40, position=(0, 0, 0.1), target=(x, 0, 0)) for x in (-9, 9)]
@@ -195,7 +196,7 @@ def test_a_thing_that_one_eye_sees(renderer):
 @layouts
 def test_layered_equals_one_pass(new_renderer, layout):
     scene = everything()
-    eyes = cc.StereoCamera.off_axis(lens(), 0.3, 4.0, layout)
+    eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0, layout=layout)
     a, b = (
         new_renderer(layered=layered).render(scene, eyes, whole(layout)).color
         for layered in (True, False)
@@ -265,7 +266,7 @@ def test_parallax_is_that_of_sheared_frusta(make, aspect, rng):
     z = z / scale
     f = np.asarray(camera.projection(aspect))[0, 0]
     for where in (convergence, None):
-        eyes = cc.StereoCamera.off_axis(camera, separation, where)
+        eyes = cc.StereoCamera.off_axis(camera, separation=separation, convergence=where)
         left, right = (ndc(eye, points, aspect) for eye in (eyes.left, eyes.right))
         want = separation * ((0 if where is None else 1 / where) - 1 / z) * f
         np.testing.assert_allclose(right[:, 0] - left[:, 0], want, atol=1e-9)
@@ -284,7 +285,7 @@ def test_eyes_stand_beside_the_camera(make):
     world = np.linalg.inv(np.asarray(camera.view))
     right = ref.normalised(world[:3, 0])
     for convergence in (None, 2.0):
-        eyes = cc.StereoCamera.off_axis(camera, 0.5, convergence)
+        eyes = cc.StereoCamera.off_axis(camera, separation=0.5, convergence=convergence)
         for eye, side in ((eyes.left, -0.25), (eyes.right, 0.25)):
             place = np.linalg.inv(np.asarray(eye.view))
             np.testing.assert_allclose(place[:3, 3], world[:3, 3] + side * right, atol=1e-12)
@@ -293,8 +294,8 @@ def test_eyes_stand_beside_the_camera(make):
 
 def test_the_camera_given_is_left_alone():
     camera = lens()
-    cc.StereoCamera.off_axis(camera, 0.3, 4.0)
-    cc.StereoCamera.toe_in(camera, 30)
+    cc.StereoCamera.off_axis(camera, separation=0.3, convergence=4.0)
+    cc.StereoCamera.toe_in(camera, degrees=30)
     np.testing.assert_array_equal(camera.position, LENS["position"])
     np.testing.assert_array_equal(camera.shift, 0)
 
@@ -302,13 +303,13 @@ def test_the_camera_given_is_left_alone():
 def test_orthographic_eyes():
     """Parallel rays: the eyes' pictures differ by one step, and no distance is special."""
     camera = cc.OrthographicCamera(height=4, position=(0, 0, 5), target=(0, 0, 0))
-    eyes = cc.StereoCamera.off_axis(camera, 0.5)
+    eyes = cc.StereoCamera.off_axis(camera, separation=0.5)
     np.testing.assert_allclose(eyes.left.position, (-0.25, 0, 5), atol=1e-12)
     np.testing.assert_allclose(eyes.right.target, (0.25, 0, 0), atol=1e-12)
     parallel = cc.Camera(view=np.eye(4), projection=camera.projection())
     for kind in (camera, parallel):
         with pytest.raises(ValueError, match="convergence"):
-            cc.StereoCamera.off_axis(kind, 0.5, 3.0)
+            cc.StereoCamera.off_axis(kind, separation=0.5, convergence=3.0)
 
 
 @pytest.mark.parametrize(
@@ -322,7 +323,7 @@ def test_toe_in_turns_the_view_about_the_target(make, degrees):
     camera = make()
     view, target = np.asarray(camera.view), np.asarray(camera.target)
     up = view[1, :3]
-    eyes = cc.StereoCamera.toe_in(camera, degrees)
+    eyes = cc.StereoCamera.toe_in(camera, degrees=degrees)
     for eye, sign in ((eyes.left, -1), (eyes.right, 1)):
         turn = ref.rotation(ref.axis_angle(up, sign * degrees / 2))
         about = ref.translation(target) @ turn @ ref.translation(-target)
@@ -339,7 +340,9 @@ def test_parallax_in_pixels(renderer):
     for z in (2.0, 4.0, 8.0):
         scene = cc.Scene()
         scene.add(cc.Mesh.box((0.05 * z, 9, 0.001)), cc.BasicMaterial(), position=(0, 0, -z))
-        eyes = cc.StereoCamera.off_axis(camera, 0.4, 4.0, "side_by_side")
+        eyes = cc.StereoCamera.off_axis(
+            camera, separation=0.4, convergence=4.0, layout="side_by_side"
+        )
         color = renderer.render(scene, eyes, (400, 100)).color[50, :, 0]
         left, right = (np.flatnonzero(part).mean() for part in np.split(color, 2))
         f = 1 / np.tan(np.radians(30)) / 2  # of aspect 2
@@ -384,7 +387,7 @@ def test_properties():
 
 @copies
 def test_copies(make_copy):
-    eyes = cc.StereoCamera.off_axis(lens(), 0.3, 4.0, "side_by_side")
+    eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0, layout="side_by_side")
     other = make_copy(eyes)
     assert other.layout == "side_by_side"
     for name in ("left", "right"):
@@ -399,28 +402,42 @@ def test_copies(make_copy):
 
 
 BAD = {
-    "separation": (lambda: cc.StereoCamera.off_axis(lens(), -0.1), ValueError, "separation.*-0.1"),
-    "separation nan": (lambda: cc.StereoCamera.off_axis(lens(), np.nan), ValueError, "separation"),
-    "convergence 0": (lambda: cc.StereoCamera.off_axis(lens(), 1, 0), ValueError, "convergence"),
-    "convergence inf": (
-        lambda: cc.StereoCamera.off_axis(lens(), 1, np.inf),
+    "separation": (
+        lambda: cc.StereoCamera.off_axis(lens(), separation=-0.1),
+        ValueError,
+        "separation.*-0.1",
+    ),
+    "separation nan": (
+        lambda: cc.StereoCamera.off_axis(lens(), separation=np.nan),
+        ValueError,
+        "separation",
+    ),
+    "convergence 0": (
+        lambda: cc.StereoCamera.off_axis(lens(), separation=1, convergence=0),
         ValueError,
         "convergence",
     ),
-    "degrees": (lambda: cc.StereoCamera.toe_in(lens(), 180), ValueError, "degrees.*180"),
-    "degrees negative": (lambda: cc.StereoCamera.toe_in(lens(), -1), ValueError, "degrees"),
+    "convergence inf": (
+        lambda: cc.StereoCamera.off_axis(lens(), separation=1, convergence=np.inf),
+        ValueError,
+        "convergence",
+    ),
+    "degrees": (lambda: cc.StereoCamera.toe_in(lens(), degrees=180), ValueError, "degrees.*180"),
+    "degrees negative": (lambda: cc.StereoCamera.toe_in(lens(), degrees=-1), ValueError, "degrees"),
     "no target": (
         lambda: cc.StereoCamera.toe_in(cc.PerspectiveCamera()),
         ValueError,
         "target.*none",
     ),
     "matrices": (
-        lambda: cc.StereoCamera.toe_in(cc.Camera(np.eye(4), np.diag([1, 1, -1, 1]))),
+        lambda: cc.StereoCamera.toe_in(
+            cc.Camera(view=np.eye(4), projection=np.diag([1, 1, -1, 1]))
+        ),
         ValueError,
         "target.*matrices",
     ),
     "layout": (
-        lambda: cc.StereoCamera(lens(), lens(), "red"),
+        lambda: cc.StereoCamera(lens(), lens(), layout="red"),
         ValueError,
         "layout.*anaglyph.*'red'",
     ),
@@ -483,6 +500,6 @@ def test_probes_serve_both_eyes(fresh_renderer):
     scene = room().scene
     ball = scene.add(cc.Mesh.sphere(0.4), cc.MirrorMaterial(), position=(0, 0.2, 0))
     ball.environment = cc.Probe(position=(0, 0.2, 0), size=8)
-    fresh_renderer.render(scene, cc.StereoCamera.off_axis(lens(), 0.3), SIZE)
+    fresh_renderer.render(scene, cc.StereoCamera.off_axis(lens(), separation=0.3), SIZE)
     assert fresh_renderer.stats.probes_updated == 1
     assert fresh_renderer.stats.views_drawn == 8

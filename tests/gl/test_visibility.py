@@ -56,7 +56,7 @@ def test_visible_false_hides_the_subtree_everywhere(any_path, tree, name, left):
 
 
 @cases
-def test_in_probes_false_hides_the_subtree_in_captures_only(any_path, tree, name, left):
+def test_in_captures_false_hides_the_subtree_in_captures_only(any_path, tree, name, left):
     scene, nodes = tree
     if name:
         nodes[name].in_captures = False

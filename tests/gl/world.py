@@ -209,7 +209,7 @@ def everything():
     picture = np.random.default_rng(0).integers(0, 256, (8, 8, 4), dtype=np.uint8)
     materials = [
         cc.PhongMaterial(color=(1, 0.5, 0.2)),
-        cc.MirrorMaterial(env_weight=0.8, fresnel=0.1),
+        cc.MirrorMaterial(env_weight=0.8, f0=0.1),
         cc.GlassMaterial(),
         cc.BasicMaterial(color=(0.2, 1, 0.5, 0.4)),
         cc.PhongMaterial(map=picture, double_sided=True),

@@ -30,7 +30,7 @@ def draw_materials(renderer):
         cc.BasicMaterial(color=(0.9, 0.3, 0.1)),
         cc.PhongMaterial(color=(0.2, 0.5, 0.9)),
         cc.MirrorMaterial(tint=(1, 0.9, 0.7)),
-        cc.GlassMaterial(),
+        cc.GlassMaterial(ior=1.52),
     ]
     for index, material in enumerate(materials):
         scene.add(
@@ -63,7 +63,7 @@ def draw_capture(renderer):
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(bunny(), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(0, 0, -2))
     cube = renderer.capture(scene, size=32, format="rgba8", samples=4)
-    return cube.to_layout("cross", "inside")
+    return cube.to_layout("cross", convention="inside")
 
 
 def draw_translucent(renderer):

@@ -36,7 +36,7 @@ def discs_at(points, frame):
 def test_the_texture_is_painted_in_order(any_path, frame):
     program = example.build()
     example.draw(program, any_path, frame, SIZE)
-    got = any_path.texture(program.texture)
+    got = any_path.read_texture(program.texture)
     assert got.shape == (512, 512, 4)
     centers = (np.arange(512) + 0.5) / 256 - 1
     points = np.stack(np.meshgrid(centers, -centers), axis=-1)

@@ -36,7 +36,7 @@ def test_capture_and_mirror(renderer, frame, reflector):
     # 90 degrees, near 1, far 100, from the origin, without what mirrors it.
     seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
     sky = looked_up(images, texel_directions(FACE))
-    held = renderer.cubemap(program.probe).faces
+    held = renderer.read_probe(program.probe).faces
     assert len(np.unique(seen.id)) >= 5
     want = lit(seen, colors, np.zeros(3), sky, ka=0.4)
     assert_close(held[..., :3], want, "phong", mask=interior(seen.id, seen.part))
@@ -63,7 +63,7 @@ def test_the_cubes_move_and_the_probe_follows(renderer):
     held = []
     for frame in (0, 10, 0):
         example.draw(program, renderer, frame, size=(16, 16))
-        held.append(renderer.cubemap(program.probe).faces)
+        held.append(renderer.read_probe(program.probe).faces)
     assert (held[0] != held[1]).any()
     np.testing.assert_array_equal(held[0], held[2])
 

@@ -51,7 +51,7 @@ def drawn(shared_renderers):
     }
     shapes, colors = hall(program)
     seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
-    return program, pictures, renderer.cubemap(program.probe).faces, shapes, colors, seen
+    return program, pictures, renderer.read_probe(program.probe).faces, shapes, colors, seen
 
 
 @pytest.mark.slow

@@ -26,7 +26,7 @@ SIZE, FACE = (72, 72), 40
 def test_frames(renderer, frame):
     program = example.build(probe_size=FACE, probe_format="rgba32f")
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
-    held = renderer.cubemap(program.probe).faces
+    held = renderer.read_probe(program.probe).faces
     shapes, colors = stage(program, frame)
     seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
     assert set(np.unique(seen.id)) == {0, *colors}
@@ -51,7 +51,7 @@ def test_numbers_of_the_document():
     material = program.ball.material
     assert (material.env_weight, material.color_weight) == (0.78, 0.3)
     np.testing.assert_allclose(material.color[:3], GOLD)
-    assert material.fresnel is None
+    assert material.f0 is None
 
 
 def test_one_round(renderer):

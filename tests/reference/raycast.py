@@ -233,11 +233,26 @@ def cast(shapes, origins, directions, near=0.0, far=np.inf):
     return best
 
 
-def cast_cube(shapes, position, size, near=0.05, far=1000.0):
+def cast_farthest(shapes, origins, directions, near=0.0, far=np.inf):
+    """The last hit of each ray: hit after hit is passed until nothing is left."""
+    last = cast(shapes, origins, directions, near, far)
+    passed = last
+    while passed.hit.any():
+        beyond = np.where(passed.hit, passed.t * (1 + 1e-9) + 1e-9, np.inf)
+        passed = cast(shapes, origins, directions, beyond, far)
+        for name, values in vars(passed).items():
+            kept = getattr(last, name)
+            more = passed.hit.reshape(passed.hit.shape + (1,) * (kept.ndim - passed.hit.ndim))
+            setattr(last, name, np.where(more, values, kept))
+    return last
+
+
+def cast_cube(shapes, position, size, near=0.05, far=1000.0, farthest=False):
     """Hits of (6, size, size) rays through the texel centres of a capture."""
     from .cube_faces import texel_directions
 
-    return cast(shapes, np.asarray(position, float), texel_directions(size), near, far)
+    caster = cast_farthest if farthest else cast
+    return caster(shapes, np.asarray(position, float), texel_directions(size), near, far)
 
 
 def cast_frame(shapes, view, projection, size, near, far):

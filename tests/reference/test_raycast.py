@@ -2,7 +2,17 @@ import numpy as np
 import pytest
 
 from .cube_faces import texel_directions
-from .raycast import Box, Quad, Sphere, Triangles, cast, cast_cube, cast_frame, interior
+from .raycast import (
+    Box,
+    Quad,
+    Sphere,
+    Triangles,
+    cast,
+    cast_cube,
+    cast_farthest,
+    cast_frame,
+    interior,
+)
 from .transforms import (
     apply,
     axis_angle,
@@ -139,3 +149,16 @@ def test_cube_rays_are_the_texel_directions():
     sphere = Sphere(1, radius=2, double_sided=True)
     hits = cast_cube([sphere], (0, 0, 0), 6)
     np.testing.assert_allclose(hits.position, 2 * normalised(texel_directions(6)))
+
+
+def test_the_farthest_hit_is_the_last_of_all():
+    shapes = [
+        Sphere(1, np.eye(4), radius=1.0, double_sided=True),
+        Sphere(2, translation((0, 0, -4)), radius=0.5),
+    ]
+    origins = np.array([(0.0, 0, 3), (0.0, 0.9, 3), (0.0, 5, 3)])
+    hits = cast_farthest(shapes, origins, np.array([0.0, 0, -1]) + np.zeros((3, 3)), 0.1, 100)
+    assert hits.id.tolist() == [2, 1, 0]
+    # The front of the second sphere, the back of the first, nothing.
+    np.testing.assert_allclose(hits.t, [6.5, 3 + np.sqrt(1 - 0.81), np.inf])
+    np.testing.assert_allclose(hits.normal[0], [0, 0, 1])

@@ -36,6 +36,9 @@ PYTHON_ORDER = (
     "pictures",
     "navigation",
     "_shader_inputs",
+    "_pickling",
+    "_old_names",
+    "_arguments",
     "_attach",
     "cubecam",  # the package itself: __init__.py
     "examples",
@@ -43,7 +46,7 @@ PYTHON_ORDER = (
     "cli",
     "__main__",
 )
-PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}}
+PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}, "_pickling": {"_core"}}
 
 
 def allowed(part, order, knows):

@@ -41,7 +41,7 @@ def test_a_conversion_is_the_callers_own_array():
 @channel_counts
 def test_layouts_agree_with_the_oracle(layout, convention, channels):
     pattern = face_pattern(8, channels)
-    picture = cc.CubeMap(pattern).to_layout(layout, convention)
+    picture = cc.CubeMap(pattern).to_layout(layout, convention=convention)
     assert_identical(picture, to_layout(pattern, layout, convention))
 
 
@@ -57,7 +57,10 @@ def test_layouts_are_read_back_exactly(layout, convention, named):
 
 def test_horizontal_cross_is_another_name_of_cross():
     cube = cc.CubeMap(face_pattern(4))
-    assert_identical(cube.to_layout("horizontal_cross", "gl"), cube.to_layout("cross", "gl"))
+    assert_identical(
+        cube.to_layout("horizontal_cross", convention="gl"),
+        cube.to_layout("cross", convention="gl"),
+    )
 
 
 def test_default_convention_is_gl():
@@ -100,7 +103,7 @@ def test_unknown_conventions_are_refused(bad):
 
 def test_unknown_layouts_are_refused_naming_those_there_are():
     with pytest.raises(ValueError, match=r"cross.*spiral|spiral.*cross"):
-        cc.CubeMap(face_pattern(4)).to_layout("spiral", "gl")
+        cc.CubeMap(face_pattern(4)).to_layout("spiral", convention="gl")
 
 
 @pytest.mark.parametrize(

@@ -29,14 +29,44 @@ def test_mirror_defaults():
     material = cc.MirrorMaterial()
     np.testing.assert_array_equal(material.tint[:3], [1, 1, 1])
     np.testing.assert_array_equal(material.color[:3], [0, 0, 0])
-    assert (material.env_weight, material.color_weight, material.fresnel) == (1, 0, None)
+    assert (material.env_weight, material.color_weight, material.f0) == (1, 0, None)
 
 
 def test_glass_defaults():
     material = cc.GlassMaterial()
-    assert material.eta == pytest.approx(1 / 1.52)
+    assert material.ior == 1.5
     assert material.fresnel is True
     np.testing.assert_array_equal(material.tint[:3], [1, 1, 1])
+
+
+@pytest.mark.parametrize(
+    ("kind", "value"),
+    [
+        (cc.BasicMaterial, (1, 0, 0)),
+        (cc.PhongMaterial, (1, 0, 0)),
+        (cc.MirrorMaterial, (1, 0, 0)),
+        (cc.GlassMaterial, 1.5),
+    ],
+)
+def test_parameters_go_by_name(kind, value):
+    with pytest.raises(TypeError):
+        kind(value)
+
+
+def test_of_a_shader_material_only_the_fragment_goes_by_position():
+    source = "vec3 shade(Surface s) { return s.normal; }"
+    assert cc.ShaderMaterial(source).fragment == source
+    with pytest.raises(TypeError):
+        cc.ShaderMaterial(source, "void vertex(inout Vertex v) {}")
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "value"), [(cc.GlassMaterial, "eta", 0.5), (cc.MirrorMaterial, "fresnel", 0.5)]
+)
+def test_old_names_are_gone(kind, name, value):
+    assert name not in dir(kind)
+    with pytest.raises(TypeError):
+        kind(**{name: value})
 
 
 def test_fourth_number_of_a_color():
@@ -94,13 +124,15 @@ BAD = {
     "color of 2": (cc.BasicMaterial, {"color": (1, 1)}, ValueError, "color"),
     "color of 5": (cc.PhongMaterial, {"color": (1, 1, 1, 1, 1)}, ValueError, "color"),
     "color nan": (cc.PhongMaterial, {"color": (1, np.nan, 1)}, ValueError, "color"),
-    "color text": (cc.PhongMaterial, {"color": "red"}, TypeError, "color"),
+    "color text": (cc.PhongMaterial, {"color": "rde"}, ValueError, "did you mean 'red'"),
     "color bool": (cc.PhongMaterial, {"color": (True, False, False)}, TypeError, "color"),
     "shininess": (cc.PhongMaterial, {"shininess": -1}, ValueError, "shininess"),
     "ka inf": (cc.PhongMaterial, {"ka": np.inf}, ValueError, "ka"),
-    "fresnel": (cc.MirrorMaterial, {"fresnel": 1.5}, ValueError, "fresnel"),
+    "f0": (cc.MirrorMaterial, {"f0": 1.5}, ValueError, "f0"),
     "env_weight nan": (cc.MirrorMaterial, {"env_weight": np.nan}, ValueError, "env_weight"),
-    "eta": (cc.GlassMaterial, {"eta": 0}, ValueError, "eta"),
+    "ior": (cc.GlassMaterial, {"ior": 0}, ValueError, "ior"),
+    "ior too small": (cc.GlassMaterial, {"ior": 1e-40}, ValueError, "ior"),
+    "ior nan": (cc.GlassMaterial, {"ior": np.nan}, ValueError, "ior"),
     "tint": (cc.GlassMaterial, {"tint": (np.inf, 1, 1)}, ValueError, "tint"),
     "map": (cc.BasicMaterial, {"map": "brick.png"}, TypeError, "map"),
     "light nan": (cc.PointLight, {"position": (np.nan, 0, 0)}, ValueError, "position"),

@@ -1,5 +1,7 @@
 """Primitives are closed, face outward, carry uvs; smooth normals; files."""
 
+import threading
+
 import numpy as np
 import pytest
 
@@ -476,3 +478,20 @@ def test_one_normal_of_many_is_made_unit_length(rng, place):
     mesh = cc.Mesh(rng.normal(size=(5000, 3)), [[0, 1, 2]], normals=normals)
     normals[place] = (0, 0.8, 0.6)
     np.testing.assert_allclose(mesh.normals, normals, atol=1e-7)
+
+
+def test_updates_of_two_threads_are_both_kept(rng):
+    mesh = cc.Mesh(rng.random((20_000, 3)), [[0, 1, 2]], normals=np.ones((20_000, 3)))
+    for turn in range(20):
+        positions = np.full((20_000, 3), turn + 1.0)
+        colors = np.full((20_000, 3), turn + 1.0)
+        threads = [
+            threading.Thread(target=mesh.update, kwargs={"positions": positions}),
+            threading.Thread(target=mesh.update, kwargs={"colors": colors}),
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert mesh.positions[0, 0] == turn + 1
+        assert mesh.colors[0, 0] == turn + 1

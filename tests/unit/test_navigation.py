@@ -145,7 +145,7 @@ def test_strafe(make, distance):
 @pytest.mark.parametrize("rise", [0, 15, -40])
 def test_orbit(make, turn, rise):
     camera = make()
-    camera.orbit(turn, rise)
+    camera.orbit(yaw=turn, pitch=rise)
     outward = about(UP, -turn) @ np.subtract(EYE, TARGET)
     # Seen from the target, right is the other way round.
     outward = about(np.cross(outward, UP), rise) @ outward
@@ -166,7 +166,7 @@ def test_orbit_turns_the_scene_with_the_drag():
 @pytest.mark.parametrize("sign", [1, -1])
 def test_orbit_stops_before_the_poles(sign):
     camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
-    camera.orbit(0, sign * 500)
+    camera.orbit(yaw=0, pitch=sign * 500)
     close(
         camera.position, (0, sign * 4 * math.sin(math.radians(89)), 4 * math.cos(math.radians(89)))
     )
@@ -202,7 +202,7 @@ def test_without_a_target(make):
     with pytest.raises(
         ValueError, match="target: expected a camera with a target to orbit, got None"
     ):
-        camera.orbit(10)
+        camera.orbit(yaw=10)
 
 
 def test_the_document_s_drags_and_keys():
@@ -243,8 +243,9 @@ def test_the_document_s_drags_and_keys():
 def test_functions_are_methods_and_give_nothing(verb):
     argument = (1, 2, 3) if verb == "look" else 2
     one, other = (cc.PerspectiveCamera(position=EYE, target=TARGET) for _ in range(2))
-    assert getattr(navigation, verb)(one, argument) is None
-    assert getattr(other, verb)(argument) is None
+    given = ((), {"yaw": argument}) if verb == "orbit" else ((argument,), {})
+    assert getattr(navigation, verb)(one, *given[0], **given[1]) is None
+    assert getattr(other, verb)(*given[0], **given[1]) is None
     np.testing.assert_array_equal(one.view, other.view)
     assert not hasattr(cc, verb)
 
@@ -253,7 +254,8 @@ def test_functions_are_methods_and_give_nothing(verb):
 def test_nothing_for_nothing(verb):
     """0 leaves every bit as it is, so that nothing is drawn again."""
     camera = CAMERAS["perspective"]()
-    getattr(camera, verb)(0)
+    given = ((), {"yaw": 0, "pitch": 0}) if verb == "orbit" else ((0,), {})
+    getattr(camera, verb)(*given[0], **given[1])
     np.testing.assert_array_equal(camera.position, EYE)
     np.testing.assert_array_equal(camera.target, TARGET)
 
@@ -271,9 +273,9 @@ BAD = {
     "inf": (lambda c: c.pitch(-np.inf), ValueError, "degrees: expected a finite number, got -inf"),
     "text": (lambda c: c.walk("far"), TypeError, "distance: expected a number, got str"),
     "bool": (lambda c: c.strafe(True), TypeError, "distance: expected a number, got bool"),
-    "None": (lambda c: c.orbit(None), TypeError, "yaw: expected a number, got NoneType"),
+    "None": (lambda c: c.orbit(yaw=None), TypeError, "yaw: expected a number, got NoneType"),
     "second": (
-        lambda c: c.orbit(1, np.nan),
+        lambda c: c.orbit(yaw=1, pitch=np.nan),
         ValueError,
         "pitch: expected a finite number, got nan",
     ),
@@ -301,7 +303,7 @@ BAD = {
     ),
     "beyond": (lambda c: c.walk(1e17), ValueError, "a target away from the position"),
     "matrices": (
-        lambda c: navigation.yaw(cc.Camera(np.eye(4), np.eye(4)), 1),
+        lambda c: navigation.yaw(cc.Camera(view=np.eye(4), projection=np.eye(4)), 1),
         TypeError,
         "camera: expected a PerspectiveCamera or an OrthographicCamera, got Camera",
     ),

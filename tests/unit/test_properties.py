@@ -26,7 +26,7 @@ def cube_of(size, count, dtype, seed=0):
 @given(sizes, channels, dtypes, conventions, st.sampled_from(LAYOUTS))
 def test_every_layout_comes_back(size, count, dtype, convention, layout):
     cube = cube_of(size, count, dtype)
-    picture = cube.to_layout(layout, convention)
+    picture = cube.to_layout(layout, convention=convention)
     assert cc.CubeMap.from_layout(picture, layout=layout, convention=convention) == cube
 
 

@@ -34,7 +34,15 @@ def test_everything_can_be_given_in_order_and_set():
     scene = cc.Scene()
     node = scene.add()
     made = cc.RenderTexture(
-        scene, camera(), (16, 8), "rgba16f", 4, True, "repeat", [node], "screen"
+        scene,
+        camera(),
+        size=(16, 8),
+        format="rgba16f",
+        samples=4,
+        mipmaps=True,
+        wrap="repeat",
+        exclude=[node],
+        name="screen",
     )
     assert made.size == (16, 8)
     assert (made.format, made.samples, made.mipmaps, made.wrap) == ("rgba16f", 4, True, "repeat")
@@ -84,7 +92,7 @@ BAD = {
     "scene text": ("scene", "room", TypeError, "scene: expected a Scene, got str"),
     "camera None": ("camera", None, TypeError, "camera: expected a Camera"),
     "camera a probe": ("camera", cc.Probe(), TypeError, "camera: expected a Camera, got Probe"),
-    "name": ("name", 3, TypeError, "name: str"),
+    "name": ("name", 3, TypeError, "name: expected str, got 3"),
 }
 
 

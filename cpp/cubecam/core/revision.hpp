@@ -28,7 +28,12 @@ inline std::uint64_t newest_revision() {
 class Revision {
 public:
     std::uint64_t value() const { return value_.load(std::memory_order_acquire); }
-    void set(std::uint64_t value) { value_.store(value, std::memory_order_release); }
+    void set(std::uint64_t value) {
+        value_.store(value, std::memory_order_release);
+        // A snapshot that was found true after the new revision was drawn and before it was stored
+        // here must not look newest afterwards.
+        next_revision();
+    }
 
 private:
     std::atomic<std::uint64_t> value_{0};

@@ -30,6 +30,12 @@ template <int Channels, typename Pixel>
 Lane<Channels> load_texel(const Pixel* from) {
     if constexpr (Channels == 1) {
         return to_float(from[0]);
+    } else if constexpr (std::is_same_v<Pixel, std::uint8_t>) {
+        // One division of four numbers; each is rounded as unorm8_to_float does.
+        const float alpha = Channels == 4 ? static_cast<float>(from[Channels - 1]) : 0.0f;
+        return Float4{static_cast<float>(from[0]), static_cast<float>(from[1]),
+                      static_cast<float>(from[2]), alpha} /
+               255.0f;
     } else if constexpr (Channels == 3) {
         return Float4{to_float(from[0]), to_float(from[1]), to_float(from[2]), 0.0f};
     } else if constexpr (std::is_same_v<Pixel, float>) {

@@ -16,22 +16,15 @@ namespace cubecam {
 
 namespace {
 
-void check_length(const char* name, std::size_t expected, std::size_t got) {
-    if (expected == got) return;
-    throw std::invalid_argument(std::string(name) + ": expected " + std::to_string(expected) +
-                                " values, got " + std::to_string(got));
-}
-
-void check_outputs(const CapturedOutputs& outputs, int size) {
+void check_outputs(const OutputList& outputs, int size) {
     const std::size_t texels =
         face_count * static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    if (outputs.distance) check_length("distance", texels, outputs.distance->size());
-    if (outputs.z) check_length("z", texels, outputs.z->size());
-    if (outputs.normal) check_length("normal", 3 * texels, outputs.normal->size());
-    if (outputs.position) check_length("position", 3 * texels, outputs.position->size());
-    if (outputs.id) check_length("id", texels, outputs.id->size());
-    if (outputs.depth) check_length("depth", texels, outputs.depth->size());
-    if (outputs.stencil) check_length("stencil", texels, outputs.stencil->size());
+    for (const OutputValues& output : outputs) {
+        const std::size_t expected = texels * output.texel_size();
+        if (output.values->size() == expected) continue;
+        throw std::invalid_argument(output.name + ": expected " + std::to_string(expected) +
+                                    " bytes, got " + std::to_string(output.values->size()));
+    }
 }
 
 std::array<std::uint64_t, face_count> new_face_revisions() {
@@ -98,8 +91,8 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
 
 }  // namespace
 
-CubeMap::CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool mipmaps,
-                 CapturedOutputs outputs)
+CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels,
+                 bool mipmaps, OutputList outputs)
     : outputs_(std::move(outputs)) {
     if (size < 1) {
         throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
@@ -110,15 +103,15 @@ CubeMap::CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool m
     }
     CubeMapData data{size,           channels, dtype, mipmaps, nullptr, new_face_revisions(),
                      next_revision()};
-    if (pixels.size() != face_count * data.face_bytes()) {
+    if (pixels->size() != face_count * data.face_bytes()) {
         throw std::invalid_argument(
             "pixels: expected " + std::to_string(face_count * data.face_bytes()) + " bytes (6 x " +
             std::to_string(size) + " x " + std::to_string(size) + " x " + std::to_string(channels) +
-            " " + dtype_name(dtype) + "), got " + std::to_string(pixels.size()));
+            " " + dtype_name(dtype) + "), got " + std::to_string(pixels->size()));
     }
     check_outputs(outputs_, size);
-    // Not make_shared<const ...>: set_face may write to it when nobody else holds it.
-    data.pixels = std::make_shared<PixelBuffer>(std::move(pixels));
+    // Not memory of const: set_face may write to it when nobody else holds it.
+    data.pixels = std::move(pixels);
     set_data(std::move(data));
 }
 
@@ -140,17 +133,6 @@ CubeMap::CubeMap(const CubeMap& other) {
 std::shared_ptr<const CubeMapData> CubeMap::data() const {
     const std::lock_guard lock(mutex_);
     return data_;
-}
-
-CapturedOutputs CubeMap::outputs() const {
-    const std::lock_guard lock(mutex_);
-    return outputs_;
-}
-
-void CubeMap::set_outputs(CapturedOutputs outputs) {
-    const std::lock_guard lock(mutex_);
-    check_outputs(outputs, data_->size);
-    outputs_ = std::move(outputs);
 }
 
 void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
@@ -211,14 +193,14 @@ bool CubeMap::same_contents(const CubeMap& other) const {
     if (this == &other) return true;
     const auto a = data();
     const auto b = other.data();
-    const CapturedOutputs p = outputs();
-    const CapturedOutputs q = other.outputs();
+    const auto same_output = [](const OutputValues& p, const OutputValues& q) {
+        return p.name == q.name && p.channels == q.channels && p.type == q.type &&
+               same_values<std::byte>(p.values, q.values);
+    };
     return a->size == b->size && a->channels == b->channels && a->dtype == b->dtype &&
            a->mipmaps == b->mipmaps && same_values<std::byte>(a->pixels, b->pixels) &&
-           same_values(p.distance, q.distance) && same_values(p.z, q.z) &&
-           same_values(p.normal, q.normal) && same_values(p.position, q.position) &&
-           same_values(p.id, q.id) && same_values(p.depth, q.depth) &&
-           same_values(p.stencil, q.stencil);
+           std::equal(outputs_.begin(), outputs_.end(), other.outputs_.begin(),
+                      other.outputs_.end(), same_output);
 }
 
 CubeMap::MipChain make_mip_chain(const CubeMapData& data) {

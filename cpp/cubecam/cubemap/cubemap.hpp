@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/core/revision.hpp"
+#include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/cube_face.hpp"
 
@@ -9,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cubecam {
@@ -32,19 +34,6 @@ struct CubeMapData {
     }
 };
 
-/// What a capture may hold beside colour; null where it was not asked for. Distances in world
-/// units.
-struct CapturedOutputs {
-    std::shared_ptr<const Buffer<float>>
-        distance;                                 ///< [6][N][N] length of the ray, +inf: background
-    std::shared_ptr<const Buffer<float>> z;       ///< [6][N][N] along the face's axis, +inf
-    std::shared_ptr<const Buffer<float>> normal;  ///< [6][N][N][3] world, towards the viewer; 0
-    std::shared_ptr<const Buffer<float>> position;        ///< [6][N][N][3] world; NaN
-    std::shared_ptr<const Buffer<std::int32_t>> id;       ///< [6][N][N] node ids; 0
-    std::shared_ptr<const Buffer<float>> depth;           ///< [6][N][N] window-space z, 0..1; 1
-    std::shared_ptr<const Buffer<std::uint8_t>> stencil;  ///< [6][N][N]; 0
-};
-
 /// Six faces that surround a point: a handle, safe to share between threads, on one CubeMapData
 /// after another. It knows no GL: the renderer keys its copy on this object and `face_revisions`.
 class CubeMap {
@@ -53,7 +42,12 @@ public:
     /// @throws std::invalid_argument unless size >= 1, channels is 1, 3 or 4 and the lengths of
     ///         `pixels` and of each output match.
     CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool mipmaps = false,
-            CapturedOutputs outputs = {});
+            OutputList outputs = {})
+        : CubeMap(size, channels, dtype, std::make_shared<PixelBuffer>(std::move(pixels)), mipmaps,
+                  std::move(outputs)) {}
+    /// The same of memory that came with an owner of its own.
+    CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels, bool mipmaps,
+            OutputList outputs);
 
     /// A second, independent cubemap with the same contents, under revisions of its own. Pixels are
     /// shared until one of the two changes.
@@ -65,9 +59,8 @@ public:
     /// That of the state, which can be read without waiting for anyone.
     const Revision& revision() const { return revision_; }
 
-    CapturedOutputs outputs() const;
-    /// For the bindings' unpickling. @throws as the constructor does.
-    void set_outputs(CapturedOutputs outputs);
+    /// What a capture holds besides colour, [6][N][N][channels]. Set once, by the constructor.
+    const OutputList& outputs() const { return outputs_; }
 
     /// Replaces one face ("gl" layout, this cube's size, channels and dtype). Only this face's
     /// revision changes, and none at all when the pixels are the same.
@@ -100,7 +93,7 @@ private:
     mutable std::mutex mutex_;
     std::shared_ptr<const CubeMapData> data_;
     Revision revision_;  ///< of data_
-    CapturedOutputs outputs_;
+    OutputList outputs_;
     mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_, made on first use
 };
 

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace cubecam {
 
@@ -20,10 +21,10 @@ constexpr double pi = std::numbers::pi;
 constexpr int tile_size = 64;  ///< whose sources fit a core's own cache
 constexpr std::size_t largest_block = std::size_t{1} << 20;  ///< texels: 16 MiB a thread
 
-/// A panorama of floats, its columns a ring, its rows going on over the poles.
-template <int Channels>
+/// A panorama, its columns a ring, its rows going on over the poles.
+template <typename Pixel, int Channels>
 struct EquirectTexels {
-    const float* pixels;
+    const Pixel* pixels;
     int width;
     int height;
     Center center;
@@ -43,7 +44,7 @@ struct EquirectTexels {
     }
 
     /// Beyond a pole the rows come back on the far side, half a turn away.
-    const float* row_texels(int& row, int& column) const {
+    const Pixel* row_texels(int& row, int& column) const {
         const int last = height - 1;
         const int mirror = offset < 0 ? 1 : 0;  // centres: row -1 is row 0 there; borders: row 1
         if (row < 0 || row > last) {
@@ -56,14 +57,14 @@ struct EquirectTexels {
 
     void read(int row, int begin, int end, Lane<Channels>* to) const {
         int column = begin;
-        const float* line = row_texels(row, column);
+        const Pixel* line = row_texels(row, column);
         for (int left = end - begin; left > 0;) {
             const int start = wrap(column);
             const int run = std::min(left, period - start);
-            const float* from = line + static_cast<std::ptrdiff_t>(start) * Channels;
+            const Pixel* from = line + static_cast<std::ptrdiff_t>(start) * Channels;
             if (row + 2 < height) {
                 prefetch(from + std::ptrdiff_t{2} * width * Channels,
-                         static_cast<std::size_t>(run) * Channels * sizeof(float));
+                         static_cast<std::size_t>(run) * Channels * sizeof(Pixel));
             }
             for (int i = 1; i < run; ++i, from += Channels) {
                 *to++ = load_texel_before_another<Channels>(from);
@@ -74,18 +75,24 @@ struct EquirectTexels {
         }
     }
 
-    /// Where texels begin..end lie one after another with another one behind, else null.
-    const float* in_place(int row, int begin, int end) const {
-        int column = begin;
-        const float* line = row_texels(row, column);
-        column = wrap(column);
-        if (column + (end - begin) >= period) return nullptr;
-        const float* from = line + static_cast<std::ptrdiff_t>(column) * Channels;
-        if (row + 2 < height) {
-            prefetch(from + std::ptrdiff_t{2} * width * Channels,
-                     static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+    /// Where texels begin..end lie one after another, as floats, with another one behind, else
+    /// null.
+    const float* in_place([[maybe_unused]] int row, [[maybe_unused]] int begin,
+                          [[maybe_unused]] int end) const {
+        if constexpr (std::is_same_v<Pixel, float>) {
+            int column = begin;
+            const float* line = row_texels(row, column);
+            column = wrap(column);
+            if (column + (end - begin) >= period) return nullptr;
+            const float* from = line + static_cast<std::ptrdiff_t>(column) * Channels;
+            if (row + 2 < height) {
+                prefetch(from + std::ptrdiff_t{2} * width * Channels,
+                         static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+            }
+            return from;
+        } else {
+            return nullptr;
         }
-        return from;
     }
 
     /// The average over a box of any size, without a copy.
@@ -93,7 +100,7 @@ struct EquirectTexels {
         return apply_tap<Reach::far>(down, [&](int i) {
             int row = down.first + i;
             int column = across.first;
-            const float* line = row_texels(row, column);
+            const Pixel* line = row_texels(row, column);
             return apply_tap<Reach::far>(across, [&](int j) {
                 return load_texel<Channels>(line + static_cast<std::ptrdiff_t>(wrap(column + j)) *
                                                        Channels);
@@ -102,10 +109,11 @@ struct EquirectTexels {
     }
 };
 
-template <int Channels>
+template <typename Pixel, int Channels>
 class EquirectToCube {
 public:
-    EquirectToCube(const EquirectTexels<Channels>& source, int size, float* to)
+    EquirectToCube(const EquirectTexels<Pixel, Channels>& source, int size,
+                   const TexelTarget<Channels>& to)
         : source_(source), size_(size), texel_(2.0 / size), to_(to) {
         const glm::dvec3 forward = center_forward<double>(source.center);
         center_azimuth_ = std::atan2(forward.x, forward.z);
@@ -154,11 +162,11 @@ private:
     /// Of a texel's center: -1 to 1 across the face.
     double coordinate(int index) const { return (index + 0.5) * texel_ - 1; }
 
-    float* target(Face face, int row, int column) const {
+    /// Of a texel in the six faces.
+    std::size_t index_of(Face face, int row, int column) const {
         const auto n = static_cast<std::size_t>(size_);
-        return to_ + ((face_index(face) * n + static_cast<std::size_t>(row)) * n +
-                      static_cast<std::size_t>(column)) *
-                         Channels;
+        return (face_index(face) * n + static_cast<std::size_t>(row)) * n +
+               static_cast<std::size_t>(column);
     }
 
     /// Counted from the picture's center to the right: against the azimuth, which turns from +Z to
@@ -218,9 +226,8 @@ private:
                     const auto count = static_cast<std::size_t>(columns);
                     filtered.filter(reach, down, static_cast<std::size_t>(i) * count, 0, count,
                                     scratch.line);
-                    scratch.numbers &=
-                        store_texels<Channels>(scratch.line, count, mirrored ? -1 : 1,
-                                               target(face, row_begin + i, at_column));
+                    scratch.numbers &= to_.store(scratch.line, count, mirrored ? -1 : 1,
+                                                 index_of(face, row_begin + i, at_column));
                 }
             }
         }
@@ -299,9 +306,9 @@ private:
                                     source_.box(down[k], shifted(across[k], shift));
                             }
                         }
-                        scratch.numbers &= store_texels<Channels>(
-                            scratch.line, end - begin, positive_x ? -1 : 1,
-                            target(face, last_rows ? size_ - 1 - row : row, at_column));
+                        scratch.numbers &=
+                            to_.store(scratch.line, end - begin, positive_x ? -1 : 1,
+                                      index_of(face, last_rows ? size_ - 1 - row : row, at_column));
                     }
                 }
             }
@@ -329,11 +336,11 @@ private:
         }
     }
 
-    EquirectTexels<Channels> source_;
+    EquirectTexels<Pixel, Channels> source_;
     int size_;
     double texel_;  ///< its width on a face that reaches from -1 to 1
     double center_azimuth_;
-    float* to_;
+    TexelTarget<Channels> to_;
 };
 
 void check_equirect(const EquirectPixels& from, int size) {
@@ -354,63 +361,53 @@ void check_equirect(const EquirectPixels& from, int size) {
 /// A copy in which inf is the largest number there is, or half floats have: inf - inf, which
 /// filters would come to, is NaN. Looked for only where a result was NaN, since most pictures have
 /// none.
-Buffer<float> without_infinities(const float* pixels, std::size_t values,
+template <typename Pixel>
+Buffer<float> without_infinities(const Pixel* pixels, std::size_t values,
                                  const EquirectPixels& from) {
+    Buffer<float> finite(values);
     float largest = 65504.0f;
     for (std::size_t i = 0; i < values; ++i) {
-        if (std::isnan(pixels[i])) {
+        const float value = finite[i] = to_float(pixels[i]);
+        if (std::isnan(value)) {
             const auto channels = static_cast<std::size_t>(from.channels);
             const auto row = channels * static_cast<std::size_t>(from.width);
             throw std::invalid_argument(
                 "image: expected no NaN, got nan at [" + std::to_string(i / row) + ", " +
                 std::to_string(i % row / channels) + ", " + std::to_string(i % channels) + "]");
         }
-        if (!std::isinf(pixels[i])) largest = std::max(largest, std::abs(pixels[i]));
+        if (!std::isinf(value)) largest = std::max(largest, std::abs(value));
     }
-    Buffer<float> finite(values);
-    for (std::size_t i = 0; i < values; ++i) {
-        finite[i] = std::isinf(pixels[i]) ? std::copysign(largest, pixels[i]) : pixels[i];
+    for (float& value : finite) {
+        if (std::isinf(value)) value = std::copysign(largest, value);
     }
     return finite;
 }
 
 }  // namespace
 
-const float* as_floats(DType dtype, const std::byte* pixels, std::size_t count,
-                       Buffer<float>& kept) {
-    if (dtype == DType::float32) return reinterpret_cast<const float*>(pixels);
-    kept.resize(count);
-    parallel_for(0, count, std::size_t{1} << 18, [&](std::size_t begin, std::size_t end) {
-        pixels_to_floats(dtype, pixels + begin * dtype_size(dtype), end - begin,
-                         kept.data() + begin);
-    });
-    return kept.data();
-}
-
-PixelBuffer equirect_to_cube(const EquirectPixels& from, int size) {
+PixelBuffer equirect_to_cube(const EquirectPixels& from, int size, DType to) {
     check_equirect(from, size);
     const bool borders = from.sampling == Sampling::borders;
     const auto n = static_cast<std::size_t>(size);
     const auto channels = static_cast<std::size_t>(from.channels);
     const auto values =
         static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height) * channels;
-    PixelBuffer result;
+    PixelBuffer result(face_count * n * n * channels * dtype_size(to));
     with_channels(from.channels, [&](auto constant) {
         constexpr int count = decltype(constant)::value;
-        Buffer<float> kept;
-        EquirectTexels<count> source = {as_floats(from.dtype, from.pixels, values, kept),
-                                        from.width,
-                                        from.height,
-                                        from.center,
-                                        borders ? from.width - 1 : from.width,
-                                        borders ? 0.0 : -0.5,
-                                        borders ? from.height - 1.0 : from.height};
-        result.resize(face_count * n * n * channels * sizeof(float));
-        auto* const to = reinterpret_cast<float*>(result.data());
-        if (EquirectToCube<count>(source, size, to).run()) return;
-        const Buffer<float> finite = without_infinities(source.pixels, values, from);
-        source.pixels = finite.data();
-        EquirectToCube<count>(source, size, to).run();
+        const auto fill = [&]<typename Pixel>(const Pixel* pixels) {
+            const EquirectTexels<Pixel, count> source = {pixels,
+                                                         from.width,
+                                                         from.height,
+                                                         from.center,
+                                                         borders ? from.width - 1 : from.width,
+                                                         borders ? 0.0 : -0.5,
+                                                         borders ? from.height - 1.0 : from.height};
+            return EquirectToCube<Pixel, count>(source, size, {result.data(), to}).run();
+        };
+        with_pixels(from.dtype, from.pixels, [&](const auto* pixels) {
+            if (!fill(pixels)) fill(without_infinities(pixels, values, from).data());
+        });
     });
     return result;
 }

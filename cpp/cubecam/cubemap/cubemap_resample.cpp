@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -27,11 +28,11 @@ struct PanoramaColumn {
     double z;
 };
 
-template <int Channels>
+template <typename Pixel, int Channels>
 class CubeToEquirect {
 public:
-    CubeToEquirect(const CubeTexels<float, Channels>& cube, int width, Center center,
-                   Sampling sampling, float* to)
+    CubeToEquirect(const CubeTexels<Pixel, Channels>& cube, int width, Center center,
+                   Sampling sampling, const TexelTarget<Channels>& to)
         : cube_(cube), width_(width), height_(width / 2), to_(to) {
         const bool borders = sampling == Sampling::borders;
         constexpr double half_turn = std::numbers::pi;
@@ -130,10 +131,10 @@ private:
         return {face, glm::dot(s_axis, d) * secant, secant, 1 / secant, d.x, d.z};
     }
 
-    float* target(int row, int at_column) const {
-        return to_ + (static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
-                      static_cast<std::size_t>(at_column)) *
-                         Channels;
+    /// Of a texel in the panorama.
+    std::size_t index_of(int row, int at_column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(at_column);
     }
 
     /// A coordinate of -1 to 1 on a face, in texels with centres at whole numbers.
@@ -206,7 +207,7 @@ private:
             } else {
                 scratch.filtered.filter(reach, down, taps + j, j, until - j, scratch.line);
             }
-            store_texels<Channels>(scratch.line, until - j, 1, target(row, from));
+            to_.store(scratch.line, until - j, 1, index_of(row, from));
             j = until;
         }
     }
@@ -248,7 +249,7 @@ private:
         return std::max(1, static_cast<int>(std::ceil(texels - 1e-6)));
     }
 
-    CubeTexels<float, Channels> cube_;
+    CubeTexels<Pixel, Channels> cube_;
     int width_;
     int height_;
     double lon_step_;
@@ -257,7 +258,7 @@ private:
     std::vector<double> latitudes_;
     std::vector<PoleRow> pole_rows_;
     int turns_ = 1;  ///< round the panorama after which all repeats but the faces: 4, or 1
-    float* to_;
+    TexelTarget<Channels> to_;
 };
 
 /// The taps of one axis from faces of n texels to texels begin..end of faces of `size`, each
@@ -277,6 +278,47 @@ void face_taps(int n, Sampling from, int size, Sampling to, int begin, int end, 
     }
 }
 
+/// Rows of faces, filtered along rows first and along columns then.
+template <typename Pixel, int Channels>
+void resample_all(const CubeTexels<Pixel, Channels>& texels, Sampling from, int size, Sampling to,
+                  const TexelTarget<Channels>& target) {
+    struct Scratch {
+        TapList down;
+        TapList across;
+        FilteredRows<Channels> filtered;
+        Buffer<Lane<Channels>> line;
+    };
+    constexpr int band = 32;  // rows of a face at a time
+    const int bands = (size + band - 1) / band;
+    const auto n = static_cast<std::size_t>(size);
+    const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
+        TapList& down = scratch.down;
+        face_taps(texels.size, from, size, to, 0, size, 1, scratch.across);
+        scratch.line.resize(n);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Face face = all_faces[i / static_cast<std::size_t>(bands)];
+            const int first = static_cast<int>(i) % bands * band;
+            const int last = std::min(first + band, size);
+            face_taps(texels.size, from, size, to, first, last, n, down);
+            scratch.filtered.fill(
+                down, scratch.across,
+                [&](int row, int at, int until, Lane<Channels>* line) {
+                    read_face_row(texels, face, row, at, until, line);
+                },
+                [&](int row, int at, int until) {
+                    return face_row_in_place(texels, face, row, at, until);
+                });
+            std::size_t index = (face_index(face) * n + static_cast<std::size_t>(first)) * n;
+            for (std::size_t tap = 0; tap < down.size(); tap += n, index += n) {
+                scratch.filtered.filter(reach_of(down.widest()), down, tap, 0, n,
+                                        scratch.line.data());
+                target.store(scratch.line.data(), n, 1, index);
+            }
+        }
+    };
+    parallel_for_with<Scratch>(0, static_cast<std::size_t>(face_count * bands), 1, fill);
+}
+
 void check_face_size(int size, Sampling sampling) {
     const int least = sampling == Sampling::borders ? 2 : 1;
     if (size < least) {
@@ -287,78 +329,55 @@ void check_face_size(int size, Sampling sampling) {
 
 }  // namespace
 
-Buffer<float> cube_to_equirect(const CubeMapData& cube, int width, Center center,
-                               Sampling sampling) {
+PixelBuffer cube_to_equirect(const CubeMapData& cube, int width, Center center, Sampling sampling,
+                             DType to) {
     if (width < 2 || width % 2 != 0) {
         throw std::invalid_argument("width: expected an even number of at least 2, got " +
                                     std::to_string(width));
     }
-    Buffer<float> result;
+    PixelBuffer result(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
+                       static_cast<std::size_t>(cube.channels) * dtype_size(to));
     with_channels(cube.channels, [&](auto constant) {
         constexpr int channels = decltype(constant)::value;
-        Buffer<float> kept;
-        const float* faces = as_floats(cube.dtype, cube.pixels->data(),
-                                       cube.pixels->size() / dtype_size(cube.dtype), kept);
-        result.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
-                      channels);
-        CubeToEquirect<channels>({faces, cube.size}, width, center, sampling, result.data()).run();
+        with_pixels(cube.dtype, cube.pixels->data(), [&]<typename Pixel>(const Pixel* faces) {
+            CubeToEquirect<Pixel, channels>({faces, cube.size}, width, center, sampling,
+                                            {result.data(), to})
+                .run();
+        });
     });
     return result;
 }
 
-PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to) {
+PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to,
+                           DType dtype) {
     check_face_size(cube.size, from);
     check_face_size(size, to);
     if (from == Sampling::borders && to == Sampling::borders) {
         throw std::invalid_argument("sampling: expected centers on one side at least");
     }
-    PixelBuffer result;
+    const auto n = static_cast<std::size_t>(size);
+    PixelBuffer result(face_count * n * n * static_cast<std::size_t>(cube.channels) *
+                       dtype_size(dtype));
     with_channels(cube.channels, [&](auto constant) {
         constexpr int channels = decltype(constant)::value;
-        Buffer<float> kept;
-        const CubeTexels<float, channels> texels = {
-            as_floats(cube.dtype, cube.pixels->data(), cube.pixels->size() / dtype_size(cube.dtype),
-                      kept),
-            cube.size};
-        const auto n = static_cast<std::size_t>(size);
-        result.resize(face_count * n * n * channels * sizeof(float));
-        auto* const floats = reinterpret_cast<float*>(result.data());
+        with_pixels(cube.dtype, cube.pixels->data(), [&]<typename Pixel>(const Pixel* pixels) {
+            resample_all<Pixel, channels>({pixels, cube.size}, from, size, to,
+                                          {result.data(), dtype});
+        });
+    });
+    return result;
+}
 
-        struct Scratch {
-            TapList down;
-            TapList across;
-            FilteredRows<channels> filtered;
-            Buffer<Lane<channels>> line;
-        };
-        constexpr int band = 32;  // rows of a face at a time
-        const int bands = (size + band - 1) / band;
-        const auto fill = [&](std::size_t begin, std::size_t end, Scratch& scratch) {
-            TapList& down = scratch.down;
-            face_taps(cube.size, from, size, to, 0, size, 1, scratch.across);
-            scratch.line.resize(n);
-            for (std::size_t i = begin; i < end; ++i) {
-                const Face face = all_faces[i / static_cast<std::size_t>(bands)];
-                const int first = static_cast<int>(i) % bands * band;
-                const int last = std::min(first + band, size);
-                face_taps(cube.size, from, size, to, first, last, n, down);
-                scratch.filtered.fill(
-                    down, scratch.across,
-                    [&](int row, int at, int until, Lane<channels>* line) {
-                        read_face_row(texels, face, row, at, until, line);
-                    },
-                    [&](int row, int at, int until) {
-                        return face_row_in_place(texels, face, row, at, until);
-                    });
-                float* target = floats + (face_index(face) * n + static_cast<std::size_t>(first)) *
-                                             n * channels;
-                for (std::size_t tap = 0; tap < down.size(); tap += n, target += n * channels) {
-                    scratch.filtered.filter(reach_of(down.widest()), down, tap, 0, n,
-                                            scratch.line.data());
-                    store_texels<channels>(scratch.line.data(), n, 1, target);
-                }
-            }
-        };
-        parallel_for_with<Scratch>(0, static_cast<std::size_t>(face_count * bands), 1, fill);
+PixelBuffer convert_pixels(const PixelBuffer& pixels, DType from, DType to) {
+    const std::size_t count = pixels.size() / dtype_size(from);
+    PixelBuffer result(count * dtype_size(to));
+    parallel_for(0, count, std::size_t{1} << 18, [&](std::size_t begin, std::size_t end) {
+        float line[256];
+        for (std::size_t i = begin; i < end; i += std::size(line)) {
+            const std::size_t length = std::min(std::size(line), end - i);
+            pixels_to_floats(from, pixels.data() + i * dtype_size(from), length, line);
+            floats_to_pixels(to, line, length, result.data() + i * dtype_size(to));
+        }
     });
     return result;
 }

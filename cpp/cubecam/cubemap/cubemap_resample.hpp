@@ -30,24 +30,32 @@ struct EquirectPixels {
     Sampling sampling = Sampling::centers;
 };
 
-/// float32 [6][size][size][channels], "gl". uint8 counts as value/255. All
-/// inf count as the largest other number, at least 65504 (half floats' largest, where most come
-/// from).
+// Every result is of type `to`. Numbers on the way are float32, uint8 counts as value/255, and only
+// the texels under way are converted: whole pictures are read and written as they are. A uint8
+// result is clamped to 0..1 and rounded to nearest; a float16 result is rounded to nearest and
+// becomes inf from 65520 on.
+
+/// [6][size][size][channels], "gl". All inf count as the largest other number, at least 65504 (half
+/// floats' largest, where most come from).
 /// @throws std::invalid_argument unless width = 2 height (with borders: unless both are at least
 ///         2), channels is 1, 3 or 4, size at least 1; or for a NaN
 ///         that reaches the result.
-PixelBuffer equirect_to_cube(const EquirectPixels& from, int size);
+PixelBuffer equirect_to_cube(const EquirectPixels& from, int size, DType to);
 
 /// The face size that loses nothing: the next power of two from width / pi.
 int default_face_size(int equirect_width);
 
 /// [width/2][width][channels]. @throws std::invalid_argument unless width is even and positive.
-Buffer<float> cube_to_equirect(const CubeMapData& cube, int width, Center center = Center::neg_z,
-                               Sampling sampling = Sampling::centers);
+PixelBuffer cube_to_equirect(const CubeMapData& cube, int width, Center center, Sampling sampling,
+                             DType to);
 
-/// Six "gl" faces of one size and sampling to another, float32, uint8 as value/255.
+/// Six "gl" faces of one size and sampling to another.
 /// @throws std::invalid_argument for sizes below 1 (with borders: below 2), or borders on both
 /// sides.
-PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to);
+PixelBuffer resample_faces(const CubeMapData& cube, Sampling from, int size, Sampling to,
+                           DType dtype);
+
+/// The same numbers in another type.
+PixelBuffer convert_pixels(const PixelBuffer& pixels, DType from, DType to);
 
 }  // namespace cubecam

@@ -14,10 +14,6 @@
 
 namespace cubecam {
 
-/// Floats of any pixels: the same memory where they are floats, else converted into `kept`.
-const float* as_floats(DType dtype, const std::byte* pixels, std::size_t count,
-                       Buffer<float>& kept);
-
 /// Range of texels [begin, end) that taps read.
 struct TapRange {
     std::int32_t begin = std::numeric_limits<std::int32_t>::max();
@@ -267,6 +263,34 @@ bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float
     }
 }
 
+/// A picture under way, of whatever type its numbers are kept in.
+template <int Channels>
+struct TexelTarget {
+    std::byte* pixels;
+    DType dtype;
+
+    /// Writes texels one after another, or in the opposite order: step 1 or -1. The first of them
+    /// is texel `index` of the picture. Whether none of them is NaN or infinite.
+    bool store(const Lane<Channels>* from, std::size_t count, int step, std::size_t index) const {
+        if (dtype == DType::float32) {
+            return store_texels<Channels>(from, count, step,
+                                          reinterpret_cast<float*>(pixels) + index * Channels);
+        }
+        constexpr std::size_t piece = 64;
+        float line[piece * Channels];
+        bool numbers = true;
+        for (std::size_t begin = 0; begin < count; begin += piece) {
+            const std::size_t length = std::min(piece, count - begin);
+            float* const start = step > 0 ? line : line + (length - 1) * Channels;
+            numbers &= store_texels<Channels>(from + begin, length, step, start);
+            const std::size_t first = step > 0 ? index + begin : index - begin - (length - 1);
+            floats_to_pixels(dtype, line, length * Channels,
+                             pixels + first * Channels * dtype_size(dtype));
+        }
+        return numbers;
+    }
+};
+
 /// Asks for `bytes` from an address that will be read soon. Rows of a picture lie on different
 /// pages, where the processor does not look ahead by itself.
 inline void prefetch(const void* address, std::size_t bytes) {
@@ -275,20 +299,25 @@ inline void prefetch(const void* address, std::size_t bytes) {
 }
 
 /// Where texels begin..end of one row of a face lie in it with another one behind, else null.
-template <int Channels>
-const float* face_row_in_place(const CubeTexels<float, Channels>& cube, Face face, int row,
-                               int begin, int end) {
-    if (!cube.contains(row) || begin < 0 || end >= cube.size) return nullptr;
-    if (row + 2 < cube.size) {
-        prefetch(cube.at(face, row + 2, begin),
-                 static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+template <typename Pixel, int Channels>
+const float* face_row_in_place([[maybe_unused]] const CubeTexels<Pixel, Channels>& cube,
+                               [[maybe_unused]] Face face, [[maybe_unused]] int row,
+                               [[maybe_unused]] int begin, [[maybe_unused]] int end) {
+    if constexpr (std::is_same_v<Pixel, float>) {
+        if (!cube.contains(row) || begin < 0 || end >= cube.size) return nullptr;
+        if (row + 2 < cube.size) {
+            prefetch(cube.at(face, row + 2, begin),
+                     static_cast<std::size_t>(end - begin) * Channels * sizeof(float));
+        }
+        return cube.at(face, row, begin);
+    } else {
+        return nullptr;
     }
-    return cube.at(face, row, begin);
 }
 
 /// Texels begin..end of one row of a face, neighbours beyond its edges.
-template <int Channels>
-void read_face_row(const CubeTexels<float, Channels>& cube, Face face, int row, int begin, int end,
+template <typename Pixel, int Channels>
+void read_face_row(const CubeTexels<Pixel, Channels>& cube, Face face, int row, int begin, int end,
                    Lane<Channels>* to) {
     if (!cube.contains(row)) {
         for (int column = begin; column < end; ++column) *to++ = cube.seamless(face, row, column);
@@ -297,11 +326,11 @@ void read_face_row(const CubeTexels<float, Channels>& cube, Face face, int row, 
     int column = begin;
     for (; column < std::min(end, 0); ++column) *to++ = cube.seamless(face, row, column);
     if (column < cube.size) {
-        const float* from = cube.at(face, row, column);
+        const Pixel* from = cube.at(face, row, column);
         if (row + 2 < cube.size) {
             prefetch(cube.at(face, row + 2, column),
                      static_cast<std::size_t>(std::max(end - column, 0)) * Channels *
-                         sizeof(float));
+                         sizeof(Pixel));
         }
         for (; column < std::min(end, cube.size - 1); ++column, from += Channels) {
             *to++ = load_texel_before_another<Channels>(from);

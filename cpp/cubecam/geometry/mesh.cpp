@@ -23,8 +23,6 @@ void Mesh::update(MeshUpdate update) {
         data_.swap(next);
     }
     revision_.set(revision);
-    // Who saw the counter at `revision` before the mesh had it looks again now.
-    next_revision();
 }
 
 }  // namespace cubecam

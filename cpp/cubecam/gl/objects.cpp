@@ -112,6 +112,15 @@ Texture create_texture_cube(const GladGLContext& gl, GLenum format, int size, in
     return texture;
 }
 
+Texture create_texture_cube_array(const GladGLContext& gl, GLenum format, int size, int count,
+                                  int levels) {
+    Texture texture = create_texture(gl, GL_TEXTURE_CUBE_MAP_ARRAY);
+    gl.TextureStorage3D(texture.id(), levels_or_all(levels, size, size), format, size, size,
+                        6 * count);
+    check_gl(gl, std::to_string(count) + " cube maps of size " + std::to_string(size));
+    return texture;
+}
+
 Texture create_texture_2d_multisample_array(const GladGLContext& gl, GLenum format, int samples,
                                             int width, int height, int layers) {
     Texture texture = create_texture(gl, GL_TEXTURE_2D_MULTISAMPLE_ARRAY);

@@ -27,6 +27,9 @@ Texture create_texture_2d(const GladGLContext& gl, GLenum format, int width, int
 Texture create_texture_2d_array(const GladGLContext& gl, GLenum format, int width, int height,
                                 int layers, int levels = 1);
 Texture create_texture_cube(const GladGLContext& gl, GLenum format, int size, int levels = 1);
+/// Six layers for each of `count` cubes, cube by cube.
+Texture create_texture_cube_array(const GladGLContext& gl, GLenum format, int size, int count,
+                                  int levels = 1);
 /// The samples are at fixed places, so that textures of several formats can share a framebuffer.
 Texture create_texture_2d_multisample_array(const GladGLContext& gl, GLenum format, int samples,
                                             int width, int height, int layers);

@@ -1,29 +1,64 @@
 #include "cubecam/materials/blend.hpp"
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 
 namespace cubecam {
 namespace {
 
-/// In the order of Blend.
-constexpr std::array<std::string_view, 6> blend_names = {"opaque",   "alpha",    "alpha_keep",
-                                                         "additive", "multiply", "premultiplied"};
+// In the order of the enums.
+constexpr std::string_view blend_names[] = {"opaque",   "alpha",    "alpha_keep",
+                                            "additive", "multiply", "premultiplied"};
+constexpr std::string_view factor_names[] = {"zero",
+                                             "one",
+                                             "src_color",
+                                             "one_minus_src_color",
+                                             "dst_color",
+                                             "one_minus_dst_color",
+                                             "src_alpha",
+                                             "one_minus_src_alpha",
+                                             "dst_alpha",
+                                             "one_minus_dst_alpha",
+                                             "src_alpha_saturate"};
+constexpr std::string_view equation_names[] = {"add", "subtract", "reverse_subtract", "min", "max"};
+
+std::size_t index_of_name(std::span<const std::string_view> names, std::string_view name,
+                          const std::string& before, std::string_view after) {
+    std::string expected = before;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == name) return i;
+        expected.append(i == 0 ? "'" : ", '").append(names[i]).append("'");
+    }
+    throw std::invalid_argument(expected.append(after).append(", got '").append(name).append("'"));
+}
 
 }  // namespace
 
 Blend parse_blend(std::string_view name) {
-    std::string expected;
-    for (std::size_t i = 0; i < blend_names.size(); ++i) {
-        if (name == blend_names[i]) return static_cast<Blend>(i);
-        expected.append(expected.empty() ? "'" : ", '").append(blend_names[i]).append("'");
-    }
-    throw std::invalid_argument("expected blend " + expected + " or None, got '" +
-                                std::string(name) + "'");
+    return static_cast<Blend>(
+        index_of_name(blend_names, name, "expected blend ", ", a Blend or None"));
+}
+
+BlendFactor parse_blend_factor(std::string_view word, std::string_view name) {
+    return static_cast<BlendFactor>(
+        index_of_name(factor_names, word, std::string(name) + ": expected ", ""));
+}
+
+BlendEquation parse_blend_equation(std::string_view word) {
+    return static_cast<BlendEquation>(
+        index_of_name(equation_names, word, "equation: expected ", ""));
 }
 
 std::string_view to_string(Blend blend) { return blend_names[static_cast<std::size_t>(blend)]; }
+
+std::string_view to_string(BlendFactor factor) {
+    return factor_names[static_cast<std::size_t>(factor)];
+}
+
+std::string_view to_string(BlendEquation equation) {
+    return equation_names[static_cast<std::size_t>(equation)];
+}
 
 }  // namespace cubecam

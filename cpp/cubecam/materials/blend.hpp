@@ -14,10 +14,47 @@ enum class Blend : std::uint8_t {
     additive,       ///< a S + D; alpha a + D (T. Porter and T. Duff's "plus")
     multiply,       ///< (1 - a + a S) D; alpha D
     premultiplied,  ///< S + (1 - a) D, for colours that are multiplied by their alpha already
+    factors,        ///< as SurfaceOptions::blend_factors says
 };
 
-/// @throws std::invalid_argument for any other name.
+/// @throws std::invalid_argument for any other name, and for "factors", which has no name.
 Blend parse_blend(std::string_view name);
 std::string_view to_string(Blend blend);
+
+/// What a colour or an alpha is multiplied with before it is blended (GL 4.5, table 17.2).
+enum class BlendFactor : std::uint8_t {
+    zero,
+    one,
+    src_color,
+    one_minus_src_color,
+    dst_color,
+    one_minus_dst_color,
+    src_alpha,
+    one_minus_src_alpha,
+    dst_alpha,
+    one_minus_dst_alpha,
+    src_alpha_saturate,
+};
+
+/// What becomes of both products (GL 4.5, table 17.1). min and max take S and D as they are.
+enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
+
+/// `name` is the argument that the word was given for. @throws std::invalid_argument for any other
+/// word.
+BlendFactor parse_blend_factor(std::string_view word, std::string_view name);
+BlendEquation parse_blend_equation(std::string_view word);
+std::string_view to_string(BlendFactor factor);
+std::string_view to_string(BlendEquation equation);
+
+/// Blending as OpenGL has it: src * S and dst * D, added or otherwise.
+struct BlendFactors {
+    BlendFactor src = BlendFactor::one;
+    BlendFactor dst = BlendFactor::zero;
+    BlendFactor src_alpha = BlendFactor::one;
+    BlendFactor dst_alpha = BlendFactor::zero;
+    BlendEquation equation = BlendEquation::add;
+
+    bool operator==(const BlendFactors&) const = default;
+};
 
 }  // namespace cubecam

@@ -1,25 +1,20 @@
 #pragma once
 
 #include "cubecam/image/format.hpp"
+#include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
 
-#include <cstdint>
+#include <memory>
 
 namespace cubecam {
 
-/// A rendered picture, row 0 on top. What was not asked for is empty.
+/// A rendered picture, row 0 on top.
 struct Frame {
     int width = 0;
     int height = 0;
     Format format = Format::rgba8;
-    PixelBuffer color;        ///< [height][width][4]; empty where there is no colour buffer
-    Buffer<float> distance;   ///< [height][width] world units, +inf: background
-    Buffer<float> z;          ///< [height][width] world units, +inf: background
-    Buffer<float> normal;     ///< [height][width][3] world, 0: background
-    Buffer<float> position;   ///< [height][width][3] world, NaN: background
-    Buffer<std::int32_t> id;  ///< [height][width] node ids, 0: background
-    Buffer<float> depth;      ///< [height][width] window-space z, 0 near to 1 far and background
-    Buffer<std::uint8_t> stencil;  ///< [height][width]
+    std::shared_ptr<PixelBuffer> color;  ///< [height][width][4]; null without a colour buffer
+    OutputList outputs;                  ///< [height][width][channels], those that were requested
 };
 
 }  // namespace cubecam

@@ -5,17 +5,19 @@
 namespace cubecam {
 namespace {
 
-void check_outputs_of(const Outputs& outputs, DepthFormat depth_format) {
+void check_outputs_of(const RequestedOutputs& requested, DepthFormat depth_format) {
     const auto refuse = [&](const char* expected) {
         throw std::invalid_argument("outputs: expected " + std::string(expected) +
                                     ", got depth_format " + std::string(to_string(depth_format)));
     };
-    if (outputs.stencil && !has_stencil(depth_format)) {
+    const Outputs& outputs = requested.outputs;
+    if (outputs.has(OutputSource::stencil) && !has_stencil(depth_format)) {
         refuse("\"stencil\" only with a depth_format that has one, depth24_stencil8, "
                "depth32f_stencil8 or stencil_index8");
     }
     // Nothing says which node is the nearest.
-    if ((outputs.shaded() || outputs.depth) && !has_depth(depth_format)) {
+    const bool shaded = outputs.shaded() || !requested.others.empty();
+    if ((shaded || outputs.has(OutputSource::depth)) && !has_depth(depth_format)) {
         refuse(has_stencil(depth_format) ? "\"stencil\" at most without a depth buffer"
                                          : "none without a depth buffer");
     }
@@ -37,6 +39,12 @@ void check_buffers(const FrameOptions& options) {
 
 void check_buffers(const CaptureOptions& options) {
     check_outputs_of(options.outputs, options.depth_format);
+    if (options.depth_order == DepthOrder::farthest && !has_depth(options.depth_format)) {
+        throw std::invalid_argument(
+            "depth_order: expected \"nearest\" without a depth buffer, got \"farthest\" and "
+            "depth_format " +
+            std::string(to_string(options.depth_format)));
+    }
 }
 
 }  // namespace cubecam

@@ -4,6 +4,7 @@
 #include "cubecam/image/depth_format.hpp"
 #include "cubecam/image/format.hpp"
 #include "cubecam/render/passes/tonemap.hpp"
+#include "cubecam/render/resources/depth_order.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 
 #include <glm/glm.hpp>
@@ -28,7 +29,7 @@ struct RendererOptions {
 struct FrameOptions {
     std::int64_t width = 0;   ///< pixels
     std::int64_t height = 0;  ///< pixels
-    Outputs outputs;
+    RequestedOutputs outputs;
     Format format = Format::rgba8;
     std::int64_t samples = 1;
     Tonemap tonemap = Tonemap::none;
@@ -43,11 +44,12 @@ struct CaptureOptions {
     double near = 0.05;
     double far = 1000.0;
     std::vector<std::int32_t> exclude;  ///< ids of nodes left out, with all below them
-    Outputs outputs;
+    RequestedOutputs outputs;
     Format format = Format::rgba32f;
     std::int64_t samples = 1;
     std::optional<glm::dvec3> eye;  ///< none: `position`
     DepthFormat depth_format = DepthFormat::depth_component32f;
+    DepthOrder depth_order = DepthOrder::nearest;
 };
 
 /// Both throw std::invalid_argument for what cannot be drawn or read together: outputs that the

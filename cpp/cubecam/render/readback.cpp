@@ -1,13 +1,17 @@
 #include "cubecam/render/readback.hpp"
 
 #include "cubecam/image/flip.hpp"
+#include "cubecam/render/resources/repack.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 
 namespace cubecam {
 namespace {
+
+using Result = std::shared_ptr<PixelBuffer>;
 
 GLenum gl_type(Format format) {
     switch (format) {
@@ -19,171 +23,157 @@ GLenum gl_type(Format format) {
     return GL_FLOAT;
 }
 
-/// To nearest: v / (2^bits - 1) as a number of 255 (GL 4.6, equation 2.1).
-std::byte widen(unsigned value, unsigned bits) {
-    const unsigned most = (1U << bits) - 1;
-    return static_cast<std::byte>((value * 255 + most / 2) / most);
-}
+/// How the driver gives a texel: as the type that it is stored in, since a driver that must convert
+/// takes ten times as long.
+struct Given {
+    GLenum format;
+    GLenum type;
+    std::size_t bytes;
+};
 
-PixelBuffer widen_565(const Buffer<std::uint16_t>& packed) {
-    PixelBuffer pixels(packed.size() * 4);
-    for (std::size_t i = 0; i < packed.size(); ++i) {
-        const unsigned p = packed[i];
-        pixels[4 * i] = widen(p >> 11, 5);
-        pixels[4 * i + 1] = widen(p >> 5 & 63, 6);
-        pixels[4 * i + 2] = widen(p & 31, 5);
-        pixels[4 * i + 3] = std::byte{255};
+Given given_output(const ShadedOutput& output) {
+    if (output.type == OutputType::int32) return {GL_RED_INTEGER, GL_INT, 4};
+    switch (output.channels) {
+        case 1: return {GL_RED, GL_FLOAT, 4};
+        case 2: return {GL_RG, GL_FLOAT, 8};
+        default: return {GL_RGBA, GL_FLOAT, 16};
     }
-    return pixels;
 }
 
-template <class T>
-std::byte* bytes_of(T* values) {
-    return reinterpret_cast<std::byte*>(values);
-}
-
-/// Reads all layers of a target, one after the other, each as the type it is stored in: a driver
-/// that must convert takes ten times as long.
+/// Reads all layers of a target, one after the other.
 class Reader {
 public:
-    Reader(const GladGLContext& gl, Target& target)
-        : gl_(gl), target_(target), d_(target.description()) {
+    Reader(const GladGLContext& gl, Target& target, ResultPool& pool)
+        : gl_(gl), target_(target), d_(target.description()), pool_(pool) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
-    PixelBuffer picture() {
+    Result picture() {
         Layers& layers = d_.post_processed        ? target_.post_processed_pass()
                          : target_.multisampled() ? target_.resolved()
                                                   : target_.color_pass();
-        if (d_.format == Format::rgb565) {
-            Buffer<std::uint16_t> packed;
-            read(layers, Slot::color, GL_RGB, gl_type(d_.format), 1, packed);
-            return widen_565(packed);
+        const bool packed = d_.format == Format::rgb565;
+        const Given given{packed ? GLenum{GL_RGB} : GLenum{GL_RGBA}, gl_type(d_.format),
+                          texel_size(d_.format)};
+        if (!packed) return read(layers, 0, given, given.bytes, copy_row);
+        return read(layers, 0, given, 4, [](const std::byte* from, std::byte* to, std::size_t n) {
+            widen_565(reinterpret_cast<const std::uint16_t*>(from), n,
+                      reinterpret_cast<std::uint32_t*>(to));
+        });
+    }
+
+    OutputList outputs() {
+        OutputList list;
+        for (const ShadedOutput& output : d_.outputs.by_slot()) {
+            list.push_back(
+                {std::string(output.name), output.channels, output.type, read_shaded(output)});
         }
-        PixelBuffer color;
-        read(layers, Slot::color, GL_RGBA, gl_type(d_.format), texel_size(d_.format), color);
-        return color;
-    }
-
-    Buffer<float> scalar(Slot slot) {
-        Buffer<float> values;
-        read(target_.outputs(), slot, GL_RED, GL_FLOAT, 1, values);
-        return values;
-    }
-
-    /// Stored with a fourth channel that nobody asked for.
-    Buffer<float> vector(Slot slot) {
-        Buffer<float> four;
-        read(target_.outputs(), slot, GL_RGBA, GL_FLOAT, 4, four);
-        Buffer<float> three(four.size() / 4 * 3);
-        for (std::size_t i = 0; i < four.size() / 4; ++i) {
-            for (std::size_t c = 0; c < 3; ++c) three[3 * i + c] = four[4 * i + c];
+        for (std::size_t i = 0; i < output_table.size(); ++i) {
+            const OutputRow& row = output_table[i];
+            if (!d_.outputs.has(i) || row.source == OutputSource::shader) continue;
+            list.push_back({std::string(row.name), row.channels, row.type,
+                            row.source == OutputSource::depth ? read_depth() : read_stencil()});
         }
-        return three;
-    }
-
-    Buffer<std::int32_t> id() {
-        Buffer<std::int32_t> ids;
-        read(target_.outputs(), Slot::id, GL_RED_INTEGER, GL_INT, 1, ids);
-        return ids;
-    }
-
-    /// Window-space z. Depth is stored reversed; turned round as the whole number that it is, a
-    /// fixed-point depth loses nothing.
-    Buffer<float> depth() {
-        const int bits = fixed_depth_bits(d_.depth_format);
-        if (bits == 0) {
-            Buffer<float> values;
-            read(target_.outputs(), std::nullopt, GL_DEPTH_COMPONENT, GL_FLOAT, 1, values);
-            for (float& value : values) value = 1.0F - value;
-            return values;
-        }
-        // GL widens to 32 bits, which leaves the stored ones on top.
-        Buffer<std::uint32_t> stored;
-        read(target_.outputs(), std::nullopt, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 1, stored);
-        const std::uint32_t most = (std::uint32_t{1} << bits) - 1;
-        Buffer<float> values(stored.size());
-        for (std::size_t i = 0; i < stored.size(); ++i) {
-            const std::uint32_t near = stored[i] >> (32 - bits);
-            values[i] = static_cast<float>(static_cast<double>(most - near) / most);
-        }
-        return values;
-    }
-
-    Buffer<std::uint8_t> stencil() {
-        Buffer<std::uint8_t> values;
-        read(target_.outputs(), std::nullopt, GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1, values);
-        return values;
+        return list;
     }
 
 private:
-    template <class T>
-    void read(Layers& layers, std::optional<Slot> slot, GLenum format, GLenum type,
-              std::size_t channels, Buffer<T>& to) {
+    Result read_shaded(const ShadedOutput& output) {
+        const Given given = given_output(output);
+        if (output.channels != 3) {
+            return read(target_.outputs(), output.slot, given, given.bytes, copy_row);
+        }
+        return read(target_.outputs(), output.slot, given, 12,
+                    [](const std::byte* from, std::byte* to, std::size_t n) {
+                        drop_fourth(reinterpret_cast<const float*>(from), n,
+                                    reinterpret_cast<float*>(to));
+                    });
+    }
+
+    /// Window-space z; what is stored is reversed.
+    Result read_depth() {
+        const int bits = fixed_depth_bits(d_.depth_format);
+        const float clear = depth_state(d_.depth_order).clear;
+        const Given given{GL_DEPTH_COMPONENT,
+                          bits == 0 ? GLenum{GL_FLOAT} : GLenum{GL_UNSIGNED_INT}, 4};
+        const Result depth = read(target_.outputs(), std::nullopt, given, 4, copy_row);
+        const std::size_t count = depth->size() / 4;
+        if (bits == 0) {
+            turn_depth(reinterpret_cast<float*>(depth->data()), count, clear);
+        } else {
+            turn_fixed_depth(depth->data(), count, bits, clear);
+        }
+        return depth;
+    }
+
+    Result read_stencil() {
+        return read(target_.outputs(), std::nullopt, {GL_STENCIL_INDEX, GL_UNSIGNED_BYTE, 1}, 1,
+                    copy_row);
+    }
+
+    using Row = void (*)(const std::byte* from, std::byte* to, std::size_t texels);
+    static constexpr Row copy_row = nullptr;
+
+    /// `slot`: none for the depth and stencil buffer. `row` turns what is given into texels of
+    /// `bytes`; null: they are the same.
+    Result read(Layers& layers, std::optional<std::size_t> slot, const Given& given,
+                std::size_t bytes, Row row) {
         const auto rows = static_cast<std::size_t>(d_.height);
-        const std::size_t row = static_cast<std::size_t>(d_.width) * channels;
+        const auto columns = static_cast<std::size_t>(d_.width);
         const auto count = static_cast<std::size_t>(d_.layers());
-        Buffer<T> layer;
-        if (!d_.cube) layer.resize(row * rows);
-        to.resize(row * rows * count);
+        const std::size_t given_row = columns * given.bytes;
+        const std::size_t taken_row = columns * bytes;
+        const bool direct = d_.shape.has_faces() && row == copy_row;
+        Result layer;
+        if (!direct) layer = pool_.take(given_row * rows);
+        Result all = pool_.take(taken_row * rows * count);
         for (std::size_t i = 0; i < count; ++i) {
             const GLuint framebuffer = layers.one(static_cast<int>(i));
-            if (slot) {
-                gl_.NamedFramebufferReadBuffer(framebuffer,
-                                               GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(*slot));
-            }
+            if (slot) gl_.NamedFramebufferReadBuffer(framebuffer, attachment(*slot));
             gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-            T* here = d_.cube ? to.data() + i * row * rows : layer.data();
-            gl_.ReadPixels(0, 0, d_.width, d_.height, format, type, here);
-            if (d_.cube) continue;
-            T* there = to.data() + i * row * rows;
-            flip_rows(bytes_of(layer.data()), bytes_of(there), row * sizeof(T), rows);
+            std::byte* to = all->data() + i * taken_row * rows;
+            gl_.ReadPixels(0, 0, d_.width, d_.height, given.format, given.type,
+                           direct ? to : layer->data());
+            if (direct) continue;
+            if (row == copy_row) {
+                flip_rows(layer->data(), to, taken_row, rows);
+            } else if (d_.shape.has_faces()) {
+                row(layer->data(), to, rows * columns);
+            } else {
+                for (std::size_t y = 0; y < rows; ++y) {
+                    row(layer->data() + y * given_row, to + (rows - 1 - y) * taken_row, columns);
+                }
+            }
         }
+        return all;
     }
 
     const GladGLContext& gl_;
     Target& target_;
     const TargetDescription& d_;
+    ResultPool& pool_;
 };
-
-template <class T>
-std::shared_ptr<const Buffer<T>> share(Buffer<T>&& buffer) {
-    return std::make_shared<const Buffer<T>>(std::move(buffer));
-}
 
 }  // namespace
 
-Frame read_frame(const GladGLContext& gl, Target& target) {
+Frame read_frame(const GladGLContext& gl, Target& target, ResultPool& pool) {
     const TargetDescription& d = target.description();
-    Reader reader(gl, target);
+    Reader reader(gl, target, pool);
     Frame frame;
     frame.width = d.width;
-    frame.height = d.height * d.views;
+    frame.height = d.height * d.layers();
     frame.format = d.format;
     if (d.color) frame.color = reader.picture();
-    if (d.outputs.distance) frame.distance = reader.scalar(Slot::distance);
-    if (d.outputs.z) frame.z = reader.scalar(Slot::z);
-    if (d.outputs.normal) frame.normal = reader.vector(Slot::normal);
-    if (d.outputs.position) frame.position = reader.vector(Slot::position);
-    if (d.outputs.id) frame.id = reader.id();
-    if (d.outputs.depth) frame.depth = reader.depth();
-    if (d.outputs.stencil) frame.stencil = reader.stencil();
+    frame.outputs = reader.outputs();
     gl::check_gl(gl, "reading a frame");
     return frame;
 }
 
-std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target) {
+std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool) {
     const TargetDescription& d = target.description();
-    Reader reader(gl, target);
-    PixelBuffer color = reader.picture();
-    CapturedOutputs outputs;
-    if (d.outputs.distance) outputs.distance = share(reader.scalar(Slot::distance));
-    if (d.outputs.z) outputs.z = share(reader.scalar(Slot::z));
-    if (d.outputs.normal) outputs.normal = share(reader.vector(Slot::normal));
-    if (d.outputs.position) outputs.position = share(reader.vector(Slot::position));
-    if (d.outputs.id) outputs.id = share(reader.id());
-    if (d.outputs.depth) outputs.depth = share(reader.depth());
-    if (d.outputs.stencil) outputs.stencil = share(reader.stencil());
+    Reader reader(gl, target, pool);
+    Result color = reader.picture();
+    OutputList outputs = reader.outputs();
     gl::check_gl(gl, "reading a cubemap");
     return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
                                      std::move(outputs));

@@ -3,6 +3,7 @@
 #include "cubecam/core/error.hpp"
 #include "cubecam/render/graph/frame_context.hpp"
 #include "cubecam/render/readback.hpp"
+#include "cubecam/render/requested_outputs.hpp"
 #include "cubecam/render/stereo.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
@@ -123,11 +124,12 @@ auto Renderer::run(Work&& work) {
     state.probes.sweep();
     state.textures.sweep();
     state.shadow_maps.sweep();
+    state.results->next_call();
     stats_ = {};
     gpu_->context.take_debug_messages();  // of earlier calls
     try {
         auto result = work(state);
-        state.targets.trim();
+        stats_.pictures_not_kept = state.targets.trim();
         const std::chrono::duration<double, std::milli> taken =
             std::chrono::steady_clock::now() - start;
         stats_.milliseconds = taken.count();
@@ -148,9 +150,16 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         throw std::invalid_argument("effects: expected none without a colour, got format None");
     }
     return run([&](RendererState& gpu) {
+        const int count = static_cast<int>(cameras.size());
         TargetDescription description = describe_target(
-            gpu.context, false, options.width, options.height, options.samples, options.format,
-            options.outputs, options.depth_format, options.color, static_cast<int>(cameras.size()));
+            gpu.context, {.shape = count == 1 ? TargetShape::flat() : TargetShape::array(count),
+                          .width = options.width,
+                          .height = options.height,
+                          .samples = options.samples,
+                          .format = options.format,
+                          .outputs = resolve_outputs(options.outputs, scene),
+                          .depth_format = options.depth_format,
+                          .color = options.color});
         const PostProcess post_process{scene.effects, options.tonemap, options.encode};
         set_post_process(description, post_process.effects.size(), post_process.any());
         Target& target = gpu.targets.get(gpu.context, description);
@@ -164,7 +173,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         frame.draw(
             std::move(views), target, [](const NodeSnapshot&) { return true; }, post_process);
         stats_ = frame.stats;
-        return read_frame(gpu.context.gl(), target);
+        return read_frame(gpu.context.gl(), target, *gpu.results);
     });
 }
 
@@ -186,8 +195,14 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
     check_buffers(options);
     return run([&](RendererState& gpu) {
         const TargetDescription description =
-            describe_target(gpu.context, true, options.size, options.size, options.samples,
-                            options.format, options.outputs, options.depth_format);
+            describe_target(gpu.context, {.shape = TargetShape::cube(),
+                                          .width = options.size,
+                                          .height = options.size,
+                                          .samples = options.samples,
+                                          .format = options.format,
+                                          .outputs = resolve_outputs(options.outputs, scene),
+                                          .depth_format = options.depth_format,
+                                          .depth_order = options.depth_order});
         Target& target = gpu.targets.get(gpu.context, description);
         std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);
@@ -196,12 +211,12 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
             return node.in_captures && !is_excluded(node, options.exclude);
         });
         stats_ = frame.stats;
-        return read_cube(gpu.context.gl(), target);
+        return read_cube(gpu.context.gl(), target, *gpu.results);
     });
 }
 
-void Renderer::update(const SceneSnapshot& scene,
-                      const std::vector<std::shared_ptr<Probe>>& probes) {
+void Renderer::update_probes(const SceneSnapshot& scene,
+                             const std::vector<std::shared_ptr<Probe>>& probes) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < scene.probes.size(); ++i) {
         const auto asked = std::find(probes.begin(), probes.end(), scene.probes[i].object);
@@ -247,26 +262,26 @@ ShadowDistances Renderer::shadow_map(const SceneSnapshot& scene,
     });
 }
 
-std::shared_ptr<CubeMap> Renderer::cubemap(const std::shared_ptr<Probe>& probe) {
+std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& probe) {
     return run([&](RendererState& gpu) {
         StatesByScene<ProbeState>* contents = gpu.probes.find(probe);
         const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
-                                        "a frame that needs it, or call update()");
+                                        "a frame that needs it, or call update_probes()");
         }
-        return read_cube(gpu.context.gl(), *state->target);
+        return read_cube(gpu.context.gl(), *state->target, *gpu.results);
     });
 }
 
-Frame Renderer::texture(const std::shared_ptr<RenderTexture>& texture) {
+Frame Renderer::read_texture(const std::shared_ptr<RenderTexture>& texture) {
     return run([&](RendererState& gpu) {
         const TextureState* state = gpu.textures.find(texture);
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("render_texture: expected one that this renderer has "
                                         "drawn; render a frame that shows it");
         }
-        return read_frame(gpu.context.gl(), *state->target);
+        return read_frame(gpu.context.gl(), *state->target, *gpu.results);
     });
 }
 

@@ -74,13 +74,14 @@ public:
     /// Draws probes now, whatever their policy says: those given, or all that the scene's visible
     /// nodes use.
     /// @throws std::invalid_argument for a probe that no visible node of the scene uses.
-    void update(const SceneSnapshot& scene, const std::vector<std::shared_ptr<Probe>>& probes);
+    void update_probes(const SceneSnapshot& scene,
+                       const std::vector<std::shared_ptr<Probe>>& probes);
 
     /// What a probe holds now. @throws std::invalid_argument if it was not drawn yet.
-    std::shared_ptr<CubeMap> cubemap(const std::shared_ptr<Probe>& probe);
+    std::shared_ptr<CubeMap> read_probe(const std::shared_ptr<Probe>& probe);
 
     /// What a render texture holds now. @throws std::invalid_argument if it was not drawn yet.
-    Frame texture(const std::shared_ptr<RenderTexture>& texture);
+    Frame read_texture(const std::shared_ptr<RenderTexture>& texture);
     /// Distances along the axis of each view of a light's map, all six of a point light in the
     /// order of a cube's faces: from the light, for a directional one from where the casters'
     /// bounds begin; infinite where nothing casts. Row 0 is on top, of a cube's faces t = 0.

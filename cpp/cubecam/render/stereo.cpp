@@ -17,15 +17,14 @@ std::int64_t half_of(std::int64_t length, const char* name, StereoLayout layout)
 }
 
 /// The upper half of a picture's rows to the left of the lower one.
-template <class T>
-void put_side_by_side(Buffer<T>& stacked, std::size_t rows) {
-    if (stacked.empty()) return;
-    const std::size_t row = stacked.size() / (2 * rows);  // of one eye
-    Buffer<T> pair(stacked.size());
+void put_side_by_side(std::shared_ptr<PixelBuffer>& stacked, std::size_t rows) {
+    if (stacked == nullptr) return;
+    const std::size_t row = stacked->size() / (2 * rows);  // of one eye
+    auto pair = std::make_shared<PixelBuffer>(stacked->size());
     for (std::size_t y = 0; y < rows; ++y) {
         for (std::size_t eye = 0; eye < 2; ++eye) {
-            std::memcpy(pair.data() + (2 * y + eye) * row, stacked.data() + (eye * rows + y) * row,
-                        row * sizeof(T));
+            std::memcpy(pair->data() + (2 * y + eye) * row,
+                        stacked->data() + (eye * rows + y) * row, row);
         }
     }
     stacked = std::move(pair);
@@ -95,19 +94,13 @@ Frame combine_eyes(Frame stacked, StereoLayout layout) {
     Frame frame = std::move(stacked);
     frame.height = height;
     if (layout == StereoLayout::anaglyph) {
-        frame.color = mix_eyes(frame.color, dtype_of(frame.format));
+        frame.color = std::make_shared<PixelBuffer>(mix_eyes(*frame.color, dtype_of(frame.format)));
         return frame;
     }
     frame.width *= 2;
     const auto rows = static_cast<std::size_t>(height);
     put_side_by_side(frame.color, rows);
-    put_side_by_side(frame.distance, rows);
-    put_side_by_side(frame.z, rows);
-    put_side_by_side(frame.normal, rows);
-    put_side_by_side(frame.position, rows);
-    put_side_by_side(frame.id, rows);
-    put_side_by_side(frame.depth, rows);
-    put_side_by_side(frame.stencil, rows);
+    for (OutputValues& output : frame.outputs) put_side_by_side(output.values, rows);
     return frame;
 }
 

@@ -47,15 +47,11 @@ struct Held {
 std::vector<std::shared_ptr<RenderTexture>> textures_of(const Material& material) {
     const MaterialValue value = material.value();
     std::vector<std::shared_ptr<RenderTexture>> textures;
-    const auto add = [&textures](const MapSource& map) {
-        const auto* texture = std::get_if<std::shared_ptr<RenderTexture>>(&map);
+    for (const NamedTexture& shown : value.traits().textures) {
+        const auto* map = std::get_if<const MapSource*>(&shown.source);
+        if (map == nullptr) continue;
+        const auto* texture = std::get_if<std::shared_ptr<RenderTexture>>(*map);
         if (texture && *texture) textures.push_back(*texture);
-    };
-    add(map_of(value));
-    if (const auto* shader = std::get_if<ShaderParameters>(&value.parameters)) {
-        for (const auto& [name, source] : shader->inputs.textures) {
-            if (const auto* map = std::get_if<MapSource>(&source)) add(*map);
-        }
     }
     return textures;
 }

@@ -1,6 +1,7 @@
 #include "cubecam/scene/node.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/materials/phong.hpp"
 #include "cubecam/math/transform.hpp"
 
 #include <algorithm>

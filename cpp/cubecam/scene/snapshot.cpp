@@ -22,17 +22,15 @@ bool shows_through(const MapSource& map) {
 /// Whether any alpha of a surface is below one.
 bool shows_through(const MaterialValue& material, const MeshData& mesh) {
     if (translucent(material)) return true;
-    const auto by_vertices_or_map = [&](const auto& parameters) {
-        return (parameters.vertex_colors && mesh.translucent_colors()) ||
-               shows_through(parameters.map);
-    };
-    if (const auto* basic = std::get_if<BasicParameters>(&material.parameters)) {
-        return by_vertices_or_map(*basic);
+    const MaterialTraits& traits = material.traits();
+    if (traits.vertex_colors == VertexColors::color_and_alpha && mesh.translucent_colors()) {
+        return true;
     }
-    if (const auto* phong = std::get_if<PhongParameters>(&material.parameters)) {
-        return by_vertices_or_map(*phong);
-    }
-    return false;
+    return std::any_of(traits.textures.begin(), traits.textures.end(),
+                       [](const NamedTexture& texture) {
+                           const auto* map = std::get_if<const MapSource*>(&texture.source);
+                           return texture.alpha_counts && map != nullptr && shows_through(**map);
+                       });
 }
 
 }  // namespace
@@ -243,15 +241,14 @@ private:
         const NodeValue& value = node.value_;
         const Material::State& material = shared_.state_of(value.material);
         const std::shared_ptr<const MeshData>& mesh = shared_.data_of(value.mesh);
-        const auto* basic = std::get_if<BasicParameters>(&material.value.parameters);
+        const MaterialTraits& traits = material.value.traits();
         const SurfaceOptions& surface = material.value.surface;
         const Blend blend = surface.blend.value_or(
             shows_through(material.value, *mesh) ? Blend::alpha : Blend::opaque);
-        const auto* shader = std::get_if<ShaderParameters>(&material.value.parameters);
-        const bool moved = shader && shader->moves_vertices();
+        const bool moved = traits.moves_vertices();
         Bounds bounds = mesh->bounds();
         if (moved) {
-            const double reach = shader->displacement.value_or(0.0F);
+            const double reach = traits.user_code->displacement.value_or(0.0F);
             bounds.low -= reach;
             bounds.high += reach;
         }
@@ -265,10 +262,8 @@ private:
             mesh,
             material,
             snapshot_of(value.environment),
-            basic ? snapshot_of(basic->cubemap) : CubeSourceSnapshot(),
-            mesh->uvs() ? shared_.snapshot_of(map_of(material.value)) : MapSnapshot(),
-            shader ? snapshot_of(shader->inputs) : std::vector<TextureSourceSnapshot>(),
-            moved && !shader->displacement,
+            snapshot_of(traits.textures, mesh->uvs() != nullptr),
+            moved && !traits.user_code->displacement,
             place.in_captures,
             blend != Blend::opaque,
             blend,
@@ -297,13 +292,18 @@ private:
         return {};
     }
 
-    std::vector<TextureSourceSnapshot> snapshot_of(const ShaderInputs& inputs) {
+    std::vector<TextureSourceSnapshot> snapshot_of(const std::vector<NamedTexture>& textures,
+                                                   bool has_uvs) {
         std::vector<TextureSourceSnapshot> frozen;
-        for (const auto& [name, source] : inputs.textures) {
-            if (const auto* map = std::get_if<MapSource>(&source)) {
-                frozen.emplace_back(shared_.snapshot_of(*map));
+        frozen.reserve(textures.size());
+        for (const NamedTexture& texture : textures) {
+            if (const auto* cube = std::get_if<const CubeSource*>(&texture.source)) {
+                frozen.emplace_back(snapshot_of(**cube));
             } else {
-                frozen.emplace_back(snapshot_of(std::get<CubeSource>(source)));
+                const bool shown = has_uvs || !texture.placed_by_uv;
+                frozen.emplace_back(
+                    shown ? shared_.snapshot_of(*std::get<const MapSource*>(texture.source))
+                          : MapSnapshot());
             }
         }
         return frozen;

@@ -33,8 +33,13 @@ using CubeSourceSnapshot = std::variant<std::monostate, CubeSnapshot, std::size_
 /// `textures` of the scene that was asked for.
 using MapSnapshot = std::variant<std::monostate, std::shared_ptr<const Image>, std::size_t>;
 
-/// One of the textures of a user's shader.
+/// What one texture of a material or an effect shows.
 using TextureSourceSnapshot = std::variant<MapSnapshot, CubeSourceSnapshot>;
+
+/// Whether the texture shows nothing.
+inline bool is_none(const TextureSourceSnapshot& texture) {
+    return std::visit([](const auto& source) { return source.index() == 0; }, texture);
+}
 
 struct NodeSnapshot {
     std::int32_t id;
@@ -48,10 +53,9 @@ struct NodeSnapshot {
     std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
     Material::State material;
     CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
-    CubeSourceSnapshot cubemap;      ///< what a BasicMaterial shows
-    MapSnapshot map;                 ///< none as well if the mesh has no uvs to place it by
-    std::vector<TextureSourceSnapshot>
-        textures;      ///< of a ShaderMaterial, in the order of its inputs
+    /// What the material's textures show, in their order (MaterialTraits::textures). A map is none
+    /// as well if the mesh has no uvs to place it by.
+    std::vector<TextureSourceSnapshot> textures;
     bool unbounded;    ///< its vertices may go anywhere: it is not culled
     bool in_captures;  ///< of the node and all above it
     bool translucent;  ///< blended over what is behind it

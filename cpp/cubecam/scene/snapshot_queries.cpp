@@ -9,13 +9,6 @@ bool has(const std::vector<std::int32_t>& ids, std::int32_t id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-bool uses_lights(const PhongParameters&) { return true; }
-bool uses_lights(const ShaderParameters& p) { return p.uses_lights(); }
-template <class Parameters>
-bool uses_lights(const Parameters&) {
-    return false;
-}
-
 }  // namespace
 
 bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excluded) {
@@ -30,7 +23,7 @@ bool uses_probe(const NodeSnapshot& node, std::size_t probe) {
         const auto* index = std::get_if<std::size_t>(&source);
         return index != nullptr && *index == probe;
     };
-    return is_probe(node.environment) || is_probe(node.cubemap) ||
+    return is_probe(node.environment) ||
            std::any_of(node.textures.begin(), node.textures.end(),
                        [&is_probe](const TextureSourceSnapshot& texture) {
                            const auto* source = std::get_if<CubeSourceSnapshot>(&texture);
@@ -38,24 +31,18 @@ bool uses_probe(const NodeSnapshot& node, std::size_t probe) {
                        });
 }
 
-const CubeSourceSnapshot& source_of(const SceneSnapshot& scene, const NodeSnapshot& node) {
+const CubeSourceSnapshot& environment_of(const SceneSnapshot& scene, const NodeSnapshot& node) {
     static const CubeSourceSnapshot none;
-    const MaterialParameters& parameters = node.material.value.parameters;
-    if (std::holds_alternative<BasicParameters>(parameters)) return node.cubemap;
-    if (std::holds_alternative<PhongParameters>(parameters)) return none;
-    const auto* shader = std::get_if<ShaderParameters>(&parameters);
-    if (shader != nullptr && !shader->looks_up_environment()) return none;
+    if (!node.material.value.traits().uses_environment) return none;
     return node.environment.index() == 0 ? scene.environment : node.environment;
 }
 
 bool moves_vertices(const NodeSnapshot& node) {
-    const auto* shader = std::get_if<ShaderParameters>(&node.material.value.parameters);
-    return shader != nullptr && shader->moves_vertices();
+    return node.material.value.traits().moves_vertices();
 }
 
 bool receive_shadow(const NodeSnapshot& node) {
-    return node.receive_shadow &&
-           std::visit([](const auto& p) { return uses_lights(p); }, node.material.value.parameters);
+    return node.receive_shadow && node.material.value.traits().uses_lights;
 }
 
 bool has_shadows(const SceneSnapshot& scene) {
@@ -66,11 +53,11 @@ bool has_shadows(const SceneSnapshot& scene) {
 std::vector<std::size_t> vertex_textures(const NodeSnapshot& node) {
     std::vector<std::size_t> found;
     if (!moves_vertices(node)) return found;
-    const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
-    std::size_t place = 0;
-    for (const auto& [name, source] : shader.inputs.textures) {
-        if (mentions(shader.vertex.text, name)) found.push_back(place);
-        ++place;
+    const MaterialTraits& traits = node.material.value.traits();
+    for (std::size_t place = 0; place < traits.textures.size(); ++place) {
+        if (mentions(traits.user_code->vertex->text, traits.textures[place].name)) {
+            found.push_back(place);
+        }
     }
     return found;
 }

@@ -15,8 +15,8 @@ bool is_excluded(const NodeSnapshot& node, const std::vector<std::int32_t>& excl
 /// Whether a node looks up a probe of its scene.
 bool uses_probe(const NodeSnapshot& node, std::size_t probe);
 
-/// The cube that a node's material looks up.
-const CubeSourceSnapshot& source_of(const SceneSnapshot& scene, const NodeSnapshot& node);
+/// The environment that a node's material looks up: none, the node's own or the scene's.
+const CubeSourceSnapshot& environment_of(const SceneSnapshot& scene, const NodeSnapshot& node);
 
 /// Whether a user's own source moves a node's vertices.
 bool moves_vertices(const NodeSnapshot& node);

@@ -21,11 +21,12 @@ from .. import (
     load_mesh,
     save_image,
 )
+from .._core import _shaded_outputs
 from ..io.cubemap_names import FACE_NAMES
 from ..io.cubemap_save import arrange
 from .common import Center, Convention, DeviceOption, Layout, failures_reported, parse_device
 
-_OUTPUTS = ("distance", "z", "normal", "position", "id")
+_OUTPUTS = tuple(_shaded_outputs())
 MaterialName: TypeAlias = Literal["phong", "mirror", "glass"]
 Triple: TypeAlias = tuple[float, float, float]
 
@@ -85,7 +86,7 @@ def capture(
         str,
         typer.Option(
             help="More to write, to EXR files named after the output: "
-            "distance, z, normal, position, id, with commas between them."
+            f"{', '.join(_OUTPUTS)}, with commas between them."
         ),
     ] = "",
     near: Annotated[float, typer.Option(help="Nearest distance drawn.")] = 0.05,
@@ -116,7 +117,9 @@ def capture(
             )
             drawn_by = str(renderer.info.renderer)
         written = [output]
-        cube.save(output, wanted, convention, width, center, srgb)
+        cube.save(
+            output, layout=wanted, convention=convention, width=width, center=center, srgb=srgb
+        )
         for name in more:
             written += _save_output(cube, name, output, wanted, convention or "gl")
         console = Console(soft_wrap=True)

@@ -107,9 +107,24 @@ def convert(
         names, description="converting", console=console, disable=len(names) == 1, transient=True
     ):
         try:
-            cube = load_cubemap(item.source, from_layout, from_convention, size, from_center, srgb)
+            cube = load_cubemap(
+                item.source,
+                layout=from_layout,
+                convention=from_convention,
+                size=size,
+                center=from_center,
+                srgb=srgb,
+            )
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
-            cube.save(item.path, item.layout, convention, width, center, srgb, half)
+            cube.save(
+                item.path,
+                layout=item.layout,
+                convention=convention,
+                width=width,
+                center=center,
+                srgb=srgb,
+                half=half,
+            )
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:
             failed += 1
             text = describe(error)

@@ -44,20 +44,21 @@ def photographs(images: Any = None) -> list[Picture]:
     ]
 
 
-def surroundings(images: Any = None, mipmaps: bool = False) -> cc.CubeMap:
+def surroundings(images: Any = None, *, mipmaps: bool = False) -> cc.CubeMap:
     """Give the six photographs as a cubemap."""
     return cc.CubeMap(photographs(images), convention="gl", mipmaps=mipmaps)
 
 
 @functools.cache
 def _city() -> Picture:
-    cube = cc.load_environment(cc.sample_data("city.exr"), size=PHOTOGRAPH)
+    # Tone mapping rounds to 8 bits; nothing is rounded before.
+    cube = cc.load_environment(cc.sample_data("city.exr"), size=PHOTOGRAPH, dtype="float32")
     return np.stack([for_screen(face) for face in cube.faces])
 
 
 @functools.cache
 def bunny(size: float = ACTOR) -> cc.Mesh:
-    """Give the bunny, centred, its largest extent `size` world units. Meshes never change: one serves all."""
+    """Give the bunny, centred, its largest extent `size` world units. One serves all: no program sets its vertices."""
     return cc.load_mesh(cc.sample_data("bunny.obj"), size=size)
 
 

@@ -8,7 +8,7 @@ is a Probe: assigned to the ball, it keeps itself true.
 Look for: cubes pass behind the camera and are seen in the ball. The teapot shows the cubes but
 never its own spout, which it left out.
 
-Worth trying: ``renderer.cubemap(program.probe)`` is what the cube camera took; save it as a cross.
+Worth trying: ``renderer.read_probe(program.probe)`` is what the cube camera took; save it as a cross.
 The document finds by experiment that each picture must be scaled by (-1, -1, 1); document 000 gets
 the same from its up vectors. Both are the face table of docs/conventions.md, seen from two sides: a
 face is stored as seen from without, row 0 at its t = 0.

@@ -57,7 +57,7 @@ def build(
     """Make the scene; eta is the refractive index outside divided by that inside."""
     scene, actors = stage()
     ball = cc.Mesh.sphere(BALL)
-    materials = cc.GlassMaterial(eta=eta, fresnel=fresnel), gold()
+    materials = cc.GlassMaterial(ior=1 / eta, fresnel=fresnel), gold()
     # The balls do not see each other: how mirrors show mirrors is another question.
     glass, mirror = (
         scene.add(ball, material, position=(x, 0, 0), scale=SCALE, in_captures=False)

@@ -117,7 +117,7 @@ def build(
     scene = cc.Scene(environment=cubemap, background=None if skybox else (0, 0, 0, 1))
     material = cc.ShaderMaterial(
         FRAGMENT_OF_VERTEX if per_vertex else FRAGMENT,
-        VERTEX if per_vertex else None,
+        vertex=VERTEX if per_vertex else None,
         textures={"textureCubeMap": cubemap},
         displacement=0,  # nothing is moved
     )

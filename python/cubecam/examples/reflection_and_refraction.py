@@ -2,7 +2,7 @@
 
 For each point, I goes from the eye to it, in world space. A mirror looks up R = I - 2 (N.I) N;
 glass looks up what Snell's law makes of I, GLSL's ``refract(I, N, eta)`` with eta the index outside
-divided by that inside. The camera circles: the pictures on the surfaces change, the photographs
+divided by that inside, the inverse of ``ior``. The camera circles: the pictures on the surfaces change, the photographs
 that they show do not.
 
 Look for: the mirrors, on the left, show what is behind the camera; the glass, on the right, shows
@@ -53,7 +53,7 @@ def build(images: Any = None, eta: float = ETA) -> Program:
     """Make the scene; eta is the refractive index outside divided by that inside, images are as in P1."""
     scene = cc.Scene(environment=surroundings(images))
     group = scene.add()
-    mirror, glass = cc.MirrorMaterial(), cc.GlassMaterial(eta=eta, fresnel=False)
+    mirror, glass = cc.MirrorMaterial(), cc.GlassMaterial(ior=1 / eta, fresnel=False)
     ball, pot = cc.Mesh.sphere(1), teapot(1.6)
     made = [
         (

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 def save_cubemap(
     cube: CubeMap,
     path: Source,
+    *,
     layout: str | None = None,
     convention: str | None = None,
     width: int | None = None,
@@ -79,7 +80,7 @@ def save_cubemap(
         faces = _storable(cube, paths).to_convention(convention or "gl")
         write_files(
             {
-                target: formats.encode(target, face, srgb, half)
+                target: formats.encode(target, face, srgb=srgb, half=half)
                 for target, face in zip(paths, faces, strict=True)
             }
         )
@@ -91,20 +92,24 @@ def save_cubemap(
     target = as_path(path)
     attributes: dict[str, Any] = {}
     source = _storable(cube, [target])
+    # What the file will round in the end is not rounded before.
+    exact = formats.stores(target, cube.dtype) and not srgb
+    resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
-        picture = source.to_equirect(width, center)
+        picture = source.to_equirect(width=width, center=center, dtype=resampled)
     elif wanted == "openexr":
         if target.suffix.lower() != ".exr":
             raise ValueError(
                 f'layout "openexr": expected a file name that ends in .exr, got {target.name!r}'
             )
         check_openexr(convention)
-        picture = source.to_layout("openexr", "inside")
+        picture = source.to_layout("openexr", dtype=resampled)
         # OpenImageIO makes the envmap attribute of it, and rejects a number set by that name.
         attributes["textureformat"] = "CubeFace Environment"
     else:
-        picture = source.to_layout(wanted or "cross", convention or "gl")
-    write_files({target: formats.encode(target, picture, srgb, half, attributes)})
+        picture = source.to_layout(wanted or "cross", convention=convention or "gl")
+    encoded = formats.encode(target, picture, srgb=srgb, half=half, attributes=attributes)
+    write_files({target: encoded})
 
 
 def arrange(values: Array, layout: str, convention: str) -> Array:
@@ -117,7 +122,7 @@ def arrange(values: Array, layout: str, convention: str) -> Array:
     pictures = []
     for channel in np.moveaxis(channels, -1, 0):
         texels = np.ascontiguousarray(channel)[..., None].view(np.uint8)
-        picture = CubeMap(texels).to_layout(layout, convention)
+        picture = CubeMap(texels).to_layout(layout, convention=convention)
         pictures.append(np.ascontiguousarray(picture).view(values.dtype))
     return np.concatenate(pictures, axis=-1)
 

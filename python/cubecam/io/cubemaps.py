@@ -18,6 +18,8 @@ from .pixels import Array, to_float32
 if TYPE_CHECKING:
     from pathlib import Path
 
+    import numpy.typing as npt
+
     from .oiio import Picture
 
 __all__ = ["load_cubemap", "load_environment"]
@@ -25,12 +27,14 @@ __all__ = ["load_cubemap", "load_environment"]
 
 def load_cubemap(
     path: Source,
+    *,
     layout: str | None = None,
     convention: str | None = None,
     size: int | None = None,
     center: str | None = None,
     srgb: bool = False,
     mipmaps: bool = False,
+    dtype: npt.DTypeLike | None = None,
 ) -> CubeMap:
     """Read a cubemap from six files or one.
 
@@ -53,12 +57,13 @@ def load_cubemap(
         Decode files of 8 and 16 bits to linear float32, as `load_image` does.
     mipmaps : bool
         Let lookups in the result be trilinear.
+    dtype : dtype, optional
+        "uint8", "float16" or "float32". None: uint8 from 8 bits, float16 from half, else float32.
 
     Returns
     -------
     CubeMap
-        uint8 from 8 bits, float16 from half, else float32; float32 where it had to be resampled (panorama, OpenEXR
-        cube, size).
+        Linear, raw numbers in `dtype`; rounded to nearest where it had to be resampled (panorama, OpenEXR cube, size).
 
     Raises
     ------
@@ -96,20 +101,28 @@ def load_cubemap(
         found = existing_file(path)
         picture = oiio.read(found)
         try:
-            cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps)
+            cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps, dtype)
         except ValueError as error:
             raise ValueError(f"{found}: {error}") from error
-    return cube if size is None or cube.size == size else cube.resize(size)
+    if size not in (None, cube.size):
+        return cube.resize(size, dtype=dtype)
+    if dtype is None or cube.dtype == np.dtype(dtype):
+        return cube
+    return CubeMap.from_layout(
+        cube.to_layout("column", dtype=dtype), layout="column", mipmaps=mipmaps
+    )
 
 
 def load_environment(
     path: Source,
+    *,
+    layout: str | None = None,
+    convention: str | None = None,
     size: int | None = None,
     center: str | None = None,
-    convention: str | None = None,
-    layout: str | None = None,
     srgb: bool = False,
     mipmaps: bool = False,
+    dtype: npt.DTypeLike | None = None,
 ) -> CubeMap:
     """Read what surrounds a scene: an equirectangular photograph, or any file that `load_cubemap` reads.
 
@@ -121,13 +134,14 @@ def load_environment(
         Texels along an edge of a face; None: the next power of two from width / pi, which loses nothing.
     center : {"-z", "+z", "+x", "-x"}, optional
         The direction in the middle of the panorama: "-z", straight ahead, by default.
-    convention, layout, srgb, mipmaps
+    layout, convention, srgb, mipmaps, dtype
         As in `load_cubemap`.
 
     Returns
     -------
     CubeMap
-        Linear and unclipped: lamps keep their thousands.
+        Linear and unclipped: lamps keep their thousands. In the numbers of the file, such as float16 from an EXR of
+        half floats.
 
     Raises
     ------
@@ -146,7 +160,16 @@ def load_environment(
     >>> studio.size, bool(studio.faces.max() > 1000)
     (256, True)
     """
-    return load_cubemap(path, layout, convention, size, center, srgb, mipmaps)
+    return load_cubemap(
+        path,
+        layout=layout,
+        convention=convention,
+        size=size,
+        center=center,
+        srgb=srgb,
+        mipmaps=mipmaps,
+        dtype=dtype,
+    )
 
 
 def _read_faces(paths: list[Path], srgb: bool) -> Array:
@@ -191,6 +214,7 @@ def _from_picture(
     size: int | None,
     center: str | None,
     mipmaps: bool,
+    dtype: npt.DTypeLike | None,
 ) -> CubeMap:
     pixels = _colors(formats.decode(picture.pixels, srgb))
     height, width = pixels.shape[:2]
@@ -198,7 +222,12 @@ def _from_picture(
         layout = "openexr"
     if layout == "openexr":
         check_openexr(convention)
-        return CubeMap.from_layout(pixels, layout="openexr", convention="inside", mipmaps=mipmaps)
+        return CubeMap.from_layout(
+            pixels,
+            layout="openexr",
+            mipmaps=mipmaps,
+            dtype=dtype if size is None else None,
+        )
     if layout == "equirect" or (
         layout is None and (width == 2 * height or picture.environment == "latlong")
     ):
@@ -209,6 +238,7 @@ def _from_picture(
             center=center or ("+z" if borders else "-z"),
             mipmaps=mipmaps,
             sampling="borders" if borders else "centers",
+            dtype=dtype,
         )
     return CubeMap.from_layout(
         pixels, layout=layout, convention=convention or "gl", mipmaps=mipmaps

@@ -62,6 +62,7 @@ def decode(pixels: Array, srgb: bool) -> Array:
 def encode(
     path: Path,
     pixels: Any,
+    *,
     srgb: bool = False,
     half: bool = False,
     attributes: dict[str, Any] | None = None,
@@ -86,6 +87,11 @@ def find_format(path: Path) -> tuple[str, Format]:
 def holds_alpha(path: Path) -> bool:
     """Say whether a file of this name can hold alpha."""
     return 4 in find_format(path)[1].channels
+
+
+def stores(path: Path, dtype: np.dtype[Any]) -> bool:
+    """Say whether a file of this name holds numbers of a type as they are."""
+    return dtype.name in find_format(path)[1].samples
 
 
 def is_opaque(pixels: Array) -> bool:

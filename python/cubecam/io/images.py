@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["load_image", "save_animation", "save_image"]
 
 
-def load_image(path: PathLike, srgb: bool = False) -> Array:
+def load_image(path: PathLike, *, srgb: bool = False) -> Array:
     """Read a picture as it is stored.
 
     Parameters
@@ -53,7 +53,7 @@ def load_image(path: PathLike, srgb: bool = False) -> Array:
     return decode(oiio.read(existing_file(path)).pixels, srgb)
 
 
-def save_image(path: PathLike, pixels: Any, srgb: bool = False, half: bool = False) -> None:
+def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = False) -> None:
     """Write an array as a picture; the extension names the kind of file.
 
     Parameters
@@ -109,7 +109,7 @@ def save_image(path: PathLike, pixels: Any, srgb: bool = False, half: bool = Fal
 
 
 def save_animation(
-    path: PathLike, frames: Iterable[Any], fps: float = 25, srgb: bool = False
+    path: PathLike, frames: Iterable[Any], *, fps: float = 25, srgb: bool = False
 ) -> None:
     """Write pictures as an animation that repeats for ever.
 

@@ -43,7 +43,7 @@ class _Part:
     colors: npt.NDArray[np.float64] | None
 
 
-def load_mesh(path: PathLike, size: float | None = None) -> Mesh:
+def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     """Read a mesh file.
 
     Parameters
@@ -61,7 +61,8 @@ def load_mesh(path: PathLike, size: float | None = None) -> Mesh:
         Vertices in the file's order; an OBJ's are split where texture coordinates or normals differ. Normals
         are the file's; where it has none they are computed smooth, also
         across vertices that stand twice in one place (a seam in the texture coordinates). An STL file, which lists
-        three corners for each triangle, has its equal positions merged. uvs with (0, 0) at a picture's
+        three corners for each triangle, has its equal positions merged. New positions (`Mesh.update`) keep all
+        these normals. uvs with (0, 0) at a picture's
         bottom-left, and colours, where the file has them.
 
     Raises

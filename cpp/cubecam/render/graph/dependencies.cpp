@@ -38,8 +38,7 @@ void add_source(std::size_t scene, const TextureSourceSnapshot& texture, Depende
 
 void add_dependencies(const SceneSnapshot& scene, std::size_t number, const NodeSnapshot& node,
                       Dependencies& to) {
-    add_cube(number, source_of(scene, node), to);
-    add_map(node.map, to);
+    add_cube(number, environment_of(scene, node), to);
     for (const TextureSourceSnapshot& texture : node.textures) add_source(number, texture, to);
 }
 

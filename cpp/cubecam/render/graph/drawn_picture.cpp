@@ -84,7 +84,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
         const NodeSnapshot& node = scene.nodes[planned.node];
         const NodeTextures& found = lookups[planned.node];
         NodeKey key{node.id,
-                    receive_shadow(node),
+                    !shadows.empty() && receive_shadow(node),
                     {},
                     node.revision,
                     node.world,
@@ -96,8 +96,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
             PictureKey& picture = keys[visibility.view];
             key.bounds = visibility.bounds;
             key.first_texture = static_cast<std::uint32_t>(picture.textures.size());
-            picture.textures.push_back(found.cube.revision);
-            picture.textures.push_back(found.map.revision);
+            picture.textures.push_back(found.environment.revision);
             for (const BoundTexture& texture : found.textures) {
                 picture.textures.push_back(texture.revision);
             }

@@ -57,7 +57,7 @@ Buffer<float> FrameContext::shadow_map(std::size_t light) {
 }
 
 void FrameContext::update(const std::vector<PictureId>& roots) {
-    // Without either there are no strict pictures, and their contents need not be looked through.
+    // Without render textures and moved casters no picture is strict, so nothing is refused.
     if (!scenes.textures.empty() || !caster_dependencies_.empty()) {
         std::string advice = "; leave the nodes that show it out with exclude=";
         if (!caster_dependencies_.empty()) {

@@ -39,7 +39,7 @@ public:
     /// The shadow map of a light of the first scene; see Renderer::shadow_map.
     Buffer<float> shadow_map(std::size_t light);
 
-    // What pictures need of it.
+    // For the pictures.
 
     RendererState& gpu;
     const SceneSnapshot& scenes;  ///< the first one, and by it the others
@@ -69,9 +69,10 @@ private:
         std::vector<std::size_t> probes, lights;
     };
 
-    std::vector<Ranks> ranks_;                            // of each scene
-    std::vector<std::optional<SceneContents>> contents_;  // the same, as far as asked for
-    Dependencies caster_dependencies_;                    // of all scenes
+    std::vector<Ranks> ranks_;  // of each scene
+    std::vector<std::optional<SceneContents>>
+        contents_;                      // the same, made when a picture wants them
+    Dependencies caster_dependencies_;  // of all scenes
 };
 
 }  // namespace cubecam

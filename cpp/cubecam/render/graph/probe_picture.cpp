@@ -47,8 +47,12 @@ std::vector<PictureId> ProbePicture::dependencies() {
 TargetDescription ProbePicture::describe() const {
     const ProbeValue& value = probe_.value;
     TargetDescription description =
-        describe_target(context_.gpu.context, true, value.size, value.size, value.samples,
-                        value.format, {}, value.depth_format);
+        describe_target(context_.gpu.context, {.shape = TargetShape::cube(),
+                                               .width = value.size,
+                                               .height = value.size,
+                                               .samples = value.samples,
+                                               .format = value.format,
+                                               .depth_format = value.depth_format});
     description.mipmaps = value.mipmaps;
     return description;
 }

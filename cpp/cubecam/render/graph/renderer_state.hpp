@@ -6,6 +6,7 @@
 #include "cubecam/render/passes/surface_pass.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/key.hpp"
+#include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
 #include "cubecam/scene/probe.hpp"
@@ -61,7 +62,8 @@ struct RendererState {
     RendererState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
           post_process(its_context.gl(), cache, surface.programs()),
-          shadows(its_context, cache, surface.programs()), targets(cache_bytes) {}
+          shadows(its_context, cache, surface.programs()), targets(cache_bytes),
+          results(std::make_shared<ResultPool>(cache_bytes)) {}
 
     gl::Context& context;
     GpuCache cache;
@@ -69,6 +71,7 @@ struct RendererState {
     PostProcessPass post_process;
     ShadowPass shadows;
     TargetStore targets;
+    std::shared_ptr<ResultPool> results;  ///< shared: results that outlive the renderer look for it
     WeakCache<Probe, StatesByScene<ProbeState>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;

@@ -45,7 +45,7 @@ BoundTexture TextureLookup::find(const TextureSourceSnapshot& texture) {
 }
 
 NodeTextures TextureLookup::find(const NodeSnapshot& node) {
-    NodeTextures found{find(source_of(scene_, node)), find(node.map), {}};
+    NodeTextures found{find(environment_of(scene_, node)), {}};
     for (const TextureSourceSnapshot& texture : node.textures) {
         found.textures.push_back(find(texture));
     }

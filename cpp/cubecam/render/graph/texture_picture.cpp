@@ -53,8 +53,12 @@ TargetDescription TexturePicture::describe() const {
     const RenderTextureValue& value = texture_.value;
     try {
         TargetDescription description =
-            describe_target(context_.gpu.context, false, value.width, value.height, value.samples,
-                            value.format, {}, value.depth_format);
+            describe_target(context_.gpu.context, {.shape = TargetShape::flat(),
+                                                   .width = value.width,
+                                                   .height = value.height,
+                                                   .samples = value.samples,
+                                                   .format = value.format,
+                                                   .depth_format = value.depth_format});
         description.mipmaps = value.mipmaps;
         set_post_process(description, value.effects.size(), false);
         return description;

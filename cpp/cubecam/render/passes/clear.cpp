@@ -2,31 +2,23 @@
 
 #include "cubecam/image/depth_format.hpp"
 
-#include <limits>
+#include <cstddef>
 
 namespace cubecam {
 namespace {
 
-constexpr GLint no_id[4] = {0, 0, 0, 0};
-constexpr float far_depth = 0.0F;  // depth is reversed
 constexpr GLint no_stencil = 0;
 
-/// Calls `put(slot, four floats)` for colour and every output that holds floats.
+/// Calls `put(slot, type, numbers)` for colour and every output, with four numbers to clear to.
 template <class Put>
-void for_each_float(const Target& target, const ClearValues& values, Put&& put) {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    if (values.with_color && target.description().color) put(Slot::color, values.color);
+void for_each_color(const Target& target, const ClearValues& values, Put&& put) {
+    if (values.with_color && target.description().color) {
+        put(std::size_t{0}, OutputType::float32, values.color);
+    }
     if (!values.with_outputs) return;
-    const Outputs& outputs = target.description().outputs;
-    if (outputs.distance) put(Slot::distance, glm::vec4(infinity));
-    if (outputs.z) put(Slot::z, glm::vec4(infinity));
-    if (outputs.normal) put(Slot::normal, glm::vec4(0.0F));
-    if (outputs.position) put(Slot::position, glm::vec4(nan));
-}
-
-bool clears_id(const Target& target, const ClearValues& values) {
-    return values.with_outputs && target.description().outputs.id;
+    for (const ShadedOutput& output : target.description().outputs.by_slot()) {
+        put(output.slot, output.type, glm::vec4(output.clear));
+    }
 }
 
 }  // namespace
@@ -34,18 +26,21 @@ bool clears_id(const Target& target, const ClearValues& values) {
 void clear_bound(const GladGLContext& gl, const Target& target, const ClearValues& values) {
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.DepthMask(GL_TRUE);
-    for_each_float(target, values, [&gl](Slot slot, const glm::vec4& value) {
-        gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(slot), &value.x);
+    for_each_color(target, values, [&gl](std::size_t slot, OutputType type, const auto& value) {
+        if (type == OutputType::float32) {
+            gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(slot), &value.x);
+        } else {
+            const glm::ivec4 whole(value);
+            gl.ClearBufferiv(GL_COLOR, static_cast<GLint>(slot), &whole.x);
+        }
     });
-    if (clears_id(target, values)) {
-        gl.ClearBufferiv(GL_COLOR, static_cast<GLint>(Slot::id), no_id);
-    }
+    const float last = depth_state(target.description().depth_order).clear;
     const DepthFormat depth = target.description().depth_format;
     gl.StencilMask(0xFF);
     if (has_depth(depth) && has_stencil(depth)) {
-        gl.ClearBufferfi(GL_DEPTH_STENCIL, 0, far_depth, no_stencil);
+        gl.ClearBufferfi(GL_DEPTH_STENCIL, 0, last, no_stencil);
     } else if (has_depth(depth)) {
-        gl.ClearBufferfv(GL_DEPTH, 0, &far_depth);
+        gl.ClearBufferfv(GL_DEPTH, 0, &last);
     } else if (has_stencil(depth)) {
         gl.ClearBufferiv(GL_STENCIL, 0, &no_stencil);
     }
@@ -58,22 +53,25 @@ void clear_layer(const GladGLContext& gl, const Target& target, int layer, const
         gl.ClearTexSubImage(texture.id(), 0, rect.x0, rect.y0, layer, rect.width(), rect.height(),
                             1, format, type, value);
     };
-    for_each_float(target, values, [&](Slot slot, const glm::vec4& value) {
-        const bool color = slot == Slot::color;
-        clear(color ? target.color() : target.output(slot), GL_RGBA, GL_FLOAT, &value.x);
+    for_each_color(target, values, [&](std::size_t slot, OutputType type, const auto& value) {
+        const gl::Texture& texture = slot == 0 ? target.color() : target.output(slot);
+        if (type == OutputType::float32) {
+            clear(texture, GL_RGBA, GL_FLOAT, &value.x);
+        } else {
+            const glm::ivec4 whole(value);
+            clear(texture, GL_RGBA_INTEGER, GL_INT, &whole.x);
+        }
     });
-    if (clears_id(target, values)) {
-        clear(target.output(Slot::id), GL_RED_INTEGER, GL_INT, no_id);
-    }
+    const float last = depth_state(target.description().depth_order).clear;
     const DepthFormat depth = target.description().depth_format;
     if (has_depth(depth) && has_stencil(depth)) {
         const struct {
             float depth;
             GLuint stencil;
-        } both{far_depth, no_stencil};
+        } both{last, no_stencil};
         clear(target.depth(), GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &both);
     } else if (has_depth(depth)) {
-        clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &far_depth);
+        clear(target.depth(), GL_DEPTH_COMPONENT, GL_FLOAT, &last);
     } else if (has_stencil(depth)) {
         clear(target.depth(), GL_STENCIL_INDEX, GL_INT, &no_stencil);
     }

@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/post_process_pass.hpp"
 
+#include "cubecam/render/passes/full_screen_pass.hpp"
+
 #include <cstddef>
 
 namespace cubecam {
@@ -7,9 +9,7 @@ namespace cubecam {
 void PostProcessPass::draw(const PostProcess& post_process,
                            const std::vector<std::vector<BoundTexture>>& textures, Target& target,
                            int layer, Stats& stats) {
-    gl_->Disable(GL_DEPTH_TEST);
-    gl_->Disable(GL_CULL_FACE);
-    gl_->Disable(GL_BLEND);
+    set_full_screen_state(*gl_);
     gl_->Viewport(0, 0, target.description().width, target.description().height);
     GLuint source = target.color().id();
     for (std::size_t i = 0; i < post_process.effects.size(); ++i) {
@@ -30,10 +30,7 @@ void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Pro
     program.use();
     program.set("u_layer", layer);
     gl_->BindTextureUnit(0, source);
-    gl_->BindVertexArray(cache_->views_only().id());
-    gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    ++stats.draw_calls;
-    stats.triangles += 2;
+    draw_full_screen(*gl_, *cache_, {}, stats);
 }
 
 }  // namespace cubecam

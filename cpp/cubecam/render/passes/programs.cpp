@@ -1,17 +1,65 @@
 #include "cubecam/render/passes/programs.hpp"
 
+#include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
+#include "cubecam/render/resources/node_record.hpp"
 
-#include <array>
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 namespace cubecam {
 namespace {
 
-/// In the order of MaterialParameters.
-constexpr std::array<const char*, std::variant_size_v<MaterialParameters>> material_defines = {
-    "MATERIAL_BASIC", "MATERIAL_PHONG", "MATERIAL_MIRROR", "MATERIAL_GLASS", "MATERIAL_SHADER"};
+/// Beyond so many, the vertex stage has no room for lights.
+constexpr int most_flat_lights = 4;
+
+/// The file that stands for the material's own in shaders/passes/surface.frag.
+constexpr std::string_view material_include = "include/material.glsl";
+
+std::string upper(std::string_view name) {
+    std::string text(name);
+    std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+        return static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    });
+    return text;
+}
+
+/// The GLSL that includes a material's file.
+UserSource include_of(const KindInfo& kind) {
+    return {"#include \"" + std::string(kind.shader) + "\"\n", {}};
+}
+
+/// What the shader knows of the material's textures.
+void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
+                  const MaterialTraits& material) {
+    if (material.user_code) return;  // samplers are the user's own
+    if (material.textures.size() > most_material_textures) {
+        throw std::logic_error(std::string(material.kind->name) + ": expected at most " +
+                               std::to_string(most_material_textures) + " textures");
+    }
+    bool uv = false;
+    bool position = false;
+    for (std::size_t i = 0; i < material.textures.size(); ++i) {
+        if ((variant.textures >> i & 1U) == 0) continue;
+        const NamedTexture& texture = material.textures[i];
+        const std::string name = upper(texture.name);
+        options.defines.emplace_back("HAS_" + name, "1");
+        options.defines.emplace_back("UNIT_" + name, std::to_string(first_material_unit + i));
+        (texture.source.index() == 0 ? uv : position) = true;
+    }
+    if (uv) options.defines.emplace_back("USES_UV", "1");
+    if (position) options.defines.emplace_back("USES_POSITION_OBJECT", "1");
+}
+
+void add_defines(gl::ShaderOptions& options,
+                 const std::vector<std::pair<std::string, std::string>>& defines) {
+    options.defines.insert(options.defines.end(), defines.begin(), defines.end());
+}
 
 }  // namespace
 
@@ -24,28 +72,37 @@ gl::ShaderOptions Programs::layer_options() const {
     return options;
 }
 
-gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant) const {
-    gl::ShaderOptions options = layer_options();
+gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
+                                            const MaterialTraits& material) const {
+    gl::ShaderOptions options = variant.instanced ? gl::ShaderOptions() : layer_options();
     const auto define = [&options](bool wanted, const char* name) {
         if (wanted) options.defines.emplace_back(name, "1");
     };
-    define(true, material_defines[variant.material]);
-    define(variant.map, "HAS_MAP");
+    for (std::size_t i = 0; i < material.switch_names.size(); ++i) {
+        define((variant.switches >> i & 1U) != 0, material.switch_names[i]);
+    }
+    add_textures(options, variant, material);
+    define(material.user_code.has_value(), "USER_SOURCE");
+    define(material.uses_environment, "USES_ENVIRONMENT");
+    define(material.uses_lights, "USES_LIGHTS");
+    const std::size_t constants = variant.kind->constants;
+    options.defines.emplace_back("MATERIAL_SIZE", std::to_string(constants));
+    define(constants > 0 && constants <= most_flat_constants && !variant.dense, "FLAT_MATERIAL");
     define(variant.vertex_colors, "HAS_VERTEX_COLORS");
-    define(variant.cube, "HAS_CUBE");
     define(variant.double_sided, "DOUBLE_SIDED");
-    define(variant.fresnel, "FRESNEL");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
     define(variant.blend == Blend::multiply, "BLEND_MULTIPLY");
     define(variant.blend == Blend::premultiplied, "BLEND_PREMULTIPLIED");
-    define(variant.outputs, "OUTPUTS");
     define(variant.decay, "LIGHT_DECAY");
     define(variant.cone, "LIGHT_CONE");
     define(variant.dense, "DENSE");
     define(variant.moved, "HAS_USER_VERTEX");
+    define(variant.instanced, "INSTANCED");
     if (variant.lights >= 0)
         options.defines.emplace_back("LIGHT_COUNT", std::to_string(variant.lights));
+    const int flat_lights = variant.dense ? 0 : std::clamp(variant.lights, 0, most_flat_lights);
+    options.defines.emplace_back("FLAT_LIGHT_COUNT", std::to_string(flat_lights));
     if (variant.shadows > 0) {
         options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
         options.defines.emplace_back("SHADOW_KINDS", std::to_string(variant.shadow_kinds) + "u");
@@ -55,24 +112,33 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant) const
     return options;
 }
 
-const gl::Program& Programs::surface(const SurfaceVariant& variant) {
+const gl::Program& Programs::surface(const SurfaceVariant& variant,
+                                     const MaterialTraits& material) {
     const auto found = surfaces_.find(variant);
     if (found != surfaces_.end()) return found->second;
+    const UserSource include = include_of(*variant.kind);
+    gl::ShaderOptions options = surface_options(variant, material);
+    add_defines(options, output_defines(variant.outputs));
     return surfaces_
-        .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"},
-                                      surface_options(variant)))
+        .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                                      substituted({{material_include, "", &include}})))
         .first->second;
 }
 
-UserProgram& Programs::surface(const SurfaceVariant& variant, const ShaderParameters& shader) {
-    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"},
-                      surface_options(variant),
-                      {{"include/user_fragment.glsl", "fragment", &shader.fragment},
-                       {"include/user_vertex.glsl", "vertex", &shader.vertex}});
+UserProgram& Programs::user_surface(const SurfaceVariant& variant, const MaterialTraits& material) {
+    const UserCode& user = *material.user_code;
+    const UserSource include = include_of(*variant.kind);
+    gl::ShaderOptions options = surface_options(variant, material);
+    const UserSource fragment = place_outputs(*user.fragment, variant.outputs);
+    add_defines(options, output_defines(variant.outputs, declared_outputs(*user.fragment)));
+    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                      {{"include/user_fragment.glsl", "fragment", &fragment},
+                       {"include/user_vertex.glsl", "vertex", user.vertex},
+                       {material_include, "", &include}});
 }
 
 UserProgram& Programs::effect(const UserSource& fragment) {
-    return users_.get(*gl_, {"passes/tonemap.vert", "passes/effect.frag"}, {},
+    return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
                       {{"include/user_fragment.glsl", "fragment", &fragment}});
 }
 
@@ -82,17 +148,18 @@ const gl::Program& Programs::skybox() {
     return skybox_;
 }
 
-UserProgram& Programs::shadow(const ShaderParameters& shader, bool vertex_colors) {
+UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_colors) {
     SurfaceVariant variant;
-    variant.material = std::variant_size_v<MaterialParameters> - 1;
+    variant.kind = material.kind;
+    variant.switches = material.switches;
     variant.vertex_colors = vertex_colors;
     variant.moved = true;
     variant.dense = true;
-    gl::ShaderOptions options = surface_options(variant);
+    gl::ShaderOptions options = surface_options(variant, material);
     std::erase_if(options.defines, [](const auto& define) { return define.first == "LAYERED"; });
     return users_.get(*gl_, {"passes/surface.vert", "passes/shadow.frag"}, options,
-                      {{"include/user_fragment.glsl", "fragment", &shader.fragment},
-                       {"include/user_vertex.glsl", "vertex", &shader.vertex}});
+                      {{"include/user_fragment.glsl", "fragment", material.user_code->fragment},
+                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}});
 }
 
 const gl::Program& Programs::shadow() {
@@ -114,7 +181,7 @@ const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
     if (encode == Encode::srgb) options.defines.emplace_back("ENCODE_SRGB", "1");
     return grades_
         .emplace(std::pair{tonemap, encode},
-                 gl::Program(*gl_, {"passes/tonemap.vert", "passes/tonemap.frag"}, options))
+                 gl::Program(*gl_, {"passes/full_screen.vert", "passes/tonemap.frag"}, options))
         .first->second;
 }
 

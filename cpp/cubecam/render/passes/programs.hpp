@@ -4,6 +4,7 @@
 #include "cubecam/materials/material.hpp"
 #include "cubecam/render/passes/tonemap.hpp"
 #include "cubecam/render/passes/user_program.hpp"
+#include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/stats.hpp"
 
 #include <compare>
@@ -13,21 +14,18 @@
 
 namespace cubecam {
 
-/// Lights beyond this many are refused: they lie in a uniform block of guaranteed size.
-inline constexpr std::size_t max_lights = 256;
-
 /// Which variant of surface.vert/.frag a draw call needs.
 struct SurfaceVariant {
-    std::size_t material = 0;  ///< index into MaterialParameters
-    bool map = false;
+    const KindInfo* kind = nullptr;
+    bool instanced = false;      ///< the instances are nodes, else they are views
+    std::uint32_t switches = 0;  ///< MaterialTraits::switches
+    std::uint32_t textures = 0;  ///< bit i: the material's texture i shows something
     bool vertex_colors = false;
-    bool cube = false;  ///< a basic material that shows a cubemap
     bool double_sided = false;
-    bool fresnel = false;
     Blend blend = Blend::opaque;
     bool dense = false;  ///< many small triangles: constants stay in their blocks
-    bool outputs = false;
-    int lights = 0;  ///< unrolled so many times; -1: a loop
+    Outputs outputs;     ///< that it writes; without those read from depth and stencil buffers
+    int lights = 0;      ///< unrolled so many times; -1: a loop
     bool decay = false;
     bool moved = false;              ///< by a user's own vertex function
     bool cone = false;               ///< some light is a spot light
@@ -37,23 +35,29 @@ struct SurfaceVariant {
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 
+/// The unit of a material's first texture; units below belong to the passes.
+inline constexpr unsigned first_material_unit = 2;
+inline constexpr unsigned most_material_textures = 14;  ///< units from 16 on are for shadows
+
 /// Compiled programs, made when first needed.
 class Programs {
 public:
     Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {}
 
-    const gl::Program& surface(const SurfaceVariant& variant);
+    /// `material` is any of the variant's kind and switches.
+    const gl::Program& surface(const SurfaceVariant& variant, const MaterialTraits& material);
     /// With a user's source in it. @throws ShaderError that names the user's own lines.
-    UserProgram& surface(const SurfaceVariant& variant, const ShaderParameters& shader);
+    UserProgram& user_surface(const SurfaceVariant& variant, const MaterialTraits& material);
     UserProgram& effect(const UserSource& fragment);
     const gl::Program& skybox();
     const gl::Program& shadow();
-    UserProgram& shadow(const ShaderParameters& shader, bool vertex_colors);
+    UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors);
     const gl::Program& grade(Tonemap tonemap, Encode encode);
 
 private:
     gl::ShaderOptions layer_options() const;
-    gl::ShaderOptions surface_options(const SurfaceVariant& variant) const;
+    gl::ShaderOptions surface_options(const SurfaceVariant& variant,
+                                      const MaterialTraits& material) const;
 
     const GladGLContext* gl_;
     bool layered_;

@@ -2,8 +2,8 @@
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/image/flip.hpp"
-#include "cubecam/render/passes/draw_block.hpp"
-#include "cubecam/render/resources/instance.hpp"
+#include "cubecam/render/resources/node_record.hpp"
+#include "cubecam/render/resources/view_record.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -18,7 +18,8 @@ namespace cubecam {
 namespace {
 
 constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
-constexpr float nothing = 0.0F;  // depth is reversed
+constexpr DepthState depth_test = depth_state(DepthOrder::nearest);
+constexpr float nothing = depth_test.clear;
 
 }  // namespace
 
@@ -75,7 +76,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     // All nodes of one mesh in one call: of a caster nothing but its matrix counts. Meshes come in
     // the order of their first node.
     std::vector<const MeshData*> meshes;
-    std::vector<std::vector<Instance>> nodes;
+    std::vector<std::vector<ViewRecord>> nodes;
     std::map<const MeshData*, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
@@ -96,20 +97,20 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
             nodes.emplace_back();
         }
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
-        nodes[place->second].push_back(make_instance(from, matrix, from.position, layer));
+        nodes[place->second].push_back(make_view_record(from, matrix, from.position, layer));
     }
-    std::vector<Instance> instances;
+    std::vector<ViewRecord> instances;
     for (const auto& of_mesh : nodes) {
         instances.insert(instances.end(), of_mesh.begin(), of_mesh.end());
     }
-    instances_ = gl::create_buffer(*gl_, instances.size() * sizeof(Instance), instances.data());
+    instances_ = gl::create_buffer(*gl_, instances.size() * sizeof(ViewRecord), instances.data());
 
     gl_->BindFramebuffer(GL_FRAMEBUFFER, map.layers->one(static_cast<int>(layer)));
     gl_->Viewport(0, 0, map.size, map.size);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Scissor(0, 0, map.size, map.size);
     gl_->Enable(GL_DEPTH_TEST);
-    gl_->DepthFunc(GL_GREATER);
+    gl_->DepthFunc(depth_test.closer);
     gl_->DepthMask(GL_TRUE);
     gl_->Disable(GL_BLEND);
     gl_->Disable(GL_CULL_FACE);  // a surface stops light from either side
@@ -122,8 +123,8 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     for (std::size_t m = 0; m < meshes.size(); ++m) {
         const GpuMesh& mesh = cache_->mesh(*meshes[m]);
         const auto count = static_cast<GLsizei>(nodes[m].size());
-        gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
-                                     sizeof(Instance));
+        gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::records, instances_.id(), 0,
+                                     sizeof(ViewRecord));
         gl_->BindVertexArray(mesh.array.id());
         gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
                                                nullptr, count, first);
@@ -137,19 +138,21 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
 void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
                             Stats& stats) {
     const View& from = input.view.views[layer];
-    const auto& shader = std::get<ShaderParameters>(node.material.value.parameters);
+    const MaterialTraits& material = node.material.value.traits();
     const glm::dmat4 matrix = glm::translate(from.view_projection, from.position);
-    const Instance instance = make_instance(from, reverse_depth(matrix), from.position, layer);
-    const DrawBlock block = make_draw_block(node, from.position, glm::vec3(1.0F));
+    const ViewRecord instance = make_view_record(from, reverse_depth(matrix), from.position, layer);
+    const NodeBlock block = make_node_block(node, from.position);
     instances_ = gl::create_buffer(*gl_, sizeof(instance), &instance);
     block_ = gl::create_buffer(*gl_, sizeof(block), &block);
-    gl_->BindBufferBase(GL_UNIFORM_BUFFER, draw_binding, block_.id());
-    UserProgram& program = programs_->shadow(shader, node.mesh->colors() != nullptr);
-    program.use(shader.inputs, input.look_up(node));
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, node_binding, block_.id());
+    UserProgram& program = programs_->user_shadow(material, node.mesh->colors() != nullptr);
+    const std::vector<BoundTexture> textures = input.look_up(node);
+    program.use(*material.user_code->inputs,
+                std::span(textures).subspan(material.user_code->first_texture));
     program.program().use();
     const GpuMesh& mesh = cache_->mesh(*node.mesh);
-    gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::views, instances_.id(), 0,
-                                 sizeof(Instance));
+    gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::records, instances_.id(), 0,
+                                 sizeof(ViewRecord));
     gl_->BindVertexArray(mesh.array.id());
     gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type, nullptr,
                                            1, 0);

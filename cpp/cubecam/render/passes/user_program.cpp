@@ -15,7 +15,7 @@ constexpr std::size_t most_programs = 64;
 constexpr GLuint first_user_unit = 32;
 
 /// What shaders/ declares itself.
-constexpr std::array<std::string_view, 5> own_uniforms = {"u_map", "u_cube", "u_frame", "u_layer",
+constexpr std::array<std::string_view, 4> own_uniforms = {"u_cube", "u_frame", "u_layer",
                                                           "u_shadow_maps"};
 
 /// How a GLSL type is filled: `rows` x `columns` numbers, in GLSL's name.
@@ -283,10 +283,23 @@ void UserProgram::set(Uniform& uniform, const std::vector<double>& numbers) {
     uniform.current = numbers;
 }
 
+std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> parts) {
+    std::vector<gl::ShaderSource> sources(gl::embedded_shaders().begin(),
+                                          gl::embedded_shaders().end());
+    for (gl::ShaderSource& source : sources) {
+        for (const ShaderPart& part : parts) {
+            if (source.name != part.file) continue;
+            source.text = part.source->text;
+            source.title = part.source->path.empty() ? part.title : part.source->path;
+        }
+    }
+    return sources;
+}
+
 UserProgram& UserPrograms::get(const GladGLContext& gl,
                                std::initializer_list<std::string_view> files,
                                const gl::ShaderOptions& options,
-                               std::initializer_list<Part> parts) {
+                               std::initializer_list<ShaderPart> parts) {
     // All that the program is made of, compared in full.
     std::string key;
     const auto add = [&key](std::string_view text) { key.append(text).push_back('\0'); };
@@ -294,10 +307,10 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
     for (const std::string& extension : options.extensions) add(extension);
     for (const auto& [name, value] : options.defines) add(name + "=" + value);
     std::string text;
-    for (const Part& part : parts) {
+    for (const ShaderPart& part : parts) {
         add(part.source->text);
         add(part.source->path);
-        text += part.source->text + "\n";
+        if (!part.title.empty()) text += part.source->text + "\n";
     }
     const auto found = std::find_if(programs_.begin(), programs_.end(),
                                     [&key](const auto& held) { return held.first == key; });
@@ -306,16 +319,7 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
         return programs_.front().second;
     }
 
-    std::vector<gl::ShaderSource> sources(gl::embedded_shaders().begin(),
-                                          gl::embedded_shaders().end());
-    for (gl::ShaderSource& source : sources) {
-        for (const Part& part : parts) {
-            if (source.name != part.file) continue;
-            source.text = part.source->text;
-            source.title = part.source->path.empty() ? part.title : part.source->path;
-        }
-    }
-    UserProgram made(gl::Program(gl, files, options, sources), std::move(text));
+    UserProgram made(gl::Program(gl, files, options, substituted(parts)), std::move(text));
     if (programs_.size() == most_programs) programs_.pop_back();
     programs_.emplace_front(std::move(key), std::move(made));
     return programs_.front().second;

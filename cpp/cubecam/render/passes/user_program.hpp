@@ -51,20 +51,23 @@ private:
     std::vector<Uniform> uniforms_;  // samplers, too
 };
 
+/// A text and the file of shaders/ that it stands for. `title` is what messages call a user's text
+/// that was read from no file; it is empty for a text that is not a user's.
+struct ShaderPart {
+    std::string_view file;
+    std::string_view title;
+    const UserSource* source;
+};
+
+/// The files of shaders/, those that parts stand for replaced by them.
+std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> parts);
+
 /// The programs of users' sources, the least recently used given up: sources that are edited while
 /// they are drawn leave many behind.
 class UserPrograms {
 public:
-    /// A user's source, the file of shaders/ that it stands for, and what messages call it that
-    /// was read from no file.
-    struct Part {
-        std::string_view file;
-        std::string_view title;
-        const UserSource* source;
-    };
-
     UserProgram& get(const GladGLContext& gl, std::initializer_list<std::string_view> files,
-                     const gl::ShaderOptions& options, std::initializer_list<Part> parts);
+                     const gl::ShaderOptions& options, std::initializer_list<ShaderPart> parts);
 
 private:
     std::list<std::pair<std::string, UserProgram>> programs_;  // most recently used first

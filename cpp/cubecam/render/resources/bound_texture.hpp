@@ -13,11 +13,10 @@ struct BoundTexture {
     std::uint64_t revision = 0;  ///< of its contents; 0: none
 };
 
-/// All of them.
+/// All that a node looks up.
 struct NodeTextures {
-    BoundTexture cube;                   ///< what a mirror reflects or a basic material shows
-    BoundTexture map;                    ///< a picture placed by the uvs
-    std::vector<BoundTexture> textures;  ///< of a ShaderMaterial, in the order of its inputs
+    BoundTexture environment;            ///< what a mirror reflects
+    std::vector<BoundTexture> textures;  ///< of the material, in the order of its own
 };
 
 }  // namespace cubecam

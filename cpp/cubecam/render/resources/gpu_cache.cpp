@@ -2,7 +2,8 @@
 
 #include "cubecam/image/flip.hpp"
 #include "cubecam/image/pixels.hpp"
-#include "cubecam/render/resources/instance.hpp"
+#include "cubecam/render/resources/node_record.hpp"
+#include "cubecam/render/resources/view_record.hpp"
 
 #include <glm/gtc/type_precision.hpp>
 
@@ -76,15 +77,33 @@ void set_attribute(const GladGLContext& gl, GLuint array, GLuint index, GLuint b
 
 void set_view_attributes(const GladGLContext& gl, GLuint array) {
     for (GLuint column = 0; column < 4; ++column) {
-        set_attribute(gl, array, attribute::view_matrix + column, vertex_buffer::views, 4,
-                      offsetof(Instance, matrix) + column * sizeof(glm::vec4));
+        set_attribute(gl, array, attribute::view_matrix + column, vertex_buffer::records, 4,
+                      offsetof(ViewRecord, matrix) + column * sizeof(glm::vec4));
     }
-    set_attribute(gl, array, attribute::view_eye, vertex_buffer::views, 4, offsetof(Instance, eye));
-    set_attribute(gl, array, attribute::view_position, vertex_buffer::views, 4,
-                  offsetof(Instance, position));
-    set_attribute(gl, array, attribute::view_forward, vertex_buffer::views, 4,
-                  offsetof(Instance, forward));
-    gl.VertexArrayBindingDivisor(array, vertex_buffer::views, 1);
+    set_attribute(gl, array, attribute::view_eye, vertex_buffer::records, 4,
+                  offsetof(ViewRecord, eye));
+    set_attribute(gl, array, attribute::view_position, vertex_buffer::records, 4,
+                  offsetof(ViewRecord, position));
+    set_attribute(gl, array, attribute::view_forward, vertex_buffer::records, 4,
+                  offsetof(ViewRecord, forward));
+    gl.VertexArrayBindingDivisor(array, vertex_buffer::records, 1);
+}
+
+void set_node_attributes(const GladGLContext& gl, GLuint array) {
+    const auto columns = [&](GLuint first, GLuint count, std::size_t offset) {
+        for (GLuint column = 0; column < count; ++column) {
+            set_attribute(gl, array, first + column, vertex_buffer::records, 4,
+                          offset + column * sizeof(glm::vec4));
+        }
+    };
+    columns(attribute::model, 4, offsetof(NodeRecord, model));
+    columns(attribute::normal_matrix, 3, offsetof(NodeRecord, normal_matrix));
+    columns(attribute::material, most_flat_constants, offsetof(NodeRecord, material));
+    gl.EnableVertexArrayAttrib(array, attribute::node_id);
+    gl.VertexArrayAttribIFormat(array, attribute::node_id, 1, GL_INT,
+                                offsetof(NodeRecord, node_id));
+    gl.VertexArrayAttribBinding(array, attribute::node_id, vertex_buffer::records);
+    gl.VertexArrayBindingDivisor(array, vertex_buffer::records, 1);
 }
 
 /// Where a stream of vertices is bound: one vertex buffer for each attribute.
@@ -94,13 +113,13 @@ struct StreamPlace {
 };
 
 template <class Vector>
-void upload_stream(const GladGLContext& gl, GLuint array, StreamPlace place,
+void upload_stream(const GladGLContext& gl, std::array<GLuint, 2> arrays, StreamPlace place,
                    const VertexStream<Vector>& from, GpuStream& to) {
     if (to.revision == from.revision) return;
     const bool first = to.revision == 0;
     to.revision = from.revision;
     if (!from.values) {
-        gl.DisableVertexArrayAttrib(array, place.attribute);
+        for (const GLuint array : arrays) gl.DisableVertexArrayAttrib(array, place.attribute);
         to.bytes = 0;
         return;
     }
@@ -115,18 +134,20 @@ void upload_stream(const GladGLContext& gl, GLuint array, StreamPlace place,
     to.bytes = bytes;
     to.buffer = gl::create_buffer(gl, bytes, values.data(),
                                   to.writable ? GLbitfield{GL_DYNAMIC_STORAGE_BIT} : 0U);
-    gl.VertexArrayVertexBuffer(array, place.buffer, to.buffer.id(), 0, sizeof(Vector));
-    set_attribute(gl, array, place.attribute, place.buffer, Vector::length(), 0);
+    for (const GLuint array : arrays) {
+        gl.VertexArrayVertexBuffer(array, place.buffer, to.buffer.id(), 0, sizeof(Vector));
+        set_attribute(gl, array, place.attribute, place.buffer, Vector::length(), 0);
+    }
 }
 
 void upload_streams(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh) {
-    const GLuint array = mesh.array.id();
-    upload_stream(gl, array, {attribute::position, vertex_buffer::positions},
+    const std::array<GLuint, 2> arrays = {mesh.array.id(), mesh.instanced.id()};
+    upload_stream(gl, arrays, {attribute::position, vertex_buffer::positions},
                   data.position_stream(), mesh.positions);
-    upload_stream(gl, array, {attribute::normal, vertex_buffer::normals}, data.normal_stream(),
+    upload_stream(gl, arrays, {attribute::normal, vertex_buffer::normals}, data.normal_stream(),
                   mesh.normals);
-    upload_stream(gl, array, {attribute::uv, vertex_buffer::uvs}, data.uv_stream(), mesh.uvs);
-    upload_stream(gl, array, {attribute::color, vertex_buffer::colors}, data.color_stream(),
+    upload_stream(gl, arrays, {attribute::uv, vertex_buffer::uvs}, data.uv_stream(), mesh.uvs);
+    upload_stream(gl, arrays, {attribute::color, vertex_buffer::colors}, data.color_stream(),
                   mesh.colors);
     mesh.revision = data.revision();
 }
@@ -144,14 +165,17 @@ void upload_indices(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh
         mesh.indices = gl::create_buffer(gl, std::span<const glm::u16vec3>(narrow));
     }
     gl.VertexArrayElementBuffer(mesh.array.id(), mesh.indices.id());
+    gl.VertexArrayElementBuffer(mesh.instanced.id(), mesh.indices.id());
 }
 
 GpuMesh upload_mesh(const GladGLContext& gl, const MeshData& data) {
     GpuMesh mesh;
     mesh.array = gl::create_vertex_array(gl);
+    mesh.instanced = gl::create_vertex_array(gl);
     upload_indices(gl, data, mesh);
     upload_streams(gl, data, mesh);
     set_view_attributes(gl, mesh.array.id());
+    set_node_attributes(gl, mesh.instanced.id());
     return mesh;
 }
 

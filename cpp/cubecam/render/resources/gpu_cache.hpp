@@ -26,12 +26,17 @@ inline constexpr GLuint view_matrix = 4;  ///< four columns
 inline constexpr GLuint view_eye = 8;
 inline constexpr GLuint view_position = 9;
 inline constexpr GLuint view_forward = 10;
+// Where nodes are drawn together, these stand in the same places.
+inline constexpr GLuint model = 4;          ///< four columns
+inline constexpr GLuint normal_matrix = 8;  ///< three columns
+inline constexpr GLuint material = 11;      ///< two
+inline constexpr GLuint node_id = 13;
 }  // namespace attribute
 
 /// Binding points of vertex buffers in every vertex array.
 namespace vertex_buffer {
 inline constexpr GLuint positions = 0;
-inline constexpr GLuint views = 1;
+inline constexpr GLuint records = 1;  ///< of views or of nodes, one an instance
 inline constexpr GLuint normals = 2;
 inline constexpr GLuint uvs = 3;
 inline constexpr GLuint colors = 4;
@@ -46,7 +51,8 @@ struct GpuStream {
 };
 
 struct GpuMesh {
-    gl::VertexArray array;
+    gl::VertexArray array;      ///< with the attributes of a view
+    gl::VertexArray instanced;  ///< with the attributes of a node
     gl::Buffer indices;
     GLenum index_type = GL_UNSIGNED_SHORT;
     GLsizei index_count = 0;

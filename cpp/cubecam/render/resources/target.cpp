@@ -9,23 +9,16 @@
 namespace cubecam {
 namespace {
 
-struct OutputFormat {
-    Slot slot;
-    bool Outputs::* wanted;
-    GLenum format;
-    std::size_t bytes;
-};
+/// Three channels are stored as four: GL need not render to three.
+GLenum gl_format(int channels, OutputType type) {
+    if (type == OutputType::int32) return GL_R32I;
+    return channels == 1 ? GL_R32F : channels == 2 ? GL_RG32F : GL_RGBA32F;
+}
 
-// Normal and position take four channels: GL need not render to three.
-constexpr OutputFormat output_formats[] = {
-    {Slot::distance, &Outputs::distance, GL_R32F, 4},
-    {Slot::z, &Outputs::z, GL_R32F, 4},
-    {Slot::normal, &Outputs::normal, GL_RGBA32F, 16},
-    {Slot::position, &Outputs::position, GL_RGBA32F, 16},
-    {Slot::id, &Outputs::id, GL_R32I, 4},
-};
-
-GLenum attachment(Slot slot) { return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot); }
+std::size_t stored_bytes(const ShadedOutput& output) {
+    return output_type_size(output.type) *
+           static_cast<std::size_t>(output.channels == 3 ? 4 : output.channels);
+}
 
 GLenum gl_format(Format format) {
     switch (format) {
@@ -55,10 +48,7 @@ GLenum depth_attachment(DepthFormat format) {
     return has_depth(format) ? GL_DEPTH_STENCIL_ATTACHMENT : GL_STENCIL_ATTACHMENT;
 }
 
-bool is_color(GLenum point) {
-    return point >= GL_COLOR_ATTACHMENT0 &&
-           point < GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot_count);
-}
+bool is_color(GLenum point) { return point >= GL_COLOR_ATTACHMENT0 && point < GL_DEPTH_ATTACHMENT; }
 
 /// A driver may offer fewer samples for one format than for others.
 void check_samples(const gl::Context& context, GLenum format, std::string_view name,
@@ -73,43 +63,59 @@ void check_samples(const gl::Context& context, GLenum format, std::string_view n
 
 }  // namespace
 
-TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
-                                  std::int64_t height, std::int64_t samples, Format format,
-                                  Outputs outputs, DepthFormat depth_format, bool color,
-                                  int views) {
+TargetDescription describe_target(const gl::Context& context, const TargetRequest& request) {
     const gl::Limits& limits = context.limits();
     const auto on = [&context](const char* limit) {
         return std::string(" (") + limit + " of " + context.renderer() + ")";
     };
+    const bool faces = request.shape.has_faces();
+    const std::int64_t width = request.width;
+    const std::int64_t height = request.height;
     const std::string got =
-        cube ? std::to_string(width) : std::to_string(width) + " x " + std::to_string(height);
-    const int largest = std::min({cube ? limits.max_cube_map_texture_size : limits.max_texture_size,
-                                  limits.max_framebuffer_width, limits.max_framebuffer_height});
+        faces ? std::to_string(width) : std::to_string(width) + " x " + std::to_string(height);
+    const int largest =
+        std::min({faces ? limits.max_cube_map_texture_size : limits.max_texture_size,
+                  limits.max_framebuffer_width, limits.max_framebuffer_height});
     if (width < 1 || height < 1 || width > largest || height > largest) {
         throw std::invalid_argument(
             "size: expected 1 to " + std::to_string(largest) + " pixels" +
-            on(cube ? "GL_MAX_CUBE_MAP_TEXTURE_SIZE" : "GL_MAX_TEXTURE_SIZE") + ", got " + got);
+            on(faces ? "GL_MAX_CUBE_MAP_TEXTURE_SIZE" : "GL_MAX_TEXTURE_SIZE") + ", got " + got);
     }
+    const int layers = std::min(limits.max_array_texture_layers, limits.max_framebuffer_layers);
+    if (request.shape.count < 1 || request.shape.layers() > layers) {
+        throw std::invalid_argument("layers: expected 1 to " + std::to_string(layers) +
+                                    on("GL_MAX_ARRAY_TEXTURE_LAYERS") + ", got " +
+                                    std::to_string(request.shape.layers()));
+    }
+    const std::int64_t samples = request.samples;
     if (samples < 1 || samples > limits.max_samples) {
         throw std::invalid_argument("samples: expected 1 to " + std::to_string(limits.max_samples) +
                                     on("GL_MAX_SAMPLES") + ", got " + std::to_string(samples));
     }
-    if (samples > 1 && color) {
-        check_samples(context, gl_format(format), to_string(format), samples);
+    const DepthFormat depth_format = request.depth_format;
+    if (samples > 1 && request.color) {
+        check_samples(context, gl_format(request.format), to_string(request.format), samples);
         if (depth_format != DepthFormat::none) {
             check_samples(context, gl_format(depth_format), to_string(depth_format), samples);
         }
     }
+    const int buffers = std::min(limits.max_draw_buffers, limits.max_color_attachments);
+    const std::size_t shaded = request.outputs.by_slot().size();
+    if (shaded + 1 > static_cast<std::size_t>(buffers)) {
+        throw std::invalid_argument("outputs: expected at most " + std::to_string(buffers - 1) +
+                                    " besides colour, depth and stencil" +
+                                    on("GL_MAX_DRAW_BUFFERS") + ", got " + std::to_string(shaded));
+    }
     TargetDescription description;
-    description.cube = cube;
+    description.shape = request.shape;
     description.width = static_cast<int>(width);
     description.height = static_cast<int>(height);
-    description.samples = color ? static_cast<int>(samples) : 1;
-    description.format = color ? format : Format::rgba8;
-    description.outputs = outputs;
-    description.color = color;
+    description.samples = request.color ? static_cast<int>(samples) : 1;
+    description.format = request.color ? request.format : Format::rgba8;
+    description.outputs = request.outputs;
+    description.color = request.color;
     description.depth_format = depth_format;
-    description.views = views;
+    description.depth_order = request.depth_order;
     // A software driver takes its textures from main memory.
     if (context.software()) check_memory(static_cast<double>(description.bytes()), got + " pixels");
     return description;
@@ -128,9 +134,7 @@ std::size_t TargetDescription::bytes() const {
     if (post_processed) texel += texel_size(format);
     texel += static_cast<std::size_t>(effects) * drawn;
     if (mipmaps) texel += drawn / 3;
-    for (const OutputFormat& output : output_formats) {
-        if (outputs.*output.wanted) texel += output.bytes;
-    }
+    for (const ShadedOutput& output : outputs.by_slot()) texel += stored_bytes(output);
     return texel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
            static_cast<std::size_t>(layers());
 }
@@ -140,8 +144,7 @@ Layers::Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int
 
 gl::Framebuffer Layers::make(std::optional<int> layer) const {
     gl::Framebuffer framebuffer = gl::create_framebuffer(*gl_);
-    GLenum draw_buffers[slot_count];
-    std::fill(std::begin(draw_buffers), std::end(draw_buffers), GLenum{GL_NONE});
+    std::vector<GLenum> draw_buffers(1, GL_NONE);
     for (const Attachment& a : attachments_) {
         if (layer) {
             gl_->NamedFramebufferTextureLayer(framebuffer.id(), a.point, a.texture, a.level,
@@ -149,13 +152,17 @@ gl::Framebuffer Layers::make(std::optional<int> layer) const {
         } else {
             gl_->NamedFramebufferTexture(framebuffer.id(), a.point, a.texture, a.level);
         }
-        if (is_color(a.point)) draw_buffers[a.point - GL_COLOR_ATTACHMENT0] = a.point;
+        if (!is_color(a.point)) continue;
+        const std::size_t slot = a.point - GL_COLOR_ATTACHMENT0;
+        if (slot >= draw_buffers.size()) draw_buffers.resize(slot + 1, GL_NONE);
+        draw_buffers[slot] = a.point;
     }
-    gl_->NamedFramebufferDrawBuffers(framebuffer.id(), slot_count, draw_buffers);
-    const auto first = std::find_if(std::begin(draw_buffers), std::end(draw_buffers),
+    gl_->NamedFramebufferDrawBuffers(framebuffer.id(), static_cast<GLsizei>(draw_buffers.size()),
+                                     draw_buffers.data());
+    const auto first = std::find_if(draw_buffers.begin(), draw_buffers.end(),
                                     [](GLenum buffer) { return buffer != GL_NONE; });
     gl_->NamedFramebufferReadBuffer(framebuffer.id(),
-                                    first == std::end(draw_buffers) ? GLenum{GL_NONE} : *first);
+                                    first == draw_buffers.end() ? GLenum{GL_NONE} : *first);
     gl::check_framebuffer(*gl_, framebuffer, "making a render target");
     return framebuffer;
 }
@@ -191,20 +198,18 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
 
     std::vector<Layers::Attachment> color_pass;
     std::vector<Layers::Attachment> output_pass;
-    if (color_) color_pass.push_back({attachment(Slot::color), color_.id()});
+    if (color_) color_pass.push_back({attachment(0), color_.id()});
     if (depth_) output_pass.push_back({depth_point, depth_.id()});
-    for (const OutputFormat& output : output_formats) {
-        if (!(description.outputs.*output.wanted)) continue;
-        gl::Texture& texture = outputs_[static_cast<std::size_t>(output.slot)];
-        texture = make_texture(context, output.format, 1);
-        output_pass.push_back({attachment(output.slot), texture.id()});
+    for (const ShadedOutput& output : description.outputs.by_slot()) {
+        outputs_.push_back(make_texture(context, gl_format(output.channels, output.type), 1));
+        output_pass.push_back({attachment(output.slot), outputs_.back().id()});
     }
     if (multisampled()) {
         sample_color_ = gl::create_texture_2d_multisample_array(
             *gl_, color_format, description.samples, description.width, description.height,
             description.layers());
         resolved_.emplace(*gl_, color_pass, description.layers());
-        color_pass = {{attachment(Slot::color), sample_color_.id()}};
+        color_pass = {{attachment(0), sample_color_.id()}};
         if (depth_format != GL_NONE) {
             sample_depth_ = gl::create_texture_2d_multisample_array(
                 *gl_, depth_format, description.samples, description.width, description.height,
@@ -220,13 +225,13 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
     if (description.post_processed) {
         post_processed_ = make_texture(context, gl_format(description.format), levels);
         post_processed_pass_.emplace(
-            *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), post_processed_.id()}},
+            *gl_, std::vector<Layers::Attachment>{{attachment(0), post_processed_.id()}},
             description.layers());
     }
     for (int turn = 0; turn < description.effects; ++turn) {
         scratch_[turn] = make_texture(context, color_format, 1);
         scratch_pass_[turn].emplace(
-            *gl_, std::vector<Layers::Attachment>{{attachment(Slot::color), scratch_[turn].id()}},
+            *gl_, std::vector<Layers::Attachment>{{attachment(0), scratch_[turn].id()}},
             description.layers());
     }
     gl::check_gl(*gl_, "making a render target");
@@ -253,12 +258,24 @@ void Target::check_complete() {
 }
 
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
-    // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2).
-    gl::Texture texture =
-        description_.cube
-            ? gl::create_texture_cube(context.gl(), format, description_.width, levels)
-            : gl::create_texture_2d_array(context.gl(), format, description_.width,
-                                          description_.height, description_.views, levels);
+    // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2). A flat
+    // target is an array of one layer: full-screen passes then look all targets up in one way.
+    const int width = description_.width;
+    const int count = description_.shape.count;
+    gl::Texture texture;
+    switch (description_.shape.kind) {
+        case TargetShape::Kind::cube:
+            texture = gl::create_texture_cube(context.gl(), format, width, levels);
+            break;
+        case TargetShape::Kind::cube_array:
+            texture = gl::create_texture_cube_array(context.gl(), format, width, count, levels);
+            break;
+        case TargetShape::Kind::flat:
+        case TargetShape::Kind::array:
+            texture = gl::create_texture_2d_array(context.gl(), format, width, description_.height,
+                                                  count, levels);
+            break;
+    }
     // Probes and effects look them up.
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);

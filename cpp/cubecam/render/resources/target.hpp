@@ -4,24 +4,22 @@
 #include "cubecam/gl/objects.hpp"
 #include "cubecam/image/depth_format.hpp"
 #include "cubecam/image/format.hpp"
+#include "cubecam/render/resources/depth_order.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/picture_key.hpp"
+#include "cubecam/render/resources/target_shape.hpp"
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace cubecam {
 
-/// Where a fragment shader's outputs go: attachment and draw-buffer numbers, `layout(location =)`
-/// in surface.frag.
-enum class Slot : int { color = 0, distance = 1, z = 2, normal = 3, position = 4, id = 5 };
-inline constexpr int slot_count = 6;
-
 /// Two targets of one description can stand for each other.
 struct TargetDescription {
-    bool cube = false;  ///< six square layers that a shader can look up
+    TargetShape shape;
     int width = 0;
     int height = 0;
     int samples = 1;
@@ -33,26 +31,40 @@ struct TargetDescription {
     int effects = 0;    ///< passes before that, 2 standing for more
     bool color = true;  ///< false: no colour buffer
     DepthFormat depth_format = DepthFormat::depth_component32f;
-    int views = 1;  ///< layers of a target that is no cube
+    DepthOrder depth_order = DepthOrder::nearest;
 
-    int layers() const { return cube ? 6 : views; }
+    int layers() const { return shape.layers(); }
     /// GPU memory it takes, padding and driver overhead left out.
     std::size_t bytes() const;
     auto operator<=>(const TargetDescription&) const = default;
 };
 
+/// What describe_target makes a description of. Sizes come as the caller gave them, so that the
+/// message of an error can name them.
+struct TargetRequest {
+    TargetShape shape;
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+    std::int64_t samples = 1;
+    Format format = Format::rgba8;
+    Outputs outputs = {};
+    DepthFormat depth_format = DepthFormat::depth_component32f;
+    bool color = true;
+    DepthOrder depth_order = DepthOrder::nearest;
+};
+
 /// A description of pictures of this size. @throws std::invalid_argument beyond the driver's limits
-/// or the machine's memory, naming the limit. Sizes come as the caller gave them, so that the
-/// message can say so.
-TargetDescription describe_target(const gl::Context& context, bool cube, std::int64_t width,
-                                  std::int64_t height, std::int64_t samples, Format format,
-                                  Outputs outputs = {},
-                                  DepthFormat depth_format = DepthFormat::depth_component32f,
-                                  bool color = true, int views = 1);
+/// or the machine's memory, naming the limit.
+TargetDescription describe_target(const gl::Context& context, const TargetRequest& request);
 
 /// Says that a picture is worked on by PostProcessPass: by effects, by a tone curve or encoding, or
 /// not.
 void set_post_process(TargetDescription& description, std::size_t effects, bool post_processed);
+
+/// The attachment of a colour or output by its slot.
+constexpr GLenum attachment(std::size_t slot) {
+    return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot);
+}
 
 /// Framebuffers over the same textures: all layers at once, and each layer alone.
 class Layers {
@@ -98,7 +110,8 @@ public:
         return description_.post_processed ? post_processed_ : color_;
     }
     const gl::Texture& depth() const { return depth_; }
-    const gl::Texture& output(Slot slot) const { return outputs_[static_cast<std::size_t>(slot)]; }
+    /// By ShadedOutput::slot.
+    const gl::Texture& output(std::size_t slot) const { return outputs_[slot - 1]; }
 
     /// What the colour pass draws into: outputs are attached as well unless the target is
     /// multisampled.
@@ -127,7 +140,7 @@ private:
     const GladGLContext* gl_;
     TargetDescription description_;
     gl::Texture color_, depth_, post_processed_, sample_color_, sample_depth_;
-    gl::Texture outputs_[slot_count];
+    std::vector<gl::Texture> outputs_;  // by slot, the first being 1
     gl::Texture scratch_[2];
     std::optional<Layers> scratch_pass_[2];
     std::optional<Layers> color_pass_, output_pass_, resolved_, post_processed_pass_;

@@ -2,7 +2,9 @@
 
 #include "cubecam/render/resources/target.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <list>
 #include <memory>
 
@@ -27,8 +29,16 @@ public:
         return *targets_.front();
     }
 
-    /// After a call: a target larger than the whole store is not kept.
-    void trim() { trim(capacity_); }
+    /// After a call: a target larger than the whole store is not kept. Returns how many were given
+    /// up that the store alone could not hold.
+    std::int64_t trim() {
+        const auto too_large = [this](const std::unique_ptr<Target>& target) {
+            return target->description().bytes() > capacity_;
+        };
+        const auto count = std::count_if(targets_.begin(), targets_.end(), too_large);
+        trim(capacity_);
+        return count;
+    }
 
 private:
     void trim(std::size_t limit) {

@@ -11,7 +11,7 @@ namespace cubecam {
 /// What the shaders know of a view: one record for each view that a draw call goes to, read as
 /// vertex attributes that advance once an instance (shaders/include/view.glsl says what each
 /// means).
-struct Instance {
+struct ViewRecord {
     glm::mat4 matrix;    ///< world to clip with depth reversed; for a skybox, clip to world
     glm::vec4 eye;       ///< xyz: eye, or where w is 1 (parallel) the direction that every ray goes
     glm::vec4 position;  ///< xyz: where distance counts from; w: parallel views' near plane
@@ -19,8 +19,8 @@ struct Instance {
 };
 
 /// `matrix` is what the record holds of it; positions count from `origin`.
-Instance make_instance(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
-                       std::size_t layer);
+ViewRecord make_view_record(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
+                            std::size_t layer);
 
 /// GL's clip space with depth reversed and in 0..1: near 1, far 0. Done in double, where nothing is
 /// lost.

@@ -1,10 +1,10 @@
-#include "cubecam/render/resources/instance.hpp"
+#include "cubecam/render/resources/view_record.hpp"
 
 namespace cubecam {
 
-Instance make_instance(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
-                       std::size_t layer) {
-    Instance instance;
+ViewRecord make_view_record(const View& view, const glm::dmat4& matrix, const glm::dvec3& origin,
+                            std::size_t layer) {
+    ViewRecord instance;
     instance.matrix = glm::mat4(matrix);
     instance.eye =
         view.parallel ? glm::vec4(view.forward, 1.0F) : glm::vec4(view.eye - origin, 0.0F);

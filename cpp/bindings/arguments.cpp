@@ -1,0 +1,108 @@
+#include "arguments.hpp"
+
+#include <string_view>
+#include <unordered_map>
+
+namespace py = pybind11;
+
+namespace cubecam::bindings {
+
+namespace {
+
+/// As pybind11 declares its dispatcher: METH_FASTCALL | METH_KEYWORDS.
+using Dispatcher = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
+
+Dispatcher pybind_dispatcher = nullptr;
+
+/// Names of functions by what Python hands to the dispatcher as `self`. Never freed: functions may
+/// be called until the interpreter ends.
+std::unordered_map<PyObject*, std::string>& function_names() {
+    static auto& names = *new std::unordered_map<PyObject*, std::string>();
+    return names;
+}
+
+/// Puts a shorter text in the place of the TypeError that is set, where it is pybind11's.
+void shorten_error(PyObject* function, PyObject* const* args, Py_ssize_t count, PyObject* names) {
+    const py::error_already_set error;  // takes the error away from Python
+    const std::string message = py::str(error.value());
+    for (const std::string_view kind : {"function", "constructor"}) {
+        if (message.find("incompatible " + std::string(kind) + " arguments") == std::string::npos) {
+            continue;
+        }
+        const Py_ssize_t positional = PyVectorcall_NARGS(static_cast<std::size_t>(count));
+        py::tuple given(positional);
+        for (Py_ssize_t i = 0; i < positional; ++i) {
+            given[static_cast<std::size_t>(i)] = py::reinterpret_borrow<py::object>(args[i]);
+        }
+        py::dict named;
+        const Py_ssize_t keywords = names == nullptr ? 0 : PyTuple_GET_SIZE(names);
+        for (Py_ssize_t i = 0; i < keywords; ++i) {
+            named[py::handle(PyTuple_GET_ITEM(names, i))] = py::handle(args[positional + i]);
+        }
+        const py::object explain = py::module_::import("cubecam._arguments").attr("explain");
+        const py::object text = explain(function_names()[function], message, given, named);
+        PyErr_SetObject(PyExc_TypeError, text.ptr());
+        return;
+    }
+    py::error_already_set(error).restore();
+}
+
+PyObject* dispatch(PyObject* function, PyObject* const* args, Py_ssize_t count, PyObject* names) {
+    PyObject* const result = pybind_dispatcher(function, args, count, names);
+    if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0) {
+        try {
+            shorten_error(function, args, count, names);
+        } catch (py::error_already_set& error) {
+            error.restore();
+        }
+    }
+    return result;
+}
+
+void explain_members(py::handle type, const std::string& class_name) {
+    for (const auto& [key, member] : type.attr("__dict__").attr("copy")().cast<py::dict>()) {
+        const std::string name = class_name + "." + py::str(key).cast<std::string>();
+        if (Py_TYPE(member.ptr()) == &PyProperty_Type || py::hasattr(member, "fset")) {
+            for (const char* accessor : {"fget", "fset"}) {
+                explain_arguments(member.attr(accessor), name);
+            }
+        } else if (Py_TYPE(member.ptr()) == &PyStaticMethod_Type) {
+            explain_arguments(member.attr("__func__"), name);
+        } else {
+            explain_arguments(member, py::str(key).equal(py::str("__init__")) ? class_name : name);
+        }
+    }
+}
+
+}  // namespace
+
+void explain_arguments(py::handle function, const std::string& name) {
+    PyObject* plain = function.ptr();
+    if (PyInstanceMethod_Check(plain) != 0) plain = PyInstanceMethod_GET_FUNCTION(plain);
+    if (PyCFunction_Check(plain) == 0) return;
+    auto* const builtin = reinterpret_cast<PyCFunctionObject*>(plain);
+    PyMethodDef& method = *builtin->m_ml;
+    // Only pybind11's functions have a record as self; what Python itself put there is not ours.
+    if (method.ml_flags != (METH_FASTCALL | METH_KEYWORDS) || builtin->m_self == nullptr ||
+        py::detail::function_record_ptr_from_PyObject(builtin->m_self) == nullptr) {
+        return;
+    }
+    const auto current = reinterpret_cast<Dispatcher>(reinterpret_cast<void (*)()>(method.ml_meth));
+    function_names()[builtin->m_self] = name;
+    if (current == &dispatch) return;
+    pybind_dispatcher = current;  // one for all functions
+    method.ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&dispatch));
+}
+
+void explain_all_arguments(const py::module_& module) {
+    for (const auto& [key, thing] : module.attr("__dict__").attr("copy")().cast<py::dict>()) {
+        const std::string name = py::str(key);
+        if (PyType_Check(thing.ptr()) != 0) {
+            explain_members(thing, name);
+        } else {
+            explain_arguments(thing, name);
+        }
+    }
+}
+
+}  // namespace cubecam::bindings

@@ -1,0 +1,48 @@
+// cubecam.GlassMaterial
+#include "material_kind.hpp"
+
+#include "cubecam/materials/glass.hpp"
+
+namespace cubecam::bindings {
+
+namespace {
+
+constexpr const char* glass_doc =
+    R"doc(Glass: F * environment(R) + (1 - F) * tint * environment(T).
+
+R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
+F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
+(M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+
+Parameters
+----------
+ior : float
+    Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
+    water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
+fresnel : bool
+    False: T alone.
+tint : array_like (3,) or (4,), or str
+    Linear RGB or RGBA, times what is refracted.
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    As of every `Material`.
+
+Raises
+------
+ValueError
+    For a value out of its range or not finite.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> water = cc.GlassMaterial(ior=1.33, tint=(.8, .9, 1))
+>>> water
+GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
+)doc";
+
+const MaterialBinding glass(Glass::name, [](py::module_& module) {
+    bind_material_kind<Glass>(module, glass_doc);
+});
+
+}  // namespace
+
+}  // namespace cubecam::bindings

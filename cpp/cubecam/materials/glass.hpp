@@ -1,0 +1,47 @@
+#pragma once
+
+#include "cubecam/core/checks.hpp"
+#include "cubecam/materials/material.hpp"
+
+#include <cmath>
+
+namespace cubecam {
+
+/// F * environment(R) + (1 - F) * tint * environment(T) with the exact dielectric F; without
+/// fresnel, T alone.
+struct Glass {
+    float ior = 1.5F;  ///< index of refraction: inside over outside
+    bool fresnel = true;
+    glm::vec4 tint{1.0F};
+
+    static constexpr const char* name = "GlassMaterial";
+    static constexpr const char* shader = "materials/glass.glsl";
+    static constexpr auto fields = std::tuple{
+        Field{"ior", &Glass::ior, "float: refractive index inside divided by the one outside."},
+        Field{"fresnel", &Glass::fresnel,
+              "bool: whether part of the light is reflected; False: all is refracted."},
+        Field{"tint", &Glass::tint, "ndarray (4,) float32: linear RGBA, times what is refracted."},
+    };
+
+    void check() const {
+        // The shader gets its inverse.
+        if (!(ior > 0.0F && std::isfinite(ior) && std::isfinite(1.0F / ior))) {
+            expect(false, "ior finite and above 0", describe(ior));
+        }
+        expect_color(tint, "tint");
+    }
+    float alpha() const { return tint.a; }
+    std::array<glm::vec4, 1> constants(const glm::vec3&) const {
+        return {glm::vec4(glm::vec3(tint), 1.0F / ior)};
+    }
+    std::array<Switch, 1> switches() const { return {{{"FRESNEL", fresnel}}}; }
+    bool uses_environment() const { return true; }
+    bool uses_lights() const { return false; }
+    VertexColors uses_vertex_colors() const { return VertexColors::ignored; }
+
+    bool operator==(const Glass&) const = default;
+};
+
+using GlassMaterial = MaterialOf<Glass>;
+
+}  // namespace cubecam

@@ -1,0 +1,144 @@
+#pragma once
+
+#include "cubecam/materials/kind.hpp"
+
+#include <glm/glm.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace cubecam {
+
+/// What all materials of a kind have in common. There is one object for each kind, so that pointers
+/// tell kinds apart.
+struct KindInfo {
+    std::string_view name;                ///< in Python: "MirrorMaterial"
+    std::string_view shader;              ///< the GLSL file: "materials/mirror.glsl"
+    std::size_t constants;                ///< vec4s of its uniform block
+    std::span<const char* const> fields;  ///< names of the parameters
+};
+
+/// A texture that a material looks up, by the name of its field or of a user's sampler. The pointer
+/// leads into the material's own model, so that nothing is held twice (scene/cycle_collector.cpp
+/// counts).
+struct NamedTexture {
+    std::string_view name;
+    std::variant<const MapSource*, const CubeSource*> source;
+    bool placed_by_uv;  ///< shown only on meshes that have uvs
+    bool alpha_counts;  ///< an alpha of it below 1 makes the surface translucent
+};
+
+/// All that drawing asks of a material, found once when the material changes.
+struct MaterialTraits {
+    const KindInfo* kind;
+    float alpha;                            ///< of its colours, without the opacity
+    std::vector<const char*> switch_names;  ///< every switch of the kind, set or not
+    std::uint32_t switches = 0;             ///< bit i: switch_names[i] is set
+    std::vector<NamedTexture> textures;     ///< in the order of the fields, none left out
+    bool uses_environment;
+    bool uses_lights;
+    VertexColors vertex_colors;
+    std::optional<UserCode> user_code;
+
+    bool moves_vertices() const { return user_code && user_code->moves_vertices(); }
+};
+
+/// The parameters of a material of any kind. Never changes, so that any number of scenes and
+/// snapshots share it.
+class MaterialModel {
+public:
+    virtual ~MaterialModel() = default;
+    MaterialModel(const MaterialModel&) = delete;
+    MaterialModel& operator=(const MaterialModel&) = delete;
+
+    const MaterialTraits& traits() const { return traits_; }
+
+    /// Writes what the shader file reads as material[i]. `ambient` is what the scene's ambient
+    /// lights send to every surface; `to` has `traits().kind->constants` elements.
+    virtual void write_constants(const glm::vec3& ambient, std::span<glm::vec4> to) const = 0;
+
+    /// Whether both are of one kind and have equal parameters.
+    virtual bool equals(const MaterialModel& other) const = 0;
+
+protected:
+    MaterialModel() = default;
+
+    MaterialTraits traits_{};
+};
+
+/// The one model class: `Kind` says everything else.
+template <class Kind>
+class MaterialModelOf final : public MaterialModel {
+    static_assert(kinds::check_kind<Kind>());
+
+public:
+    /// @throws std::invalid_argument for a parameter that is out of its range or not finite.
+    explicit MaterialModelOf(Kind kind) : kind_((kind.check(), std::move(kind))) {
+        traits_.kind = &info;
+        traits_.alpha = kind_.alpha();
+        for (const Switch& one : kind_.switches()) {
+            traits_.switches |= std::uint32_t{one.on} << traits_.switch_names.size();
+            traits_.switch_names.push_back(one.name);
+        }
+        traits_.uses_environment = kind_.uses_environment();
+        traits_.uses_lights = kind_.uses_lights();
+        traits_.vertex_colors = kind_.uses_vertex_colors();
+        if constexpr (kinds::HasUserCode<Kind>) traits_.user_code = kind_.user_code();
+        for_each_field<Kind>([this](const auto& field) { add_textures(field); });
+    }
+
+    const Kind& kind() const { return kind_; }
+
+    void write_constants(const glm::vec3& ambient, std::span<glm::vec4> to) const override {
+        const auto constants = kind_.constants(ambient);
+        std::copy(constants.begin(), constants.end(), to.begin());
+    }
+
+    bool equals(const MaterialModel& other) const override {
+        const auto* same = dynamic_cast<const MaterialModelOf*>(&other);
+        return same != nullptr && same->kind_ == kind_;
+    }
+
+private:
+    template <class Value>
+    void add_textures(const Field<Kind, Value>& field) {
+        if constexpr (std::same_as<Value, MapSource>) {
+            traits_.textures.push_back(
+                {field.name, &(kind_.*field.member), true, field.alpha == MapAlpha::counts});
+        } else if constexpr (std::same_as<Value, CubeSource>) {
+            traits_.textures.push_back({field.name, &(kind_.*field.member), false, false});
+        } else if constexpr (std::same_as<Value, ShaderInputs>) {
+            traits_.user_code->first_texture = traits_.textures.size();
+            for (const auto& [name, source] : (kind_.*field.member).textures) {
+                std::visit(
+                    [&, &key = name](const auto& texture) {
+                        traits_.textures.push_back({key, &texture, false, false});
+                    },
+                    source);
+            }
+        }
+    }
+
+    static constexpr auto names = std::apply(
+        [](const auto&... field) {
+            return std::array<const char*, sizeof...(field)>{field.name...};
+        },
+        Kind::fields);
+
+    static constexpr std::size_t constant_count =
+        std::tuple_size_v<decltype(std::declval<const Kind&>().constants(glm::vec3()))>;
+    static_assert(constant_count <= 1024, "a uniform block holds at most 1024 vec4");
+
+    static constexpr KindInfo info{Kind::name, Kind::shader, constant_count, names};
+
+    Kind kind_;
+};
+
+}  // namespace cubecam

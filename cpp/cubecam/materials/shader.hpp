@@ -1,0 +1,58 @@
+#pragma once
+
+#include "cubecam/core/checks.hpp"
+#include "cubecam/materials/material.hpp"
+
+namespace cubecam {
+
+/// What a user's own GLSL says: `shade(Surface)` for every fragment and, if there is one,
+/// `vertex(inout Vertex)` for every vertex (shaders/include/scene.glsl).
+struct Shader {
+    UserSource fragment;
+    UserSource vertex;  ///< empty: vertices stay where they are
+    ShaderInputs inputs;
+    /// How far `vertex` moves a vertex at most, in the mesh's units; none: nobody knows, so nothing
+    /// is culled.
+    std::optional<float> displacement;
+
+    static constexpr const char* name = "ShaderMaterial";
+    static constexpr const char* shader = "materials/shader.glsl";
+    static constexpr auto fields = std::tuple{
+        Field{"fragment", &Shader::fragment,
+              "str: GLSL of every fragment. Setting it, to text or a path, shows in the next "
+              "picture."},
+        Field{"vertex", &Shader::vertex, "str or None: GLSL of every vertex."},
+        Field{"inputs", &Shader::inputs, "What the source looks up by name."},
+        Field{"displacement", &Shader::displacement,
+              "float or None: how far `vertex` moves a vertex at most, in the mesh's units; None: "
+              "unknown, so the node is never culled."},
+    };
+
+    void check() const {
+        expect(mentions(fragment.text, "shade"),
+               "a fragment with a function vec3 shade(Surface surface), or vec4 with an alpha",
+               fragment.text.empty() ? "an empty one" : "one without the word shade");
+        expect(vertex.text.empty() || mentions(vertex.text, "vertex"),
+               "a vertex with a function void vertex(inout Vertex vertex)",
+               "one without the word vertex");
+        cubecam::check(inputs);
+        if (displacement) expect_not_negative(*displacement, "displacement");
+    }
+    float alpha() const { return 1.0F; }  // the alpha that shade() returns only a driver knows
+    std::array<glm::vec4, 0> constants(const glm::vec3&) const { return {}; }
+    std::array<Switch, 0> switches() const { return {}; }
+    bool uses_environment() const {
+        return mentions(fragment.text, "environment") || mentions(fragment.text, "environment_lod");
+    }
+    bool uses_lights() const {
+        return mentions(fragment.text, "sample_light") || mentions(fragment.text, "phong");
+    }
+    VertexColors uses_vertex_colors() const { return VertexColors::color; }
+    UserCode user_code() const { return {&fragment, &vertex, &inputs, displacement}; }
+
+    bool operator==(const Shader&) const = default;
+};
+
+using ShaderMaterial = MaterialOf<Shader>;
+
+}  // namespace cubecam

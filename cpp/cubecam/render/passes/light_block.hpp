@@ -1,0 +1,42 @@
+#pragma once
+
+#include "cubecam/scene/snapshot.hpp"
+
+#include <glm/glm.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace cubecam {
+
+/// Lights beyond this many are refused: they lie in a uniform block of guaranteed size.
+inline constexpr std::size_t max_lights = 256;
+
+/// The uniform block `Lights` of shaders/include/lights.glsl, std140.
+struct LightsBlock {
+    struct Light {
+        glm::vec4 position;
+        glm::vec4 color;
+        glm::vec4 cone{0.0F, 0.0F, 0.0F, 1.0F};
+    };
+
+    glm::ivec4 counts{0};
+    glm::vec4 ambient{0.0F};
+    Light lights[max_lights];
+};
+
+/// The lights of a scene as shaders get them, and what decides which variant of a shader serves.
+struct ShaderLights {
+    LightsBlock block;
+    glm::vec3 ambient{0.0F};       ///< of all ambient lights
+    std::size_t count = 0;         ///< of the others
+    std::size_t shadow_count = 0;  ///< of these, which come first, with a shadow
+    bool decay = false;            ///< some light falls off
+    bool cone = false;             ///< some light is a spot light
+};
+
+/// `origin` is where the shaders' positions count from.
+/// @throws std::invalid_argument for more than max_lights.
+ShaderLights make_shader_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin);
+
+}  // namespace cubecam

@@ -1,0 +1,184 @@
+#include "cubecam/render/passes/surface_calls.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+namespace cubecam {
+namespace {
+
+constexpr std::size_t dense_triangles = 4'000;
+
+bool shows_in(const SurfaceItems& items, const SurfaceItem& item, std::size_t region) {
+    const std::span<const std::uint32_t> regions(items.regions.data() + item.first_region,
+                                                 item.region_count);
+    return std::find(regions.begin(), regions.end(), region) != regions.end();
+}
+
+bool is_drawn_alone(const NodeSnapshot& node) {
+    return node.material.value.traits().user_code.has_value();
+}
+
+/// Whether two nodes that follow each other may be one draw call.
+bool join(const SurfaceItem& a, const SurfaceItem& b) {
+    if (a.mesh != b.mesh || a.turned != b.turned) return false;
+    const NodeSnapshot& left = *a.node;
+    const NodeSnapshot& right = *b.node;
+    const bool same_material = left.material.revision == right.material.revision;
+    if (left.crowd != 0 && left.crowd == right.crowd) {
+        return same_material || has_flat_constants(left);
+    }
+    return same_material && !is_drawn_alone(left) && left.receive_shadow == right.receive_shadow &&
+           a.textures->environment.texture == b.textures->environment.texture;
+}
+
+}  // namespace
+
+bool is_dense(const NodeSnapshot& node) {
+    return node.mesh->triangles()->size() >= dense_triangles;
+}
+
+bool has_flat_constants(const NodeSnapshot& node) {
+    const MaterialTraits& material = node.material.value.traits();
+    return !material.user_code && material.kind->constants <= most_flat_constants &&
+           !is_dense(node);
+}
+
+SurfaceItems find_items(const SurfaceInput& input, GpuCache& cache) {
+    SurfaceItems items;
+    const MeshData* last_mesh = nullptr;
+    const GpuMesh* last_gpu_mesh = nullptr;
+    const auto add = [&](const PlannedNode& planned, std::vector<SurfaceItem>& to) {
+        const NodeSnapshot& node = input.scene.nodes[planned.node];
+        const auto first = static_cast<std::uint32_t>(items.regions.size());
+        const auto visibilities = input.plan.visible_in(planned);
+        auto visibility = visibilities.begin();
+        for (std::size_t r = 0; r < input.regions.size(); ++r) {
+            const Region& region = input.regions[r];
+            while (visibility != visibilities.end() && visibility->view < region.view) ++visibility;
+            if (visibility == visibilities.end()) break;
+            if (visibility->view != region.view || !visibility->bounds.overlaps(region.rect)) {
+                continue;
+            }
+            items.regions.push_back(static_cast<std::uint32_t>(r));
+        }
+        const auto count = static_cast<std::uint32_t>(items.regions.size()) - first;
+        if (count == 0) return;
+        if (node.mesh.get() != last_mesh) {
+            last_mesh = node.mesh.get();
+            last_gpu_mesh = &cache.mesh(*node.mesh);
+        }
+        const bool turned = glm::determinant(glm::dmat3(node.world)) < 0.0;
+        to.push_back({&node, last_gpu_mesh, &input.textures[planned.node], turned, first, count});
+    };
+    for (const PlannedNode& planned : input.plan.opaque) add(planned, items.opaque);
+    for (const PlannedNode& planned : input.plan.transparent) add(planned, items.transparent);
+    return items;
+}
+
+std::size_t count_calls(const SurfaceItems& items, std::size_t regions) {
+    std::size_t calls = 0;
+    for (std::size_t region = 0; region < regions; ++region) {
+        const SurfaceItem* last = nullptr;
+        for (const SurfaceItem& item : items.opaque) {
+            if (!shows_in(items, item, region)) continue;
+            if (last == nullptr || !join(*last, item)) ++calls;
+            last = &item;
+        }
+    }
+    return calls;
+}
+
+SurfaceCallBuilder::SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items,
+                                       const glm::vec3& ambient, std::size_t alignment)
+    : input_(input), items_(items), ambient_(ambient), alignment_(alignment) {
+    const glm::dvec3& origin = input.origin();
+    for (const Region& region : input.regions) {
+        const View& view = input.views[region.view];
+        const glm::dmat4 from_origin = glm::translate(view.view_projection, origin);
+        views_.push_back(make_view_record(view, reverse_depth(from_origin), origin, region.view));
+    }
+}
+
+GLintptr SurfaceCallBuilder::append(const void* block, std::size_t size) {
+    const std::size_t at = blocks_.size();
+    blocks_.resize(at + (size + alignment_ - 1) / alignment_ * alignment_);
+    std::memcpy(blocks_.data() + at, block, size);
+    return static_cast<GLintptr>(at);
+}
+
+std::optional<GLintptr> SurfaceCallBuilder::append_constants(const NodeSnapshot& node) {
+    const MaterialModel& material = *node.material.value.model;
+    constants_.resize(material.traits().kind->constants);
+    if (constants_.empty()) return std::nullopt;
+    material.write_constants(ambient_, constants_);
+    return append(constants_.data(), constants_.size() * sizeof(glm::vec4));
+}
+
+/// The view records follow.
+SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
+    const NodeBlock block = make_node_block(*item.node, input_.origin());
+    return {&item, static_cast<GLuint>(view_records_.size()), 0, append(&block, sizeof(block)),
+            append_constants(*item.node)};
+}
+
+void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to) {
+    const auto place = static_cast<GLuint>(node_records_.size());
+    node_records_.push_back(make_node_record(*item.node, input_.origin(), ambient_));
+    if (!to.empty() && !to.back().node_block && join(*to.back().item, item)) {
+        ++to.back().count;
+        return;
+    }
+    to.push_back({&item, place, 1, std::nullopt,
+                  has_flat_constants(*item.node) ? std::nullopt : append_constants(*item.node)});
+}
+
+void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to) {
+    to.first_sky = static_cast<GLuint>(view_records_.size());
+    to.sky_count = static_cast<GLsizei>(count);
+    if (!std::holds_alternative<GLuint>(input_.background)) return;
+    for (std::size_t r = first_region; r < first_region + count; ++r) {
+        const std::size_t layer = input_.regions[r].view;
+        const View& view = input_.views[layer];
+        view_records_.push_back(make_view_record(view, view.far_to_world, input_.origin(), layer));
+    }
+}
+
+SurfaceCalls SurfaceCallBuilder::layered() {
+    SurfaceCalls calls;
+    const auto add = [this](const SurfaceItem& item, std::vector<SurfaceCall>& to) {
+        SurfaceCall call = alone(item);
+        call.count = static_cast<GLsizei>(item.region_count);
+        for (std::uint32_t i = 0; i < item.region_count; ++i) {
+            view_records_.push_back(views_[items_.regions[item.first_region + i]]);
+        }
+        to.push_back(call);
+    };
+    for (const SurfaceItem& item : items_.opaque) add(item, calls.opaque);
+    for (const SurfaceItem& item : items_.transparent) add(item, calls.transparent);
+    add_sky(0, input_.regions.size(), calls);
+    return calls;
+}
+
+SurfaceCalls SurfaceCallBuilder::of_region(std::size_t region) {
+    SurfaceCalls calls;
+    const ViewBlock block{views_[region], glm::vec4(input_.origin(), 0.0F)};
+    calls.view_block = append(&block, sizeof(block));
+    const auto add = [&](const SurfaceItem& item, std::vector<SurfaceCall>& to) {
+        if (!shows_in(items_, item, region)) return;
+        if (!is_drawn_alone(*item.node)) return add_together(item, to);
+        SurfaceCall call = alone(item);
+        call.count = 1;
+        view_records_.push_back(views_[region]);
+        to.push_back(call);
+    };
+    for (const SurfaceItem& item : items_.opaque) add(item, calls.opaque);
+    for (const SurfaceItem& item : items_.transparent) add(item, calls.transparent);
+    add_sky(region, 1, calls);
+    return calls;
+}
+
+}  // namespace cubecam

@@ -1,0 +1,221 @@
+"""One line for a call that fits no signature of the core.
+
+pybind11 lists every signature with every default, which buries the one word that is wrong. The core calls `explain`
+when that happened (cpp/bindings/arguments.cpp); a call that succeeds never comes here.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+import reprlib
+from dataclasses import dataclass
+from typing import Any
+
+from . import _core
+from ._old_names import PICKLED_ARGUMENTS, renamed
+
+__all__ = ["explain"]
+
+_OLD_PICKLE = (
+    "; if a pickle was being read: this pickle was made by cubecam 0.1, expected one of 0.2 or later: "
+    "rebuild the scene, or read it with cubecam 0.1"
+)
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One parameter of a signature."""
+
+    name: str
+    kind: str
+    required: bool
+    by_name_only: bool
+
+
+def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
+    """Say what is wrong with a call.
+
+    Parameters
+    ----------
+    function : str
+        How messages call it: "Scene.add", or "Mesh" for the constructor.
+    message : str
+        pybind11's own.
+    given, named : tuple and dict
+        The arguments of the call.
+
+    Returns
+    -------
+    str
+        One line.
+    """
+    overloads = [_parameters(text) for text in _signatures(message)]
+    if any(parameters and parameters[0].name == "self" for parameters in overloads):
+        overloads = [parameters[1:] for parameters in overloads]
+        given = given[1:]
+    elif "constructor" in message:
+        given = given[1:]
+    names = list(dict.fromkeys(p.name for parameters in overloads for p in parameters))
+    for name in named:
+        if name not in names:
+            return _unknown(function, name, names)
+    if not overloads:
+        return f"{function}: expected other arguments, got {_values(given, named)}"
+    # Of several, the one that the names point to, and of those the one with the most to say.
+    parameters = max(overloads, key=lambda p: (len({q.name for q in p} & set(named)), len(p)))
+    return (
+        _wrong_number(function, parameters, given, named)
+        or _wrong_type(function, parameters, given, named)
+        or f"{function}: expected ({', '.join(_described(p) for p in parameters)}), "
+        f"got {_values(given, named)}"
+    )
+
+
+def _signatures(message: str) -> list[str]:
+    """Cut out what stands between the brackets of each signature."""
+    texts = []
+    listed = message.split("\nInvoked with:", 1)[0]
+    for line in re.findall(r"^ +\d+\. (.*)$", listed, flags=re.MULTILINE):
+        depth, begin = 0, line.index("(") + 1
+        for at, (letter, quoted) in enumerate(_letters(line)):
+            if quoted:
+                continue
+            depth += (letter in "([{") - (letter in ")]}")
+            if letter == ")" and depth == 0:
+                texts.append(line[begin:at])
+                break
+    return texts
+
+
+def _letters(text: str) -> list[tuple[str, bool]]:
+    """Pair each letter with whether it stands within quotes."""
+    letters = []
+    quote = ""
+    for letter in text:
+        inside = bool(quote)
+        if quote:
+            quote = "" if letter == quote else quote
+        elif letter in "'\"":
+            quote = letter
+        letters.append((letter, inside or bool(quote)))
+    return letters
+
+
+def _parameters(text: str) -> list[Parameter]:
+    """Parse "scene: cubecam.Scene, *, size: object = (1, 2)"."""
+    parts, depth = [""], 0
+    for letter, quoted in _letters(text):
+        depth += 0 if quoted else (letter in "([{") - (letter in ")]}")
+        if letter == "," and depth == 0 and not quoted:
+            parts.append("")
+        else:
+            parts[-1] += letter
+    parameters = []
+    by_name_only = False
+    for part in (part.strip() for part in parts):
+        if part == "*":
+            by_name_only = True
+        elif part and part != "/" and not part.startswith("*"):
+            declared, _, default = part.partition(" = ")
+            name, _, kind = declared.partition(": ")
+            parameters.append(Parameter(name, kind, not default, by_name_only))
+    return parameters
+
+
+def _unknown(function: str, name: str, names: list[str]) -> str:
+    answer = renamed(function, name)
+    if answer is not None:
+        return answer
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    hint = f"; did you mean {near[0]!r}?" if near else ";"
+    takes = f"it takes {', '.join(names)}" if names else "it takes none"
+    return f"{function}: no argument {name!r}{hint} {takes}"
+
+
+def _wrong_number(
+    function: str, parameters: list[Parameter], given: tuple[Any, ...], named: dict[str, Any]
+) -> str | None:
+    by_position = [p.name for p in parameters if not p.by_name_only]
+    if len(given) > len(by_position):
+        rest = [p.name for p in parameters if p.by_name_only and p.name not in named]
+        count = f"{len(by_position)} argument{'s' * (len(by_position) != 1)}"
+        most = f"at most {count} by position ({', '.join(by_position)})"
+        old = _OLD_PICKLE if PICKLED_ARGUMENTS.get(function) == len(given) else ""
+        return (
+            f"{function}: expected {most if by_position else 'arguments by name'}, got {len(given)} by position"
+            + (f"; name the others: {', '.join(rest)}" if rest else "")
+            + old
+        )
+    for name in by_position[: len(given)]:
+        if name in named:
+            return f"{function}: {name}: expected it once, got it by position and by name"
+    have = {*by_position[: len(given)], *named}
+    missing = [p.name for p in parameters if p.required and p.name not in have]
+    if missing:
+        takes = ", ".join(p.name for p in parameters)
+        return f"{function}: expected {' and '.join(missing)}, got none; it takes {takes}"
+    return None
+
+
+def _wrong_type(
+    function: str, parameters: list[Parameter], given: tuple[Any, ...], named: dict[str, Any]
+) -> str | None:
+    values = dict(zip((p.name for p in parameters), given, strict=False)) | named
+    for parameter in parameters:
+        if parameter.name in values and not _fits(parameter.kind, values[parameter.name]):
+            # A setter's parameter has no name of its own.
+            what = "" if parameter.name == "arg1" else f"{parameter.name}: "
+            got = values[parameter.name]
+            return f"{function}: {what}expected {_readable(parameter.kind)}, got {_value(got)}"
+    return None
+
+
+def _fits(kind: str, value: Any) -> bool:
+    """Say whether a value may be of a type; True where that is not certain."""
+    return any(_fits_one(one, value) for one in kind.split(" | "))
+
+
+def _fits_one(kind: str, value: Any) -> bool:
+    if kind == "None":
+        return value is None
+    if value is None:
+        return kind in ("object", "typing.Any")
+    if kind == "bool":
+        return type(value).__name__ in ("bool", "bool_")
+    if kind == "str":
+        return isinstance(value, (str, bytes))
+    if kind == "typing.SupportsFloat":
+        return hasattr(value, "__float__")
+    if kind == "typing.SupportsIndex":
+        return hasattr(value, "__index__")
+    if kind == "typing.SupportsInt":
+        return hasattr(value, "__int__") and not isinstance(value, float)
+    owner = getattr(_core, kind.removeprefix("cubecam."), None)
+    return isinstance(value, owner) if isinstance(owner, type) else True
+
+
+def _readable(kind: str) -> str:
+    names = []
+    for one in kind.split(" | "):
+        plain = {"typing.SupportsFloat": "float", "typing.SupportsInt": "int"}.get(one, one)
+        plain = plain.removeprefix("cubecam.").removeprefix("numpy.typing.").removeprefix("typing.")
+        if plain != "SupportsIndex":
+            names.append({"ArrayLike": "array_like"}.get(plain, plain))
+    return " or ".join(names)
+
+
+def _described(parameter: Parameter) -> str:
+    return f"{parameter.name}: {_readable(parameter.kind)}"
+
+
+def _value(value: Any) -> str:
+    """Show a number or a word as it is, all else by its type."""
+    plain = isinstance(value, (str, bytes, bool, int, float)) or value is None
+    return reprlib.repr(value) if plain else type(value).__name__
+
+
+def _values(given: tuple[Any, ...], named: dict[str, Any]) -> str:
+    parts = [_value(value) for value in given]
+    parts += [f"{name}={_value(value)}" for name, value in named.items()]
+    return f"({', '.join(parts)})"

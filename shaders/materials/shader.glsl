@@ -1,0 +1,2 @@
+// ShaderMaterial: shade() is the user's own.
+#include "include/scene.glsl"
