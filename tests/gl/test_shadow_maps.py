@@ -394,7 +394,7 @@ def test_a_map_shows_casters_where_a_render_texture_moves_them(renderer):
     red = cc.Scene(background=(0.25, 0, 0, 1))
     texture = cc.RenderTexture(red, cc.PerspectiveCamera(), size=(4, 4), format="rgba32f")
     material = cc.ShaderMaterial(
-        "vec3 shade(Surface s) { return vec3(1); }", moved, textures={"t": texture}
+        "vec3 shade(Surface s) { return vec3(1); }", vertex=moved, textures={"t": texture}
     )
     lamp = cc.PointLight((0, 3, 0), shadow=cc.Shadow(size=32))
     scene = cc.Scene()
