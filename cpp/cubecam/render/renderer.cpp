@@ -171,7 +171,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         }
         FrameContext frame(gpu, scene);
         frame.draw(
-            std::move(views), target, [](const NodeSnapshot&) { return true; }, post_process);
+            std::move(views), target, [](const NodeSnapshot&) { return true; }, {}, post_process);
         stats_ = frame.stats;
         return read_frame(gpu.context.gl(), target, *gpu.results);
     });
@@ -207,9 +207,15 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);
         FrameContext frame(gpu, scene);
-        frame.draw(std::move(views), target, [&](const NodeSnapshot& node) {
-            return node.in_captures && !is_excluded(node, options.exclude);
-        });
+        Key wanted;
+        wanted.add(true);  // a capture
+        for (const std::int32_t id : options.exclude) wanted.add(id);
+        frame.draw(
+            std::move(views), target,
+            [&](const NodeSnapshot& node) {
+                return node.in_captures && !is_excluded(node, options.exclude);
+            },
+            std::move(wanted));
         stats_ = frame.stats;
         return read_cube(gpu.context.gl(), target, *gpu.results);
     });

@@ -72,11 +72,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
         const View& view = views[v];
         Key& key = keys[v].common;
         key = common;
-        key.add(view.view);
-        key.add(view.view_projection);
-        key.add(view.position);
-        key.add(view.eye);
-        key.add(view.near);
+        add_view(key, view);
         keys[v].shadows = shadow_key;
         keys[v].nodes.reserve(counts[v]);
     }

@@ -32,12 +32,39 @@ FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scen
     caster_dependencies_ = unique(std::move(caster_dependencies_));
 }
 
+bool FrameContext::counts_no_calls() const {
+    for (std::size_t s = 0; s < contents_.size(); ++s) {
+        for (const ProbeSnapshot& probe : scenes.scene(s).probes) {
+            const ProbeValue& value = probe.value;
+            if (value.update == ProbeUpdate::every_n_frames || value.faces_per_frame < 6) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 void FrameContext::draw(std::vector<View> views, Target& target,
-                        std::function<bool(const NodeSnapshot&)> wanted, PostProcess post_process) {
+                        std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,
+                        PostProcess post_process) {
+    Key request = std::move(wanted_key);
+    for (const View& view : views) add_view(request, view);
+    request.add(post_process.tonemap);
+    request.add(post_process.encode);
+    const std::optional<UnchangedCall>& last = target.unchanged;
+    if (last && last->scene == scenes.revision && last->contents == gpu.contents &&
+        last->request == request) {
+        stats.views_skipped = last->views;
+        return;
+    }
+    target.unchanged.reset();
     pictures.add(frame_id(),
                  std::make_unique<FramePicture>(*this, std::move(views), target, std::move(wanted),
                                                 std::move(post_process)));
     update({frame_id()});
+    if (stats.views_drawn == 0 && stats.shadow_views_drawn == 0 && counts_no_calls()) {
+        target.unchanged = {scenes.revision, gpu.contents, std::move(request), stats.views_skipped};
+    }
 }
 
 void FrameContext::update_probes(const std::vector<std::size_t>& probes) {

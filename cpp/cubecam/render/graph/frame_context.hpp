@@ -30,8 +30,11 @@ public:
 
     /// Draws `views` of the nodes that `wanted` lets through into `target`, and before that what
     /// they depend on.
+    ///
+    /// `wanted_key` says which nodes that are.
     void draw(std::vector<View> views, Target& target,
-              std::function<bool(const NodeSnapshot&)> wanted, PostProcess post_process = {});
+              std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,
+              PostProcess post_process = {});
 
     /// Draws these probes of the first scene, due or not, and before each what it depends on.
     void update_probes(const std::vector<std::size_t>& probes);
@@ -61,6 +64,9 @@ public:
 
 private:
     std::unique_ptr<Picture> make(const PictureId& id);
+    /// Whether the picture is a function of the scene and of what the renderer holds alone, and not
+    /// of how many calls there were.
+    bool counts_no_calls() const;
     /// Refuses circles, then draws.
     void update(const std::vector<PictureId>& roots);
 

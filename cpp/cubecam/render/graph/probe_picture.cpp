@@ -73,6 +73,7 @@ void ProbePicture::update() {
         drawn = draw_changed(*state_.target, {}, budget);
     } catch (...) {
         state_.target = nullptr;
+        context_.gpu.contents = next_revision();
         throw;
     }
     if (drawn == 0) return;
@@ -80,7 +81,7 @@ void ProbePicture::update() {
     if (description.mipmaps) {
         context_.gpu.context.gl().GenerateTextureMipmap(state_.target->color().id());
     }
-    state_.revision = next_revision();
+    state_.revision = context_.gpu.contents = next_revision();
     ++context_.stats.probes_updated;
 }
 

@@ -75,6 +75,8 @@ struct RendererState {
     WeakCache<Probe, StatesByScene<ProbeState>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
+    /// New whenever a probe, shadow map or render texture may hold something else.
+    std::uint64_t contents = 0;
 };
 
 }  // namespace cubecam

@@ -95,7 +95,7 @@ void ShadowPicture::draw_changed(TextureLookup& lookup) {
     for (std::size_t layer = 0; layer < keys.size(); ++layer) {
         state_.keys[layer] = std::move(keys[layer]);
     }
-    state_.revision = next_revision();
+    state_.revision = context_.gpu.contents = next_revision();
     context_.stats.shadow_views_drawn += static_cast<std::int64_t>(drawn);
 }
 

@@ -82,7 +82,7 @@ void TexturePicture::prepare(const TargetDescription& description) {
     if (state_.wrap != texture_.value.wrap) {
         state_.wrap = texture_.value.wrap;
         set_view_wrap(gl, state_.view.id(), state_.wrap);
-        state_.revision = next_revision();
+        state_.revision = context_.gpu.contents = next_revision();
     }
 }
 
@@ -100,7 +100,7 @@ void TexturePicture::update() {
         state_ = TextureState{};
         throw;
     }
-    state_.revision = next_revision();
+    state_.revision = context_.gpu.contents = next_revision();
     ++context_.stats.textures_updated;
 }
 

@@ -147,6 +147,14 @@ void compare_unordered(const Comparison& keys, std::span<const NodeKey> before,
 
 }  // namespace
 
+void add_view(Key& key, const View& view) {
+    key.add(view.view);
+    key.add(view.view_projection);
+    key.add(view.position);
+    key.add(view.eye);
+    key.add(view.near);
+}
+
 std::vector<Rect> damage(const std::optional<PictureKey>& before, const PictureKey& now,
                          const Rect& whole) {
     if (!before || !(before->common == now.common)) return {whole};

@@ -2,6 +2,7 @@
 
 #include "cubecam/math/rect.hpp"
 #include "cubecam/render/resources/key.hpp"
+#include "cubecam/render/resources/view.hpp"
 
 #include <glm/glm.hpp>
 
@@ -26,6 +27,9 @@ struct NodeKey {
     std::uint32_t first_texture;
     std::uint32_t texture_count;
 };
+
+/// Adds all that a picture depends on of the view it is taken with.
+void add_view(Key& key, const View& view);
 
 /// Everything a view's picture is a function of: what concerns every pixel, and each node drawn, in
 /// the order of drawing.

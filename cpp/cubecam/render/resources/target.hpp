@@ -89,6 +89,15 @@ private:
     std::vector<gl::Framebuffer> one_;
 };
 
+/// A call that found its picture, and all that the picture depends on, as they were left. While all
+/// of this stays the same, so does the picture.
+struct UnchangedCall {
+    std::uint64_t scene;     ///< SceneSnapshot::revision
+    std::uint64_t contents;  ///< RendererState::contents
+    Key request;             ///< the views, the nodes left out, what is done to the picture
+    std::int64_t views;      ///< pictures that were still true
+};
+
 /// Textures that pictures are drawn into, and for each layer the key of the picture it holds.
 ///
 /// With one sample a single pass writes colour and outputs. With more, colour is drawn multisampled
@@ -132,6 +141,8 @@ public:
 
     /// The key of what each layer holds; nothing: not to be trusted.
     std::vector<std::optional<PictureKey>> keys;
+    /// The last call, if it drew nothing.
+    std::optional<UnchangedCall> unchanged;
 
 private:
     void check_complete();
