@@ -351,7 +351,7 @@ MUTATIONS = [
     ),
     Mutation(
         "key: the eye forgotten",
-        DRAWN,
+        "picture_key.cpp",
         "key.add(view.eye);",
         "",
         STATS,
