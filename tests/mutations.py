@@ -351,7 +351,7 @@ MUTATIONS = [
     ),
     Mutation(
         "key: the eye forgotten",
-        DRAWN,
+        "picture_key.cpp",
         "key.add(view.eye);",
         "",
         STATS,
@@ -813,7 +813,7 @@ MUTATIONS = [
         "output maps: the convention ignored",
         "cubemap_save.py",
         "CubeMap(texels).to_layout(layout, convention=convention)",
-        'CubeMap(texels).to_layout(layout, convention="gl")',
+        "CubeMap(texels).to_layout(layout)",
         ("tests/unit/test_cubemap_files.py",),
     ),
     Mutation(

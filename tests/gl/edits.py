@@ -216,7 +216,7 @@ VALUES = {
     "MirrorMaterial.env_weight": number(0, 1),
     "MirrorMaterial.f0": choice(None, 0.1, 0.6),
     "MirrorMaterial.tint": color,
-    "GlassMaterial.ior": number(1.05, 2),
+    "GlassMaterial.ior": number(0.7, 2),
     "GlassMaterial.fresnel": flag,
     "GlassMaterial.tint": color,
     "ShaderMaterial.displacement": choice(None, 0.5, 1.0),

@@ -7,7 +7,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.conftest import DEVICE
+from tests.helpers import DEVICE
 
 NAMES = ("positions", "normals", "uvs", "colors")
 RAW = "vec3 shade(Surface surface) { return vec3(surface.uv, 0.0) + 0.3 * surface.color.rgb; }"

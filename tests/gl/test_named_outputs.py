@@ -93,7 +93,7 @@ def test_frames(any_path, world, samples):
         assert_close(values_there, values[name], "distance", mask=mask, name=name)
 
 
-def test_they_leave_colour_and_the_other_outputs_as_they_are(any_path, world):
+def test_they_leave_color_and_the_other_outputs_as_they_are(any_path, world):
     plain = any_path.capture(world.scene, size=SIZE, outputs=OUTPUTS)
     more = any_path.capture(world.scene, size=SIZE, outputs=(*OUTPUTS, "heat", "flow"))
     assert_identical(plain.faces, more.faces)

@@ -31,14 +31,14 @@ CPP_KNOWS = {"gl": {"core"}, "math": {"core"}}
 #: The parts of python/cubecam, a part being a folder or a module, in the same way.
 PYTHON_ORDER = (
     "_core",
-    "_old_names",
-    "_arguments",
-    "_pickling",
     "data",  # the packaged files and their list
     "io",
     "pictures",
     "navigation",
     "_shader_inputs",
+    "_pickling",
+    "_old_names",
+    "_arguments",
     "_attach",
     "cubecam",  # the package itself: __init__.py
     "examples",
@@ -46,7 +46,7 @@ PYTHON_ORDER = (
     "cli",
     "__main__",
 )
-PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}}
+PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}, "_pickling": {"_core"}}
 
 
 def allowed(part, order, knows):

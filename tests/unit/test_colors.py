@@ -271,7 +271,7 @@ BAD = {
 
 
 @pytest.mark.parametrize(("text", "message"), BAD.items(), ids=BAD)
-def test_what_is_no_colour(text, message):
+def test_what_is_no_color(text, message):
     with pytest.raises(ValueError, match=message):
         cc.BasicMaterial(color=text)
 
