@@ -27,7 +27,7 @@ BoundTexture TextureLookup::find_probe(std::size_t probe) {
     const BoundTexture held = context_.probe(number_, probe).texture();
     const bool back = context_.pictures.is_edge_back(viewer_, probe_id(number_, probe));
     if (!back && held.texture != 0) return held;
-    // A mirror in a circle of mirrors, or a manual probe before its first update.
+    // Reached for a mirror in a circle of mirrors, or a manual probe before its first update.
     return std::holds_alternative<CubeSnapshot>(scene_.environment) ? find(scene_.environment)
                                                                     : BoundTexture{};
 }
