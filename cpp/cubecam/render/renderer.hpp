@@ -41,6 +41,7 @@ struct ShadowDistances {
 
 /// Draws scenes into frames, captures and probes. It owns an OpenGL context and everything on the
 /// GPU.
+///
 /// Any thread may call it; calls on one renderer run one after the other, several renderers run in
 /// parallel. Between calls its context is current on no thread. After close(), and in a process
 /// forked after EGL was opened, every call throws ContextError.

@@ -30,6 +30,7 @@ public:
 
     /// Draws `views` of the nodes for which `wanted` is true into `target`, after the pictures that
     /// they depend on.
+    ///
     /// `wanted_key` differs whenever `wanted` selects other nodes.
     void draw(std::vector<View> views, Target& target,
               std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,

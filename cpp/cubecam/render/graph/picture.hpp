@@ -29,6 +29,7 @@ struct PictureId {
 
 /// A picture that the renderer draws and that other pictures may look up: a frame, a capture, a
 /// probe's cube, a render texture or a light's shadow map.
+///
 /// The contents of a picture depend only on its keys (see key.hpp): `update` draws only the parts
 /// whose keys have changed.
 class Picture {

@@ -13,6 +13,7 @@ struct PictureOrder {
     /// Whether `from` must not look at `to`: they depend on each other, and `to` comes first (or is
     /// `from`). Something else then replaces `to`, so that no picture shows contents of an earlier
     /// call.
+    ///
     /// The result depends on the pictures' numbers and not on where the search began, so a picture
     /// has the same contents for every root.
     bool is_edge_back(std::size_t from, std::size_t to) const {

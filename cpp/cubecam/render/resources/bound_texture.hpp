@@ -13,10 +13,10 @@ struct BoundTexture {
     std::uint64_t revision = 0;  ///< of its contents; 0: none
 };
 
-/// All that a node looks up.
+/// All textures that a node looks up.
 struct NodeTextures {
-    BoundTexture environment;            ///< what a mirror reflects
-    std::vector<BoundTexture> textures;  ///< of the material, in the order of its own
+    BoundTexture environment;            ///< the cube that mirrors reflect
+    std::vector<BoundTexture> textures;  ///< in the order of the material's textures
 };
 
 }  // namespace cubecam
