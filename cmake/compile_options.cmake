@@ -1,4 +1,5 @@
 # cubecam_compile_options(TARGET)
+#
 # Sets the compile options that every C++ target of this project has. Warnings apply to our C++ only: we do not
 # correct generated C (glad) and imported headers (GLM, pybind11).
 function(cubecam_compile_options target)

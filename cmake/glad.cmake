@@ -1,7 +1,9 @@
 # cubecam_add_glad(TARGET)
+#
 # Gives TARGET the header <glad/gl.h> and the loader of OpenGL 4.5 core, which glad2 generates at build from its own
 # copy of the specification (--reproducible: glad2 fetches nothing). With --mx each context has its own table of
 # functions; without --loader glad2 opens no library: eglGetProcAddress fills the table.
+#
 # To use another extension, add its name to the list below.
 set(cubecam_glad_extensions
     GL_KHR_debug                          # in the core since 4.3; names objects and collects messages

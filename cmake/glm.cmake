@@ -1,4 +1,5 @@
 # Provides glm::glm: the installed GLM if there is one, otherwise the release below.
+#
 # This file downloads the archive itself first: on a machine without a network FetchContent alone would wait for
 # minutes, and its message would not name the package to install.
 find_package(glm CONFIG QUIET)

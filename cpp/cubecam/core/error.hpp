@@ -5,11 +5,14 @@
 #include <utility>
 
 /// The exceptions that the library throws.
+///
 /// There are three kinds of failure, so that a caller (and Python above it) knows who caused one:
 ///  - the caller's mistakes: `std::invalid_argument` (Python's ValueError), `std::out_of_range`
 ///    (IndexError), `cubecam::TypeError` (TypeError); the text says "expected ..., got ...";
 ///  - the environment's failures: `Error` and what is below it;
-///  - everything else is a defect of this library. The library never prints, exits or aborts.
+///  - everything else is a defect of this library.
+///
+/// The library never prints, exits or aborts.
 namespace cubecam {
 
 /// Base of every failure that is not the caller's own mistake.

@@ -9,6 +9,7 @@
 namespace cubecam {
 
 /// A plain value behind a mutex, with the revision of its last real change.
+///
 /// Setting an equal value does not change the revision: the renderer compares revisions to decide
 /// whether a picture is still valid, so a needless new revision would cause a needless redraw.
 template <class Value>

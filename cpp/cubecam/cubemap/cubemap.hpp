@@ -71,6 +71,7 @@ public:
 
     /// Looks up `count` directions (xyz each, from the center outwards, of any length but 0) and
     /// writes count * channels floats, uint8 as value/255.
+    ///
     /// The numbers are those of GLSL textureLod with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (GL
     /// 4.6 section 8.14): texels beyond an edge belong to the neighbour face, and the fourth texel
     /// of a corner is the average of the other three. `lods` is null for level 0, otherwise it

@@ -1,4 +1,5 @@
 /// Cubes from panoramas, panoramas from cubes, cubes of another size: threaded, without aliasing.
+///
 /// All conversions use one filter: a box as wide as the destination texel is in the source, and
 /// never narrower than one source texel. For enlarging, the box is exactly bilinear interpolation;
 /// for shrinking, each source texel has the weight of the area that it covers; there is no step

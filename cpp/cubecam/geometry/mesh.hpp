@@ -9,6 +9,7 @@
 namespace cubecam {
 
 /// A mesh that scenes share and whose vertices may be updated from any thread.
+///
 /// The renderer holds the data of one moment, which never change.
 class Mesh {
 public:

@@ -53,6 +53,7 @@ struct Limits {
 };
 
 /// An OpenGL 4.5 core context without a window, current on no thread between CurrentScopes.
+///
 /// Any thread may use a context, one thread at a time: its owner holds a mutex. Contexts share
 /// nothing, so several may be used in parallel.
 class Context {

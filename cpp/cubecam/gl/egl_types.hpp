@@ -3,6 +3,7 @@
 #include <cstdint>
 
 /// The part of EGL that this library uses: types, constants and signatures. Private to gl/.
+///
 /// Values are those of the Khronos EGL registry (https://registry.khronos.org/EGL/, api/egl.xml).
 /// They are repeated here so that the build needs no EGL headers, which belong to a GL development
 /// package.

@@ -11,6 +11,7 @@ namespace cubecam::gl {
 bool in_forked_child() noexcept;
 
 /// Owner of one OpenGL object. Move-only; a moved-from or default-made handle is empty (id 0).
+///
 /// A handle must be destroyed while its context is current; the owner of the context ensures that.
 /// In a forked child the destructor does nothing; after Context::abandon() the table's delete
 /// functions do nothing.

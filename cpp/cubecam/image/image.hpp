@@ -18,6 +18,7 @@ std::string_view to_string(Wrap wrap);
 
 /// A picture that a material shows: (height, width, channels), row 0 on top, uv (0, 0) its
 /// bottom-left.
+///
 /// An image never changes: the renderer uploads it once, with its revision as the key, and threads
 /// may share it.
 class Image {

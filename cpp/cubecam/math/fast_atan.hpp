@@ -6,6 +6,7 @@
 namespace cubecam {
 
 /// atan(x) for |x| <= 1.47, within 2e-12: less than a millionth of a texel in any panorama.
+///
 /// atan(x) = 2 atan(y), y = x / (1 + sqrt(1 + x^2)), |y| <= 0.53; then a polynomial fitted to
 /// atan(y) / y in y^2 at Chebyshev nodes. `secant` is sqrt(1 + x^2), which most callers already
 /// have.

@@ -23,6 +23,7 @@ public:
     /// Whether a box can be visible: false only if the whole box lies beyond one plane (U.
     /// Assarsson, T. Moeller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", JGT
     /// 5(1), 2000, in clip space). The test works for any matrix, perspective or not.
+    ///
     /// `error()` returns the largest error of the GPU's arithmetic for a vertex in clip space: a
     /// box within this distance of a plane counts as inside. It is called only if the result
     /// depends on it.
