@@ -1,4 +1,4 @@
-/// Targets of every shape on a driver: an array of cubes holds what its cubes hold one by one, on
+/// Tests targets of every shape on a driver: an array of cubes has the contents of single cubes, on
 /// both paths of drawing and with several samples.
 
 #include "check.hpp"

@@ -19,7 +19,7 @@ struct PictureId {
     PictureKind kind{};
     std::size_t scene = 0;   ///< the number of the scene that it shows or belongs to
     std::size_t object = 0;  ///< the index among the scene's objects of its kind
-    std::size_t bounce = 0;  ///< above 0: drawn from the object's picture one bounce lower
+    std::size_t bounce = 0;  ///< above 0: a further picture of the object, drawn from earlier ones
     std::shared_ptr<const PictureId>
         viewer;  ///< the picture that shows it, if each viewer needs another one; else null
 
