@@ -134,7 +134,7 @@ void test_pool() {
     c.reset();  // the first one does not fit any more
     a = pool->take(bytes);
     b = pool->take(bytes);
-    CHECK((a.get() == places[2] && b.get() == places[1]));  // the last one let go first
+    CHECK((a.get() == places[2] && b.get() == places[1]));  // the last one released comes first
     CHECK(pool->take(bytes / 2)->size() == bytes / 2);
     pool.reset();
     a.reset();  // to no pool

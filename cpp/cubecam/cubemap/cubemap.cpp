@@ -147,10 +147,9 @@ void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
     if (std::memcmp(data_->face_pixels(face).data(), pixels.data(), bytes) == 0) return;
 
     CubeMapData next = *data_;
-    // If this state has no other owner (and nobody can become one while we hold the mutex), the new
-    // face is written into its memory: six faces that arrive one by one then cost one copy, not
-    // six. The two owners here are data_ and next. The fence pairs with the release of the last
-    // other owner.
+    // If this state has no other owner (and cannot get one while we hold the mutex), the new face
+    // is written into its memory: six faces that arrive one by one then cost one copy, not six. The
+    // two owners here are data_ and next. The fence pairs with the release of the last other owner.
     const bool alone = data_.use_count() == 1 && next.pixels.use_count() == 2;
     if (alone) {
         std::atomic_thread_fence(std::memory_order_acquire);

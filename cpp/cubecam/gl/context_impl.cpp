@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_messages = 1000;
 
-// glad asks for one name at a time, without a user pointer.
+// glad calls this with one name at a time, without a user pointer.
 GLADapiproc load_function(const char* name) { return egl::library().get_proc_address(name); }
 
 std::string gl_text(const GladGLContext& gl, GLenum name) {

@@ -73,7 +73,7 @@ void check_gl(const GladGLContext& gl, std::string_view what) {
     }
     std::string text = std::string(what) + ": " + names;
     if (out_of_memory)
-        text += ": no memory left for this; ask for smaller sizes, fewer samples or fewer outputs";
+        text += ": no memory left for this; use smaller sizes, fewer samples or fewer outputs";
     throw GlError(text, first);
 }
 

@@ -150,7 +150,7 @@ template <class Kind, std::size_t... index>
 struct Members<Kind, std::index_sequence<index...>> {
     /// Whether the fields' values, in their order, initialize the struct.
     static constexpr bool fit = requires { Kind{std::declval<FieldType<Kind, index>>()...}; };
-    /// Whether one more value fits, so that a member has no field.
+    /// Whether the struct takes one more value, so that some member has no field.
     static constexpr bool more = requires { Kind{std::declval<FieldType<Kind, index>>()..., {}}; };
     static constexpr std::size_t textures =
         ((std::size_t{std::same_as<FieldType<Kind, index>, MapSource> ||

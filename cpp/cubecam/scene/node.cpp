@@ -230,7 +230,8 @@ void Node::set_parent(const std::shared_ptr<Node>& parent) {
 
         if (mine != theirs && (mine->of_scene || theirs->of_scene)) {
             throw std::invalid_argument("expected a parent in the same scene, got node " +
-                                        std::to_string(parent->id_) + " of another or of none");
+                                        std::to_string(parent->id_) +
+                                        ", which is in another scene or in none");
         }
         for (const Node* above = parent.get(); above; above = above->parent_.get()) {
             if (above != this) continue;

@@ -83,7 +83,8 @@ std::shared_ptr<Node> Scene::add(NodeValue value, const std::shared_ptr<Node>& p
     const std::lock_guard lock(graph_->mutex);
     if (parent && parent->graph() != graph_) {
         throw std::invalid_argument("expected a parent in this scene, got node " +
-                                    std::to_string(parent->id()) + " of another or of none");
+                                    std::to_string(parent->id()) +
+                                    ", which is in another scene or in none");
     }
     if (next_id_ > last_id) throw std::length_error("all 2,147,483,646 ids of the scene are used");
     outdated = graph_->changed();
@@ -110,7 +111,7 @@ void Scene::remove(const std::shared_ptr<Node>& node) {
     if (!node || node->graph() != graph_) {
         throw std::invalid_argument(
             "expected a node of this scene, got " +
-            (node ? "node " + std::to_string(node->id()) + " of another or of none"
+            (node ? "node " + std::to_string(node->id()) + ", which is in another scene or in none"
                   : std::string("none")));
     }
     outdated = graph_->changed();
@@ -164,7 +165,8 @@ void Scene::place(std::span<const std::shared_ptr<Node>> nodes,
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i]->graph() != graph_) {
             throw std::invalid_argument("expected nodes of this scene, got node " +
-                                        std::to_string(nodes[i]->id()) + " of another or of none");
+                                        std::to_string(nodes[i]->id()) +
+                                        ", which is in another scene or in none");
         }
         Placing& next = placings.emplace_back(nodes[i]->value_.placing);
         change(i, next);

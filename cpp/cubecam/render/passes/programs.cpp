@@ -14,8 +14,8 @@
 namespace cubecam {
 namespace {
 
-/// How many lights reach the fragment shader as flat inputs (docs/adr/0004): as many as the driver
-/// has room for beside everything else in shaders/include/surface.glsl.
+/// How many lights are flat inputs of the fragment shader (docs/adr/0004): as many as the driver
+/// has room for in addition to the other inputs in shaders/include/surface.glsl.
 int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, int room) {
     if (variant.dense || variant.lights <= 0) return 0;
     int taken = 3;  // position, normal, eye

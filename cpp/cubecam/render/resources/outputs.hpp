@@ -46,12 +46,13 @@ inline constexpr std::array output_table = {
     OutputRow{"position", OutputSource::shader, 3, OutputType::float32,
               std::numeric_limits<float>::quiet_NaN(), "world position; NaN background"},
     OutputRow{"id", OutputSource::shader, 1, OutputType::int32, 0.0F,
-              "``Node.id`` of what is seen; 0 background"},
-    OutputRow{"depth", OutputSource::depth, 1, OutputType::float32, 1.0F,
-              "OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing "
-              "is, as fine as ``depth_format`` keeps it"},
+              "``Node.id`` of the visible node; 0 background"},
+    OutputRow{
+        "depth", OutputSource::depth, 1, OutputType::float32, 1.0F,
+        "OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at "
+        "the far plane and in the background"},
     OutputRow{"stencil", OutputSource::stencil, 1, OutputType::uint8, 0.0F,
-              "what the stencil buffer holds in the end; 0 background"},
+              "the stencil buffer after all drawing; 0 background"},
 };
 
 /// An output that a user's own GLSL declares: `out vec3 heat;` has three channels. These outputs
