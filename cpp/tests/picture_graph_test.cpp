@@ -219,8 +219,7 @@ void test_an_edge_back_inside_a_circle_of_probes() {
         CHECK(back(2, 2));
         CHECK(!back(2, 3));
         CHECK(!graph.is_edge_back(make_id(frame, start), make_id(probe, start)));
-        const PictureId unknown =
-            make_id(probe, 1, 5);  // it would be sorted to the index of probe 2
+        const PictureId unknown = make_id(probe, 1, 5);  // sorts to the index of probe 2
         CHECK(!graph.is_edge_back(make_id(probe, 2), unknown));
         CHECK(!graph.is_edge_back(unknown, make_id(probe, 0)));
         CHECK(!back(2, 99));

@@ -97,8 +97,7 @@ public:
     void fill(TapList& down, TapList& across, const Read& read) {
         rows_ = down.range();
         columns_ = across.range();
-        stride_ =
-            (columns_.size() + 15) / 16 * 16;  // the next block often has the same: no new binding
+        stride_ = (columns_.size() + 15) / 16 * 16;  // often that of the next block, too
         down.bind(stride_);
         across.bind(1);
         texels_.resize(rows_.size() * stride_);

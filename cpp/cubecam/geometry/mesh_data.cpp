@@ -15,8 +15,7 @@ namespace cubecam {
 
 namespace {
 
-constexpr std::size_t block_size =
-    1024;  // no branch within a block, so that the compiler can use SIMD
+constexpr std::size_t block_size = 1024;  // blocks have no branch, so compilers use SIMD
 
 template <class Vector>
 void check_finite(const std::vector<Vector>& values, const char* name) {

@@ -5,7 +5,7 @@
 
 namespace cubecam::gl {
 
-/// One GLSL file: its name relative to shaders/ ("mesh.vert") and its text.
+/// One GLSL file: its name relative to shaders/ ("passes/surface.vert") and its text.
 struct ShaderSource {
     std::string_view name;
     std::string_view text;

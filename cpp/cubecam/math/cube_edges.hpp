@@ -15,8 +15,7 @@ enum class Side : int { left, right, top, bottom };
 /// The neighbour beyond one side of a face.
 struct CubeEdge {
     Face face;
-    bool along_rows;  ///< the shared edge is a column of the neighbour, so moving along it changes
-                      ///< the row
+    bool along_rows;  ///< the shared edge is a column of the neighbour, not a row
     bool at_end;      ///< the edge is the neighbour's last column (row), not its first
     bool reversed;    ///< moving along the edge, the neighbour's row (column) shrinks
 };

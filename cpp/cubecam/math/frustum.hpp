@@ -29,8 +29,7 @@ public:
     /// depends on it.
     template <class Error>
     bool may_show(const glm::dvec3& center, const glm::dvec3& half, Error&& error) const {
-        std::array<double, 6>
-            farthest;  // the distance of the farthest corner of the box, from each plane inwards
+        std::array<double, 6> farthest;  // corner of the box, from each plane inwards
         bool inside = true;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
             const Plane& plane = planes_[i];

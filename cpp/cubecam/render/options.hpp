@@ -43,8 +43,7 @@ struct CaptureOptions {
     std::int64_t size = 256;  ///< pixels along an edge of a face
     double near = 0.05;
     double far = 1000.0;
-    std::vector<std::int32_t>
-        exclude;  ///< ids of nodes that are not drawn, with all nodes below them
+    std::vector<std::int32_t> exclude;  ///< ids of nodes; their subtrees are not drawn
     RequestedOutputs outputs;
     Format format = Format::rgba32f;
     std::int64_t samples = 1;

@@ -13,8 +13,7 @@ namespace cubecam {
 
 struct PointParameters {
     glm::dvec3 position{0.0};
-    double decay =
-        0.0;  ///< light falls with distance^-decay; 0: it does not fall, 2: as in physics
+    double decay = 0.0;  ///< light falls with distance^-decay; 0: constant, 2: as in physics
 
     bool operator==(const PointParameters&) const = default;
 };

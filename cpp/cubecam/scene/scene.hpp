@@ -59,8 +59,7 @@ public:
 
     bool contains(const Node& node) const;
     bool contains(const Light& light) const;
-    std::vector<std::shared_ptr<Node>>
-    nodes() const;  ///< in the order of add, which is that of ids
+    std::vector<std::shared_ptr<Node>> nodes() const;  ///< in the order of add and of ids
     std::vector<std::shared_ptr<Light>> lights() const;
 
     /// The id that the next node will get.

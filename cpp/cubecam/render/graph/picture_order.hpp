@@ -23,8 +23,7 @@ struct PictureOrder {
     /// Whether a picture depends on itself, directly or through others.
     bool in_circle(std::size_t picture, const std::vector<std::vector<std::size_t>>& edges) const;
 
-    std::vector<std::size_t>
-        sizes;  ///< of each component, at the index that `components` has for it
+    std::vector<std::size_t> sizes;  ///< of each component, by its number in `components`
 };
 
 /// Sorts the pictures that `roots` depend on without edges back; `edges[p]` are the pictures that

@@ -41,8 +41,7 @@ private:
     PictureId viewer_;
     std::size_t number_;
     const SceneSnapshot& scene_;
-    std::vector<std::optional<BoundTexture>>
-        probes_;  // by probe of the scene; none: not looked up yet
+    std::vector<std::optional<BoundTexture>> probes_;  // of the scene; none: not yet found
 };
 
 }  // namespace cubecam

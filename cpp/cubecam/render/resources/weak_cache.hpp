@@ -36,8 +36,7 @@ private:
         std::weak_ptr<Object> object;
         Entry entry;
     };
-    std::map<const Object*, Held>
-        entries_;  // sweep only: no result depends on the order of addresses
+    std::map<const Object*, Held> entries_;  // no result depends on the order of addresses
 };
 
 }  // namespace cubecam
