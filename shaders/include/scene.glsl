@@ -27,6 +27,17 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // The environment at a chosen level of detail; 0 is the finest.
 vec3 environment_lod(vec3 direction_world, float level) { return textureLod(u_cube, direction_world, level).rgb; }
 
+// How many levels the environment has: 1 without mipmaps, 0 where there is no environment.
+int environment_levels() { return u_environment_levels.x; }
+
+// Whether the environment was captured in this world, by a probe. A photograph shows what is infinitely far away.
+bool environment_is_local() { return u_environment_position.w != 0.0; }
+
+// Where it was captured, in the world; of a photograph the world's origin.
+vec3 environment_position() {
+    return environment_is_local() ? u_environment_position.xyz + u_origin.xyz : vec3(0.0);
+}
+
 // The scene's ambient lights, added up.
 vec3 ambient_light() { return u_ambient.rgb; }
 

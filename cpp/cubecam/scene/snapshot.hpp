@@ -68,6 +68,7 @@ struct NodeSnapshot {
     /// Opaque nodes of one crowd look the same to the renderer, their matrices and their materials'
     /// numbers aside: they are drawn together. From 1 in order of the first id; 0: in none.
     std::uint32_t crowd = 0;
+    bool turned = false;  ///< its matrix turns the winding of its triangles
 
     /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
     /// depth: the background, and all that is farther, would be drawn over it.

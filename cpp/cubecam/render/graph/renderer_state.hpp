@@ -25,6 +25,7 @@ struct ProbeState {
     std::uint64_t revision = 0;      ///< new whenever a face was drawn; 0: not drawn yet
     std::int64_t calls = 0;          ///< that depended on it, for every_n_frames
     std::size_t next_face = 0;       ///< where faces_per_frame goes on
+    glm::dvec3 position{0.0};        ///< where it was last drawn from, world
 };
 
 /// What a renderer holds of a light's shadow map.

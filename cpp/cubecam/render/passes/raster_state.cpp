@@ -77,7 +77,7 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
     const SurfaceOptions& surface = node.material.value.surface;
     set(gl, GL_CULL_FACE, !surface.double_sided);
     // A node's matrix of negative determinant turns the winding, a mirrored view turns it again.
-    const bool turned = (glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror;
+    const bool turned = node.turned != mirror;
     gl.FrontFace(turned ? GL_CW : GL_CCW);
 
     // Depth is only written while the test is on.

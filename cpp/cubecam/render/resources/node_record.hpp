@@ -9,10 +9,11 @@
 namespace cubecam {
 
 /// Where the uniform blocks of a draw call are bound: the node, the material's own constants, the
-/// view.
+/// view, the environment.
 inline constexpr unsigned node_binding = 0;
 inline constexpr unsigned material_binding = 3;
 inline constexpr unsigned view_binding = 4;
+inline constexpr unsigned environment_binding = 5;
 
 /// Beyond so many, the constants of a material would cost each triangle more than they save
 /// (docs/adr/0004).
