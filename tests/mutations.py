@@ -201,8 +201,8 @@ MUTATIONS = [
     Mutation(
         "culling of mirrored nodes",
         RASTER,
-        "(glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror",
-        "mirror",
+        "const bool turned = node.turned != mirror;",
+        "const bool turned = mirror;",
         SIDES,
     ),
     Mutation(
@@ -359,7 +359,7 @@ MUTATIONS = [
     Mutation(
         "key: what a mirror shows forgotten",
         DRAWN,
-        "picture.textures.push_back(found.environment.revision);",
+        "found.environment.add_to(picture.textures);",
         "",
         PROBES,
     ),
@@ -373,8 +373,8 @@ MUTATIONS = [
     Mutation(
         "probe: a cycle shows old contents",
         "texture_lookup.cpp",
-        "if (!back && held.texture != 0) return held;",
-        "(void)back; if (held.texture != 0) return held;",
+        "if (!back && held.cube.texture != 0) return known.emplace(held);",
+        "(void)back; if (held.cube.texture != 0) return known.emplace(held);",
         PROBES + INCREMENTAL,
     ),
     Mutation(
