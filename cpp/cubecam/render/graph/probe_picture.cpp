@@ -51,7 +51,7 @@ std::vector<PictureId> ProbePicture::possible_dependencies() {
 
 std::vector<PictureId> ProbePicture::dependencies() {
     due_ = count_and_decide();
-    if (!due_) return {};  // it shows what it holds, and depends on nothing
+    if (!due_) return {};  // it keeps its contents and depends on nothing
     return plan(cube_views(probe_.position, probe_.value.near, probe_.value.far), probe_.value.size,
                 probe_.value.size, probe_.value.depth_format,
                 [this](const NodeSnapshot& node) { return sees(node); });
@@ -75,10 +75,10 @@ void ProbePicture::update() {
     const TargetDescription description = describe();
     std::optional<Budget> budget;
     if (state_.target == nullptr || state_.target->description() != description) {
-        state_.target = nullptr;  // its memory first
+        state_.target = nullptr;  // frees the old memory first
         state_.target = std::make_unique<Target>(context_.gpu.context, description);
     } else if (!forced_ && probe_.value.faces_per_frame < 6) {
-        // The first time all six are drawn: a face that holds nothing yet would be garbage.
+        // The first time all six faces are drawn: an undrawn face would have undefined contents.
         budget = Budget{static_cast<std::size_t>(probe_.value.faces_per_frame), state_.next_face};
     }
     std::size_t drawn = 0;

@@ -41,8 +41,8 @@ GLenum gl_equation(BlendEquation equation) {
     return GL_FUNC_ADD;
 }
 
-/// Each as Blend says it; the fragment shader multiplies by alpha where a mode's source is
-/// multiplied (surface.frag).
+/// Sets each mode as documented at Blend; if a mode multiplies its source by alpha, the fragment
+/// shader does it (surface.frag).
 void set_blending(const GladGLContext& gl, Blend blend, const BlendFactors& factors) {
     if (blend == Blend::opaque) {
         gl.Disablei(GL_BLEND, 0);
@@ -80,7 +80,7 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
     const bool turned = node.turned != mirror;
     gl.FrontFace(turned ? GL_CW : GL_CCW);
 
-    // Depth is only written while the test is on.
+    // OpenGL writes depth only while the test is enabled, so no test means GL_ALWAYS.
     gl.DepthFunc(surface.depth_test ? depth.closer : GLenum{GL_ALWAYS});
     gl.DepthMask(node.depth_write ? GL_TRUE : GL_FALSE);
     const glm::bvec4& write = surface.color_write;

@@ -22,7 +22,7 @@ bool is_drawn_alone(const NodeSnapshot& node) {
     return node.material.value.traits().user_code.has_value();
 }
 
-/// Whether two nodes that follow each other may be one draw call.
+/// Whether one draw call may draw two nodes that follow each other.
 bool join(const SurfaceItem& a, const SurfaceItem& b) {
     if (a.mesh != b.mesh || a.node->turned != b.node->turned) return false;
     const NodeSnapshot& left = *a.node;
@@ -117,7 +117,7 @@ std::optional<GLintptr> SurfaceCallBuilder::append_constants(const NodeSnapshot&
     return append(constants_.data(), constants_.size() * sizeof(glm::vec4));
 }
 
-/// The view records follow.
+/// The caller adds the view records.
 SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
     const NodeBlock block = make_node_block(*item.node, input_.origin());
     SurfaceCall call{&item,
