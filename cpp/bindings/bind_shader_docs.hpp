@@ -67,7 +67,9 @@ double-sided surfaces), ``incident`` (world, unit, from the eye to the surface),
 ``normal_object``, ``uv``, ``color`` (the vertices', white if there is none).
 
 ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
-``environment_lod(direction, level)`` at a level of its mipmaps.
+``environment_lod(direction, level)`` at a level of its mipmaps; ``int environment_levels()``: how many levels it has,
+1 without mipmaps and 0 where there is none; ``bool environment_is_local()``: whether a probe captured it;
+``vec3 environment_position()``: where in the world it did.
 ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
 the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
 ambient lights.

@@ -4,6 +4,7 @@
 #include "check.hpp"
 
 #include "cubecam/geometry/primitives.hpp"
+#include "cubecam/materials/basic.hpp"
 #include "cubecam/render/passes/draw_plan.hpp"
 #include "cubecam/scene/scene.hpp"
 

@@ -61,7 +61,7 @@ std::vector<Layer> draw(RendererState& gpu, const SceneSnapshot& scene, TargetSh
     const bool cubes = shape.kind == TargetShape::Kind::cube_array;
     CHECK_EQUAL(kind == GL_TEXTURE_CUBE_MAP_ARRAY, cubes);
     FrameContext frame(gpu, scene);
-    frame.draw(views, target, [](const NodeSnapshot&) { return true; });
+    frame.draw(views, target, [](const NodeSnapshot&) { return true; }, Key());
     std::vector<Layer> layers;
     for (int layer = 0; layer < description.layers(); ++layer) {
         layers.push_back(read_layer(gpu.context.gl(), target, layer));

@@ -27,6 +27,17 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // The environment at a chosen level of detail; 0 is the finest.
 vec3 environment_lod(vec3 direction_world, float level) { return textureLod(u_cube, direction_world, level).rgb; }
 
+// The number of levels of the environment: 1 without mipmaps, 0 without an environment.
+int environment_levels() { return u_environment_levels.x; }
+
+// Whether a probe captured the environment in this world. Otherwise it is a photograph, which is infinitely far away.
+bool environment_is_local() { return u_environment_position.w != 0.0; }
+
+// The world position where the environment was captured; for a photograph the world's origin.
+vec3 environment_position() {
+    return environment_is_local() ? u_environment_position.xyz + u_origin.xyz : vec3(0.0);
+}
+
 // The sum of the scene's ambient lights.
 vec3 ambient_light() { return u_ambient.rgb; }
 

@@ -42,7 +42,11 @@ struct Shader {
     std::array<glm::vec4, 0> constants(const glm::vec3&) const { return {}; }
     std::array<Switch, 0> switches() const { return {}; }
     bool uses_environment() const {
-        return mentions(fragment.text, "environment") || mentions(fragment.text, "environment_lod");
+        for (const char* word : {"environment", "environment_lod", "environment_levels",
+                                 "environment_position", "environment_is_local"}) {
+            if (mentions(fragment.text, word)) return true;
+        }
+        return false;
     }
     bool uses_lights() const {
         return mentions(fragment.text, "sample_light") || mentions(fragment.text, "phong");

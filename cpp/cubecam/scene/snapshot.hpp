@@ -69,6 +69,7 @@ struct NodeSnapshot {
     /// nodes of one crowd differ only in their matrices and the numbers of their materials, so they
     /// are drawn together.
     std::uint32_t crowd = 0;
+    bool turned = false;  ///< its matrix turns the winding of its triangles
 
     /// Whether the node is drawn after the opaque nodes and the background, from far to near. This
     /// includes opaque nodes that write no depth, since the background and farther nodes would be

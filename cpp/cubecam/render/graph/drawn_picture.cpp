@@ -92,7 +92,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
             PictureKey& picture = keys[visibility.view];
             key.bounds = visibility.bounds;
             key.first_texture = static_cast<std::uint32_t>(picture.textures.size());
-            picture.textures.push_back(found.environment.revision);
+            found.environment.add_to(picture.textures);
             for (const BoundTexture& texture : found.textures) {
                 picture.textures.push_back(texture.revision);
             }

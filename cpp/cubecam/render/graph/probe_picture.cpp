@@ -16,6 +16,19 @@ BoundTexture ProbePicture::texture() const {
                                     : BoundTexture{state_.target->color().id(), state_.revision};
 }
 
+Environment ProbePicture::environment() const {
+    if (state_.target == nullptr) return {};
+    const TargetDescription& description = state_.target->description();
+    Environment made;
+    made.cube = texture();
+    if (description.mipmaps) {
+        made.levels = EnvironmentLevels::mipmaps;
+        made.level_count = gl::mip_levels(description.width, description.height);
+    }
+    made.position = state_.position;
+    return made;
+}
+
 bool ProbePicture::sees(const NodeSnapshot& node) const {
     return is_seen(scene_, node, id_.object);
 }
@@ -76,6 +89,9 @@ void ProbePicture::update() {
         context_.gpu.contents = next_revision();
         throw;
     }
+    // A face that is left for a later call was drawn from elsewhere.
+    if (state_.position != probe_.position) context_.gpu.contents = next_revision();
+    state_.position = probe_.position;
     if (drawn == 0) return;
     if (budget) state_.next_face = (budget->first + drawn) % 6;
     if (description.mipmaps) {

@@ -19,6 +19,8 @@ public:
 
     /// The current cube; empty before it is drawn for the first time.
     BoundTexture texture() const;
+    /// The same as what a surface reflects.
+    Environment environment() const;
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;

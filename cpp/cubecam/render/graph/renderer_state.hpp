@@ -25,6 +25,7 @@ struct ProbeState {
     std::uint64_t revision = 0;      ///< new whenever a face was drawn; 0: not drawn yet
     std::int64_t calls = 0;          ///< calls that needed it, for every_n_frames
     std::size_t next_face = 0;       ///< the next face to draw with faces_per_frame
+    glm::dvec3 position{0.0};        ///< the position of the last drawing, world
 };
 
 /// A renderer's state of a light's shadow map.

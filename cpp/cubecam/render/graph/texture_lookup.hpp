@@ -3,6 +3,7 @@
 #include "cubecam/render/graph/picture.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/render/resources/environment.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
 #include <cstddef>
@@ -23,6 +24,7 @@ public:
     BoundTexture find(const CubeSourceSnapshot& source);
     BoundTexture find(const MapSnapshot& map);
     BoundTexture find(const TextureSourceSnapshot& texture);
+    Environment find_environment(const CubeSourceSnapshot& source);
 
     /// Finds all textures that a node's material looks up.
     NodeTextures find(const NodeSnapshot& node);
@@ -35,13 +37,13 @@ public:
     BoundTexture background();
 
 private:
-    BoundTexture find_probe(std::size_t probe);
+    const Environment& find_probe(std::size_t probe);
 
     FrameContext& context_;
     PictureId viewer_;
     std::size_t number_;
     const SceneSnapshot& scene_;
-    std::vector<std::optional<BoundTexture>> probes_;  // of the scene; none: not yet found
+    std::vector<std::optional<Environment>> probes_;  // of the scene; none: not yet found
 };
 
 }  // namespace cubecam

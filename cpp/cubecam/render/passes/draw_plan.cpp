@@ -93,7 +93,8 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
                 key.distance = -key.distance;
                 transparent.push_back(key);
             } else {
-                key.crowd = node.crowd;
+                // A draw call has one winding.
+                if (node.crowd != 0) key.crowd = 2 * node.crowd + (node.turned ? 1 : 0);
                 opaque.push_back(key);
             }
         }

@@ -78,7 +78,7 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
     set(gl, GL_CULL_FACE, !surface.double_sided);
     // A node's matrix with a negative determinant reverses the winding, and a mirrored view
     // reverses it again.
-    const bool turned = (glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror;
+    const bool turned = node.turned != mirror;
     gl.FrontFace(turned ? GL_CW : GL_CCW);
 
     // OpenGL writes depth only while the test is enabled, so no test means GL_ALWAYS.

@@ -24,7 +24,6 @@ struct SurfaceItem {
     const NodeSnapshot* node;
     const GpuMesh* mesh;
     const NodeTextures* textures;
-    bool turned;                 ///< its matrix reverses the winding of its triangles
     std::uint32_t first_region;  ///< index into SurfaceItems::regions
     std::uint32_t region_count;
 };
@@ -51,8 +50,9 @@ struct SurfaceCall {
     const SurfaceItem* item;  ///< the first of the nodes
     GLuint first;             ///< the first record that it reads
     GLsizei count;
-    std::optional<GLintptr> node_block;  ///< none: the records are nodes; otherwise views
-    std::optional<GLintptr> constants;   ///< the block of the material's constants
+    std::optional<GLintptr> node_block;   ///< none: the records are nodes; otherwise views
+    std::optional<GLintptr> constants;    ///< the block of the material's constants
+    std::optional<GLintptr> environment;  ///< the block of the environment, for a user's source
 };
 
 /// The draw calls for one region, or for all regions at once.

@@ -3,6 +3,7 @@
 #include "cubecam/render/passes/draw_plan.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/render/resources/environment.hpp"
 #include "cubecam/render/resources/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
 

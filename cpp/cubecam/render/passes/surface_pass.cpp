@@ -266,7 +266,7 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
                              cube && texture == 0 ? black_.id() : texture);
     }
     if (!item.node->material.value.traits().uses_environment) return;
-    const GLuint environment = item.textures->environment.texture;
+    const GLuint environment = item.textures->environment.cube.texture;
     gl_->BindTextureUnit(cube_unit, environment != 0 ? environment : black_.id());
 }
 
@@ -293,6 +293,10 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
             const std::size_t constants = node.material.value.traits().kind->constants;
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(), *call.constants,
                                  static_cast<GLsizeiptr>(constants * sizeof(glm::vec4)));
+        }
+        if (call.environment) {
+            gl_->BindBufferRange(GL_UNIFORM_BUFFER, environment_binding, blocks_.id(),
+                                 *call.environment, sizeof(EnvironmentBlock));
         }
         bind_textures(*call.item, variant);
         const GLuint array = instanced ? mesh.instanced.id() : mesh.array.id();

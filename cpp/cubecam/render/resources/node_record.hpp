@@ -9,10 +9,11 @@
 namespace cubecam {
 
 /// Binding points of the uniform blocks of a draw call: the node, the material's constants, the
-/// view.
+/// view, the environment.
 inline constexpr unsigned node_binding = 0;
 inline constexpr unsigned material_binding = 3;
 inline constexpr unsigned view_binding = 4;
+inline constexpr unsigned environment_binding = 5;
 
 /// The largest number of material constants that are flat inputs: more of them would cost each
 /// triangle more than they save (docs/adr/0004).
