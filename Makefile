@@ -1,16 +1,16 @@
-# `make` lists what there is. Set-up steps leave stamps in .venv, so that a second run starts at once.
+# `make` lists the targets. Each set-up step leaves a stamp file in .venv, so that a second run skips it.
 
 PYTHON ?= python3
 VENV := .venv
 PY := $(VENV)/bin/python
 PACKAGES := $(PY) scripts/packages.py
 PYTEST_ARGS ?=
-# Of pytest; a file's tests stay in one process, so that they share its renderers.
+# Processes of pytest. All tests of a file run in one process, so that they share its renderers.
 WORKERS ?= auto
 PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
 
-# Folders are listed with their files: a file that went away changes its folder.
+# The list has folders, too, since a removed file changes only its folder.
 SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
 CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
@@ -27,15 +27,15 @@ demo: $(VENV)/.installed ## set up, build, and render a scene with a mirror ball
 test: $(VENV)/.installed $(VENV)/.deps-test ## set up, build, and run the whole test suite
 	@$(PYTEST) --durations=10 $(PYTEST_ARGS)
 
-test-fast: $(VENV)/.installed $(VENV)/.deps-test ## the tests that take no longer than a second, and no notebooks
+test-fast: $(VENV)/.installed $(VENV)/.deps-test ## run the tests that take less than a second, without notebooks
 	@$(PYTEST) -m "not slow and not build" tests $(PYTEST_ARGS)
 
-test-build: $(VENV)/.installed $(VENV)/.deps-test ## all tests that compile C++: warnings as errors, ctest, example, materials
+test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile C++: warnings as errors, ctest, example, materials
 	@PATH="$(abspath $(VENV))/bin:$$PATH"; \
 	cmake --preset debug -G Ninja -DPython_EXECUTABLE=$(abspath $(PY)) && cmake --build --preset debug && ctest --preset debug
 	@$(PY) -m pytest -m build tests/build $(PYTEST_ARGS)
 
-test-asan: $(VENV)/.deps-test ## the tests with the module compiled for AddressSanitizer and UndefinedBehaviorSanitizer
+test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(PY) scripts/sanitize.py $(PYTEST_ARGS)
 
 dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
@@ -53,7 +53,7 @@ format: $(VENV)/.deps-dev ## format Python and C++ in place
 	$(PY) -m ruff format .
 	$(VENV)/bin/clang-format -i $(CXX_FILES)
 
-stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi anew from the built module
+stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi again from the built module
 	$(PY) scripts/stubs.py
 
 bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL and py360convert, print ratios

@@ -46,7 +46,7 @@ def _arguments() -> argparse.Namespace:
 
 
 def main() -> int:
-    """Run what was asked for; 1 if a picture differs or cubecam does not run."""
+    """Run the chosen benchmarks; return 1 if a picture differs or cubecam does not run."""
     arguments = _arguments()
     console = Console()
     if not console.is_terminal:

@@ -1,4 +1,4 @@
-"""A process that draws P14 with one implementation, told what to do line by line.
+"""A process that draws P14 with one implementation; it reads its orders line by line.
 
     python -m benchmarks.worker NAME MESH.npz
 

@@ -4,7 +4,7 @@
     .venv/bin/python scripts/packages.py test docs      extras, by their names in pyproject.toml
     .venv/bin/python scripts/packages.py --package      cubecam itself, compiled in build/
 
-pip is asked for requirements, never for upgrades, so that it needs no network when nothing is
+pip installs missing requirements and never upgrades, so that it needs no network when nothing is
 missing. Its settings (configuration files, PIP_* variables) are the user's own.
 """
 

@@ -27,7 +27,7 @@ METHODS = {"update_probes": "update", "read_probe": "cubemap", "read_texture": "
 
 
 class Names:
-    """The present names, whatever the imported version calls them."""
+    """Functions under their present names, also if the imported version has older names."""
 
     @staticmethod
     def node(name: str) -> str:

@@ -23,7 +23,7 @@ from pathlib import Path
 OLDEST_PYTHON = (3, 10)
 
 # Opens Mesa without a screen, as cubecam does. It runs in a process of its own, because a driver
-# that is broken may end the process that asks.
+# that is broken may end the process that checks it.
 EGL_PROBE = """
 import ctypes, os, sys
 try:
@@ -190,7 +190,7 @@ def install_with_apt(packages: list[str]) -> None:
         "-o",
         "DPkg::Lock::Timeout=300",
     ]
-    # A broken third-party source fails the update, though the packages asked for may well be there.
+    # A broken third-party source fails the update, although the needed packages may be installed.
     update = subprocess.run(
         [*apt, "update"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
     )

@@ -70,7 +70,7 @@ def try_it(wheel: Path, folder: Path) -> None:
     run(sys.executable, "-m", "venv", folder / "venv")
     python = folder / "venv" / "bin" / "python"
     run(python, "-m", "pip", "install", "--quiet", wheel)
-    # Away from the checkout, so that only what the wheel holds can be used.
+    # Another folder than the checkout, so that only the files of the wheel can be used.
     os.chdir(folder)
     subprocess.run([str(python), "-m", "cubecam", "demo", "--out", str(folder / "out")], check=True)
 

@@ -9,7 +9,7 @@ from hypothesis import settings
 
 from tests.helpers import DEVICE
 
-# The same examples on every run: a failure seen once is seen again.
+# Every run uses the same examples, so that a failure can be repeated.
 settings.register_profile("cubecam", derandomize=True, deadline=None, database=None)
 settings.load_profile("cubecam")
 
@@ -18,12 +18,12 @@ def pytest_addoption(parser):
     parser.addoption(
         "--regenerate-references",
         action="store_true",
-        help="write tests/images/*.png from what is drawn now, and fail so that they are looked at",
+        help="write tests/images/*.png from the present pictures, and fail, so that someone looks at them",
     )
 
 
 def describe_device():
-    """(what draws, whether that is llvmpipe)."""
+    """Return (the name of the device, whether it is llvmpipe)."""
     import cubecam
 
     try:

@@ -734,7 +734,7 @@ MUTATIONS = [
     ),
     Mutation(
         "resampling: dtype of a panorama not kept",
-        "bind_cubemap.cpp",
+        "bind_cubemap_pictures.cpp",
         "const DType to = to_dtype(dtype, image.dtype());",
         "const DType to = to_dtype(dtype, DType::float32);",
         ("tests/unit/test_cubemap_dtypes.py",),
@@ -902,13 +902,13 @@ MUTATIONS = [
         FORMATS,
     ),
     Mutation(
-        "stats: what just fits is told as too large",
+        "stats: a picture that just fits is reported as too large",
         "target_store.hpp",
         "target->description().bytes() > capacity_;",
         "target->description().bytes() >= capacity_;",
         STATS,
     ),
-    # Meshes set anew.
+    # Meshes whose vertices are replaced.
     Mutation(
         "snapshot: an updated mesh goes unseen",
         "snapshot.cpp",

@@ -47,8 +47,8 @@ def test_the_material_of_ones_own_is_the_mirror_it_says(tmp_path, monkeypatch):
 
 
 def test_every_name_at_hand_exists(tmp_path):
-    """The table of what a source has at hand, in one shader that uses all of it."""
-    table = TEXT[TEXT.index("| at hand |") : TEXT.index("`shade` may return")]
+    """The names in the README's table compile, in one shader that uses all of them."""
+    table = TEXT[TEXT.index("| in GLSL |") : TEXT.index("`shade` may return")]
     names = set(re.findall(r"`(\w+)\(", table)) | set(re.findall(r"`(\w+)`", table)) - {"Surface"}
     source = """
     uniform sampler2D image;

@@ -1,4 +1,4 @@
-"""Captures of a closed room with balls in it: drawn anew under some lights, or unchanged beside a copy."""
+"""Captures of a closed room with balls: drawn again under some lights, or unchanged beside a copy."""
 
 from __future__ import annotations
 

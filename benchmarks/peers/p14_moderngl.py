@@ -1,7 +1,7 @@
 """Program P14 written for moderngl.
 
 moderngl attaches no cube face to a framebuffer. Its users make the framebuffer with a 2D texture and put
-the cube's face in its place by one raw GL call, once (moderngl issue #570); nothing of that is in a frame.
+the cube's face in its place by one raw GL call, once (moderngl issue #570), outside of the measured frames.
 With `layered=True` the whole cube is attached and one instanced draw writes the six faces (gl_Layer from
 the vertex shader), the fastest that a user who leaves moderngl for four raw calls can do.
 """

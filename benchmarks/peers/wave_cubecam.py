@@ -10,7 +10,7 @@ from .. import wave
 
 
 class Wave:
-    """One node, whose mesh is set anew for each frame."""
+    """One node whose mesh gets new positions for each frame."""
 
     def __init__(self) -> None:
         self.scene = cc.Scene(background=wave.CLEAR)

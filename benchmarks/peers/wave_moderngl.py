@@ -1,4 +1,4 @@
-"""The waving sheet in moderngl: two buffers written anew for each frame."""
+"""The waving sheet in moderngl: two buffers that are written again for each frame."""
 
 from __future__ import annotations
 

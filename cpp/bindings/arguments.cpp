@@ -9,19 +9,19 @@ namespace cubecam::bindings {
 
 namespace {
 
-/// As pybind11 declares its dispatcher: METH_FASTCALL | METH_KEYWORDS.
+/// The type of pybind11's dispatcher: METH_FASTCALL | METH_KEYWORDS.
 using Dispatcher = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 
 Dispatcher pybind_dispatcher = nullptr;
 
-/// Names of functions by what Python hands to the dispatcher as `self`. Never freed: functions may
-/// be called until the interpreter ends.
+/// Names of functions by the object that Python passes to the dispatcher as `self`. The map is
+/// never freed, since functions may be called until the interpreter ends.
 std::unordered_map<PyObject*, std::string>& function_names() {
     static auto& names = *new std::unordered_map<PyObject*, std::string>();
     return names;
 }
 
-/// Puts a shorter text in the place of the TypeError that is set, where it is pybind11's.
+/// Replaces the text of the TypeError that is set by a shorter one, if the error is pybind11's.
 void shorten_error(PyObject* function, PyObject* const* args, Py_ssize_t count, PyObject* names) {
     const py::error_already_set error;  // takes the error away from Python
     const std::string message = py::str(error.value());
@@ -82,7 +82,7 @@ void explain_arguments(py::handle function, const std::string& name) {
     if (PyCFunction_Check(plain) == 0) return;
     auto* const builtin = reinterpret_cast<PyCFunctionObject*>(plain);
     PyMethodDef& method = *builtin->m_ml;
-    // Only pybind11's functions have a record as self; what Python itself put there is not ours.
+    // Functions of pybind11 have a record as self; all other functions are left as they are.
     if (method.ml_flags != (METH_FASTCALL | METH_KEYWORDS) || builtin->m_self == nullptr ||
         py::detail::function_record_ptr_from_PyObject(builtin->m_self) == nullptr) {
         return;
@@ -90,7 +90,7 @@ void explain_arguments(py::handle function, const std::string& name) {
     const auto current = reinterpret_cast<Dispatcher>(reinterpret_cast<void (*)()>(method.ml_meth));
     function_names()[builtin->m_self] = name;
     if (current == &dispatch) return;
-    pybind_dispatcher = current;  // one for all functions
+    pybind_dispatcher = current;  // pybind11 has one dispatcher for all functions
     method.ml_meth = reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(&dispatch));
 }
 

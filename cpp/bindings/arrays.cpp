@@ -55,7 +55,8 @@ bool shape_matches(const py::array& array, std::string_view pattern) {
     return true;
 }
 
-/// Any real-valued array, or what numpy makes of a list; TypeError for all else.
+/// The value as an array of real numbers, made by numpy if it is a list. Raises TypeError for other
+/// types.
 py::array real_array(py::handle value, const char* name) {
     py::array array;
     if (py::isinstance<py::array>(value)) {
@@ -87,13 +88,13 @@ std::string index_text(const py::array& array, std::size_t flat) {
     return "[" + text + "]";
 }
 
-/// The first value that `values` refuses.
+/// The index of the first value that `values` does not allow.
 template <typename T>
 std::optional<std::size_t> first_bad(const T* data, std::size_t count, Values values) {
     if (values == Values::any) return std::nullopt;
     const T limit = values == Values::finite ? std::numeric_limits<T>::max()
                                              : std::numeric_limits<T>::infinity();
-    constexpr std::size_t block = 4096;  // no branch within, so that the compiler can use SIMD
+    constexpr std::size_t block = 4096;  // a block has no branch, so that the compiler can use SIMD
     for (std::size_t begin = 0; begin < count; begin += block) {
         const std::size_t end = std::min(count, begin + block);
         bool good = true;
@@ -127,7 +128,8 @@ ContiguousArray<T> contiguous(const py::array& array) {
     return py::reinterpret_steal<ContiguousArray<T>>(result.release());
 }
 
-/// float64 to float32 by hand: numpy would warn about what overflows, here it is an error.
+/// Converts float64 to float32. A number that float32 cannot hold raises ValueError; numpy would
+/// only warn.
 ContiguousArray<float> narrow(const py::array& array, const char* name) {
     const ContiguousArray<double> from = contiguous<double>(array);
     ContiguousArray<float> to(std::vector<py::ssize_t>(from.shape(), from.shape() + from.ndim()));
@@ -196,7 +198,8 @@ ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
                                            std::string_view shape, std::uint64_t limit) {
     const py::array array = real_array(value, name);
     const char kind = array.dtype().kind();
-    // An empty list has no integers in it that could be wrong, though numpy calls it float64.
+    // numpy gives an empty list the dtype float64; an empty array of indices is allowed all the
+    // same.
     if (kind == 'f' && array.size() != 0) {
         throw py::type_error(std::string(name) + ": expected integers, got dtype " +
                              dtype_text(array));
@@ -211,7 +214,7 @@ ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
         const auto count = static_cast<std::size_t>(wide.size());
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = wide.data()[i];
-            // A negative number turns into one far above every limit.
+            // The cast turns a negative number into one far above every limit.
             if (static_cast<std::uint64_t>(index) >= limit) {
                 throw py::index_error(std::string(name) + ": expected indices from 0 to " +
                                       std::to_string(limit) + " - 1, got " + std::to_string(index) +
@@ -250,9 +253,9 @@ PixelArray pixel_array(py::handle value, const char* name, std::string_view shap
         throw py::type_error(
             std::string(name) + ": expected pixels as uint8, float16, float32 or float64, got " +
             dtype_text(array) +
-            (kind == 'u' && array.itemsize() == 2
-                 ? "; divide by 65535 to have them as floats"
-                 : "; only uint8 stands for value/255, convert others to float32 with a scale"));
+            (kind == 'u' && array.itemsize() == 2 ? "; divide by 65535 to get floats"
+                                                  : "; only uint8 stands for value/255, convert "
+                                                    "other integers to float32 with a scale"));
     }
     check_shape(array, name, shape);
     const py::ssize_t channels = array.ndim() > 0 ? array.shape(array.ndim() - 1) : 0;

@@ -1,11 +1,13 @@
-/// What every binding does with numpy: check, convert, hand out.
+/// Arrays of numpy: checks and conversions from Python, and views and arrays for Python.
 ///
 /// Shapes are written as in the documentation: "(V, 3)", "(6, N, N, C)", "(..., 3)". A number is a
-/// length; a letter any length of at least 0, the same wherever the letter stands; "..." at the
-/// front any number of axes. Messages quote them: "positions: expected shape (V, 3), got (3, 7)".
+/// length. A letter stands for any length of at least 0, the same length wherever the letter
+/// stands.
+/// "..." at the front stands for any number of axes. Messages quote shapes: "positions: expected
+/// shape (V, 3), got (3, 7)".
 ///
-/// Real numbers of any width (integers too) are converted, lists and tuples as well. bool, complex,
-/// object, str and dates raise TypeError; wrong shapes and values raise ValueError.
+/// Real numbers of any width, integers included, are converted, from arrays, lists and tuples.
+/// bool, complex, object, str and dates raise TypeError; wrong shapes and values raise ValueError.
 #pragma once
 
 #include "cubecam/image/output_values.hpp"
@@ -30,9 +32,9 @@ namespace cubecam {
 namespace py = pybind11;
 
 enum class Values {
-    finite,   ///< NaN and inf raise ValueError naming the first bad index
-    not_nan,  ///< inf is kept: what HDR pixels may hold
-    any,
+    finite,   ///< NaN and inf raise ValueError, which names the first bad index
+    not_nan,  ///< NaN raises ValueError; inf is kept, since HDR pixels may hold it
+    any,      ///< NaN and inf are kept
 };
 
 template <typename T>
@@ -44,23 +46,23 @@ std::string shape_text(const py::array& array);
 /// Raises ValueError unless the array's shape matches the pattern.
 void check_shape(const py::array& array, const char* name, std::string_view shape);
 
-/// A C-contiguous array of the asked type: the caller's own memory where it is one already, so copy
-/// (to_vector) whatever must not change under you once the GIL is released.
-/// Finite numbers too large for float32 are refused as not finite.
+/// A C-contiguous array of float or double. If the value is such an array already, the result
+/// shares its memory with the caller; so copy it (to_vector) if it must not change after the GIL is
+/// released. Finite numbers that float32 cannot hold raise ValueError.
 ContiguousArray<float> float_array(py::handle value, const char* name, std::string_view shape,
                                    Values values = Values::finite);
 ContiguousArray<double> double_array(py::handle value, const char* name, std::string_view shape,
                                      Values values = Values::finite);
 
-/// Integers from 0 to 2^32 - 1; floats raise TypeError, numbers outside, or not below `limit`,
-/// IndexError.
+/// Integers from 0 to 2^32 - 1. Floats raise TypeError; numbers outside this range, or not below
+/// `limit`, raise IndexError.
 ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
                                            std::string_view shape,
                                            std::uint64_t limit = std::uint64_t{1} << 32);
 
-/// Pixels, C-contiguous, as uint8, float16 or float32 (float64 becomes float32). Other integers are
-/// refused, since only uint8 has a scale (value/255). NaN is refused; +inf and -inf are kept: HDR
-/// photographs hold them where half floats overflowed.
+/// Pixels, C-contiguous, as uint8, float16 or float32 (float64 becomes float32). Other integers
+/// raise TypeError, since only uint8 has a scale (value/255). NaN raises ValueError; +inf and -inf
+/// are kept, since HDR photographs hold them where half floats overflowed.
 class PixelArray {
 public:
     PixelArray(py::array array, DType dtype)
@@ -71,7 +73,7 @@ public:
     const py::array& array() const { return array_; }
     py::ssize_t shape(py::ssize_t axis) const { return array_.shape(axis); }
 
-    // Without the GIL too, which py::array's own data() wants.
+    // These work without the GIL, unlike the functions of py::array.
     DType dtype() const { return dtype_; }
     const std::byte* data() const { return data_; }
     std::size_t bytes() const { return bytes_; }
@@ -83,11 +85,12 @@ private:
     std::size_t bytes_;
 };
 
-/// The last axis of the pattern is the channels': 1, 3 or 4.
+/// Pixels of a shape whose last axis is that of the channels: 1, 3 or 4.
 PixelArray pixel_array(py::handle value, const char* name, std::string_view shape,
                        Values values = Values::not_nan);
 
-/// Raises ValueError naming the first NaN. Threaded: large pictures pass through here.
+/// Raises ValueError that names the first NaN. The search runs on all cores, since pictures are
+/// large.
 void check_not_nan(const PixelArray& pixels, const char* name);
 
 template <typename T>
@@ -102,14 +105,14 @@ glm::dmat4 to_mat4(py::handle value, const char* name);
 /// Three or four numbers; the fourth is 1 where it is not given.
 glm::dvec4 to_color(py::handle value, const char* name);
 
-/// A read-only view of memory that `owner` keeps alive as long as the array, or a slice of it,
-/// lives.
+/// A read-only view of memory that `owner` keeps alive as long as the array or a slice of it
+/// exists.
 py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const void* data,
                         std::shared_ptr<const void> owner);
 /// The numpy type of pixels, and of an output's values.
 py::dtype numpy_dtype(DType dtype);
 py::dtype numpy_dtype(OutputType type);
-/// uint8, float16 or float32, however numpy lets one say it; None gives `otherwise`.
+/// uint8, float16 or float32 from any form that numpy reads as a dtype; None gives `otherwise`.
 DType to_dtype(py::handle value, DType otherwise);
 
 template <typename T, typename Allocator>
@@ -126,13 +129,14 @@ py::array owned_array(std::vector<T, Allocator> values, std::vector<py::ssize_t>
     py::capsule owner(kept, [](void* at) { delete static_cast<std::vector<T, Allocator>*>(at); });
     return py::array(py::dtype::of<T>(), std::move(shape), kept->data(), owner);
 }
-/// The same for raw pixels of a dtype.
+/// A writable array that takes over the memory of raw pixels of a dtype.
 py::array owned_pixels(PixelBuffer pixels, DType dtype, std::vector<py::ssize_t> shape);
-/// The same for memory that has an owner already, who must be the only one.
+/// A writable array that takes over pixels which no one else holds.
 py::array owned_pixels(std::shared_ptr<PixelBuffer> pixels, py::dtype dtype,
                        std::vector<py::ssize_t> shape);
 
-/// Copies, read-only, so that `node.position[1] = 3` raises instead of doing nothing.
+/// Read-only copies, so that `node.position[1] = 3` raises an error instead of changing only a
+/// copy.
 py::array readonly_array(const glm::dvec3& value);
 py::array readonly_array(const glm::dvec4& value);
 py::array readonly_array(const glm::dmat4& value);

@@ -13,16 +13,16 @@ constexpr const char* basic_doc =
 Parameters
 ----------
 color : array_like (3,) or (4,), or str
-    Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
+    Linear RGB or RGBA; a CSS name or "#rrggbb" is sRGB and is decoded.
 map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture, placed by the mesh's uvs.
 cubemap : CubeMap or Probe, optional
-    Looked up in the direction of the object-space position, so that a box or sphere shows the
-    whole of it and turns with it. Its alpha does not count.
+    A cubemap that is looked up in the direction of the object-space position, so that a box or a
+    sphere shows all of it, and turns it when it turns. The alpha of the cubemap does not count.
 vertex_colors : bool
-    Whether the mesh's colours count.
+    Whether the mesh's colours multiply color.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-    As of every `Material`.
+    The options of every `Material`.
 
 Raises
 ------

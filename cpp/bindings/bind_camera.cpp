@@ -1,5 +1,6 @@
 // cubecam.Camera and the cameras below it.
 #include "arguments.hpp"
+#include "docs/camera.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -14,125 +15,6 @@
 namespace cubecam::bindings {
 
 namespace {
-
-constexpr const char* camera_doc = R"doc(A camera given by its matrices.
-
-Matrices act on column vectors and are written in reading order, so that ``view @ point`` works.
-World and camera are right-handed, +Y up, the camera looking along -Z; clip space is OpenGL's, from
--1 to 1 in x, y and z.
-
-Parameters
-----------
-view : array_like (4, 4)
-    World to camera; last row (0, 0, 0, 1).
-projection : array_like (4, 4)
-    Camera to clip space, for the shape of picture that is asked for.
-
-Raises
-------
-ValueError
-    For a matrix that is singular or not finite, or another shape.
-
-Examples
---------
->>> import numpy as np
->>> import cubecam as cc
->>> lens = cc.PerspectiveCamera(fov=90).projection(aspect=2)
->>> camera = cc.Camera(view=np.eye(4), projection=lens)
->>> float(camera.projection()[0, 0])
-0.5
-)doc";
-
-constexpr const char* perspective_doc = R"doc(A camera with a vanishing point.
-
-Parameters
-----------
-fov : float
-    Vertical field of view in degrees, above 0 and below 180.
-position : array_like (3,)
-    World space.
-target : array_like (3,), optional
-    A point it looks at. None: straight ahead along -Z, wherever it stands.
-up : array_like (3,)
-    What is up in the picture; not along the line of sight.
-near, far : float
-    Depths in world units between which things are seen: 0 < near < far.
-shift : array_like (2,)
-    How far the window that it looks through lies right of and above its axis, in heights of the
-    picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and verticals stay
-    vertical, as with an architect's lens.
-
-Raises
-------
-ValueError
-    For a target that is the position, an up along the line of sight, near >= far, or a number out
-    of its range or not finite.
-
-Notes
------
-The matrices are those of gluLookAt and gluPerspective.
-
-Examples
---------
->>> import cubecam as cc
->>> camera = cc.PerspectiveCamera(fov=70, position=(0, 1, 5), target=(0, 0, 0))
->>> camera.position = (0, 1, 8)
->>> camera.target.tolist()
-[0.0, 0.0, 0.0]
-)doc";
-
-constexpr const char* orthographic_doc = R"doc(A camera of parallel rays.
-
-The incident direction of mirrors and highlights is the view direction; `distance` counts from the
-near plane.
-
-Parameters
-----------
-height : float
-    World units from the bottom to the top of the picture, above 0.
-position : array_like (3,)
-    World space.
-target : array_like (3,), optional
-    A point it looks at. None: straight ahead along -Z, wherever it stands.
-up : array_like (3,)
-    What is up in the picture; not along the line of sight.
-near, far : float
-    Depths in world units between which things are seen: near < far.
-
-Raises
-------
-ValueError
-    For a target that is the position, an up along the line of sight, near >= far, or a number out
-    of its range or not finite.
-
-Notes
------
-The matrices are those of gluLookAt and glOrtho.
-
-Examples
---------
->>> import cubecam as cc
->>> cc.OrthographicCamera(height=4).projection(aspect=2)[:2, :2].tolist()
-[[0.25, 0.0], [0.0, 0.5]]
-)doc";
-
-constexpr const char* projection_doc = R"doc(Camera to clip space.
-
-Parameters
-----------
-aspect : float
-    Width of the picture divided by its height. A camera given by its matrices ignores it.
-
-Returns
--------
-ndarray (4, 4) float64
-    Read-only.
-
-Raises
-------
-ValueError
-    For an aspect that is not above 0.
-)doc";
 
 Placement placement(const ArrayLike& position, const OrNone<ArrayLike>& target,
                     const ArrayLike& up) {
@@ -186,11 +68,12 @@ void bind_shift(Class<PerspectiveCamera, Camera>& made) {
             const glm::dvec2 shift = to_shift(value);
             self.edit_placed([&](Placed<PerspectiveLens>& placed) { placed.lens.shift = shift; });
         },
-        "ndarray (2,) float64: of the window right of and above the axis, in heights of the "
-        "picture, read-only.");
+        "ndarray (2,) float64: how far the middle of the picture lies right of and above the axis, "
+        "in "
+        "heights of the picture, read-only.");
 }
 
-/// All that cameras with a place share; `opening` is the lens's first parameter.
+/// Defines the class of a camera with a position; `opening` names the first parameter of its lens.
 template <class Lens>
 void bind_placed(py::module_& module, const char* class_name, const char* class_doc,
                  const char* opening, double Lens::* field, const char* opening_doc) {
@@ -220,12 +103,13 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
             py::arg("far") = Lens{}.far);
     }
     number<Lens>(made, opening, field, opening_doc);
-    number<Lens>(made, "near", &Lens::near, "float: nothing nearer is seen; world units.");
-    number<Lens>(made, "far", &Lens::far, "float: nothing farther is seen; world units.");
-    point<Lens>(made, "position", &Placement::position,
-                "ndarray (3,) float64: world space, read-only. Setting it leaves the target.");
+    number<Lens>(made, "near", &Lens::near, "float: the nearest depth that is drawn, world units.");
+    number<Lens>(made, "far", &Lens::far, "float: the farthest depth that is drawn, world units.");
+    point<Lens>(
+        made, "position", &Placement::position,
+        "ndarray (3,) float64: world space, read-only. Setting the position keeps the target.");
     point<Lens>(made, "up", &Placement::up,
-                "ndarray (3,) float64: what is up in the picture, read-only.");
+                "ndarray (3,) float64: the direction that is up in the picture, read-only.");
     made.def_property(
         "target",
         [](const C& self) -> OrNone<py::array_t<double>> {
@@ -237,7 +121,9 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
             if (!value.is_none()) target = to_point(value, "target");
             self.edit_placed([&](Placed<Lens>& placed) { placed.placement.target = target; });
         },
-        "ndarray (3,) float64 or None: a point it looks at, read-only; None is along -Z.");
+        "ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the "
+        "camera "
+        "looks along -Z.");
     made.def_property_readonly(
         "view", [](const C& self) { return matrix_array(self.matrices(1.0).view); },
         "ndarray (4, 4) float64: world to camera, read-only.");
@@ -284,7 +170,7 @@ void bind_camera(pybind11::module_& module) {
     using namespace cubecam::bindings;
     namespace py = pybind11;
 
-    auto camera = declare<Camera>(module, "Camera", camera_doc);
+    auto camera = declare<Camera>(module, "Camera", docs::camera);
     camera
         .def(py::init([](const ArrayLike& view, const ArrayLike& projection) {
                  return std::make_shared<Camera>(
@@ -303,7 +189,7 @@ void bind_camera(pybind11::module_& module) {
             [](const Camera& self, double aspect) {
                 return matrix_array(self.matrices(aspect).projection);
             },
-            py::arg("aspect") = 1.0, projection_doc)
+            py::arg("aspect") = 1.0, docs::projection)
         .def("__repr__", [](const Camera&) { return "Camera(view, projection)"; })
         .def("__reduce__", [](const py::object& self) {
             py::dict arguments = attributes_of(self, "view");
@@ -311,9 +197,9 @@ void bind_camera(pybind11::module_& module) {
             return reduced(self, arguments);
         });
     guard_init(camera);
-    bind_placed<PerspectiveLens>(module, "PerspectiveCamera", perspective_doc, "fov",
+    bind_placed<PerspectiveLens>(module, "PerspectiveCamera", docs::perspective, "fov",
                                  &PerspectiveLens::fov, "float: vertical, in degrees.");
-    bind_placed<OrthographicLens>(module, "OrthographicCamera", orthographic_doc, "height",
+    bind_placed<OrthographicLens>(module, "OrthographicCamera", docs::orthographic, "height",
                                   &OrthographicLens::height,
                                   "float: world units from the bottom to the top of the picture.");
 }

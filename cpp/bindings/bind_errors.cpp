@@ -17,11 +17,11 @@ struct ErrorClasses {
     py::object gl_error;
 };
 
-// Per interpreter, made once, never destroyed at exit (an exception may still be in flight).
+// Made once for each interpreter and never destroyed: at exit an exception may still be in flight.
 PYBIND11_CONSTINIT py::gil_safe_call_once_and_store<ErrorClasses> error_storage;
 
-/// A new class `cubecam.<name>`: its module is the package, not the extension, so that it prints
-/// and pickles so.
+/// A new class `cubecam.<name>`. Its module is the package and not the extension, so that it prints
+/// and pickles under the public name.
 py::object make_class(py::module_& module, const char* name, const char* doc,
                       const py::object& base) {
     const std::string full_name = std::string("cubecam.") + name;
@@ -36,23 +36,25 @@ ErrorClasses make_classes(py::module_& module) {
     const auto runtime_error = py::reinterpret_borrow<py::object>(PyExc_RuntimeError);
     ErrorClasses classes;
     classes.error = make_class(
-        module, "Error", "Base of cubecam's own exceptions; below it are those of the environment.",
+        module, "Error",
+        "Base of cubecam's own exceptions, which report problems of the machine or of files.",
         runtime_error);
     classes.context_error =
         make_class(module, "ContextError",
-                   "No OpenGL context can be had, or it can no longer be used.\n\n"
-                   "The text tells every attempt, why it failed, and what to install.",
+                   "No OpenGL context can be made, or the context can no longer be used.\n\n"
+                   "The message names each attempt, why it failed, and what to install.",
                    classes.error);
-    classes.shader_error =
-        make_class(module, "ShaderError",
-                   "A shader did not compile or link; the text has the log and the source lines.",
+    classes.shader_error = make_class(
+        module, "ShaderError",
+        "A shader did not compile or link; the message has the log and the source lines.",
+        classes.error);
+    classes.gl_error =
+        make_class(module, "GlError", "OpenGL reported an error, for example too little memory.",
                    classes.error);
-    classes.gl_error = make_class(
-        module, "GlError", "OpenGL reported an error, such as too little memory.", classes.error);
     const py::object file_error = make_class(
-        module, "FileError", "A file's contents cannot be read, or not be written.", classes.error);
-    make_class(module, "ImageError", "An image file's contents cannot be used.", file_error);
-    make_class(module, "MeshError", "A mesh file's contents cannot be used.", file_error);
+        module, "FileError", "The contents of a file cannot be read or written.", classes.error);
+    make_class(module, "ImageError", "The contents of an image file cannot be used.", file_error);
+    make_class(module, "MeshError", "The contents of a mesh file cannot be used.", file_error);
     return classes;
 }
 
@@ -72,7 +74,7 @@ void translate(std::exception_ptr pointer) {
     } catch (const TypeError& error) {
         py::set_error(PyExc_TypeError, error.what());
     } catch (const py::cast_error&) {
-        // pybind11 would make it a RuntimeError that speaks of C++.
+        // pybind11 itself would raise a RuntimeError that names C++ types.
         py::set_error(PyExc_TypeError,
                       "expected text that is valid Unicode, numbers in range and objects whose "
                       "__init__ was called, got an argument that is not");
@@ -86,6 +88,7 @@ void translate(std::exception_ptr pointer) {
 void bind_errors(py::module_& module) {
     using namespace cubecam::bindings;
     error_storage.call_once_and_store_result([&] { return make_classes(module); });
-    // Local: another extension's exceptions are none of ours.
+    // The translator is local to this module, so that it does not see exceptions of other
+    // extensions.
     py::register_local_exception_translator(translate);
 }

@@ -1,4 +1,5 @@
 #include "arrays.hpp"
+#include "docs/frame.hpp"
 #include "frame.hpp"
 #include "objects.hpp"
 
@@ -32,16 +33,16 @@ PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height), color(
 
 namespace {
 
-constexpr py::ssize_t frame_parts = 4;
+constexpr py::ssize_t parts = 4;
 
 py::tuple state_of(const PyFrame& frame) {
     return py::make_tuple(frame.width, frame.height, frame.color, frame.outputs);
 }
 
-PyFrame frame_from(const py::tuple& closed) {
+PyFrame from_state(const py::tuple& closed) {
     const py::tuple state = bindings::opened_state(closed);
-    if (state.size() != frame_parts) {
-        throw py::value_error("Frame: expected a state of " + std::to_string(frame_parts) +
+    if (state.size() != parts) {
+        throw py::value_error("Frame: expected a state of " + std::to_string(parts) +
                               " parts, got " + std::to_string(state.size()));
     }
     PyFrame frame;
@@ -57,7 +58,7 @@ py::object output_of(const PyFrame& frame, std::string_view name) {
     return frame.outputs.contains(key) ? py::object(frame.outputs[key]) : py::none();
 }
 
-std::string frame_doc(const OutputRow& row) {
+std::string output_doc(const OutputRow& row) {
     return "ndarray (H, W" + (row.channels > 1 ? ", " + std::to_string(row.channels) : "") + ") " +
            output_type_name(row.type) + ": " + std::string(row.meaning) + ".";
 }
@@ -65,41 +66,23 @@ std::string frame_doc(const OutputRow& row) {
 }  // namespace
 
 void bind_frame(py::module_& m) {
-    auto frame_class = bindings::declare<PyFrame>(
-        m, "Frame", R"(A rendered picture: arrays with row 0 on top, each the caller's own.
-
-What was not requested by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
-`stencil` are what those buffers hold in the end.
-
-Examples
---------
->>> import cubecam as cc
->>> scene = cc.Scene(background=(1, 0, 0))
->>> with cc.Renderer() as renderer:
-...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 2))
->>> frame.color.shape, frame.color[0, 0].tolist()
-((2, 4, 4), [255, 0, 0, 255])
-)");
+    auto frame_class = bindings::declare<PyFrame>(m, "Frame", docs::frame);
     for (const OutputRow& row : output_table) {
         frame_class.def_property_readonly(
             row.name.data(), [name = row.name](const PyFrame& f) { return output_of(f, name); },
-            frame_doc(row).c_str());
+            output_doc(row).c_str());
     }
     frame_class
-        .def_readonly("color", &PyFrame::color,
-                      "ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear "
-                      "unless encoded. None with ``format=None``.")
+        .def_readonly(
+            "color", &PyFrame::color,
+            "ndarray (H, W, 4): the colour, uint8, float16 or float32 by ``format``; linear, "
+            "except with ``encode=``. None with ``format=None``.")
         .def_property_readonly(
             "outputs",
             [](const PyFrame& f) {
                 return f.outputs.attr("copy")().cast<py::typing::Dict<py::str, py::array>>();
             },
-            R"(dict of str to ndarray: the outputs that were requested, by name.
-
-Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
-float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for float; 0 where the node that
-is seen does not write them.
-)")
+            docs::frame_outputs)
         .def_property_readonly(
             "size", [](const PyFrame& f) { return py::make_tuple(f.width, f.height); },
             "tuple of int: (width, height), pixels.")
@@ -125,7 +108,7 @@ is seen does not write them.
             return names;
         },
         "Names of the outputs that shaders write, for the command line.");
-    m.def("_restore_frame", &frame_from, py::arg("state"), "For unpickling.");
+    m.def("_restore_frame", &from_state, py::arg("state"), "For unpickling.");
 }
 
 }  // namespace cubecam

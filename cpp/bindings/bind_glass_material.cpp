@@ -10,21 +10,21 @@ namespace {
 constexpr const char* glass_doc =
     R"doc(Glass: F * environment(R) + (1 - F) * tint * environment(T).
 
-R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
-F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
-(M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+R is the reflected direction, and T the refracted direction of GLSL's ``refract``, for a single surface.
+F is Fresnel's reflectance of a dielectric for unpolarised light: the mean of both polarisations
+(M. Born and E. Wolf, "Principles of Optics", section 1.5.2). Where there is no T, F is 1.
 
 Parameters
 ----------
 ior : float
-    Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
-    water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
+    The index of refraction inside divided by that outside, above 0. 1.5 is glass in air, 1.33 water in
+    air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes the inverse, eta.
 fresnel : bool
-    False: T alone.
+    False: F is 0, and only T shows.
 tint : array_like (3,) or (4,), or str
-    Linear RGB or RGBA, times what is refracted; a CSS name or "#rrggbb" says sRGB.
+    Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-    As of every `Material`.
+    The options of every `Material`.
 
 Raises
 ------

@@ -1,5 +1,6 @@
 // cubecam.ImageEffect
-#include "bind_shader_docs.hpp"
+#include "docs/image_effect.hpp"
+#include "docs/reload.hpp"
 #include "objects.hpp"
 #include "shader_inputs.hpp"
 
@@ -15,7 +16,7 @@ namespace cubecam::bindings {
 
 namespace {
 
-bool reload_effect(ImageEffect& self) {
+bool reload(ImageEffect& self) {
     const UserSource before = self.value().fragment;
     const UserSource now = read_again(before, "fragment");
     self.edit([&](EffectValue& value) { value.fragment = now; });
@@ -24,7 +25,7 @@ bool reload_effect(ImageEffect& self) {
 
 void bind_effect_class(py::module_& module) {
     using E = ImageEffect;
-    auto made = declare<E>(module, "ImageEffect", image_effect_doc);
+    auto made = declare<E>(module, "ImageEffect", docs::image_effect);
     made.def(py::init([](const SourceLike& fragment, const MappingLike& uniforms,
                          const MappingLike& textures) {
                  return std::make_shared<E>(EffectValue{to_user_source(fragment, "fragment"),
@@ -38,13 +39,15 @@ void bind_effect_class(py::module_& module) {
             const UserSource source = to_user_source(value, "fragment");
             self.edit([&](EffectValue& next) { next.fragment = source; });
         },
-        "str: GLSL of every pixel. Setting it, to text or a path, shows in the next picture.");
+        "str: GLSL that runs for every pixel. It can be set to text or a path; the next picture "
+        "shows "
+        "the change.");
     bind_inputs(
         made, [](const E& self) { return self.value().inputs; },
         [](E& self, const auto& change) {
             self.edit([&](EffectValue& next) { change(next.inputs); });
         });
-    made.def("reload", &reload_effect, reload_doc);
+    made.def("reload", &reload, docs::reload);
     made.def("__repr__", [](const E& self) {
         const EffectValue value = self.value();
         return "ImageEffect(fragment=" + source_text(value.fragment) + ", " +

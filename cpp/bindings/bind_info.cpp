@@ -12,13 +12,15 @@ namespace cubecam {
 namespace py = pybind11;
 
 void bind_stats(py::module_& m) {
-    bindings::declare<Stats>(m, "Stats", "What a renderer's last call drew, skipped and took.")
+    bindings::declare<Stats>(
+        m, "Stats", "What the last call of a renderer drew and skipped, and how long it took.")
         .def_readonly("views_drawn", &Stats::views_drawn,
                       "int: pictures drawn: frames, faces of captures, faces of probes, textures.")
         .def_readonly("views_skipped", &Stats::views_skipped,
-                      "int: pictures that were still true and not drawn again.")
+                      "int: pictures that were up to date and not drawn again.")
         .def_readonly("draw_calls", &Stats::draw_calls, "int")
-        .def_readonly("triangles", &Stats::triangles, "int: sent to the GPU, each view counted.")
+        .def_readonly("triangles", &Stats::triangles,
+                      "int: triangles sent to the GPU, counted once for each view.")
         .def_readonly("probes_updated", &Stats::probes_updated,
                       "int: probes of which at least one face was drawn.")
         .def_readonly("textures_updated", &Stats::textures_updated,
@@ -30,7 +32,7 @@ void bind_stats(py::module_& m) {
                       "int: frames and captures whose buffers take more than the renderer's "
                       "``cache_bytes``, so that the next call must draw them again.")
         .def_readonly("milliseconds", &Stats::milliseconds,
-                      "float: the whole call, reading back included.")
+                      "float: time of the whole call, including the copy to main memory.")
         .def("__repr__", [](const Stats& s) {
             return "<cubecam.Stats views_drawn=" + std::to_string(s.views_drawn) +
                    " views_skipped=" + std::to_string(s.views_skipped) +
@@ -45,16 +47,17 @@ void bind_stats(py::module_& m) {
 }
 
 void bind_info(py::module_& m) {
-    bindings::declare<gl::Limits>(m, "Limits", "What the driver allows at most.")
+    bindings::declare<gl::Limits>(m, "Limits", "The greatest values that the driver allows.")
         .def_readonly("max_texture_size", &gl::Limits::max_texture_size,
                       "int: pixels along a side of a frame.")
         .def_readonly("max_cube_map_texture_size", &gl::Limits::max_cube_map_texture_size,
                       "int: pixels along an edge of a face.")
         .def_readonly("max_array_texture_layers", &gl::Limits::max_array_texture_layers, "int")
-        .def_readonly("max_samples", &gl::Limits::max_samples, "int: of multisampling.")
+        .def_readonly("max_samples", &gl::Limits::max_samples, "int: samples of each pixel (MSAA).")
         .def_readonly("max_color_attachments", &gl::Limits::max_color_attachments, "int");
 
-    bindings::declare<RendererInfo>(m, "RendererInfo", "What a renderer runs on.")
+    bindings::declare<RendererInfo>(m, "RendererInfo",
+                                    "The device, driver and limits of a renderer.")
         .def_readonly("vendor", &RendererInfo::vendor, "str: GL_VENDOR.")
         .def_readonly("renderer", &RendererInfo::renderer, "str: GL_RENDERER.")
         .def_readonly("version", &RendererInfo::version, "str: GL_VERSION.")
@@ -63,11 +66,12 @@ void bind_info(py::module_& m) {
         .def_readonly("egl_version", &RendererInfo::egl_version, "str: EGL_VERSION.")
         .def_readonly("platform", &RendererInfo::platform,
                       "str: \"device\", \"surfaceless\" or \"default\".")
-        .def_readonly("device", &RendererInfo::device, "Device: the one that was chosen.")
+        .def_readonly("device", &RendererInfo::device, "Device: the device of the renderer.")
         .def_readonly("limits", &RendererInfo::limits, "Limits")
-        .def_readonly("software", &RendererInfo::software, "bool: whether the CPU draws.")
+        .def_readonly("software", &RendererInfo::software,
+                      "bool: whether the device renders on the CPU.")
         .def_readonly("layered", &RendererInfo::layered,
-                      "bool: whether one draw call serves all faces of a cube.")
+                      "bool: whether one draw call draws a mesh on all faces of a cube.")
         .def("__repr__", [](const RendererInfo& i) {
             return "<cubecam.RendererInfo " + i.renderer + ", OpenGL " + i.version + ", " +
                    i.platform + (i.software ? ", software>" : ">");

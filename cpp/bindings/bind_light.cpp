@@ -1,4 +1,5 @@
 // cubecam.Light and the lights below it.
+#include "docs/light.hpp"
 #include "objects.hpp"
 #include "shadow_like.hpp"
 #include "vectors.hpp"
@@ -15,132 +16,11 @@ namespace cubecam::bindings {
 
 namespace {
 
-constexpr const char* light_doc = R"doc(Base of the lights.
-
-A light may be in several scenes; a change shows in all of them.
-)doc";
-
-constexpr const char* point_doc = R"doc(Light from one point, the same in all directions.
-
-Parameters
-----------
-position : array_like (3,)
-    World space.
-color : array_like (3,) or str
-    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-    decoded to linear. Light has no alpha: "transparent" raises ValueError.
-intensity : float
-    Times color, not negative.
-decay : float
-    The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
-shadow : Shadow, bool or None
-    None: it shines through everything. True: ``Shadow()``.
-
-Raises
-------
-ValueError
-    For a value out of its range or not finite.
-
-Examples
---------
->>> import cubecam as cc
->>> lamp = cc.PointLight(position=(3, 4, 3))
->>> lamp.intensity = 2
->>> lamp
-PointLight(position=(3, 4, 3), color=(1, 1, 1), intensity=2, decay=0)
-)doc";
-
-constexpr const char* spot_doc =
-    R"doc(Light from one point into a cone, as three.js and glTF have it.
-
-Parameters
-----------
-position : array_like (3,)
-    World space.
-direction : array_like (3,)
-    Of the cone's axis, the way the light travels, in world space, of any length but 0; kept
-    normalised. Straight down by default.
-angle : float
-    From the axis to the cone's edge, degrees: above 0, below 90. Beyond it there is no light.
-penumbra : float
-    Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
-    it fades from the axis on. Between the cosines of the two angles it is smoothstep.
-color : array_like (3,) or str
-    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-    decoded to linear. Light has no alpha: "transparent" raises ValueError.
-intensity : float
-    Times color, not negative.
-decay : float
-    The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
-shadow : Shadow, bool or None
-    None: it shines through everything. True: ``Shadow()``.
-
-Raises
-------
-ValueError
-    For a direction of no length, or a value out of its range or not finite.
-
-Examples
---------
->>> import cubecam as cc
->>> cc.SpotLight(position=(0, 3, 0), angle=20, penumbra=.5)
-SpotLight(position=(0, 3, 0), direction=(0, -1, 0), angle=20, penumbra=0.5, color=(1, 1, 1), intensity=1, decay=0)
-)doc";
-
-constexpr const char* directional_doc = R"doc(Light from far away, such as the sun's.
-
-Parameters
-----------
-direction : array_like (3,)
-    The way the light travels, in world space, of any length but 0; kept normalised. Straight down
-    by default.
-color : array_like (3,) or str
-    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-    decoded to linear. Light has no alpha: "transparent" raises ValueError.
-intensity : float
-    Times color, not negative.
-shadow : Shadow, bool or None
-    None: it shines through everything. True: ``Shadow()``.
-
-Raises
-------
-ValueError
-    For a direction of no length, or a value out of its range or not finite.
-
-Examples
---------
->>> import cubecam as cc
->>> cc.DirectionalLight(direction=(0, 0, -2)).direction.tolist()
-[0.0, 0.0, -1.0]
-)doc";
-
-constexpr const char* ambient_doc = R"doc(Light that comes from everywhere alike.
-
-Parameters
-----------
-color : array_like (3,) or str
-    Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-    decoded to linear. Light has no alpha: "transparent" raises ValueError.
-intensity : float
-    Times color, not negative.
-
-Raises
-------
-ValueError
-    For a value out of its range or not finite.
-
-Examples
---------
->>> import cubecam as cc
->>> cc.AmbientLight(intensity=.5)
-AmbientLight(color=(1, 1, 1), intensity=0.5)
-)doc";
-
 std::string light_text(const LightValue& value) {
     return "color=" + tuple_text(value.color) + ", intensity=" + describe(value.intensity);
 }
 
-/// Its end, and a shadow where there is one.
+/// The end of a light's text: its shadow, if it has one, and the bracket.
 std::string shadow_text(const LightValue& value) {
     if (!value.shadow) return ")";
     return ", shadow=" + py::repr(from_shadow(value.shadow)).cast<std::string>() + ")";
@@ -154,7 +34,7 @@ void bind_shadow_of(Bound& light) {
             const std::optional<Shadow> shadow = to_shadow(value);
             self.edit([&](LightValue& next) { next.shadow = shadow; });
         },
-        "Shadow or None: None shines through everything; True sets ``Shadow()``.");
+        "Shadow or None: None casts no shadows; True sets ``Shadow()``.");
 }
 
 template <class Parameters, class Field>
@@ -189,7 +69,7 @@ constexpr const char* direction_text =
 constexpr const char* decay_text = "float: the light falls with distance**-decay.";
 
 void bind_point(py::module_& module) {
-    auto light = declare<PointLight, Light>(module, "PointLight", point_doc);
+    auto light = declare<PointLight, Light>(module, "PointLight", docs::point);
     light.def(py::init([](const ArrayLike& position, const ArrayLike& color, float intensity,
                           double decay, const ShadowLike& shadow) {
                   return std::make_shared<PointLight>(
@@ -215,7 +95,7 @@ void bind_point(py::module_& module) {
 }
 
 void bind_spot(py::module_& module) {
-    auto light = declare<SpotLight, Light>(module, "SpotLight", spot_doc);
+    auto light = declare<SpotLight, Light>(module, "SpotLight", docs::spot);
     light.def(py::init([](const ArrayLike& position, const ArrayLike& direction, double angle,
                           double penumbra, const ArrayLike& color, float intensity, double decay,
                           const ShadowLike& shadow) {
@@ -232,7 +112,7 @@ void bind_spot(py::module_& module) {
     bind_vector(light, "position", &SpotParameters::position, position_text);
     bind_vector(light, "direction", &SpotParameters::direction, direction_text);
     bind_number(light, "angle", &SpotParameters::angle,
-                "float: from the axis to the cone's edge, degrees.");
+                "float: angle from the axis to the cone's edge, degrees.");
     bind_number(light, "penumbra", &SpotParameters::penumbra,
                 "float: share of the angle over which the light fades.");
     bind_number(light, "decay", &SpotParameters::decay, decay_text);
@@ -252,7 +132,7 @@ void bind_spot(py::module_& module) {
 }
 
 void bind_directional(py::module_& module) {
-    auto light = declare<DirectionalLight, Light>(module, "DirectionalLight", directional_doc);
+    auto light = declare<DirectionalLight, Light>(module, "DirectionalLight", docs::directional);
     light.def(py::init([](const ArrayLike& direction, const ArrayLike& color, float intensity,
                           const ShadowLike& shadow) {
                   return std::make_shared<DirectionalLight>(
@@ -276,7 +156,7 @@ void bind_directional(py::module_& module) {
 }
 
 void bind_ambient(py::module_& module) {
-    declare<AmbientLight, Light>(module, "AmbientLight", ambient_doc)
+    declare<AmbientLight, Light>(module, "AmbientLight", docs::ambient)
         .def(py::init([](const ArrayLike& color, float intensity) {
                  return std::make_shared<AmbientLight>(AmbientParameters{}, to_rgb(color, "color"),
                                                        intensity);
@@ -299,7 +179,7 @@ void bind_light(pybind11::module_& module) {
     using namespace cubecam;
     using namespace cubecam::bindings;
 
-    declare<Light>(module, "Light", light_doc)
+    declare<Light>(module, "Light", docs::light)
         .def_property(
             "color", [](const Light& self) { return color_array(self.value().color); },
             [](Light& self, const ArrayLike& value) {
@@ -312,7 +192,7 @@ void bind_light(pybind11::module_& module) {
             [](Light& self, float value) {
                 self.edit([&](LightValue& next) { next.intensity = value; });
             },
-            "float: times color.");
+            "float: a factor of color.");
     bind_point(module);
     bind_spot(module);
     bind_directional(module);

@@ -1,5 +1,5 @@
 // cubecam.Mesh
-#include "bind_mesh_docs.hpp"
+#include "docs/mesh.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -26,13 +26,13 @@ std::vector<Vector> to_vectors(const ContiguousArray<Scalar>& array) {
     return std::vector<Vector>(from, from + array.shape(0));
 }
 
-/// "(V, 3)", or with the number of vertices, where it is known, in place of V.
+/// The shape "(V, 3)", with the number of vertices in place of V if the number is known.
 std::string rows_of(std::optional<std::size_t> vertices, int columns) {
     return "(" + (vertices ? std::to_string(*vertices) : "V") + ", " + std::to_string(columns) +
            ")";
 }
 
-/// (V, 3) or (V, 4); bytes stand for value/255, all other numbers for themselves.
+/// Colours from an array (V, 3) or (V, 4); uint8 stands for value/255.
 std::vector<glm::vec4> to_vertex_colors(py::handle colors,
                                         std::optional<std::size_t> vertices = std::nullopt) {
     const py::array given = py::module_::import("numpy").attr("asarray")(colors);
@@ -120,13 +120,13 @@ py::array_t<double> bounds_array(const Mesh& mesh) {
     return array;
 }
 
-std::string represent_mesh(const Mesh& mesh) {
+std::string represent(const Mesh& mesh) {
     const auto data = mesh.data();
     return "Mesh(" + std::to_string(data->positions()->size()) + " vertices, " +
            std::to_string(data->triangles()->size()) + " triangles)";
 }
 
-/// Meshes of many triangles take a while: other threads may go on meanwhile.
+/// A function that builds a mesh without the GIL, since a mesh of many triangles takes a while.
 template <class... Args>
 auto built_by(MeshData (*build)(Args...)) {
     return [build](Args... args) {
@@ -138,27 +138,28 @@ auto built_by(MeshData (*build)(Args...)) {
 void bind_primitives(Class<Mesh>& mesh) {
     namespace make = cubecam::primitives;
     mesh.def_static("plane", built_by(&make::plane), py::arg("width") = 1.0, py::arg("depth") = 1.0,
-                    plane_doc);
+                    docs::plane);
     mesh.def_static(
         "box",
         [](const OneOf<py::float_, ArrayLike>& size) {
             return std::make_shared<Mesh>(make::box(to_scale(size, "size")));
         },
-        py::arg("size") = 1.0, box_doc);
+        py::arg("size") = 1.0, docs::box);
     mesh.def_static("sphere", built_by(&make::sphere), py::arg("radius") = 1.0,
-                    py::arg("segments") = 64, py::arg("rings") = 32, sphere_doc);
+                    py::arg("segments") = 64, py::arg("rings") = 32, docs::sphere);
     mesh.def_static("icosphere", built_by(&make::icosphere), py::arg("radius") = 1.0,
-                    py::arg("subdivisions") = 3, icosphere_doc);
+                    py::arg("subdivisions") = 3, docs::icosphere);
     mesh.def_static("cylinder", built_by(&make::cylinder), py::arg("radius") = 1.0,
-                    py::arg("height") = 1.0, py::arg("segments") = 64, cylinder_doc);
+                    py::arg("height") = 1.0, py::arg("segments") = 64, docs::cylinder);
     mesh.def_static("cone", built_by(&make::cone), py::arg("radius") = 1.0, py::arg("height") = 1.0,
-                    py::arg("segments") = 64, cone_doc);
+                    py::arg("segments") = 64, docs::cone);
     mesh.def_static("torus", built_by(&make::torus), py::arg("radius") = 1.0,
                     py::arg("tube") = 0.25, py::arg("segments") = 64, py::arg("sides") = 32,
-                    torus_doc);
+                    docs::torus);
 }
 
-/// Each may be set anew; what an array was handed out of stays as it was.
+/// Defines the properties of the vertices. Setting one replaces the array, and arrays that were
+/// read before keep their values.
 void bind_vertices(Class<Mesh>& mesh) {
     mesh.def_property(
         "positions",
@@ -168,7 +169,7 @@ void bind_vertices(Class<Mesh>& mesh) {
             update.positions = new_positions(self, value);
             apply(self, std::move(update));
         },
-        positions_doc);
+        docs::positions);
     mesh.def_property_readonly(
         "indices",
         [](const Mesh& self) -> py::array_t<std::uint32_t> {
@@ -185,7 +186,7 @@ void bind_vertices(Class<Mesh>& mesh) {
             if (!value.is_none()) update.normals = new_normals(self, value);
             apply(self, std::move(update));
         },
-        normals_doc);
+        docs::normals);
     mesh.def_property(
         "uvs", [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.data()->uvs()); },
         [](Mesh& self, const OrNone<ArrayLike>& value) {
@@ -194,7 +195,7 @@ void bind_vertices(Class<Mesh>& mesh) {
             if (!value.is_none()) update.uvs = new_uvs(self, value);
             apply(self, std::move(update));
         },
-        uvs_doc);
+        docs::uvs);
     mesh.def_property(
         "colors",
         [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.data()->colors()); },
@@ -204,7 +205,7 @@ void bind_vertices(Class<Mesh>& mesh) {
             if (!value.is_none()) update.colors = to_vertex_colors(value, vertices_of(self));
             apply(self, std::move(update));
         },
-        colors_doc);
+        docs::colors);
 }
 
 }  // namespace
@@ -216,7 +217,7 @@ void bind_mesh(pybind11::module_& module) {
     using namespace cubecam::bindings;
     namespace py = pybind11;
 
-    auto mesh = declare<Mesh>(module, "Mesh", mesh_doc);
+    auto mesh = declare<Mesh>(module, "Mesh", docs::mesh);
     mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"), py::kw_only(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none());
@@ -227,21 +228,21 @@ void bind_mesh(pybind11::module_& module) {
             const py::gil_scoped_release release;
             return std::make_shared<Mesh>(self.data()->centered_and_scaled(size));
         },
-        py::arg("size"), resized_doc);
+        py::arg("size"), docs::resized);
 
     mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
-             py::arg("colors") = py::none(), update_doc);
+             py::arg("colors") = py::none(), docs::update);
     bind_vertices(mesh);
     mesh.def_property_readonly(
         "bounds", &bounds_array,
         "ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.");
 
-    mesh.def("__repr__", &represent_mesh);
+    mesh.def("__repr__", &represent);
     mesh.def("__reduce__", [](const py::object& self) {
         py::dict arguments =
             attributes_of(self, "positions", "indices", "normals", "uvs", "colors");
-        // Smooth normals are computed anew, so that the twin's follow its positions, too.
+        // Smooth normals are computed again, so that those of the copy follow its positions, too.
         if (self.cast<const Mesh&>().data()->smooth()) arguments["normals"] = py::none();
         return reduced(self, arguments);
     });

@@ -10,25 +10,25 @@ namespace {
 constexpr const char* mirror_doc =
     R"doc(A mirror: env_weight * tint * environment(R) + color_weight * color.
 
-R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
-the scene's, a CubeMap or a Probe.
+R = I - 2 (N.I) N, where I points from the eye to the surface, in world space. The environment is that of
+the node, a CubeMap or a Probe, or else that of the scene.
 
 Parameters
 ----------
 tint : array_like (3,) or (4,), or str
-    Linear RGB or RGBA, times what is reflected; a CSS name or "#rrggbb" says sRGB.
+    Linear RGB or RGBA that multiplies the reflected light; a CSS name or "#rrggbb" is sRGB and is decoded.
 env_weight : float
-    Weight of what is reflected, not negative.
+    Weight of the reflected light, not negative.
 color : array_like (3,) or (4,), or str
-    Linear RGB or RGBA that the surface adds; a CSS name or "#rrggbb" says sRGB.
+    Linear RGB or RGBA that the surface adds; a CSS name or "#rrggbb" is sRGB and is decoded.
 color_weight : float
-    Its weight, not negative.
+    Weight of color, not negative.
 f0 : float, optional
     The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
     f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
-    Rendering", 1994). None: it is not.
+    Rendering", 1994). None: env_weight is the same at all angles.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-    As of every `Material`.
+    The options of every `Material`.
 
 Raises
 ------

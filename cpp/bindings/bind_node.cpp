@@ -1,4 +1,5 @@
 // cubecam.Node and cubecam.axis_angle
+#include "docs/node.hpp"
 #include "node_state.hpp"
 
 #include "cubecam/math/transform.hpp"
@@ -17,57 +18,12 @@ namespace cubecam::bindings {
 
 namespace {
 
-constexpr const char* node_doc =
-    R"doc(A thing in a scene: a mesh with a material somewhere, or a group.
-
-Made by `Scene.add`. Attributes may be set at any time; the next picture shows it. Arrays that they
-give are read-only: set the whole, ``node.position = (1, 2, 3)``.
-
-A node pickles together with its scene, so that ``pickle.dumps((scene, ball))`` keeps ball inside
-scene; one that was removed pickles by itself, with the nodes above it.
-
-Examples
---------
->>> import cubecam as cc
->>> scene = cc.Scene()
->>> arm = scene.add(position=(0, 1, 0), rotation=cc.axis_angle((0, 0, 1), 90))
->>> hand = scene.add(cc.Mesh.box(.1), position=(2, 0, 0), parent=arm)
->>> hand.world_matrix[:3, 3].round(12).tolist()
-[0.0, 3.0, 0.0]
-)doc";
-
-constexpr const char* axis_angle_doc = R"doc(The quaternion of a turn round an axis.
-
-Parameters
-----------
-axis : array_like (3,)
-    Of any length but 0. Seen with the axis pointing at the viewer, the turn is counter-clockwise.
-degrees : float
-    The angle.
-
-Returns
--------
-ndarray (4,) float64
-    (w, x, y, z), unit length: cos(degrees / 2), then sin(degrees / 2) times the axis.
-
-Raises
-------
-ValueError
-    For an axis of no length, or numbers that are not finite.
-
-Examples
---------
->>> import cubecam as cc
->>> cc.axis_angle((0, 2, 0), 180).round(12).tolist()
-[0.0, 0.0, 1.0, 0.0]
-)doc";
-
 py::array_t<double> axis_angle(const ArrayLike& axis, double degrees) {
     const glm::dvec3 direction = to_point(axis, "axis");
     const double length = glm::length(direction);
     expect(length > 0.0 && std::isfinite(length), "an axis of some length", describe(direction));
     expect_finite(degrees, "angle in degrees");
-    // The half angle within a quarter turn, so that sums of turns stay exact.
+    // The half angle is brought within -180 to 180 degrees, so that large angles stay exact.
     const double half = 0.5 * radians(std::remainder(degrees, 720.0));
     const glm::dvec3 v = direction / length * std::sin(half);
     py::array_t<double> result(4);
@@ -82,8 +38,8 @@ glm::dvec3 position_of(const Placing& placing) {
     return matrix ? glm::dvec3((*matrix)[3]) : std::get<Transform>(placing).position;
 }
 
-/// From the root to the parent. Pickled in this order, each finds its own parent in the memo: a
-/// long chain is no deep recursion.
+/// The nodes above a node, from the root to its parent. When they are pickled in this order, each
+/// finds its own parent in pickle's memo, so that a long chain needs no deep recursion.
 std::vector<std::shared_ptr<Node>> ancestors(const Node& node) {
     std::vector<std::shared_ptr<Node>> chain;
     for (auto above = node.parent(); above; above = above->parent()) chain.push_back(above);
@@ -140,28 +96,28 @@ void bind_placing(Class<Node>& node) {
 
 void bind_contents(Class<Node>& node) {
     node.def_property_readonly("id", &Node::id,
-                               "int: from 1 in order of add, never used again in the scene; 0 is"
-                               " the background in id pictures.");
+                               "int: from 1 in order of add, never used again in the scene; the "
+                               "output id is 0 where the background is.");
     node.def_property(
         "name", [](const Node& self) { return self.value().name; },
         [](Node& self, const std::string& value) {
             self.edit([&](NodeValue& next) { next.name = value; });
         },
-        "str: for people; need not be unique.");
+        "str: a name for people; need not be unique.");
     node.def_property(
         "mesh", [](const Node& self) { return or_none(self.value().mesh); },
         [](Node& self, const OrNone<Mesh>& value) {
             const auto mesh = to_mesh(value);
             self.edit([&](NodeValue& next) { next.mesh = mesh; });
         },
-        "Mesh or None: what is drawn; None is a group.");
+        "Mesh or None: the shape; a node without a mesh is a group.");
     node.def_property(
         "material", [](const Node& self) { return or_none(self.value().material); },
         [](Node& self, const OrNone<Material>& value) {
             const auto material = to_material(value);
             self.edit([&](NodeValue& next) { next.material = material; });
         },
-        "Material or None: None, with a mesh, becomes a new PhongMaterial.");
+        "Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.");
     node.def_property(
         "environment",
         [](const Node& self) -> CubeLike { return from_cube_source(self.value().environment); },
@@ -169,38 +125,41 @@ void bind_contents(Class<Node>& node) {
             const CubeSource environment = to_cube_source(value, "environment");
             self.edit([&](NodeValue& next) { next.environment = environment; });
         },
-        "CubeMap, Probe or None: what mirrors and glass show; None is the scene's.");
+        "CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.");
     node.def_property(
         "visible", [](const Node& self) { return self.value().visible; },
         [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.visible = value; }); },
-        "bool: False is drawn nowhere, nor is anything below it.");
+        "bool: False: no picture shows the node or any node below it.");
     node.def_property(
         "in_captures", [](const Node& self) { return self.value().in_captures; },
         [](Node& self, bool value) {
             self.edit([&](NodeValue& next) { next.in_captures = value; });
         },
-        "bool: False is absent from captures and probes, as is all below it; still drawn in"
-        " frames, and still showing probes.");
+        "bool: False: captures and probes show neither the node nor any node below it. Frames do, "
+        "and "
+        "the node still shows its own probe there.");
     node.def_property(
         "render_order", [](const Node& self) { return self.value().render_order; },
         [](Node& self, const OneOf<py::int_>& value) {
             const std::int32_t order = to_render_order(value);
             self.edit([&](NodeValue& next) { next.render_order = order; });
         },
-        "int: among opaque and among translucent nodes, lower is drawn first, before distance; 0."
-        " It is the node's own: what is below it has its own, too.");
+        "int: nodes of lower order are drawn first, before any distance counts, among opaque and "
+        "among "
+        "translucent nodes; 0 by default. Nodes below this one have an order of their own.");
     node.def_property(
         "cast_shadow", [](const Node& self) { return self.value().cast_shadow; },
         [](Node& self, bool value) {
             self.edit([&](NodeValue& next) { next.cast_shadow = value; });
         },
-        "bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.");
+        "bool: False: neither the node nor any node below it casts shadows. Translucent nodes "
+        "never do.");
     node.def_property(
         "receive_shadow", [](const Node& self) { return self.value().receive_shadow; },
         [](Node& self, bool value) {
             self.edit([&](NodeValue& next) { next.receive_shadow = value; });
         },
-        "bool: whether shadows show on its own surface.");
+        "bool: whether shadows show on the node's own surface.");
 }
 
 }  // namespace
@@ -212,12 +171,12 @@ void bind_node(pybind11::module_& module) {
     using namespace cubecam::bindings;
     namespace py = pybind11;
 
-    module.def("axis_angle", &axis_angle, py::arg("axis"), py::arg("degrees"), axis_angle_doc)
+    module.def("axis_angle", &axis_angle, py::arg("axis"), py::arg("degrees"), docs::axis_angle)
         .attr("axis_angle")
         .attr("__module__") = "cubecam";
 
     auto node = declared<Node>();
-    node.attr("__doc__") = node_doc;
+    node.attr("__doc__") = docs::node;
     bind_contents(node);
     bind_placing(node);
     node.def_property(
@@ -225,8 +184,9 @@ void bind_node(pybind11::module_& module) {
         [](Node& self, const OrNone<Node>& value) {
             self.set_parent(to_shared_or_none<Node>(value, "parent", "a Node or None"));
         },
-        "Node or None: what it moves with. Setting it keeps the node's own position, rotation and"
-        " scale; a cycle raises ValueError.");
+        "Node or None: the node that this one moves with. Setting it keeps position, rotation and "
+        "scale, "
+        "which are relative to the parent; a cycle raises ValueError.");
     node.def_property_readonly(
         "children",
         [](const Node& self) -> py::typing::Tuple<Node, py::ellipsis> {

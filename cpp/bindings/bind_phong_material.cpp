@@ -10,24 +10,24 @@ namespace {
 constexpr const char* phong_doc =
     R"doc(Phong's reflection model.
 
-ka * color, once, plus for every light: kd * color * max(N.L, 0), and ks * max(R.V, 0)**shininess
-in white where N.L > 0 (B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6),
-1975). An `AmbientLight` adds its light times ka * color.
+The colour is ka * color, plus, for every light, kd * color * max(N.L, 0) and, where N.L > 0, a white
+highlight ks * max(R.V, 0)**shininess (B. T. Phong, "Illumination for Computer Generated Pictures",
+CACM 18(6), 1975). An `AmbientLight` adds its light times ka * color.
 
 Parameters
 ----------
 color : array_like (3,) or (4,), or str
-    Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
+    Linear RGB or RGBA; a CSS name or "#rrggbb" is sRGB and is decoded.
 ka, kd, ks : float
     Ambient, diffuse and specular weights, not negative.
 shininess : float
-    Above 0; greater is a smaller highlight.
+    Exponent of the highlight, above 0; a greater one makes a smaller highlight.
 map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture that multiplies color, placed by the mesh's uvs.
 vertex_colors : bool
     Whether the mesh's colours multiply color.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-    As of every `Material`.
+    The options of every `Material`.
 
 Raises
 ------

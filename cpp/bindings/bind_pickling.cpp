@@ -1,4 +1,4 @@
-// What pickles of all classes have in common.
+// The format number that pickles of all classes have.
 #include "objects.hpp"
 
 #include <pybind11/pybind11.h>

@@ -1,4 +1,5 @@
 // cubecam.Probe
+#include "docs/probe.hpp"
 #include "formats.hpp"
 #include "node_list.hpp"
 #include "numbers.hpp"
@@ -21,56 +22,6 @@
 namespace cubecam::bindings {
 
 namespace {
-
-constexpr const char* probe_doc = R"doc(A cubemap that keeps itself true to the scene.
-
-It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
-to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
-(``renderer.read_probe(probe)``) and draws again only the faces that would come out different. Nodes
-that use a probe are left out of it.
-
-Parameters
-----------
-position : array_like (3,)
-    World space; with a parent, from the parent's position.
-size : int
-    Texels along an edge of a face.
-near, far : float
-    World units: 0 < near < far.
-format : {"rgba16f", "rgba8", "rgba32f", "rgb565"}
-    What a texel is kept in. rgba8 and rgb565 clip light above 1.
-mipmaps : bool
-    Whether lookups are trilinear.
-samples : int
-    Samples of each texel, for smooth edges (MSAA); 1 is none.
-update : {"on_change", "once", "manual"} or int
-    "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
-    by ``renderer.update_probes``. n: on every n-th call that needs it.
-exclude : iterable of Node
-    What it does not see, whole subtrees, beside the nodes that use it.
-parent : Node, optional
-    It goes where this node goes; its axes stay the world's. The probe does not keep it alive.
-faces_per_frame : int
-    At most so many faces are drawn in one call, from 1 to 6.
-depth_format : str or None
-    Its depth and stencil buffer, see `Renderer.render`.
-
-Raises
-------
-ValueError
-    For a number out of its range, near >= far, or another format or update.
-TypeError
-    For a parent or excluded things that are not nodes.
-
-Examples
---------
->>> import cubecam as cc
->>> scene = cc.Scene()
->>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(0, 1, 0))
->>> ball.environment = cc.Probe(parent=ball, size=128)
->>> ball.environment.update
-'on_change'
-)doc";
 
 using UpdateLike = OneOf<py::str, py::int_>;
 
@@ -146,7 +97,7 @@ void bind_links(Class<Probe>& probe) {
             const auto parent = to_shared_or_none<Node>(value, "parent", "a Node or None");
             self.edit([&](ProbeValue& next) { next.parent = parent; });
         },
-        "Node or None: the node that it follows.");
+        "Node or None: the node that the probe moves with.");
     probe.def_property(
         "exclude",
         [](const Probe& self) -> py::typing::Tuple<Node, py::ellipsis> {
@@ -156,7 +107,8 @@ void bind_links(Class<Probe>& probe) {
             const auto nodes = to_nodes(value, "exclude");
             self.edit([&](ProbeValue& next) { next.exclude = nodes; });
         },
-        "tuple of Node: what it does not see, whole subtrees, beside the nodes that use it.");
+        "tuple of Node: nodes that the probe leaves out with all nodes below them, besides the "
+        "nodes that use it.");
 }
 
 }  // namespace
@@ -170,7 +122,7 @@ void bind_probe(pybind11::module_& module) {
 
     static_cast<void>(module);
     auto probe = declared<Probe>();
-    probe.attr("__doc__") = probe_doc;
+    probe.attr("__doc__") = docs::probe;
     probe.def(py::init(&make_probe), py::arg("position") = py::make_tuple(0, 0, 0), py::kw_only(),
               py::arg("size") = 256, py::arg("near") = 0.05, py::arg("far") = 1000.0,
               py::arg("format") = "rgba16f", py::arg("mipmaps") = false, py::arg("samples") = 1,
@@ -184,10 +136,10 @@ void bind_probe(pybind11::module_& module) {
             const glm::dvec3 position = to_point(value, "position");
             self.edit([&](ProbeValue& next) { next.position = position; });
         },
-        "ndarray (3,) float64: world space, or from the parent's position; read-only.");
+        "ndarray (3,) float64: world space, or relative to the parent's position; read-only.");
     field(probe, "size", &ProbeValue::size, "int: texels along an edge of a face.");
-    field(probe, "near", &ProbeValue::near, "float: nothing nearer is seen; world units.");
-    field(probe, "far", &ProbeValue::far, "float: nothing farther is seen; world units.");
+    field(probe, "near", &ProbeValue::near, "float: the near clip distance, world units.");
+    field(probe, "far", &ProbeValue::far, "float: the far clip distance, world units.");
     probe.def_property(
         "format", [](const Probe& self) { return std::string(to_string(self.value().format)); },
         [](Probe& self, const std::string& value) {
@@ -202,7 +154,7 @@ void bind_probe(pybind11::module_& module) {
             const DepthFormat format = to_depth_format(value);
             self.edit([&](ProbeValue& next) { next.depth_format = format; });
         },
-        "str or None: its depth and stencil buffer, see `Renderer.render`.");
+        "str or None: the format of the depth and stencil buffer, see `Renderer.render`.");
     field(probe, "mipmaps", &ProbeValue::mipmaps, "bool: whether lookups are trilinear.");
     field(probe, "samples", &ProbeValue::samples, "int: samples of each texel (MSAA); 1 is none.");
     probe.def_property(
@@ -215,9 +167,9 @@ void bind_probe(pybind11::module_& module) {
                 next.every = given.every;
             });
         },
-        "str or int: \"on_change\", \"once\", \"manual\", or every how many calls.");
+        "str or int: \"on_change\", \"once\", \"manual\", or n: every n-th call.");
     field(probe, "faces_per_frame", &ProbeValue::faces_per_frame,
-          "int: at most so many faces are drawn in one call.");
+          "int: the greatest number of faces that one call draws.");
     bind_links(probe);
 
     probe.def("__repr__", [](const Probe& self) {
@@ -229,7 +181,7 @@ void bind_probe(pybind11::module_& module) {
                std::string(to_string(value.format)) + "'" +
                ", update=" + py::repr(update_of(value)).cast<std::string>() + ")";
     });
-    // Nodes go into the state: they may use the probe themselves.
+    // Nodes go into the state, which is pickled later, since a node may use the probe itself.
     probe.def("__reduce__", [](const py::object& self) {
         return reduced(self,
                        attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",

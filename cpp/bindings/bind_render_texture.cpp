@@ -1,4 +1,5 @@
 // cubecam.RenderTexture
+#include "docs/render_texture.hpp"
 #include "effect_list.hpp"
 #include "formats.hpp"
 #include "node_list.hpp"
@@ -26,76 +27,6 @@ namespace cubecam::bindings {
 
 namespace {
 
-constexpr const char* render_texture_doc =
-    R"doc(A picture that a scene is drawn into and that materials show in the same frame.
-
-It is only a description, and may serve any number of materials in any number of scenes: give it as
-the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
-(``renderer.read_texture(render_texture)``), brings them up to date before what shows them, and draws
-them again only if the picture would come out different.
-
-Parameters
-----------
-scene : Scene
-    What it shows; kept alive. It may show other render textures, and mirrors with probes.
-camera : Camera
-    From where; the shape of the picture is that of `size`.
-size : (int, int)
-    (width, height), texels.
-format : {"rgba8", "rgba16f", "rgba32f", "rgb565"}
-    What a texel is kept in. rgba8 and rgb565 clip light above 1.
-samples : int
-    Samples of each texel, for smooth edges (MSAA); 1 is none.
-mipmaps : bool
-    Whether lookups are trilinear, for pictures that are seen small. False: bilinear.
-wrap : {"clamp", "repeat"}
-    What a lookup outside 0..1 gives.
-exclude : iterable of Node
-    Nodes of `scene` that it does not show, whole subtrees.
-name : str
-    For people: messages use it.
-effects : sequence of ImageEffect
-    Passes over the picture, one after the other, in linear float. With an empty scene they make the
-    picture alone.
-depth_format : str or None
-    The depth and stencil buffer, see `Renderer.render`; None paints nodes one over the other.
-
-Raises
-------
-ValueError
-    For a size or samples below 1, or another format or wrap.
-TypeError
-    For a scene, a camera or excluded things of another type.
-
-Notes
------
-uv (0, 0) is the picture's bottom-left, as with an `Image`. Its alpha counts where the material's
-own opacity is below 1; it does not make a surface translucent by itself.
-
-A picture that shows itself, directly, by other render textures or by probes, has no end: drawing
-what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`. What
-is left out still casts: a shadow whose caster moves its vertices by the picture must not fall there.
-
-Examples
---------
->>> import cubecam as cc
->>> clock = cc.Scene(background=(0, 0, .2))
->>> hand = clock.add(cc.Mesh.box((.1, 1, .1)), cc.BasicMaterial(color=(1, 1, 0)))
->>> face = cc.RenderTexture(clock, cc.OrthographicCamera(height=2, position=(0, 0, 5)),
-...                         size=(64, 64), name="clock")
->>> scene = cc.Scene()
->>> cube = scene.add(cc.Mesh.box(), cc.BasicMaterial(map=face))
->>> camera = cc.PerspectiveCamera(position=(1, 1, 2), target=(0, 0, 0))
->>> with cc.Renderer() as renderer:
-...     for degrees in (0, 6, 12):
-...         hand.rotation = cc.axis_angle((0, 0, 1), -degrees)
-...         frame = renderer.render(scene, camera, size=(64, 48))  # shows the hand as it is now
-...     drawn = renderer.stats.textures_updated
-...     picture = renderer.read_texture(face)
->>> picture.shape, drawn
-((64, 64, 4), 1)
-)doc";
-
 using Size = py::typing::Tuple<py::int_, py::int_>;
 using SizeLike = OneOf<Size>;
 using WholeNumber = OneOf<py::int_>;
@@ -108,8 +39,8 @@ std::shared_ptr<Camera> to_shown_camera(py::handle value) {
     return to_shared<Camera>(value, "camera", "a Camera");
 }
 
-/// Notes a new texture. Now and then, when there are twice as many as were left the last time,
-/// those are freed that only they themselves keep alive.
+/// Adds a new texture to the list of textures. When the list is twice as long as it was after the
+/// last cleaning, textures that only cycles of references keep alive are freed.
 void watch(const std::shared_ptr<RenderTexture>& texture) {
     static std::vector<std::weak_ptr<RenderTexture>> watched;  // under Python's lock
     static std::size_t enough = 16;
@@ -173,7 +104,7 @@ void bind_texture_picture(Class<RenderTexture>& made) {
             const DepthFormat format = to_depth_format(value);
             self.edit([&](RenderTextureValue& next) { next.depth_format = format; });
         },
-        "str or None: the depth and stencil buffer, see `Renderer.render`.");
+        "str or None: the format of the depth and stencil buffer, see `Renderer.render`.");
     made.def_property(
         "samples", [](const T& self) { return self.value().samples; },
         [](T& self, const WholeNumber& value) {
@@ -204,14 +135,14 @@ void bind_texture_links(Class<RenderTexture>& made) {
             const auto scene = to_shown_scene(value);
             self.edit([&](RenderTextureValue& next) { next.scene = scene; });
         },
-        "Scene: what it shows.");
+        "Scene: the scene that is drawn.");
     made.def_property(
         "camera", [](const T& self) { return self.value().camera; },
         [](T& self, const OneOf<Camera>& value) {
             const auto camera = to_shown_camera(value);
             self.edit([&](RenderTextureValue& next) { next.camera = camera; });
         },
-        "Camera: from where it is seen.");
+        "Camera: the camera that the scene is drawn by.");
     made.def_property(
         "exclude",
         [](const T& self) -> py::typing::Tuple<Node, py::ellipsis> {
@@ -221,7 +152,7 @@ void bind_texture_links(Class<RenderTexture>& made) {
             const WeakNodes nodes = to_nodes(value, "exclude");
             self.edit([&](RenderTextureValue& next) { next.exclude = nodes; });
         },
-        "tuple of Node: nodes of `scene` that it does not show, whole subtrees.");
+        "tuple of Node: nodes of `scene` that the texture leaves out, with all nodes below them.");
     made.def_property(
         "effects",
         [](const T& self) -> py::typing::Tuple<ImageEffect, py::ellipsis> {
@@ -237,10 +168,10 @@ void bind_texture_links(Class<RenderTexture>& made) {
         [](T& self, const std::string& value) {
             self.edit([&](RenderTextureValue& next) { next.name = value; });
         },
-        "str: for people; need not be unique.");
+        "str: a name for people; need not be unique.");
 }
 
-std::string represent_render_texture(const RenderTexture& self) {
+std::string represent(const RenderTexture& self) {
     const RenderTextureValue value = self.value();
     return "RenderTexture(" +
            (value.name.empty() ? std::string() : text_of(py::str(value.name)) + ", ") +
@@ -248,9 +179,9 @@ std::string represent_render_texture(const RenderTexture& self) {
            std::string(to_string(value.format)) + ")";
 }
 
-/// The scene goes into the state: its nodes may show the texture. What stands for it, and for the
-/// camera, until then is empty.
-py::tuple reduce_render_texture(const py::object& self) {
+/// The scene goes into the state, which is pickled later, since its nodes may show the texture.
+/// Until unpickling sets the state, an empty scene and a new camera stand in.
+py::tuple reduce(const py::object& self) {
     py::dict arguments =
         attributes_of(self, "size", "format", "samples", "mipmaps", "wrap", "name");
     arguments["scene"] = py::type::of<Scene>()();
@@ -271,7 +202,7 @@ void bind_render_texture(pybind11::module_& module) {
 
     static_cast<void>(module);
     auto made = declared<RenderTexture>();
-    made.attr("__doc__") = render_texture_doc;
+    made.attr("__doc__") = docs::render_texture;
     made.def(py::init(&make_render_texture), py::arg("scene"), py::arg("camera"), py::kw_only(),
              py::arg("size") = py::make_tuple(512, 512), py::arg("format") = "rgba8",
              py::arg("samples") = 1, py::arg("mipmaps") = false, py::arg("wrap") = "clamp",
@@ -279,8 +210,8 @@ void bind_render_texture(pybind11::module_& module) {
              py::arg("effects") = py::tuple(), py::arg("depth_format") = "depth_component32f");
     bind_texture_links(made);
     bind_texture_picture(made);
-    made.def("__repr__", &represent_render_texture);
-    made.def("__reduce__", &reduce_render_texture);
+    made.def("__repr__", &represent);
+    made.def("__reduce__", &reduce);
     def_setstate(made, "tuple", [](const py::object& self, const py::tuple& state) {
         self.attr("scene") = state[0];
         self.attr("camera") = state[1];

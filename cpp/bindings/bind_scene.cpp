@@ -1,5 +1,5 @@
 // cubecam.Scene
-#include "bind_scene_docs.hpp"
+#include "docs/scene.hpp"
 #include "node_list.hpp"
 #include "node_state.hpp"
 
@@ -24,7 +24,7 @@ std::shared_ptr<CubeMap> to_environment(py::handle value) {
 Background to_background(py::handle value) {
     if (value.is_none()) return {};
     if (py::isinstance<CubeMap>(value)) return py::cast<std::shared_ptr<CubeMap>>(value);
-    if (!py::isinstance<py::sequence>(value)) {  // a text is one
+    if (!py::isinstance<py::sequence>(value)) {  // a str is a sequence, too: the name of a colour
         refuse(value, "background", "a colour, a CubeMap or None");
     }
     return to_rgba(value, "background");
@@ -112,7 +112,7 @@ bool contains_thing(const Scene& scene, py::handle thing) {
     return py::isinstance<Light>(thing) && scene.contains(thing.cast<const Light&>());
 }
 
-py::dict scene_state(const Scene& scene) {
+py::dict state_of(const Scene& scene) {
     py::list nodes;
     for (const auto& node : scene.nodes()) {
         const auto parent = node->parent();
@@ -128,8 +128,9 @@ py::dict scene_state(const Scene& scene) {
     return state;
 }
 
-/// The nodes may be there already, bare, as other objects in the pickle led to them.
-void set_scene_state(Scene& scene, const py::dict& state) {
+/// Unpickling may have restored some nodes already, without their values, because other objects in
+/// the pickle refer to them.
+void set_state(Scene& scene, const py::dict& state) {
     scene.set_environment(to_environment(state["environment"]));
     scene.set_background(to_background(state["background"]));
     for (const py::handle light : state["lights"]) {
@@ -151,10 +152,10 @@ void set_scene_state(Scene& scene, const py::dict& state) {
 
 void bind_pickling(Class<Scene>& scene) {
     scene.def("__reduce__", [](const py::object& self) {
-        return reduced(self, py::tuple(), scene_state(self.cast<const Scene&>()));
+        return reduced(self, py::tuple(), state_of(self.cast<const Scene&>()));
     });
-    def_setstate(scene, "dict", &set_scene_state);
-    scene.def("_restore", &Scene::restore, py::arg("id"), "For unpickling: the node of an id.");
+    def_setstate(scene, "dict", &set_state);
+    scene.def("_restore", &Scene::restore, py::arg("id"), "For unpickling: the node with an id.");
     scene.def_static(
         "_loose", [](std::int32_t id) { return std::make_shared<Node>(id, NodeValue()); },
         py::arg("id"), "For unpickling: an empty node that is in no scene.");
@@ -171,7 +172,7 @@ void bind_scene(pybind11::module_& module) {
 
     static_cast<void>(module);
     auto scene = declared<Scene>();
-    scene.attr("__doc__") = scene_doc;
+    scene.attr("__doc__") = docs::scene;
     scene.def(
         py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background) {
             return std::make_shared<Scene>(to_environment(environment), to_background(background));
@@ -182,12 +183,12 @@ void bind_scene(pybind11::module_& module) {
         [](Scene& self, const OrNone<CubeMap>& value) {
             self.set_environment(to_environment(value));
         },
-        "CubeMap or None: what mirrors and glass show that have no environment of their own.");
+        "CubeMap or None: what mirrors and glass without an environment of their own show.");
     scene.def_property(
         "background", [](const Scene& self) { return from_background(self.background()); },
         [](Scene& self, const BackgroundLike& value) { self.set_background(to_background(value)); },
-        "ndarray (4,) float32, CubeMap or None: what is seen where nothing is. None: the"
-        " environment if there is one, else transparent black.");
+        "ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the "
+        "environment if there is one, else transparent black.");
 
     scene.def(
         "add",
@@ -195,32 +196,32 @@ void bind_scene(pybind11::module_& module) {
             self.add(light);
             return light;
         },
-        py::arg("light"), add_light_doc);
+        py::arg("light"), docs::add_light);
     scene.def("add", &add_node, py::arg("mesh") = py::none(), py::arg("material") = py::none(),
               py::kw_only(), py::arg("position") = py::none(), py::arg("rotation") = py::none(),
               py::arg("scale") = py::none(), py::arg("matrix") = py::none(),
               py::arg("parent") = py::none(), py::arg("environment") = py::none(),
               py::arg("visible") = true, py::arg("in_captures") = true, py::arg("name") = "",
               py::arg("render_order") = 0, py::arg("cast_shadow") = true,
-              py::arg("receive_shadow") = true, add_node_doc);
+              py::arg("receive_shadow") = true, docs::add_node);
     scene.def("set_positions", &set_positions, py::arg("nodes"), py::arg("positions"),
-              set_positions_doc);
+              docs::set_positions);
     scene.def("set_matrices", &set_matrices, py::arg("nodes"), py::arg("matrices"),
-              set_matrices_doc);
-    scene.def("remove", &remove_thing, py::arg("thing"), remove_doc);
-    scene.def("clear", &Scene::clear, "Take all nodes and lights out.");
+              docs::set_matrices);
+    scene.def("remove", &remove_thing, py::arg("thing"), docs::remove);
+    scene.def("clear", &Scene::clear, "Remove all nodes and lights.");
     scene.def_property_readonly(
         "nodes",
         [](const Scene& self) -> py::typing::Tuple<Node, py::ellipsis> {
             return py::tuple(py::cast(self.nodes()));
         },
-        "tuple of Node: all of them, in order of id.");
+        "tuple of Node: all nodes of the scene, in order of id.");
     scene.def_property_readonly(
         "lights",
         [](const Scene& self) -> py::typing::Tuple<Light, py::ellipsis> {
             return py::tuple(py::cast(self.lights()));
         },
-        "tuple of Light: in order of add.");
+        "tuple of Light: all lights of the scene, in order of add.");
     scene.def("__contains__", &contains_thing, py::arg("thing"),
               "Whether a node or a light is in the scene.");
     scene.def("__repr__", [](const Scene& self) {

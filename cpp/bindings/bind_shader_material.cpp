@@ -1,5 +1,6 @@
 // cubecam.ShaderMaterial
-#include "bind_shader_docs.hpp"
+#include "docs/reload.hpp"
+#include "docs/shader_material.hpp"
 #include "material_kind.hpp"
 #include "shader_inputs.hpp"
 
@@ -23,8 +24,8 @@ Shader shader_of(const SourceLike& fragment, const SourceLike& vertex, const Map
             to_inputs(uniforms, textures), displacement};
 }
 
-/// Reads both files anew; whether either changed.
-bool reload_material(ShaderMaterial& self) {
+/// Reads both files again and returns whether either source changed.
+bool reload(ShaderMaterial& self) {
     const Shader before = self.kind();
     UserSource fragment = before.fragment;
     UserSource vertex = before.vertex;
@@ -39,12 +40,12 @@ bool reload_material(ShaderMaterial& self) {
 
 void bind_shader_material(py::module_& module) {
     using M = ShaderMaterial;
-    auto made = declare<M, Material>(module, "ShaderMaterial", shader_material_doc);
+    auto made = declare<M, Material>(module, "ShaderMaterial", docs::shader_material);
     def_init(made, &shader_of, py::arg("fragment"), py::kw_only(), py::arg("vertex") = py::none(),
              py::arg("uniforms") = py::none(), py::arg("textures") = py::none(),
              py::arg("displacement") = py::none());
     for_each_field<Shader>([&made](const auto& field) {
-        // Its numbers and textures are mappings: python/cubecam/_shader_inputs.py.
+        // Uniforms and textures are mappings instead: python/cubecam/_shader_inputs.py.
         if constexpr (!std::same_as<typename std::remove_cvref_t<decltype(field)>::Type,
                                     ShaderInputs>) {
             def_field(made, field);
@@ -53,14 +54,14 @@ void bind_shader_material(py::module_& module) {
     bind_inputs(
         made, [](const M& self) { return self.kind().inputs; },
         [](M& self, const auto& change) { self.edit_kind([&](Shader& p) { change(p.inputs); }); });
-    made.def("reload", &reload_material, reload_doc);
+    made.def("reload", &reload, docs::reload);
     made.def("__repr__", [](const M& self) {
         const Shader p = self.kind();
         return "ShaderMaterial(fragment=" + source_text(p.fragment) +
                (p.vertex.text.empty() ? "" : ", vertex=" + source_text(p.vertex)) + ", " +
                inputs_text(p.inputs) + ")";
     });
-    // The textures go into the state: a probe may lead back to the material.
+    // The textures go into the state, since a probe may refer to the material.
     made.def("__reduce__", [](const py::object& self) {
         const auto p = self.cast<const M&>().kind();
         const py::object surface = surface_state(self);

@@ -1,4 +1,4 @@
-// What every material has, as properties of cubecam.Material.
+// The options that every material has, as properties of cubecam.Material.
 #include "surface_options.hpp"
 #include "vectors.hpp"
 
@@ -26,22 +26,23 @@ void bind_surface_options(Class<Material>& material) {
         [](Material& self, float value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.opacity = value; });
         },
-        "float: from 0 to 1, times the alpha of the colours.");
+        "float: from 0 to 1; multiplies the alpha of the colours.");
     surface_property(
         material, "double_sided", [](const SurfaceOptions& s) { return s.double_sided; },
         [](Material& self, bool value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.double_sided = value; });
         },
-        "bool: True shows both sides, its normal turned to the viewer; False culls back faces.");
+        "bool: True shows both sides, with the normal turned to the viewer; False culls back "
+        "faces.");
     surface_property(
         material, "blend", [](const SurfaceOptions& s) { return from_blend(s); },
         [](Material& self, const BlendLike& value) {
             edit_surface(self, [&](SurfaceOptions& s) { set_blend(s, value); });
         },
-        "str, Blend or None: how it joins what is drawn already: \"opaque\", \"alpha\", "
+        "str, Blend or None: how the material is combined with the picture: \"opaque\", \"alpha\", "
         "\"alpha_keep\", \"additive\", \"multiply\", \"premultiplied\" or a `Blend`; see "
         "`Material`. "
-        "None: \"alpha\" where anything is translucent, else \"opaque\".");
+        "None: \"alpha\" if any part of the material is translucent, else \"opaque\".");
     surface_property(
         material, "depth_write",
         [](const SurfaceOptions& s) -> DepthWriteLike {
@@ -51,14 +52,15 @@ void bind_surface_options(Class<Material>& material) {
             const auto write = to_depth_write(value);
             edit_surface(self, [&](SurfaceOptions& s) { s.depth_write = write; });
         },
-        "bool or None: whether it hides what is drawn after it and is farther. None: if its blend "
-        "is \"opaque\".");
+        "bool or None: whether the surface hides farther surfaces that are drawn after it. None: "
+        "True "
+        "if the blend is \"opaque\".");
     surface_property(
         material, "depth_test", [](const SurfaceOptions& s) { return s.depth_test; },
         [](Material& self, bool value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.depth_test = value; });
         },
-        "bool: False is drawn over what is nearer as well.");
+        "bool: False: the surface is drawn over nearer ones, too.");
     surface_property(
         material, "color_write",
         [](const SurfaceOptions& s) -> py::typing::Tuple<bool, bool, bool, bool> {
@@ -69,15 +71,16 @@ void bind_surface_options(Class<Material>& material) {
             edit_surface(self, [&](SurfaceOptions& s) { s.color_write = write; });
         },
         "tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. "
-        "Depth and the other outputs are written all the same.");
+        "Depth and the other outputs do not depend on this option.");
     surface_property(
         material, "stencil", [](const SurfaceOptions& s) { return from_stencil(s.stencil); },
         [](Material& self, const OrNone<Stencil>& value) {
             const auto stencil = to_stencil(value);
             edit_surface(self, [&](SurfaceOptions& s) { s.stencil = stencil; });
         },
-        "Stencil or None: how it tests and changes the stencil buffer, where ``depth_format`` has"
-        " one; None leaves it alone.");
+        "Stencil or None: how the surface tests and changes the stencil buffer, if "
+        "``depth_format`` "
+        "has one. None: it does neither.");
 }
 
 }  // namespace cubecam::bindings

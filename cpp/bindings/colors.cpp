@@ -177,7 +177,7 @@ double srgb_to_linear(double encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }
 
-/// Four bytes, red first; alpha is not encoded.
+/// Linear RGBA of four bytes, red first; alpha is linear already.
 glm::dvec4 linear_color(const std::array<int, 4>& bytes) {
     glm::dvec4 color;
     for (int i = 0; i < 3; ++i) {
@@ -193,7 +193,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-/// What follows the "#": 3, 4, 6 or 8 digits.
+/// RGBA of the 3, 4, 6 or 8 digits that follow the "#".
 std::optional<std::array<int, 4>> hex_color(std::string_view digits) {
     const bool brief = digits.size() == 3 || digits.size() == 4;
     if (!brief && digits.size() != 6 && digits.size() != 8) return std::nullopt;
@@ -208,7 +208,7 @@ std::optional<std::array<int, 4>> hex_color(std::string_view digits) {
     return bytes;
 }
 
-/// How many letters must be put in, taken out or exchanged (V. Levenshtein, 1966).
+/// The number of letters to insert, remove or exchange (V. Levenshtein, 1966).
 std::size_t edits_between(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -223,7 +223,7 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// "; did you mean 'red'?", or nothing where no name is similar.
+/// "; did you mean 'red'?", or an empty text if no name is similar.
 std::string suggestion(std::string_view name) {
     const NamedColor* nearest = nullptr;
     std::size_t least = 1 + name.size() / 3;

@@ -1,4 +1,4 @@
-/// What a surface looks up, from Python and back: a CubeMap, a Probe or None.
+/// The cubemap that a surface looks up, from Python and back: a CubeMap, a Probe or None.
 #pragma once
 
 #include "objects.hpp"

@@ -1,4 +1,4 @@
-/// Image effects, from a sequence of Python's.
+/// Image effects, from a sequence in Python.
 #pragma once
 
 #include "objects.hpp"

@@ -1,4 +1,4 @@
-/// Names of formats, from Python and back; None is no buffer.
+/// Names of formats, from Python and back; None stands for no buffer.
 #pragma once
 
 #include "cubecam/image/depth_format.hpp"

@@ -8,7 +8,8 @@ namespace cubecam {
 
 namespace py = pybind11;
 
-/// A Frame whose pictures are numpy arrays that took over its memory; None where there is none.
+/// A Frame whose pictures are numpy arrays; each array takes over the memory of its picture. None
+/// stands for a picture that was not requested.
 struct PyFrame {
     PyFrame() = default;
     explicit PyFrame(Frame frame);

@@ -4,7 +4,7 @@
 
 namespace cubecam {
 
-/// What a renderer tells of itself: Stats, and RendererInfo with its Limits.
+/// The classes that a renderer reports in: Stats, and RendererInfo with its Limits.
 void bind_stats(pybind11::module_& m);
 void bind_info(pybind11::module_& m);
 

@@ -1,4 +1,5 @@
-/// What a surface shows by its uvs, from Python and back: an Image, a RenderTexture or None.
+/// The picture that a surface shows at its uvs, from Python and back: an Image, a RenderTexture or
+/// None.
 #pragma once
 
 #include "objects.hpp"

@@ -1,4 +1,4 @@
-/// What a binding file of one kind of material uses: the class, its __init__ and its properties
+/// Functions that define the Python class of a kind of material: its __init__ and its properties
 /// follow from the fields of the kind.
 #pragma once
 
@@ -23,8 +23,9 @@
 
 namespace cubecam::bindings {
 
-/// How a parameter comes from Python and goes back, by its type: `Given` is what a caller may pass,
-/// `to` checks it, `from` gives a property's value, `initial` the default that a signature shows.
+/// The conversion of a parameter from Python and back, by its type. `Given` is the type that a
+/// caller passes, `to` checks and converts it, `from` gives the value of a property, and `initial`
+/// gives the default that a signature shows.
 template <class Value>
 struct Conversion {
     static_assert(sizeof(Value) == 0,
@@ -38,7 +39,7 @@ struct Conversion<glm::vec4> {
     using Given = ArrayLike;
     static glm::vec4 to(const Given& value, const char* name) { return to_rgba(value, name); }
     static py::array_t<float> from(const glm::vec4& value) { return color_array(value); }
-    /// (1, 1, 1): whole numbers as such, and no alpha of 1.
+    /// A tuple such as (1, 1, 1): whole numbers are ints, and an alpha of 1 is left out.
     static py::object initial(const glm::vec4& value) {
         py::list numbers;
         for (int i = 0; i < (value.a == 1.0F ? 3 : 4); ++i) {
@@ -125,7 +126,7 @@ void def_field(MaterialClass<Kind>& made, const Field<Kind, Value>& field) {
         field.doc);
 }
 
-/// __init__ of a kind whose parameters are its fields.
+/// Defines the __init__ of a kind whose parameters are its fields.
 template <class Kind, std::size_t... index>
 void def_fields_init(MaterialClass<Kind>& made, std::index_sequence<index...>) {
     const Kind initial;
@@ -150,8 +151,8 @@ MaterialClass<Kind> bind_material_kind(py::module_& module, const char* doc) {
     return made;
 }
 
-/// Registers the binding of a material when the module is loaded; an object in the material's
-/// binding file. `bind_material` calls them in the order of their names.
+/// Registers the binding of a material when the module is loaded. Each binding file of a material
+/// has an object of this class; `bind_material` calls the bindings in the order of their names.
 class MaterialBinding {
 public:
     using Bind = void (*)(py::module_& module);

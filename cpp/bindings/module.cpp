@@ -11,7 +11,7 @@
 
 #include <string>
 
-// One a topic, each in the file of its name.
+// Each function stands in the file of its name.
 void bind_pickling(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
@@ -32,8 +32,8 @@ void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
 
-/// What cannot be pickled says so. Left to itself, pickle's protocols 0 and 1 make an instance in a
-/// way that pybind11 answers by ending the process.
+/// Makes every class without a `__reduce__` of its own raise TypeError when it is pickled. Without
+/// this, pickle's protocols 0 and 1 make an instance in a way that makes pybind11 end the process.
 static void refuse_pickling(pybind11::module_& module) {
     namespace py = pybind11;
     const py::object plain = py::module_::import("builtins").attr("object").attr("__reduce__");
@@ -49,11 +49,11 @@ static void refuse_pickling(pybind11::module_& module) {
     }
 }
 
-/// The list of what `from cubecam._core import *` gives, which is what cubecam exports: so a new
-/// class is exported without another line in python/cubecam/__init__.py.
+/// The names that `from cubecam._core import *` imports and that cubecam exports. A new class is
+/// exported without another line in python/cubecam/__init__.py.
 static pybind11::list exported_names(const pybind11::module_& module) {
     namespace py = pybind11;
-    // Classes of what Renderer.info and Renderer.stats give; nobody makes one.
+    // Renderer.info and Renderer.stats return objects of these classes; users do not make them.
     const py::tuple inner = py::make_tuple("Limits", "RendererInfo", "Stats");
     py::list names;
     for (const auto& [name, thing] : module.attr("__dict__").cast<py::dict>()) {
@@ -70,13 +70,14 @@ PYBIND11_MODULE(_core, module) {
     using namespace cubecam;
     using cubecam::bindings::declare;
 
-    module.doc() = "The compiled part of cubecam. Use `import cubecam`, which has all of it.";
+    module.doc() = "The compiled part of cubecam. Use `import cubecam`, which exports it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
     bind_pickling(module);
     bind_errors(module);
     bind_device(module);
-    // Signatures name the classes that are declared by then, and these lead to each other.
+    // These classes name each other in signatures, so they are declared before any method is
+    // defined.
     declare<Node>(module, "Node", nullptr);
     declare<Probe>(module, "Probe", nullptr);
     declare<RenderTexture>(module, "RenderTexture", nullptr);

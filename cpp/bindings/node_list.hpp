@@ -1,4 +1,4 @@
-/// Nodes that something names without keeping them alive, from Python and back.
+/// Lists of nodes that do not keep the nodes alive, from Python and back.
 #pragma once
 
 #include "objects.hpp"
@@ -25,7 +25,7 @@ inline WeakNodes to_nodes(py::handle nodes, const char* name) {
     return weak;
 }
 
-/// Those that are alive.
+/// A tuple of the nodes that are still alive.
 inline py::tuple from_nodes(const WeakNodes& nodes) {
     py::list alive;
     for (const auto& weak : nodes) {

@@ -33,7 +33,8 @@ inline std::int32_t to_render_order(py::handle value) {
                                             std::numeric_limits<std::int32_t>::max()));
 }
 
-/// What scene.add and unpickling give: a matrix, or any of the parts.
+/// The place of a node from the arguments of scene.add or from a pickle: a matrix, or any of
+/// position, rotation and scale.
 inline Placing to_placing(py::handle position, py::handle rotation, py::handle scale,
                           py::handle matrix) {
     if (!matrix.is_none()) {
@@ -50,8 +51,8 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
     return transform;
 }
 
-/// (mesh, material, position, rotation, scale, matrix, environment, visible, in_captures, name,
-/// render_order, cast_shadow, receive_shadow)
+/// The state of a node in a pickle: (mesh, material, position, rotation, scale, matrix,
+/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow).
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
     return py::make_tuple(

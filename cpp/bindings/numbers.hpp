@@ -15,8 +15,8 @@ namespace py = pybind11;
 
 inline std::string text_of(py::handle value) { return py::repr(value).cast<std::string>(); }
 
-/// A whole number of Python or numpy, bool left out. One beyond 64 bits becomes the nearest that is
-/// not: every number here has limits that are told when they are passed.
+/// A whole number of Python or numpy; a bool raises TypeError. A number beyond 64 bits becomes the
+/// nearest one of 64 bits, since every caller checks limits that are narrower.
 inline std::int64_t to_int(py::handle value, const char* name) {
     if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
         throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
@@ -26,7 +26,7 @@ inline std::int64_t to_int(py::handle value, const char* name) {
     return number;
 }
 
-/// The same within limits.
+/// A whole number within limits.
 inline std::int64_t to_int(py::handle value, const char* name, std::int64_t low,
                            std::int64_t high) {
     const std::int64_t number = to_int(value, name);
@@ -35,7 +35,7 @@ inline std::int64_t to_int(py::handle value, const char* name, std::int64_t low,
                           " to " + std::to_string(high) + ", got " + text_of(value));
 }
 
-/// (width, height).
+/// The pair (width, height).
 inline std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
     if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) ||
         py::len(value) != 2) {

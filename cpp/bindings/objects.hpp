@@ -1,5 +1,5 @@
-/// What the bindings of scene objects share: how classes are declared, and checked objects from
-/// Python.
+/// Functions that the binding files share: they declare classes, check objects from Python, and
+/// pickle.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -15,16 +15,16 @@ namespace cubecam::bindings {
 
 namespace py = pybind11;
 
-/// Scene objects are shared between Python, scenes and renderers.
+/// The Python class of objects that Python, scenes and renderers share.
 template <class T, class... Bases>
 using Class = py::class_<T, Bases..., std::shared_ptr<T>>;
 
-/// Makes a class that prints and pickles as `cubecam.NAME`. Its module is set before any method is
-/// defined, so that signatures name it so, too.
+/// Makes a class that prints and pickles as `cubecam.NAME`. The module of the class is set before
+/// any method is defined, so that signatures show this name, too.
 ///
-/// An instance whose __init__ has not run (a subclass that touches itself before
-/// super().__init__()) has no C++ object. pybind11 then hands out memory that nothing was built in;
-/// here it raises.
+/// An instance whose __init__ has not run (a subclass that uses itself before super().__init__())
+/// has no C++ object. pybind11 would pass uninitialised memory to the method; with this class the
+/// use raises TypeError.
 template <class T, class... Bases>
 Class<T, Bases...> declare(py::module_& module, const char* name, const char* doc) {
     Class<T, Bases...> made(module, name, doc);
@@ -35,8 +35,8 @@ Class<T, Bases...> declare(py::module_& module, const char* name, const char* do
     return made;
 }
 
-/// A class that `declare` made earlier: two classes may name each other in their signatures only if
-/// both are declared before either's methods are defined.
+/// A class that `declare` made earlier. Two classes may name each other in their signatures only if
+/// both are declared before the methods of either are defined.
 template <class T, class... Bases>
 Class<T, Bases...> declared() {
     return py::reinterpret_borrow<Class<T, Bases...>>(py::type::of<T>());
@@ -44,20 +44,20 @@ Class<T, Bases...> declared() {
 
 inline bool any_object(PyObject*) { return true; }
 
-/// Any Python object; it shows in signatures as one of the types named, and we do the checking.
+/// Any Python object. Signatures show it as one of the named types; the binding checks the type.
 template <class... Types>
 class OneOf : public py::object {
     PYBIND11_OBJECT_DEFAULT(OneOf, object, any_object)
     using object::object;
 };
 
-/// The same for all that numpy makes an array of.
+/// Any Python object. Signatures show it as numpy.typing.ArrayLike.
 class ArrayLike : public py::object {
     PYBIND11_OBJECT_DEFAULT(ArrayLike, object, any_object)
     using object::object;
 };
 
-/// The same for all that numpy makes a dtype of.
+/// Any Python object. Signatures show it as numpy.typing.DTypeLike.
 class DTypeLike : public py::object {
     PYBIND11_OBJECT_DEFAULT(DTypeLike, object, any_object)
     using object::object;
@@ -93,22 +93,22 @@ OrNone<T> or_none(const std::shared_ptr<T>& object) {
     return py::cast(object);
 }
 
-/// What every pickle says, and unpickling checks. It goes up when what is pickled changes; 0.1 said
-/// nothing.
+/// The format number in every pickle, which unpickling checks. The number increases when the
+/// contents of pickles change; pickles of version 0.1 have none.
 constexpr int pickle_format = 2;
 
-/// Raises TypeError unless a pickle says `pickle_format`.
+/// Raises TypeError unless the format of a pickle is `pickle_format`.
 void check_pickle(py::handle format);
 
-/// A state as pickles hold it, and back.
+/// A state with the format number, as pickles hold it, and the state without the number.
 inline py::tuple closed_state(py::object state) {
     return py::make_tuple(pickle_format, std::move(state));
 }
 py::object opened_state(py::handle state);
 
-/// For `__reduce__`: an object is made anew of arguments by position (a tuple) or by name (a dict).
-/// Pickle keeps the object in its memo before it pickles `state`, so that the state may lead back
-/// to the object.
+/// The result of `__reduce__` for an object that is made again from arguments by position (a tuple)
+/// or by name (a dict). Pickle keeps the object in its memo before it pickles `state`, so that the
+/// state may refer to the object.
 inline py::tuple reduced(py::handle self, py::object args) {
     const py::object remake = py::module_::import("cubecam._pickling").attr("remake");
     return py::make_tuple(
@@ -120,7 +120,7 @@ inline py::tuple reduced(py::handle self, py::object args, py::object state) {
                      py::make_tuple(closed_state(std::move(state))));
 }
 
-/// Attributes by name: arguments for `reduced`.
+/// A dict of attributes, for the arguments of `reduced`.
 template <class... Names>
 py::dict attributes_of(py::handle self, const Names&... names) {
     py::dict values;
@@ -128,8 +128,8 @@ py::dict attributes_of(py::handle self, const Names&... names) {
     return values;
 }
 
-/// Defines `__setstate__` as a method of an object that exists: of a function made by that name
-/// pybind11 expects that it constructs one.
+/// Defines `__setstate__` as a method of an object that exists already. It is made under another
+/// name, since pybind11 expects a function of the name `__setstate__` to construct the object.
 template <class Bound, class Function>
 void def_setstate(Bound& bound, const char* state_type, Function&& function) {
     const auto class_name = bound.attr("__name__").template cast<std::string>();

@@ -43,7 +43,7 @@ UserSource to_user_source(py::handle value, const char* name) {
     if (value.is_none()) return {};
     if (py::isinstance<py::str>(value)) {
         std::string text = value.cast<std::string>();
-        // A driver would stop there, and tell of what it misses after it.
+        // A driver would end the source at the NUL and report errors about the missing rest.
         if (const std::size_t at = text.find('\0'); at != std::string::npos) {
             throw py::value_error(std::string(name) + ": expected GLSL, got a NUL at byte " +
                                   std::to_string(at));
@@ -83,7 +83,7 @@ UniformValue to_uniform(py::handle value, const std::string& name) {
         throw py::value_error(what + ": expected 1 to 65536 numbers, got shape " +
                               shape_text(array));
     }
-    // What it becomes on the GPU must still be a number.
+    // The number must stay finite when it becomes a float32 on the GPU.
     for (const double number : uniform.numbers) {
         if (number > 4e38 || number < -4e38) {
             throw py::value_error(what + ": expected numbers within float32's range, got " +

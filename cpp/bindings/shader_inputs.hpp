@@ -1,4 +1,4 @@
-/// A user's GLSL and what it gets by name, from Python and back.
+/// A user's GLSL with its uniforms and textures, from Python and back.
 #pragma once
 
 #include "arrays.hpp"
@@ -15,12 +15,13 @@ namespace cubecam::bindings {
 
 using MappingLike = OneOf<py::typing::Dict<py::str, py::object>, py::none>;
 
-/// GLSL itself, or a path of a file that holds it.
+/// GLSL itself, or the path of a file with GLSL.
 using SourceLike = OneOf<py::str, py::typing::Optional<py::object>>;
 
-/// A str is GLSL; a path (os.PathLike) is read. None is no source.
+/// The source from a str of GLSL, or from the file of a path (os.PathLike). None gives an empty
+/// source.
 UserSource to_user_source(py::handle value, const char* name);
-/// The same from its file, as it is now. @throws ValueError if it is from none.
+/// The source as its file is now. @throws ValueError if the source did not come from a file.
 UserSource read_again(const UserSource& source, const char* name);
 
 UniformValue to_uniform(py::handle value, const std::string& name);
@@ -28,17 +29,17 @@ py::object from_uniform(const UniformValue& value);
 TextureSource to_texture(py::handle value, const std::string& name);
 py::object from_texture(const TextureSource& source);
 
-/// From two dictionaries, or None for empty ones.
+/// The inputs from two dictionaries; None stands for an empty one.
 ShaderInputs to_inputs(py::handle uniforms, py::handle textures);
 py::dict uniforms_of(const ShaderInputs& inputs);
 py::dict textures_of(const ShaderInputs& inputs);
 
 /// "uniforms=['time'], textures=[]", for __repr__.
 std::string inputs_text(const ShaderInputs& inputs);
-/// The file's name, or how many lines there are.
+/// The name of the source's file, or the number of its lines, for __repr__.
 std::string source_text(const UserSource& source);
 
-/// Text of a source and the file it is from.
+/// The text of a source and the path of its file, for pickling.
 inline py::tuple source_state(const UserSource& source) {
     return py::make_tuple(source.text, source.path);
 }
@@ -48,8 +49,8 @@ inline UserSource source_from_state(const py::handle& state) {
     return {pair[0].cast<std::string>(), pair[1].cast<std::string>()};
 }
 
-/// What python/cubecam/_shader_inputs.py makes the mappings `uniforms` and `textures` of. `get`
-/// gives an object's inputs, `edit` changes them.
+/// Defines the methods from which python/cubecam/_shader_inputs.py makes the mappings `uniforms`
+/// and `textures`. `get` returns an object's inputs, `edit` changes them.
 template <class Bound, class Get, class Edit>
 void bind_inputs(Bound& made, Get get, Edit edit) {
     using Owner = typename Bound::type;

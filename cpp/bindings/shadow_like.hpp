@@ -1,4 +1,4 @@
-/// What lights take as their shadow.
+/// The shadow of a light, from Python and back.
 #pragma once
 
 #include "objects.hpp"
@@ -14,7 +14,7 @@ namespace cubecam::bindings {
 
 using ShadowLike = OneOf<Shadow, bool, py::none>;
 
-/// None and False: none; True: the default one.
+/// None and False give no shadow; True gives the default shadow.
 inline std::optional<Shadow> to_shadow(py::handle value) {
     if (value.is_none()) return std::nullopt;
     if (py::isinstance<py::bool_>(value)) {

@@ -1,4 +1,4 @@
-/// Stencil settings, from Python and back.
+/// The stencil settings of a material, from Python and back.
 #pragma once
 
 #include "objects.hpp"

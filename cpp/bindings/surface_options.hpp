@@ -1,4 +1,4 @@
-/// What every material takes by keyword, from Python and back.
+/// The options that every material takes by keyword, from Python and back.
 #pragma once
 
 #include "objects.hpp"
@@ -19,7 +19,7 @@ using DepthWriteLike = OneOf<py::bool_, py::none>;
 using ColorWriteLike = OneOf<py::bool_, py::typing::Tuple<bool, bool, bool, bool>>;
 
 inline bool to_bool(py::handle value, const char* name, const char* expected) {
-    // numpy's own booleans, too, but no numbers: 0.5 is neither.
+    // Booleans of numpy are accepted, too; numbers are not, since 0.5 is neither True nor False.
     const py::object kind = py::module_::import("numpy").attr("bool_");
     if (!py::isinstance<py::bool_>(value) && !py::isinstance(value, kind)) {
         refuse(value, name, expected);
@@ -73,8 +73,8 @@ inline py::tuple from_color_write(const glm::bvec4& write) {
     return py::make_tuple(bool(write.r), bool(write.g), bool(write.b), bool(write.a));
 }
 
-/// Defines `__init__`: a material's own arguments, from which `make` makes its kind, then what
-/// every material has.
+/// Defines `__init__`: the arguments of a material's kind, from which `make` makes the kind, then
+/// the options that every material has.
 template <class Kind, class... Own, class... Named>
 void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
               const Named&... named) {
@@ -97,7 +97,7 @@ void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
              py::arg("stencil") = py::none());
 }
 
-/// The same by name, for pickling.
+/// The options of a material by name, for pickling.
 inline py::dict surface_state(py::handle material) {
     py::dict state;
     for (const char* name : {"opacity", "double_sided", "blend", "depth_write", "depth_test",
@@ -107,7 +107,7 @@ inline py::dict surface_state(py::handle material) {
     return state;
 }
 
-/// The same as properties, on the base of all materials.
+/// Defines the options as properties of the base of all materials.
 void bind_surface_options(Class<Material>& material);
 
 }  // namespace cubecam::bindings

@@ -17,8 +17,8 @@
 
 namespace cubecam::bindings {
 
-/// Three finite numbers. Tuples and lists of plain numbers, which most calls give, go without
-/// numpy.
+/// Three finite numbers. Tuples and lists of plain numbers, which most callers pass, are converted
+/// without numpy, which is faster.
 inline glm::dvec3 to_point(py::handle value, const char* name) {
     const bool tuple = PyTuple_CheckExact(value.ptr()) != 0;
     if (tuple ? PyTuple_GET_SIZE(value.ptr()) == 3
@@ -37,10 +37,10 @@ inline glm::dvec3 to_point(py::handle value, const char* name) {
             return point;
         }
     }
-    return to_vec3(value, name);  // which says what is wrong, if anything is
+    return to_vec3(value, name);  // raises the error, if the value has one
 }
 
-/// One number for all three, or three.
+/// Three numbers, or one number that stands for all three.
 inline glm::dvec3 to_scale(py::handle value, const char* name) {
     if (py::module_::import("numpy").attr("ndim")(value).cast<int>() > 0) {
         return to_point(value, name);
@@ -48,14 +48,14 @@ inline glm::dvec3 to_scale(py::handle value, const char* name) {
     return glm::dvec3(*double_array(value, name, "()").data());
 }
 
-/// (w, x, y, z), of any length but 0.
+/// The quaternion (w, x, y, z), of any length except 0.
 inline glm::dquat to_rotation(py::handle value, const char* name) {
     const glm::dvec4 v = to_vec4(value, name);
     return {v.x, v.y, v.z, v.w};
 }
 
-/// 3 or 4 numbers, linear; the fourth, alpha, is 1 where it is not given. Or a text as
-/// `parse_color` takes it.
+/// A colour of 3 or 4 linear numbers, with an alpha of 1 by default, or of a text that
+/// `parse_color` reads.
 inline glm::vec4 to_rgba(py::handle value, const char* name) {
     if (py::isinstance<py::str>(value)) {
         return glm::vec4(parse_color(value.cast<std::string>(), name));
@@ -63,7 +63,7 @@ inline glm::vec4 to_rgba(py::handle value, const char* name) {
     return glm::vec4(to_color(value, name));
 }
 
-/// The same without alpha.
+/// A colour without alpha.
 inline glm::vec3 to_rgb(py::handle value, const char* name) {
     if (!py::isinstance<py::str>(value)) return glm::vec3(to_point(value, name));
     const auto text = value.cast<std::string>();
@@ -75,7 +75,7 @@ inline glm::vec3 to_rgb(py::handle value, const char* name) {
     return glm::vec3(color);
 }
 
-/// A parameter that is kept in float32, as the decimal number that was typed: 0.2, not 0.200000003.
+/// The shortest decimal number of a float32, as the user typed it: 0.2 and not 0.200000003.
 inline double shortest(float value) {
     const std::string text = describe(value);
     double number = static_cast<double>(value);
@@ -87,7 +87,7 @@ inline py::array_t<double> quaternion_array(const glm::dquat& q) {
     return readonly_array(glm::dvec4(q.w, q.x, q.y, q.z));
 }
 
-/// Colours come back as the float32 they are kept in, read-only.
+/// A read-only array of a colour, in float32 as the colour is stored.
 template <class Color>
 py::array_t<float> color_array(const Color& color) {
     py::array_t<float> array(py::ssize_t{Color::length()});

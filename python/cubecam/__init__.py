@@ -8,8 +8,8 @@
 >>> cube.faces.shape
 (6, 64, 64, 4)
 
-Conventions (axes, faces, rows, colour, depth) are in docs/conventions.md. Importing opens no context and loads no
-library for files; both happen when they are first used.
+Conventions (axes, faces, rows, colour, depth) are in docs/conventions.md. The import makes no OpenGL context and loads
+no library for files; both happen at their first use.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """One line for a call that fits no signature of the core.
 
-pybind11 lists every signature with every default, which buries the one word that is wrong. The core calls `explain`
-when that happened (cpp/bindings/arguments.cpp); a call that succeeds never comes here.
+pybind11's own error lists every signature with every default, so that the wrong argument is hard to find. The core
+calls `explain` after such an error (cpp/bindings/arguments.cpp); a call that succeeds does not run any of this code.
 """
 
 from __future__ import annotations
@@ -39,9 +39,9 @@ def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str
     Parameters
     ----------
     function : str
-        How messages call it: "Scene.add", or "Mesh" for the constructor.
+        The function's name in messages: "Scene.add", or "Mesh" for the constructor.
     message : str
-        pybind11's own.
+        The message of pybind11.
     given, named : tuple and dict
         The arguments of the call.
 
@@ -62,7 +62,7 @@ def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str
             return _unknown(function, name, names)
     if not overloads:
         return f"{function}: expected other arguments, got {_values(given, named)}"
-    # Of several, the one that the names point to, and of those the one with the most to say.
+    # Of several signatures, the best has the most of the given names, and among these the most parameters.
     parameters = max(overloads, key=lambda p: (len({q.name for q in p} & set(named)), len(p)))
     return (
         _wrong_number(function, parameters, given, named)
@@ -172,7 +172,7 @@ def _wrong_type(
 
 
 def _fits(kind: str, value: Any) -> bool:
-    """Say whether a value may be of a type; True where that is not certain."""
+    """Say whether a value may be of a type; True if that is not certain."""
     return any(_fits_one(one, value) for one in kind.split(" | "))
 
 
@@ -210,7 +210,7 @@ def _described(parameter: Parameter) -> str:
 
 
 def _value(value: Any) -> str:
-    """Show a number or a word as it is, all else by its type."""
+    """Show a number or a str as it is, and any other value by its type."""
     plain = isinstance(value, (str, bytes, bool, int, float)) or value is None
     return reprlib.repr(value) if plain else type(value).__name__
 

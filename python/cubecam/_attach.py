@@ -1,7 +1,7 @@
 """Gives the core's classes the methods that are better written in Python.
 
-The one place where this is done; there are no subclasses, so what the core returns has the methods too. Work and
-imports happen in the call: attaching costs nothing.
+The methods are set on the core's own classes and not on subclasses, so that objects that the core returns have them,
+too. No other module does this. The methods import what they need when they are called, so that attaching costs no time.
 """
 
 from __future__ import annotations

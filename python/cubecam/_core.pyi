@@ -1,5 +1,5 @@
 """
-The compiled part of cubecam. Use `import cubecam`, which has all of it.
+The compiled part of cubecam. Use `import cubecam`, which exports it.
 """
 
 from __future__ import annotations
@@ -57,39 +57,39 @@ __all__: list[str] = [
 
 class Error(RuntimeError):
     """
-    Base of cubecam's own exceptions; below it are those of the environment.
+    Base of cubecam's own exceptions, which report problems of the machine or of files.
     """
 
 class ContextError(Error):
     """
-    No OpenGL context can be had, or it can no longer be used.
+    No OpenGL context can be made, or the context can no longer be used.
 
-    The text tells every attempt, why it failed, and what to install.
+    The message names each attempt, why it failed, and what to install.
     """
 
 class ShaderError(Error):
     """
-    A shader did not compile or link; the text has the log and the source lines.
+    A shader did not compile or link; the message has the log and the source lines.
     """
 
 class GlError(Error):
     """
-    OpenGL reported an error, such as too little memory.
+    OpenGL reported an error, for example too little memory.
     """
 
 class FileError(Error):
     """
-    A file's contents cannot be read, or not be written.
+    The contents of a file cannot be read or written.
     """
 
 class ImageError(FileError):
     """
-    An image file's contents cannot be used.
+    The contents of an image file cannot be used.
     """
 
 class MeshError(FileError):
     """
-    A mesh file's contents cannot be used.
+    The contents of a mesh file cannot be used.
     """
 
 class Device:
@@ -99,28 +99,28 @@ class Device:
     Attributes
     ----------
     index : int
-        Its place in `devices()`, for ``Renderer(device=index)``; -1 for a context that no EGL device
-        stands behind.
+        The place of the device in `devices()`, for ``Renderer(device=index)``; -1 for a context without an EGL
+        device.
     name : str
         For example ``"NVIDIA GeForce RTX 4090"`` or ``"llvmpipe (LLVM 15.0.6, 256 bits)"``;
-        ``"unknown"`` if the driver does not tell.
+        ``"unknown"`` if the driver does not report it.
     vendor : str
-        Who made the driver, or ``"unknown"``.
+        The maker of the driver, or ``"unknown"``.
     driver : str
-        The driver's name or version, for example ``"nvidia"`` or ``"Mesa 22.3.6"``; empty if it does
-        not tell.
+        The driver's name or version, for example ``"nvidia"`` or ``"Mesa 22.3.6"``; empty if the driver does
+        not report it.
     software : bool
-        Whether it renders on the CPU.
+        Whether the device renders on the CPU.
     uuid : str
-        32 hexadecimal digits in groups of 8-4-4-4-12; empty if the driver does not tell.
+        32 hexadecimal digits in groups of 8-4-4-4-12; empty if the driver does not report it.
     cuda_index : int or None
-        CUDA's number of the same GPU, which need not be `index`.
+        CUDA's number of the same GPU, which may differ from `index`.
     drm_node : str
         For example ``"/dev/dri/renderD128"``; empty if there is none.
     platform : str
         ``"device"``; for a renderer's own device also ``"surfaceless"`` or ``"default"``.
     problem : str
-        Why it cannot be used; empty when it can.
+        Why the device cannot be used; empty if it can.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Device) -> str: ...
@@ -147,13 +147,13 @@ class Device:
 
 class Node:
     """
-    A thing in a scene: a mesh with a material somewhere, or a group.
+    An object in a scene: a mesh with a material at some place, or a group of nodes.
 
-    Made by `Scene.add`. Attributes may be set at any time; the next picture shows it. Arrays that they
-    give are read-only: set the whole, ``node.position = (1, 2, 3)``.
+    `Scene.add` makes nodes. Attributes may be set at any time; the next picture shows the change. The arrays
+    that attributes return are read-only: set the whole array, ``node.position = (1, 2, 3)``.
 
-    A node pickles together with its scene, so that ``pickle.dumps((scene, ball))`` keeps ball inside
-    scene; one that was removed pickles by itself, with the nodes above it.
+    The pickle of a node holds its scene, so that ``pickle.dumps((scene, ball))`` keeps ball inside scene. The
+    pickle of a removed node holds only the node and the nodes above it.
 
     Examples
     --------
@@ -173,7 +173,7 @@ class Node:
     @property
     def cast_shadow(self) -> bool:
         """
-        bool: False casts no shadows, nor does anything below it. Translucent nodes never cast.
+        bool: False: neither the node nor any node below it casts shadows. Translucent nodes never do.
         """
     @cast_shadow.setter
     def cast_shadow(self, arg1: bool) -> None: ...
@@ -185,26 +185,26 @@ class Node:
     @property
     def environment(self) -> CubeMap | Probe | None:
         """
-        CubeMap, Probe or None: what mirrors and glass show; None is the scene's.
+        CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.
         """
     @environment.setter
     def environment(self, arg1: CubeMap | Probe | None) -> None: ...
     @property
     def id(self) -> int:
         """
-        int: from 1 in order of add, never used again in the scene; 0 is the background in id pictures.
+        int: from 1 in order of add, never used again in the scene; the output id is 0 where the background is.
         """
     @property
     def in_captures(self) -> bool:
         """
-        bool: False is absent from captures and probes, as is all below it; still drawn in frames, and still showing probes.
+        bool: False: captures and probes show neither the node nor any node below it. Frames do, and the node still shows its own probe there.
         """
     @in_captures.setter
     def in_captures(self, arg1: bool) -> None: ...
     @property
     def material(self) -> Material | None:
         """
-        Material or None: None, with a mesh, becomes a new PhongMaterial.
+        Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.
         """
     @material.setter
     def material(self, arg1: Material | None) -> None: ...
@@ -218,21 +218,21 @@ class Node:
     @property
     def mesh(self) -> Mesh | None:
         """
-        Mesh or None: what is drawn; None is a group.
+        Mesh or None: the shape; a node without a mesh is a group.
         """
     @mesh.setter
     def mesh(self, arg1: Mesh | None) -> None: ...
     @property
     def name(self) -> str:
         """
-        str: for people; need not be unique.
+        str: a name for people; need not be unique.
         """
     @name.setter
     def name(self, arg1: str) -> None: ...
     @property
     def parent(self) -> Node | None:
         """
-        Node or None: what it moves with. Setting it keeps the node's own position, rotation and scale; a cycle raises ValueError.
+        Node or None: the node that this one moves with. Setting it keeps position, rotation and scale, which are relative to the parent; a cycle raises ValueError.
         """
     @parent.setter
     def parent(self, arg1: Node | None) -> None: ...
@@ -246,14 +246,14 @@ class Node:
     @property
     def receive_shadow(self) -> bool:
         """
-        bool: whether shadows show on its own surface.
+        bool: whether shadows show on the node's own surface.
         """
     @receive_shadow.setter
     def receive_shadow(self, arg1: bool) -> None: ...
     @property
     def render_order(self) -> int:
         """
-        int: among opaque and among translucent nodes, lower is drawn first, before distance; 0. It is the node's own: what is below it has its own, too.
+        int: nodes of lower order are drawn first, before any distance counts, among opaque and among translucent nodes; 0 by default. Nodes below this one have an order of their own.
         """
     @render_order.setter
     def render_order(self, arg1: int) -> None: ...
@@ -274,7 +274,7 @@ class Node:
     @property
     def visible(self) -> bool:
         """
-        bool: False is drawn nowhere, nor is anything below it.
+        bool: False: no picture shows the node or any node below it.
         """
     @visible.setter
     def visible(self, arg1: bool) -> None: ...
@@ -286,45 +286,47 @@ class Node:
 
 class Probe:
     """
-    A cubemap that keeps itself true to the scene.
+    A cubemap of the scene that renderers keep up to date.
 
-    It is only a description, and may serve any number of nodes: assign it to ``node.environment``, or
-    to a `BasicMaterial`'s cubemap. Each renderer holds contents of its own
-    (``renderer.read_probe(probe)``) and draws again only the faces that would come out different. Nodes
-    that use a probe are left out of it.
+    A probe is only a description, and any number of nodes may use it: assign it to ``node.environment``, or
+    to the cubemap of a `BasicMaterial`. Each renderer holds its own contents of the probe
+    (``renderer.read_probe(probe)``) and draws a face again only if the face would change. The probe leaves out
+    the nodes that use it.
 
     Parameters
     ----------
     position : array_like (3,)
-        World space; with a parent, from the parent's position.
+        World space; with a parent, relative to the parent's position.
     size : int
         Texels along an edge of a face.
     near, far : float
-        World units: 0 < near < far.
+        Clip distances along each face's axis, world units: 0 < near < far.
     format : {"rgba16f", "rgba8", "rgba32f", "rgb565"}
-        What a texel is kept in. rgba8 and rgb565 clip light above 1.
+        The format of a texel. rgba8 and rgb565 clip light above 1.
     mipmaps : bool
-        Whether lookups are trilinear.
+        True: lookups are trilinear. False: lookups are bilinear.
     samples : int
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     update : {"on_change", "once", "manual"} or int
-        "on_change": always true to the scene. "once": drawn when it is first needed. "manual": only
-        by ``renderer.update_probes``. n: on every n-th call that needs it.
+        "on_change": the probe is drawn whenever its picture would change. "once": it is drawn when a picture
+        first needs it. "manual": only ``renderer.update_probes`` draws it. n: it is drawn on every n-th call
+        that needs it.
     exclude : iterable of Node
-        What it does not see, whole subtrees, beside the nodes that use it.
+        Nodes that the probe leaves out with all nodes below them, besides the nodes that use it.
     parent : Node, optional
-        It goes where this node goes; its axes stay the world's. The probe does not keep it alive.
+        A node that the probe moves with; the axes of the probe stay those of the world. The probe does not
+        keep the node alive.
     faces_per_frame : int
-        At most so many faces are drawn in one call, from 1 to 6.
+        The greatest number of faces that one call draws, from 1 to 6.
     depth_format : str or None
-        Its depth and stencil buffer, see `Renderer.render`.
+        The format of the depth and stencil buffer, see `Renderer.render`.
 
     Raises
     ------
     ValueError
         For a number out of its range, near >= far, or another format or update.
     TypeError
-        For a parent or excluded things that are not nodes.
+        For a parent or an excluded object that is not a node.
 
     Examples
     --------
@@ -360,28 +362,28 @@ class Probe:
     @property
     def depth_format(self) -> str | None:
         """
-        str or None: its depth and stencil buffer, see `Renderer.render`.
+        str or None: the format of the depth and stencil buffer, see `Renderer.render`.
         """
     @depth_format.setter
     def depth_format(self, arg1: str | None) -> None: ...
     @property
     def exclude(self) -> tuple[Node, ...]:
         """
-        tuple of Node: what it does not see, whole subtrees, beside the nodes that use it.
+        tuple of Node: nodes that the probe leaves out with all nodes below them, besides the nodes that use it.
         """
     @exclude.setter
     def exclude(self, arg1: collections.abc.Iterable[Node]) -> None: ...
     @property
     def faces_per_frame(self) -> int:
         """
-        int: at most so many faces are drawn in one call.
+        int: the greatest number of faces that one call draws.
         """
     @faces_per_frame.setter
     def faces_per_frame(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def far(self) -> float:
         """
-        float: nothing farther is seen; world units.
+        float: the far clip distance, world units.
         """
     @far.setter
     def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -402,21 +404,21 @@ class Probe:
     @property
     def near(self) -> float:
         """
-        float: nothing nearer is seen; world units.
+        float: the near clip distance, world units.
         """
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def parent(self) -> Node | None:
         """
-        Node or None: the node that it follows.
+        Node or None: the node that the probe moves with.
         """
     @parent.setter
     def parent(self, arg1: Node | None) -> None: ...
     @property
     def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        ndarray (3,) float64: world space, or from the parent's position; read-only.
+        ndarray (3,) float64: world space, or relative to the parent's position; read-only.
         """
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
@@ -437,7 +439,7 @@ class Probe:
     @property
     def update(self) -> str | int:
         """
-        str or int: "on_change", "once", "manual", or every how many calls.
+        str or int: "on_change", "once", "manual", or n: every n-th call.
         """
     @update.setter
     def update(self, arg1: str | int) -> None: ...
@@ -446,52 +448,54 @@ class RenderTexture:
     """
     A picture that a scene is drawn into and that materials show in the same frame.
 
-    It is only a description, and may serve any number of materials in any number of scenes: give it as
-    the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds contents of its own
-    (``renderer.read_texture(render_texture)``), brings them up to date before what shows them, and draws
-    them again only if the picture would come out different.
+    A render texture is only a description, and any number of materials in any number of scenes may use it:
+    give it as the ``map`` of a `BasicMaterial` or `PhongMaterial`. Each renderer holds its own contents of the
+    texture (``renderer.read_texture(render_texture)``). It brings them up to date before it draws the pictures
+    that show them, and draws them again only if they would change.
 
     Parameters
     ----------
     scene : Scene
-        What it shows; kept alive. It may show other render textures, and mirrors with probes.
+        The scene that is drawn; the texture keeps it alive. The scene may show other render textures, and
+        mirrors with probes.
     camera : Camera
-        From where; the shape of the picture is that of `size`.
+        The camera that the scene is drawn by; the aspect is that of `size`.
     size : (int, int)
         (width, height), texels.
     format : {"rgba8", "rgba16f", "rgba32f", "rgb565"}
-        What a texel is kept in. rgba8 and rgb565 clip light above 1.
+        The format of a texel. rgba8 and rgb565 clip light above 1.
     samples : int
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     mipmaps : bool
-        Whether lookups are trilinear, for pictures that are seen small. False: bilinear.
+        True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
     wrap : {"clamp", "repeat"}
-        What a lookup outside 0..1 gives.
+        What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
     exclude : iterable of Node
-        Nodes of `scene` that it does not show, whole subtrees.
+        Nodes of `scene` that the texture leaves out, with all nodes below them.
     name : str
-        For people: messages use it.
+        A name for people, which messages use.
     effects : sequence of ImageEffect
-        Passes over the picture, one after the other, in linear float. With an empty scene they make the
-        picture alone.
+        Passes over the picture, one after the other, in linear float. With an empty scene, the effects alone
+        make the picture.
     depth_format : str or None
-        The depth and stencil buffer, see `Renderer.render`; None paints nodes one over the other.
+        The format of the depth and stencil buffer, see `Renderer.render`; None paints nodes one over the other.
 
     Raises
     ------
     ValueError
         For a size or samples below 1, or another format or wrap.
     TypeError
-        For a scene, a camera or excluded things of another type.
+        For a scene, a camera or an excluded object of another type.
 
     Notes
     -----
-    uv (0, 0) is the picture's bottom-left, as with an `Image`. Its alpha counts where the material's
+    uv (0, 0) is the picture's bottom-left, as with an `Image`. The picture's alpha counts where the material's
     own opacity is below 1; it does not make a surface translucent by itself.
 
-    A picture that shows itself, directly, by other render textures or by probes, has no end: drawing
-    what shows it raises ValueError. A monitor in the room that it shows is left out by `exclude`. What
-    is left out still casts: a shadow whose caster moves its vertices by the picture must not fall there.
+    A picture must not show itself, neither directly nor through other render textures or probes: drawing an
+    object that shows it raises ValueError. `exclude` leaves out, for example, the monitor in a room that shows
+    this room. An excluded node still casts shadows, so its vertices must not depend on the picture if its
+    shadow falls into the picture.
 
     Examples
     --------
@@ -536,14 +540,14 @@ class RenderTexture:
     @property
     def camera(self) -> Camera:
         """
-        Camera: from where it is seen.
+        Camera: the camera that the scene is drawn by.
         """
     @camera.setter
     def camera(self, arg1: Camera) -> None: ...
     @property
     def depth_format(self) -> str | None:
         """
-        str or None: the depth and stencil buffer, see `Renderer.render`.
+        str or None: the format of the depth and stencil buffer, see `Renderer.render`.
         """
     @depth_format.setter
     def depth_format(self, arg1: str | None) -> None: ...
@@ -557,7 +561,7 @@ class RenderTexture:
     @property
     def exclude(self) -> tuple[Node, ...]:
         """
-        tuple of Node: nodes of `scene` that it does not show, whole subtrees.
+        tuple of Node: nodes of `scene` that the texture leaves out, with all nodes below them.
         """
     @exclude.setter
     def exclude(self, arg1: collections.abc.Iterable[Node]) -> None: ...
@@ -578,7 +582,7 @@ class RenderTexture:
     @property
     def name(self) -> str:
         """
-        str: for people; need not be unique.
+        str: a name for people; need not be unique.
         """
     @name.setter
     def name(self, arg1: str) -> None: ...
@@ -592,7 +596,7 @@ class RenderTexture:
     @property
     def scene(self) -> Scene:
         """
-        Scene: what it shows.
+        Scene: the scene that is drawn.
         """
     @scene.setter
     def scene(self, arg1: Scene) -> None: ...
@@ -613,17 +617,17 @@ class RenderTexture:
 
 class Scene:
     """
-    Nodes, lights and what surrounds them.
+    Nodes, lights and their surroundings.
 
-    A scene knows nothing of who draws it; any number of renderers may, on any threads.
+    A scene does not depend on a renderer: any number of renderers may draw it, on any threads.
 
     Parameters
     ----------
     environment : CubeMap, optional
-        What mirrors and glass show; see `load_environment`.
+        The surroundings that mirrors and glass show; see `load_environment`.
     background : array_like (3,) or (4,), str, or CubeMap, optional
-        What is seen where nothing is: a colour, or a cubemap as skybox. Numbers are linear; a CSS name or
-        "#rrggbb" says sRGB and is decoded. None: the environment if there is one, else transparent black.
+        A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
+        or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.
 
     Raises
     ------
@@ -666,7 +670,7 @@ class Scene:
         """
     def _restore(self: Scene, id: typing.SupportsInt | typing.SupportsIndex) -> Node:
         """
-        For unpickling: the node of an id.
+        For unpickling: the node with an id.
         """
     @typing.overload
     def add(self: Scene, light: Light) -> Light:
@@ -676,7 +680,7 @@ class Scene:
         Parameters
         ----------
         light : Light
-            It may be in other scenes as well.
+            The light to add. It may be in other scenes, too.
 
         Returns
         -------
@@ -686,7 +690,7 @@ class Scene:
         Raises
         ------
         ValueError
-            If it is in this scene already.
+            If the light is already in this scene.
         """
     @typing.overload
     def add(
@@ -713,38 +717,40 @@ class Scene:
         Parameters
         ----------
         mesh : Mesh, optional
-            None: a group, to carry other nodes.
+            None: the node is a group, which carries other nodes.
         material : Material, optional
-            None: a new PhongMaterial.
+            None: a new `PhongMaterial`.
         position : array_like (3,), optional
-            Relative to the parent; (0, 0, 0).
+            Relative to the parent. None: (0, 0, 0).
         rotation : array_like (4,), optional
-            Quaternion (w, x, y, z) of any length but 0, such as `axis_angle` gives; (1, 0, 0, 0).
+            Quaternion (w, x, y, z) of any length except 0, such as `axis_angle` gives. None: (1, 0, 0, 0).
         scale : float or array_like (3,), optional
-            Along the node's own axes, never 0; 1. A negative number mirrors.
+            Factors along the node's own axes, not 0. A negative number mirrors. None: 1.
         matrix : array_like (4, 4), optional
             Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
         parent : Node, optional
-            A node of this scene that the new one moves with.
+            A node of this scene that the new node moves with.
         environment : CubeMap or Probe, optional
-            What mirrors and glass show; None is the scene's.
+            The surroundings that mirrors and glass show on this node. None: the scene's environment.
         visible : bool
-            False is drawn nowhere, nor is anything below it.
+            False: no picture shows the node or any node below it.
         in_captures : bool
-            False is absent from captures and probes, as is all below it; still drawn in frames.
+            False: captures and probes show neither the node nor any node below it; frames do.
         name : str
-            For people.
+            A name for people; need not be unique.
         render_order : int
-            Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
+            Nodes of lower order are drawn first, before any distance counts, among opaque and among translucent
+            nodes; 32 bits.
         cast_shadow : bool
-            False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
+            False: neither the node nor any node below it casts shadows; see `Shadow`. Translucent nodes never
+            cast shadows.
         receive_shadow : bool
-            Whether shadows show on its own surface.
+            Whether shadows show on the node's own surface.
 
         Returns
         -------
         Node
-            With the next id: 1 for the first.
+            The new node, with the next id; the first id is 1.
 
         Raises
         ------
@@ -765,23 +771,23 @@ class Scene:
         """
     def clear(self: Scene) -> None:
         """
-        Take all nodes and lights out.
+        Remove all nodes and lights.
         """
     def remove(self: Scene, thing: Node | Light) -> None:
         """
-        Take a node and all below it, or a light, out.
+        Remove a light, or a node with all nodes below it.
 
-        They keep their values; ids are not used again.
+        Removed objects keep their values; their ids are not used again.
 
         Parameters
         ----------
         thing : Node or Light
-            What to remove.
+            The object to remove.
 
         Raises
         ------
         ValueError
-            If it is not in this scene.
+            If the object is not in this scene.
 
         Examples
         --------
@@ -797,7 +803,7 @@ class Scene:
         self: Scene, nodes: collections.abc.Iterable[Node], matrices: numpy.typing.ArrayLike
     ) -> None:
         """
-        Place many nodes at once, as `Node.matrix` does for each.
+        Place many nodes at once, as `Node.matrix` does for each node.
 
         Parameters
         ----------
@@ -809,8 +815,8 @@ class Scene:
         Raises
         ------
         ValueError
-            For another number of matrices than nodes, a matrix that is singular or not finite, or a node of another scene. No
-            node is moved then.
+            For another number of matrices than nodes, a matrix that is singular or not finite, or a node of another scene. In
+            this case no node moves.
 
         Examples
         --------
@@ -825,20 +831,20 @@ class Scene:
         self: Scene, nodes: collections.abc.Iterable[Node], positions: numpy.typing.ArrayLike
     ) -> None:
         """
-        Place many nodes at once, as `Node.position` does for each, in a hundredth of the time.
+        Place many nodes at once, as `Node.position` does for each node, in a hundredth of the time.
 
         Parameters
         ----------
         nodes : sequence of Node
             Nodes of this scene.
         positions : array_like (len(nodes), 3)
-            Relative to the parent of each, world units.
+            Positions relative to the parent of each node, world units.
 
         Raises
         ------
         ValueError
-            For another number of positions than nodes, numbers that are not finite, or a node of another scene. No node is
-            moved then.
+            For another number of positions than nodes, numbers that are not finite, or a node of another scene. In this case
+            no node moves.
 
         Examples
         --------
@@ -852,34 +858,34 @@ class Scene:
     @property
     def background(self) -> numpy.typing.NDArray[numpy.float32] | CubeMap | None:
         """
-        ndarray (4,) float32, CubeMap or None: what is seen where nothing is. None: the environment if there is one, else transparent black.
+        ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the environment if there is one, else transparent black.
         """
     @background.setter
     def background(self, arg1: numpy.typing.ArrayLike | CubeMap | None) -> None: ...
     @property
     def environment(self) -> CubeMap | None:
         """
-        CubeMap or None: what mirrors and glass show that have no environment of their own.
+        CubeMap or None: what mirrors and glass without an environment of their own show.
         """
     @environment.setter
     def environment(self, arg1: CubeMap | None) -> None: ...
     @property
     def lights(self) -> tuple[Light, ...]:
         """
-        tuple of Light: in order of add.
+        tuple of Light: all lights of the scene, in order of add.
         """
     @property
     def nodes(self) -> tuple[Node, ...]:
         """
-        tuple of Node: all of them, in order of id.
+        tuple of Node: all nodes of the scene, in order of id.
         """
 
 class Face(enum.IntEnum):
     """
     The six faces of a cube, in the order of every array here.
 
-    As integers, 0 to 5: ``cube.faces[cc.Face.POS_Y]``. Axes and orientation are OpenGL's (OpenGL 4.6,
-    section 8.13), drawn in docs/conventions.md.
+    A face is an integer from 0 to 5: ``cube.faces[cc.Face.POS_Y]``. Axes and orientation are those of OpenGL
+    4.6, section 8.13; docs/conventions.md has a drawing.
     """
 
     NEG_X = 1
@@ -893,28 +899,29 @@ class CubeMap:
     """
     Six square pictures that surround a point.
 
-    Memory is always laid out as OpenGL's cube maps are: ``faces[f, row, col]`` is the texel with
+    The memory always has the layout of OpenGL's cube maps: ``faces[f, row, col]`` is the texel with
     ``s = (col + .5)/N`` and ``t = (row + .5)/N`` on face `f` of +X -X +Y -Y +Z -Z (OpenGL 4.6, section
-    8.13; docs/conventions.md). Safe to share between threads; compared by contents.
+    8.13; docs/conventions.md). Threads may share a cubemap. Cubemaps are compared by their contents.
 
     Parameters
     ----------
     faces : array_like (6, N, N, C), or six of (N, N, C)
-        C is 1, 3 or 4. uint8 (which stands for value/255), float16 or float32 are kept; float64 becomes
-        float32. Linear, raw numbers. NaN is refused; inf is kept, and lookups near it give inf or NaN, as
-        on the GPU.
+        C is 1, 3 or 4. uint8 (which stands for value/255), float16 and float32 are kept; float64 becomes
+        float32. The numbers are linear and raw. NaN raises ValueError; inf is kept, and lookups near it give
+        inf or NaN, as on the GPU.
     convention : {"gl", "inside", "three"}, default "gl"
-        How `faces` are given: "gl" as above; "inside" as one sees them from the middle (OpenEXR); "three"
-        as three.js and D3D skybox files have them.
+        The convention of `faces`: "gl" is the layout above; "inside" shows the faces as seen from the center
+        of the cube (OpenEXR); "three" is that of three.js and D3D skybox files.
     mipmaps : bool, default False
-        Lookups, here and on the GPU, are trilinear over box-filtered levels.
+        True: lookups, here and on the GPU, are trilinear over box-filtered levels. False: they are bilinear.
 
     Raises
     ------
     ValueError
-        Faces that are not square or not alike, another number of channels, NaN, an unknown convention.
+        For faces that are not square or not of one shape, another number of channels, NaN, or an unknown
+        convention.
     TypeError
-        bool, complex, text, or integers other than uint8.
+        For bool, complex, text, or integers other than uint8.
 
     Examples
     --------
@@ -939,39 +946,39 @@ class CubeMap:
         dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
-        A cube from a panorama.
+        Make a cube from an equirectangular panorama.
 
-        Filtered over each texel's footprint: shrinking does not alias, round the poles whole rows are
-        averaged; enlarging is bilinear, wraps round and goes on over the poles.
+        Each texel is filtered over its footprint, so that smaller faces do not alias; near the poles the footprint
+        covers whole rows. Larger faces are bilinear, across the seam and over the poles.
 
         Parameters
         ----------
         image : array_like (H, 2H, C)
-            uint8 (value/255), float16, float32 or float64; unmirrored, row 0 at +Y. NaN is refused; inf
-            counts as the largest other number in it, at least 65504.
+            uint8 (value/255), float16, float32 or float64; not mirrored, row 0 at +Y. NaN raises ValueError; inf
+            counts as the largest finite number of the image, or 65504 if that is more.
         size : int, optional
-            Of a face; by default the next power of two from W / pi, which loses nothing.
+            Texels along an edge of a face. None: the next power of two from W / pi, which loses no detail.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
             The axis at the center column.
         sampling : {"centers", "borders"}, default "centers"
-            Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) will do.
+            Where the samples of `image` lie; with "borders" (OpenEXR) any shape from (2, 2) is allowed.
         mipmaps : bool, default False
-            Of the new cube.
+            Whether lookups in the new cube are trilinear.
         dtype : dtype, optional
-            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
+            "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            In `dtype`, rounded as `to_equirect` does.
+            The new cube in `dtype`, rounded as `to_equirect` rounds.
 
         Raises
         ------
         ValueError
-            An image that is not twice as wide as high, NaN, a size below 1, an unknown center or sampling,
+            For an image that is not twice as wide as high, NaN, a size below 1, an unknown center or sampling, or
             another dtype.
         TypeError
-            An image of bool, complex, text, or integers other than uint8.
+            For an image of bool, complex, text, or integers other than uint8.
 
         Examples
         --------
@@ -992,32 +999,32 @@ class CubeMap:
         dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
-        A cube from one picture of all faces, the inverse of `to_layout`.
+        Make a cube from one picture of all faces: the inverse of `to_layout`.
 
         Parameters
         ----------
         image : array_like (H, W, C)
         layout : str, optional
-            As in `to_layout`. By default what the shape says: width to height of 4:3 cross, 3:4
-            vertical_cross, 6:1 row, 1:6 column, 2:1 equirect. Shape never tells the convention.
+            A layout of `to_layout`. None: the layout follows from the shape; width to height of 4:3 is a cross, 3:4 a
+            vertical_cross, 6:1 a row, 1:6 a column, 2:1 an equirect. The convention does not follow from the shape.
         convention : {"gl", "inside", "three"}, default "gl"
-            Of the faces in `image`.
+            The convention of the faces in `image`.
         size, center
             As in `from_equirect`, for "equirect" only.
         mipmaps : bool, default False
-            Of the new cube.
+            Whether lookups in the new cube are trilinear.
         dtype : dtype, optional
-            "uint8", "float16" or "float32", as numpy takes it. None: that of `image`.
+            "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
 
         Returns
         -------
         CubeMap
-            In `dtype`, rounded as `to_equirect` does.
+            The new cube in `dtype`, rounded as `to_equirect` rounds.
 
         Raises
         ------
         ValueError
-            A shape that is none of these, or not that of `layout`.
+            For a shape of no layout, or a shape that `layout` does not have.
 
         Examples
         --------
@@ -1055,25 +1062,26 @@ class CubeMap:
         dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
-        The same cube with faces of another size.
+        Resample the faces to another size.
 
         Parameters
         ----------
         size : int
-            Texels along an edge. Shrinking averages the area of each texel; enlarging is bilinear and
-            seamless.
+            Texels along an edge of the new faces. Smaller faces average the area of each texel; larger faces are
+            bilinear and have no seams.
         dtype : dtype, optional
-            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
+            "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of the cube.
 
         Returns
         -------
         CubeMap
-            In `dtype`, rounded as `to_equirect` does, with the same mipmaps, without captured outputs.
+            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and without captured
+            outputs.
 
         Raises
         ------
         ValueError
-            A size below 1, or another dtype.
+            For a size below 1, or another dtype.
 
         Examples
         --------
@@ -1084,29 +1092,30 @@ class CubeMap:
         """
     def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> numpy.ndarray:
         """
-        Look directions up, seamlessly and bilinearly.
+        Look up directions, bilinear and without seams.
 
-        The same numbers as GLSL ``textureLod`` with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (OpenGL 4.6,
-        section 8.14): texels beyond an edge are the neighbour's, the missing fourth of a corner is the average of
-        the other three.
+        The numbers are those of GLSL ``textureLod`` with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (OpenGL 4.6,
+        section 8.14): a texel beyond an edge is taken from the neighbouring face; the fourth texel at a corner, where
+        only three meet, is the average of these three.
 
         Parameters
         ----------
         directions : array_like (..., 3)
-            World axes, from the center of the cube outwards, of any length but 0.
+            Directions from the center of the cube outwards, in world axes, of any length except 0.
         lod : float or array_like (...,), default 0
-            Level of detail: 0 is `faces`, each further level has half the size. Other than 0 only with
-            ``mipmaps=True``, trilinear, clamped to the levels there are.
+            Level of detail: 0 is `faces`, each further level has half the size. Levels other than 0 need
+            ``mipmaps=True``; they are looked up trilinearly and clamped to the levels of the cube.
 
         Returns
         -------
         ndarray (..., C) float32
-            Yours to write. uint8 as value/255.
+            A new array; uint8 is looked up as value/255.
 
         Raises
         ------
         ValueError
-            A direction that is not finite or has length 0; `lod` without mipmaps or of another shape.
+            For a direction that is not finite or has length 0, a `lod` other than 0 without mipmaps, or a `lod`
+            of another shape.
 
         Examples
         --------
@@ -1142,7 +1151,7 @@ class CubeMap:
         convention : {"gl", "inside", "three"}, optional
             How the faces are stored; "gl" by default ("inside" for "openexr").
         width : int, optional
-            Of an equirect, in pixels, even; 4 times the face size by default.
+            Width of an equirect in pixels, an even number. None: 4 times the face size.
         center : {"-z", "+z", "+x", "-x"}
             The direction in the middle of an equirect.
         srgb, half : bool
@@ -1151,13 +1160,13 @@ class CubeMap:
         Raises
         ------
         OSError
-            A folder is missing or may not be written, or the disk is full. The old files stay as they were.
+            If a folder does not exist or may not be written, or the disk is full. The old files stay as they were.
         ValueError
-            Unknown names, options that do not go together, numbers that the file cannot hold.
+            For unknown names, options that do not go together, or numbers that the file cannot hold.
 
         Notes
         -----
-        Cells of a cross that no face covers are 0. A cubemap of float16 goes to EXR as half.
+        Cells of a cross without a face are 0. A cubemap of float16 is written to EXR as half.
 
         Examples
         --------
@@ -1174,25 +1183,25 @@ class CubeMap:
         """
         Replace one face.
 
-        Only this face is uploaded again, and nothing when it is the same.
+        Only this face is uploaded to the GPU again, and only if its pixels differ from the old ones.
 
         Parameters
         ----------
         face : Face, int from 0 to 5, or str
-            "+x", "px", "pos_x", ... as `convention` calls it.
+            The face, named in `convention`. A str is "+x", "px" or "pos_x", and so on.
         pixels : array_like (N, N, C)
-            Of the cube's size, channels and dtype.
+            The new pixels, in the cube's size, channels and dtype.
         convention : {"gl", "inside", "three"}, default "gl"
-            How `pixels` and `face` are meant.
+            The convention of `pixels` and `face`.
 
         Raises
         ------
         ValueError
-            Another shape, NaN, an unknown face.
+            For another shape, NaN, or an unknown face.
         TypeError
-            Another dtype (float64 is taken for float32).
+            For another dtype (float64 counts as float32).
         IndexError
-            A number outside 0 to 5.
+            For a number outside 0 to 5.
 
         Examples
         --------
@@ -1205,17 +1214,17 @@ class CubeMap:
         """
     def to_convention(self: CubeMap, convention: str) -> numpy.ndarray:
         """
-        The six faces in another convention.
+        Convert the six faces to another convention.
 
         Parameters
         ----------
         convention : {"gl", "inside", "three"}
+            The convention of the result.
 
         Returns
         -------
         ndarray (6, N, N, C) in `dtype`
-            A copy, yours to write. ``CubeMap(array, convention=convention)`` gives this cube
-            back exactly.
+            A copy. ``CubeMap(array, convention=convention)`` makes exactly this cube again.
 
         Examples
         --------
@@ -1234,34 +1243,33 @@ class CubeMap:
         dtype: numpy.typing.DTypeLike | None = None,
     ) -> numpy.ndarray:
         """
-        The panorama that this cube holds.
+        Make an equirectangular panorama of this cube.
 
-        Unmirrored, row 0 at +Y. Filtered over each texel's footprint, so that shrinking does not alias;
-        enlarging is bilinear and seamless.
+        The panorama is not mirrored; row 0 is at +Y. Each texel is filtered over its footprint, so that a smaller
+        panorama does not alias; a larger one is bilinear and has no seams.
 
         Parameters
         ----------
         width : int, optional
-            Even; 4 * size by default, which keeps the resolution.
+            Pixels of a row, an even number. None: 4 * size, which keeps the resolution.
         center : {"-z", "+z", "+x", "-x"}, default "-z"
             The axis at the center: "-z" camera forward; "+z" OpenEXR, Mitsuba; "+x" three.js.
         sampling : {"centers", "borders"}, default "centers"
-            Where samples lie. "borders": the first and last row and column lie on the edges, as in
-            OpenEXR's latitude-longitude maps.
+            Where samples lie. "centers": in the middle of each texel. "borders": the first and last row and column
+            lie on the edges, as in OpenEXR's latitude-longitude maps.
         dtype : dtype, optional
-            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
+            "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of the cube.
 
         Returns
         -------
         ndarray (width / 2, width, C) in `dtype`
-            Yours to write. Filtered in float32, with uint8 as value/255, then rounded to nearest; uint8 holds
-            0 to 1, and what lies outside becomes 0 or 255; float16 holds up to 65504, and what is more
-            becomes inf.
+            A new array. Numbers are filtered in float32, with uint8 as value/255, then rounded to nearest. In uint8,
+            numbers below 0 become 0 and numbers above 1 become 255; in float16, numbers above 65504 become inf.
 
         Raises
         ------
         ValueError
-            A width that is not even and positive, an unknown center or sampling, another dtype.
+            For a width that is not even and positive, an unknown center or sampling, or another dtype.
 
         Examples
         --------
@@ -1279,32 +1287,31 @@ class CubeMap:
         dtype: numpy.typing.DTypeLike | None = None,
     ) -> numpy.ndarray:
         """
-        One picture of all faces.
+        Arrange all faces in one picture.
 
         Parameters
         ----------
         layout : {"cross", "vertical_cross", "row", "column", "equirect", "openexr"}, default "cross"
-            "cross" (or "horizontal_cross") is 4N x 3N with -X, the second cell, +X and the last from left to
-            right, +Y above and -Y below the second; "vertical_cross" is 3N x 4N with the last one below -Y,
-            turned by 180 degrees. "row" and "column" are in order of the faces. "equirect" is
-            ``to_equirect()``. "openexr" is OpenEXR's cube: a column of "inside" faces whose samples lie on the
-            borders, resampled.
+            "cross" (or "horizontal_cross") is 4N x 3N. Its middle row is -X +Z +X -Z from left to right (-X -Z +X +Z
+            for "inside"); +Y is above and -Y below the second cell. "vertical_cross" is 3N x 4N, with the last face of
+            that row below -Y, turned by 180 degrees. "row" and "column" have the faces in their order. "equirect" is
+            ``to_equirect()``. "openexr" is OpenEXR's cube: a column of "inside" faces, resampled so that their samples
+            lie on the borders.
         convention : {"gl", "inside", "three"}, default "gl"
-            Of the faces in it; the second cell is +Z, for "inside" -Z. Not looked at for "equirect" and
-            "openexr", which have their own.
+            The convention of the faces in the picture. "equirect" and "openexr" ignore it.
         dtype : dtype, optional
-            "uint8", "float16" or "float32", as numpy takes it. None: the cube's.
+            "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of the cube.
 
         Returns
         -------
         ndarray (H, W, C) in `dtype`
-            Yours to write; cells without a face are 0. In another dtype than the cube's, and where resampled,
-            numbers are rounded as `to_equirect` does.
+            A new array; cells without a face are 0. Numbers that change their dtype or are resampled are rounded as
+            `to_equirect` rounds them.
 
         Raises
         ------
         ValueError
-            An unknown layout or convention, or another dtype.
+            For an unknown layout or convention, or another dtype.
 
         Examples
         --------
@@ -1316,7 +1323,7 @@ class CubeMap:
     @property
     def channels(self) -> int:
         """
-        C: 1, 3 or 4, int.
+        int: C, 1, 3 or 4.
         """
     @property
     def depth(self) -> typing.Any:
@@ -1336,9 +1343,9 @@ class CubeMap:
     @property
     def faces(self) -> numpy.ndarray:
         """
-        Pixels, ndarray (6, N, N, C) in `dtype`, "gl" layout.
+        ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
-        A read-only view that outlives the cube, and keeps its values when the cube changes.
+        The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes.
         """
     @property
     def id(self) -> typing.Any:
@@ -1348,7 +1355,7 @@ class CubeMap:
     @property
     def mipmaps(self) -> bool:
         """
-        Whether lookups are trilinear, bool.
+        bool: whether lookups are trilinear.
         """
     @property
     def normal(self) -> typing.Any:
@@ -1358,11 +1365,11 @@ class CubeMap:
     @property
     def outputs(self) -> dict[str, numpy.ndarray]:
         """
-        dict of str to ndarray: what a capture holds besides `faces`, by name. Read-only arrays.
+        dict of str to ndarray: the outputs of a capture besides `faces`, by name. The arrays are read-only.
 
-        Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
-        float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and (6, N, N) for float; 0 where the node
-        that is seen does not write them.
+        The dict holds the built-in outputs, which are attributes as well, and the outputs that a ``ShaderMaterial``
+        declares, such as `out vec4 heat;`: float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and
+        (6, N, N) for float. A declared output is 0 where the visible node does not write it.
         """
     @property
     def position(self) -> typing.Any:
@@ -1372,7 +1379,7 @@ class CubeMap:
     @property
     def size(self) -> int:
         """
-        N, texels along an edge, int.
+        int: N, texels along an edge of a face.
         """
     @property
     def stencil(self) -> typing.Any:
@@ -1389,7 +1396,7 @@ class Image:
     """
     A picture that a material shows. It never changes.
 
-    Numbers are taken as they are: linear and raw (uint8 as value/255). Decode an 8-bit photograph with
+    Numbers are linear and raw (uint8 as value/255). Decode an 8-bit photograph with
     ``load_image(path, srgb=True)`` first.
 
     Parameters
@@ -1398,9 +1405,9 @@ class Image:
         1 (grey), 3 (RGB) or 4 (RGBA) channels, row 0 on top. uint8, float16 or float32 is kept, float64
         becomes float32. uv (0, 0) is the bottom-left corner.
     mipmaps : bool
-        Whether lookups are trilinear, for pictures that are seen small. False: bilinear.
+        True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
     wrap : {"repeat", "clamp"}
-        What a lookup outside 0..1 gives.
+        What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
 
     Raises
     ------
@@ -1464,8 +1471,8 @@ class Mesh:
     """
     Indexed triangles, which any number of nodes, scenes and renderers share.
 
-    The vertices may be set anew: `update` sets several arrays at once. The number of vertices and the
-    triangles stay.
+    The vertices can be replaced: `update` replaces several arrays at once. The number of vertices and
+    the triangles never change.
 
     Parameters
     ----------
@@ -1474,14 +1481,14 @@ class Mesh:
     indices : array_like (F, 3) of int
         The three corners of each triangle, counter-clockwise seen from outside, from 0 to V - 1.
     normals : array_like (V, 3), optional
-        Outward normals of any length. Those of length 0 become smooth ones. None: all are computed
-        smooth, as the sum of the triangles' normals weighted by the angle at the vertex (G. Thuermer
-        and C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
+        Outward normals of any length. A normal of length 0 becomes a smooth one. None: all normals are
+        smooth: the sum of the triangles' normals, weighted by the angle at the vertex (G. Thuermer and
+        C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
     uvs : array_like (V, 2), optional
         Texture coordinates; (0, 0) is a picture's bottom-left corner, (1, 1) its top-right one.
     colors : array_like (V, 3) or (V, 4), optional
-        Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Shown by
-        materials with ``vertex_colors=True``.
+        Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Materials with
+        ``vertex_colors=True`` show them.
 
     Raises
     ------
@@ -1513,7 +1520,7 @@ class Mesh:
         Parameters
         ----------
         size : float or array_like (3,)
-            Extents along X, Y and Z, above 0; one number for all three.
+            Extents along X, Y and Z, above 0; a single number is the extent along all three.
 
         Returns
         -------
@@ -1543,9 +1550,9 @@ class Mesh:
         Parameters
         ----------
         radius, height : float
-            Of the base, and from the base to the apex; above 0.
+            Radius of the base, and height from the base to the apex, above 0.
         segments : int
-            Round the axis, at least 3.
+            Segments round the axis, at least 3.
 
         Returns
         -------
@@ -1572,14 +1579,14 @@ class Mesh:
         """
         A centred, closed cylinder round the Y axis.
 
-        On its side u runs round as on `sphere` and v upwards; each cap shows the disc of a picture.
+        On the side, u runs round as on `sphere`, and v upwards. Each cap shows the round middle of a picture.
 
         Parameters
         ----------
         radius, height : float
-            Above 0.
+            Radius, and height along the axis, above 0.
         segments : int
-            Round the axis, at least 3.
+            Segments round the axis, at least 3.
 
         Returns
         -------
@@ -1610,9 +1617,9 @@ class Mesh:
         Parameters
         ----------
         radius : float
-            Above 0.
+            Radius, above 0.
         subdivisions : int
-            From 0 to 9; each splits every triangle into four.
+            Number of subdivisions, from 0 to 9; each one splits every triangle into four.
 
         Returns
         -------
@@ -1638,7 +1645,7 @@ class Mesh:
         """
         A rectangle in the XZ plane, centred, normal +Y.
 
-        Seen from +Y with -Z up, a picture on it is upright. Its back is culled unless the material is
+        Seen from +Y with -Z up, a picture on the plane is upright. The back is culled unless the material is
         double-sided.
 
         Parameters
@@ -1671,17 +1678,17 @@ class Mesh:
         """
         A centred sphere of rings and segments, as on a globe.
 
-        u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
-        picture on it reads unmirrored from outside, its center at +Z and its seam at -Z.
+        u runs once round the Y axis, and v from the south pole (-Y) to the north pole. An equirectangular
+        picture on the sphere is not mirrored when seen from outside; its center is at +Z and its seam at -Z.
 
         Parameters
         ----------
         radius : float
-            Above 0.
+            Radius, above 0.
         segments : int
-            Round the Y axis, at least 3.
+            Segments round the Y axis, at least 3.
         rings : int
-            From pole to pole, at least 2.
+            Rings from pole to pole, at least 2.
 
         Returns
         -------
@@ -1712,13 +1719,13 @@ class Mesh:
         Parameters
         ----------
         radius : float
-            From the axis to the center of the tube.
+            Distance from the axis to the center of the tube.
         tube : float
             Radius of the tube: above 0, below `radius`.
         segments : int
-            Round the axis, at least 3.
+            Segments round the axis, at least 3.
         sides : int
-            Round the tube, at least 3.
+            Sides round the tube, at least 3.
 
         Returns
         -------
@@ -1728,7 +1735,7 @@ class Mesh:
         Raises
         ------
         ValueError
-            For such lengths or numbers, or more than 16,777,216 vertices.
+            For a length or number out of its range, or more than 16,777,216 vertices.
 
         Examples
         --------
@@ -1749,7 +1756,7 @@ class Mesh:
     def __repr__(self: Mesh) -> str: ...
     def resized(self: Mesh, size: typing.SupportsFloat | typing.SupportsIndex) -> Mesh:
         """
-        The same mesh, centred at the origin and scaled evenly.
+        Copy the mesh, centred at the origin and scaled evenly.
 
         Parameters
         ----------
@@ -1781,26 +1788,25 @@ class Mesh:
         colors: numpy.typing.ArrayLike | None = None,
     ) -> None:
         """
-        Set vertices anew: several arrays at once, which one picture shows together.
+        Replace several arrays of the vertices at once.
 
-        All nodes of the mesh show the new values in the next picture; only what is given is uploaded to the
-        GPU again. Any call with an array counts as a change, even if all numbers are the same: comparing
-        them would cost more than it saves. Other threads may draw meanwhile: a picture shows the mesh
-        before or after an update, never part of it. Arrays that the mesh handed out before keep their
-        values.
+        All nodes of the mesh show the new values in the next picture; only the given arrays are uploaded to
+        the GPU again. Any call with an array counts as a change, even if all numbers are the same, since
+        comparing them would cost more than it saves. Other threads may draw at the same time: a picture shows
+        the mesh before or after an update, never a part of it. Arrays that were read before keep their values.
 
         Parameters
         ----------
         positions : array_like (V, 3), optional
-            Object-space positions, finite. None: they stay.
+            Object-space positions, finite. None: the positions stay.
         normals : array_like (V, 3), optional
-            Outward normals of any length. None: normals that were given stay, also those of primitives
-            and of `load_mesh`; smooth ones that the mesh computed are computed anew with new positions.
-            ``mesh.normals = None`` makes them smooth.
+            Outward normals of any length. None: normals that were given stay, also those of primitives and of
+            `load_mesh`; smooth normals that the mesh computed are computed again with new positions.
+            ``mesh.normals = None`` makes all normals smooth.
         uvs : array_like (V, 2), optional
-            Texture coordinates. None: they stay.
+            Texture coordinates. None: the texture coordinates stay.
         colors : array_like (V, 3) or (V, 4), optional
-            Linear RGB or RGBA; uint8 stands for value/255. None: they stay.
+            Linear RGB or RGBA; uint8 stands for value/255. None: the colours stay.
 
         Raises
         ------
@@ -1838,7 +1844,7 @@ class Mesh:
         """
         ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
 
-        May be set. None: no colours.
+        Colours can be set. None: the mesh has none.
         """
     @colors.setter
     def colors(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
@@ -1852,16 +1858,17 @@ class Mesh:
         """
         ndarray (V, 3) float32: unit vectors; a read-only view.
 
-        May be set. None: smooth ones, computed now and whenever the positions are set without normals.
+        Normals can be set. None: smooth normals, computed now and whenever positions are set without normals.
         """
     @normals.setter
     def normals(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def positions(self) -> numpy.typing.NDArray[numpy.float32]:
         """
-        ndarray (V, 3) float32: where the vertices are; a read-only view.
+        ndarray (V, 3) float32: the positions of the vertices; a read-only view.
 
-        May be set; the normals then behave as `update` says. An array handed out before keeps its values.
+        Positions can be set; `update` says what the normals become. An array that was read before keeps its
+        values.
         """
     @positions.setter
     def positions(self, arg1: numpy.typing.ArrayLike) -> None: ...
@@ -1870,7 +1877,7 @@ class Mesh:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
 
-        May be set. None: no texture coordinates.
+        Texture coordinates can be set. None: the mesh has none.
         """
     @uvs.setter
     def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
@@ -1879,32 +1886,33 @@ class Blend:
     """
     Blending by OpenGL's own factors, for any material as ``blend=``.
 
-    With S what the surface gives and D what is there, the colour becomes src * S + dst * D, and the alpha
-    src_alpha * S + dst_alpha * D. The colour of S is not multiplied by its alpha; its alpha is the product
-    of opacity and the alphas of colour and map. Formats with limits clamp S, and the result, to 0..1. A
-    surface with a `Blend` is drawn as every blended one is: after the background, far to near, and leaving
-    no depth unless ``depth_write=True``. A Blend never changes; compared by its values.
+    S is the colour of the surface and D the colour that is already in the picture. The colour becomes
+    src * S + dst * D, and the alpha src_alpha * S + dst_alpha * D. The colour of S is not multiplied by its
+    alpha; its alpha is the product of opacity and the alphas of colour and map. The formats rgba8 and rgb565
+    clamp S, and the result, to 0..1. A surface with a `Blend` is drawn like every blended surface: after the
+    background, far to near, and without writing depth, except with ``depth_write=True``. A Blend never
+    changes; two Blends are compared by their values.
 
     Parameters
     ----------
     src : str
-        What multiplies S: "zero", "one", "src_color", "one_minus_src_color", "dst_color",
+        The factor of S: "zero", "one", "src_color", "one_minus_src_color", "dst_color",
         "one_minus_dst_color", "src_alpha", "one_minus_src_alpha", "dst_alpha", "one_minus_dst_alpha" or
         "src_alpha_saturate", which is min(alpha of S, 1 - alpha of D) for colours and 1 for alphas.
     dst : str
-        What multiplies D.
+        The factor of D.
     src_alpha, dst_alpha : str, optional
-        The same for the alphas, where "src_color" is the alpha of S. None takes the colour's.
+        The factors of the alphas, where "src_color" is the alpha of S. None: the factor of the colour.
     equation : {"add", "subtract", "reverse_subtract", "min", "max"}
-        "add" as above; "subtract": src * S - dst * D; "reverse_subtract": dst * D - src * S; "min" and
-        "max" of S and D, channel by channel, whatever the factors.
+        "add": as above; "subtract": src * S - dst * D; "reverse_subtract": dst * D - src * S; "min" and
+        "max": of S and D, channel by channel, without the factors.
 
     Raises
     ------
     ValueError
-        For an unknown word.
+        For an unknown name.
     TypeError
-        For what is no word.
+        For a factor that is not a str.
 
     Notes
     -----
@@ -1912,7 +1920,7 @@ class Blend:
 
     Examples
     --------
-    The plain pair of many tutorials, which blends the alpha as if it were a colour:
+    The factors of many tutorials, which blend the alpha as if it were a colour:
 
     >>> import cubecam as cc
     >>> pair = cc.Blend("src_alpha", "one_minus_src_alpha")
@@ -1944,71 +1952,72 @@ class Blend:
     @property
     def dst(self) -> str:
         """
-        str: what multiplies the colour that is there.
+        str: the factor of the colour in the picture.
         """
     @property
     def dst_alpha(self) -> str:
         """
-        str: what multiplies the alpha that is there.
+        str: the factor of the alpha in the picture.
         """
     @property
     def equation(self) -> str:
         """
-        str: what becomes of both products.
+        str: how the two products are combined.
         """
     @property
     def src(self) -> str:
         """
-        str: what multiplies the surface's colour.
+        str: the factor of the surface's colour.
         """
     @property
     def src_alpha(self) -> str:
         """
-        str: what multiplies the surface's alpha.
+        str: the factor of the surface's alpha.
         """
 
 class Stencil:
     """
-    A stencil test, and what drawing does to the stencil buffer.
+    A stencil test, and how drawing changes the stencil buffer.
 
-    Give it to any material as ``stencil=``, and ask for a buffer by ``depth_format="depth24_stencil8"``,
-    "depth32f_stencil8" or "stencil_index8"; without one it has no effect. The buffer holds 8 bits a
-    pixel and starts a picture at 0. What masks must be drawn before what is masked: see
-    ``Node.render_order``. It never changes; compared by its values.
+    Give a Stencil to any material as ``stencil=``, and request a stencil buffer by
+    ``depth_format="depth24_stencil8"``, "depth32f_stencil8" or "stencil_index8"; without a stencil buffer the
+    Stencil has no effect. The buffer holds 8 bits for each pixel and is 0 at the start of a picture. A mask
+    must be drawn before the surfaces that it masks: see ``Node.render_order``. A Stencil never changes; two
+    Stencils are compared by their values.
 
     Parameters
     ----------
     func : {"always", "never", "less", "equal", "lequal", "greater", "notequal", "gequal"}
-        A pixel is drawn where ``reference & read_mask`` compares so with ``stored & read_mask``: "less"
-        where the reference is less than what is stored.
+        The comparison of ``reference & read_mask`` with ``stored & read_mask``; a pixel is drawn where it is
+        true. With "less" a pixel is drawn where the reference is less than the stored number.
     reference : int
-        From 0 to 255.
+        The number that is compared, and that "replace" writes; from 0 to 255.
     read_mask : int
         The bits that are compared, from 0 to 255.
     write_mask : int
         The bits that may change, from 0 to 255.
     fail : {"keep", "zero", "replace", "incr", "incr_wrap", "decr", "decr_wrap", "invert"}
-        What becomes of the stored number where the test fails. "replace": the reference. "incr" stops
-        at 255, "incr_wrap" goes on at 0; so, downwards, do "decr" and "decr_wrap".
+        How the stored number changes where the test fails. "replace" stores the reference. "incr" adds 1 and
+        stops at 255, "incr_wrap" continues at 0; "decr" subtracts 1 and stops at 0, "decr_wrap" continues at 255.
     depth_fail : str
-        The same where the test passes and the depth test fails.
+        How the stored number changes where the test passes and the depth test fails.
     depth_pass : str
-        The same where both pass, or there is no depth test.
+        How the stored number changes where both tests pass, or the stencil test passes and there is no depth test.
 
     Raises
     ------
     ValueError
-        For an unknown word, or a number out of its range.
+        For an unknown name, or a number out of its range.
     TypeError
         For an argument of another type.
 
     Notes
     -----
-    OpenGL 4.6, section 17.3.3; front and back faces alike.
+    OpenGL 4.6, section 17.3.3. Front and back faces use the same settings.
 
     Examples
     --------
-    A disc as a window: invisible itself, it lets the red plane behind it show within its outline only.
+    A disc as a window: the disc is invisible, and the red plane behind it shows only within its outline.
 
     >>> import cubecam as cc
     >>> scene = cc.Scene()
@@ -2041,22 +2050,22 @@ class Stencil:
     @property
     def depth_fail(self) -> str:
         """
-        str: where only the depth test fails.
+        str: how the number changes where only the depth test fails.
         """
     @property
     def depth_pass(self) -> str:
         """
-        str: where both pass.
+        str: how the number changes where both tests pass.
         """
     @property
     def fail(self) -> str:
         """
-        str: where the test fails.
+        str: how the number changes where the test fails.
         """
     @property
     def func(self) -> str:
         """
-        str: the comparison.
+        str: the comparison of the reference with the stored number.
         """
     @property
     def read_mask(self) -> int:
@@ -2066,7 +2075,7 @@ class Stencil:
     @property
     def reference(self) -> int:
         """
-        int: what is compared and written.
+        int: the number that is compared and written.
         """
     @property
     def write_mask(self) -> int:
@@ -2076,39 +2085,40 @@ class Stencil:
 
 class Material:
     """
-    Base of the materials: how a surface answers light.
+    Base of the materials: how a surface reflects light.
 
-    A material may be shared by any number of nodes; a change shows on all of them. Colours are 3 or 4
-    numbers, linear, or the name of a CSS colour or "#rrggbb", which say sRGB; a fourth number, from 0 to
-    1, multiplies `opacity`. What is not fully opaque is blended over what lies behind it.
+    Any number of nodes may share a material; all of them show a change of it. A colour is 3 or 4 linear
+    numbers, or a CSS name or "#rrggbb", which are sRGB; a fourth number, from 0 to 1, multiplies `opacity`.
+    A surface that is not fully opaque is blended over the surfaces behind it.
 
-    Every material takes these by keyword, and has them as attributes:
+    Every material takes these options by keyword, and has them as attributes:
 
     ======================  =========================================================================
-    opacity=1               from 0 to 1, times the alpha of the colours
+    opacity=1               from 0 to 1; multiplies the alpha of the colours
     double_sided=False      True shows both sides; False culls back faces
-    blend=None              how its colour S, of alpha a, joins what is there already, D:
+    blend=None              how the material's colour S, of alpha a, is combined with D, the colour
+                            that is already in the picture:
                             "opaque": S, with alpha 1;
                             "alpha": a S + (1 - a) D, alpha a + (1 - a) D;
-                            "alpha_keep": the same colour, alpha stays D's;
+                            "alpha_keep": the same colour; the alpha of D stays;
                             "additive": a S + D, alpha a + D;
-                            "multiply": (1 - a + a S) D, alpha stays D's;
+                            "multiply": (1 - a + a S) D; the alpha of D stays;
                             "premultiplied": S + (1 - a) D in all four channels, for maps whose colour
-                            is multiplied by their alpha already; opacity and the colour's alpha
+                            is already multiplied by their alpha; opacity and the colour's alpha
                             multiply both;
-                            a `Blend`: as its factors say.
-                            None: "alpha" where anything is translucent, else "opaque"
-    depth_write=None        whether it hides what is drawn later and is farther; None: if its blend is
-                            "opaque"
-    depth_test=True         False is drawn over what is nearer as well
+                            a `Blend`: by its factors.
+                            None: "alpha" if any part of the material is translucent, else "opaque"
+    depth_write=None        whether the surface hides farther surfaces that are drawn after it; None:
+                            True if the blend is "opaque"
+    depth_test=True         False: the surface is drawn over nearer ones, too
     color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
-    stencil=None            a `Stencil`: how it tests and changes the stencil buffer, where
-                            ``depth_format`` has one; None leaves it alone
+    stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
+                            ``depth_format`` has one; None: it does neither
     ======================  =========================================================================
 
-    What is blended, or writes no depth, is drawn after the background, far to near; it writes colour
-    and none of the other outputs. A mask that writes neither colour nor depth, but a stencil, is drawn
-    among the opaque nodes.
+    A surface that is blended, or writes no depth, is drawn after the background, far to near; it writes
+    colour and no other output. A mask, which writes a stencil but neither colour nor depth, is drawn among
+    the opaque nodes.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self) -> str: ...
@@ -2119,49 +2129,49 @@ class Material:
     @property
     def blend(self) -> str | Blend | None:
         """
-        str, Blend or None: how it joins what is drawn already: "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied" or a `Blend`; see `Material`. None: "alpha" where anything is translucent, else "opaque".
+        str, Blend or None: how the material is combined with the picture: "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied" or a `Blend`; see `Material`. None: "alpha" if any part of the material is translucent, else "opaque".
         """
     @blend.setter
     def blend(self, arg1: str | Blend | None) -> None: ...
     @property
     def color_write(self) -> tuple[bool, bool, bool, bool]:
         """
-        tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. Depth and the other outputs are written all the same.
+        tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. Depth and the other outputs do not depend on this option.
         """
     @color_write.setter
     def color_write(self, arg1: bool | tuple[bool, bool, bool, bool]) -> None: ...
     @property
     def depth_test(self) -> bool:
         """
-        bool: False is drawn over what is nearer as well.
+        bool: False: the surface is drawn over nearer ones, too.
         """
     @depth_test.setter
     def depth_test(self, arg1: bool) -> None: ...
     @property
     def depth_write(self) -> bool | None:
         """
-        bool or None: whether it hides what is drawn after it and is farther. None: if its blend is "opaque".
+        bool or None: whether the surface hides farther surfaces that are drawn after it. None: True if the blend is "opaque".
         """
     @depth_write.setter
     def depth_write(self, arg1: bool | None) -> None: ...
     @property
     def double_sided(self) -> bool:
         """
-        bool: True shows both sides, its normal turned to the viewer; False culls back faces.
+        bool: True shows both sides, with the normal turned to the viewer; False culls back faces.
         """
     @double_sided.setter
     def double_sided(self, arg1: bool) -> None: ...
     @property
     def opacity(self) -> float:
         """
-        float: from 0 to 1, times the alpha of the colours.
+        float: from 0 to 1; multiplies the alpha of the colours.
         """
     @opacity.setter
     def opacity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def stencil(self) -> Stencil | None:
         """
-        Stencil or None: how it tests and changes the stencil buffer, where ``depth_format`` has one; None leaves it alone.
+        Stencil or None: how the surface tests and changes the stencil buffer, if ``depth_format`` has one. None: it does neither.
         """
     @stencil.setter
     def stencil(self, arg1: Stencil | None) -> None: ...
@@ -2173,16 +2183,16 @@ class BasicMaterial(Material):
     Parameters
     ----------
     color : array_like (3,) or (4,), or str
-        Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
+        Linear RGB or RGBA; a CSS name or "#rrggbb" is sRGB and is decoded.
     map : Image, array_like (H, W, C) or RenderTexture, optional
         A picture, placed by the mesh's uvs.
     cubemap : CubeMap or Probe, optional
-        Looked up in the direction of the object-space position, so that a box or sphere shows the
-        whole of it and turns with it. Its alpha does not count.
+        A cubemap that is looked up in the direction of the object-space position, so that a box or a
+        sphere shows all of it, and turns it when it turns. The alpha of the cubemap does not count.
     vertex_colors : bool
-        Whether the mesh's colours count.
+        Whether the mesh's colours multiply color.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
+        The options of every `Material`.
 
     Raises
     ------
@@ -2245,21 +2255,21 @@ class GlassMaterial(Material):
     """
     Glass: F * environment(R) + (1 - F) * tint * environment(T).
 
-    R is the reflected direction, T the refracted one as GLSL's ``refract`` gives it, for one surface.
-    F is Fresnel's reflectance of a dielectric for unpolarised light, the mean of both polarisations
-    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2); where there is no T all is reflected.
+    R is the reflected direction, and T the refracted direction of GLSL's ``refract``, for a single surface.
+    F is Fresnel's reflectance of a dielectric for unpolarised light: the mean of both polarisations
+    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2). Where there is no T, F is 1.
 
     Parameters
     ----------
     ior : float
-        Index of refraction: the one inside divided by the one outside, above 0. 1.5 is glass in air, 1.33
-        water in air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes its inverse, eta.
+        The index of refraction inside divided by that outside, above 0. 1.5 is glass in air, 1.33 water in
+        air, 1/1.33 a bubble of air in water. GLSL's ``refract`` takes the inverse, eta.
     fresnel : bool
-        False: T alone.
+        False: F is 0, and only T shows.
     tint : array_like (3,) or (4,), or str
-        Linear RGB or RGBA, times what is refracted; a CSS name or "#rrggbb" says sRGB.
+        Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
+        The options of every `Material`.
 
     Raises
     ------
@@ -2313,25 +2323,25 @@ class MirrorMaterial(Material):
     """
     A mirror: env_weight * tint * environment(R) + color_weight * color.
 
-    R = I - 2 (N.I) N with I from the eye to the surface, in world space. The environment is the node's:
-    the scene's, a CubeMap or a Probe.
+    R = I - 2 (N.I) N, where I points from the eye to the surface, in world space. The environment is that of
+    the node, a CubeMap or a Probe, or else that of the scene.
 
     Parameters
     ----------
     tint : array_like (3,) or (4,), or str
-        Linear RGB or RGBA, times what is reflected; a CSS name or "#rrggbb" says sRGB.
+        Linear RGB or RGBA that multiplies the reflected light; a CSS name or "#rrggbb" is sRGB and is decoded.
     env_weight : float
-        Weight of what is reflected, not negative.
+        Weight of the reflected light, not negative.
     color : array_like (3,) or (4,), or str
-        Linear RGB or RGBA that the surface adds; a CSS name or "#rrggbb" says sRGB.
+        Linear RGB or RGBA that the surface adds; a CSS name or "#rrggbb" is sRGB and is decoded.
     color_weight : float
-        Its weight, not negative.
+        Weight of color, not negative.
     f0 : float, optional
         The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
         f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
-        Rendering", 1994). None: it is not.
+        Rendering", 1994). None: env_weight is the same at all angles.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
+        The options of every `Material`.
 
     Raises
     ------
@@ -2401,24 +2411,24 @@ class PhongMaterial(Material):
     """
     Phong's reflection model.
 
-    ka * color, once, plus for every light: kd * color * max(N.L, 0), and ks * max(R.V, 0)**shininess
-    in white where N.L > 0 (B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18(6),
-    1975). An `AmbientLight` adds its light times ka * color.
+    The colour is ka * color, plus, for every light, kd * color * max(N.L, 0) and, where N.L > 0, a white
+    highlight ks * max(R.V, 0)**shininess (B. T. Phong, "Illumination for Computer Generated Pictures",
+    CACM 18(6), 1975). An `AmbientLight` adds its light times ka * color.
 
     Parameters
     ----------
     color : array_like (3,) or (4,), or str
-        Linear RGB or RGBA; a CSS name or "#rrggbb" says sRGB.
+        Linear RGB or RGBA; a CSS name or "#rrggbb" is sRGB and is decoded.
     ka, kd, ks : float
         Ambient, diffuse and specular weights, not negative.
     shininess : float
-        Above 0; greater is a smaller highlight.
+        Exponent of the highlight, above 0; a greater one makes a smaller highlight.
     map : Image, array_like (H, W, C) or RenderTexture, optional
         A picture that multiplies color, placed by the mesh's uvs.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
+        The options of every `Material`.
 
     Raises
     ------
@@ -2507,29 +2517,29 @@ class PhongMaterial(Material):
 
 class ShaderMaterial(Material):
     """
-    A material of one's own, in GLSL (4.50 core) with the scene at hand.
+    A material that its user writes in GLSL (4.50 core), with access to the scene.
 
     Parameters
     ----------
     fragment : str or path
-        GLSL with a function ``vec3 shade(Surface surface)``: the linear colour of a fragment; ``vec4`` to
-        give an alpha as well, which counts where `blend` is not "opaque". A str is the source itself, a
-        path (``pathlib.Path``) a file that holds it.
+        GLSL with a function ``vec3 shade(Surface surface)``, which returns the linear colour of a fragment, or
+        a ``vec4`` with an alpha, which counts where `blend` is not "opaque". A str is the source itself; a
+        path (``pathlib.Path``) names a file with the source.
     vertex : str or path, optional
         GLSL with a function ``void vertex(inout Vertex vertex)``, which moves vertices in the mesh's own
         space.
     uniforms : dict of str, optional
         Values of the uniforms that the source declares: numbers, bools, vectors (2,) to (4,), matrices
-        (2, 2) to (4, 4) in reading order, or arrays of these with the number of elements ahead. A
-        uniform without a value has what its declaration says, else 0.
+        (2, 2) to (4, 4) in reading order, or arrays of these, with the number of elements as the first axis.
+        A uniform without a value has the value of its declaration, else 0.
     textures : dict of str, optional
-        For each ``uniform sampler2D`` an Image or an array (H, W, C); for each
-        ``uniform samplerCube`` a CubeMap or a Probe, from which the node is then left out.
+        For each ``uniform sampler2D`` an Image or an array (H, W, C); for each ``uniform samplerCube`` a
+        CubeMap or a Probe. Such a probe leaves the node out of its own pictures.
     displacement : float, optional
-        How far `vertex` moves a vertex at most, in the mesh's units. None: unknown; such a node is never
-        culled, and its picture is redrawn whole.
+        The greatest distance by which `vertex` moves a vertex, in the mesh's units. None: unknown; the node is
+        never culled, and any change of it draws the whole picture again.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
-        As of every `Material`.
+        The options of every `Material`.
 
     Attributes
     ----------
@@ -2539,49 +2549,50 @@ class ShaderMaterial(Material):
     Raises
     ------
     ValueError
-        For a source without its function, or a name or value that no uniform can have. When it is
+        For a source without its function, or a name or value that no uniform can have. When the material is
         drawn: for a name that the source does not declare, or a value of another shape.
     TypeError
         For values of another type.
     OSError
         For a path that cannot be read.
     ShaderError
-        When it is drawn, for a source that does not compile; the message has the user's own
-        lines and their numbers.
+        When the material is drawn, for a source that does not compile; the message quotes the user's own lines
+        with their numbers.
 
     Notes
     -----
-    Outputs of one's own: ``out vec4 heat;`` in `fragment`, of float, vec2, vec3 or vec4 and without a
-    layout, is a buffer that ``outputs=("heat",)`` requests and ``frame.outputs["heat"]`` and
-    ``cube.outputs["heat"]`` hold: float32, 0 where the node that is seen does not write it. Only opaque nodes
-    that leave depth write them, and colour and these outputs together are limited by the driver's draw
-    buffers (8 as a rule). Without a request it is a variable.
+    A material may declare outputs: ``out vec4 heat;`` in `fragment` (float, vec2, vec3 or vec4, without a
+    layout) declares an output that ``outputs=("heat",)`` requests and that ``frame.outputs["heat"]`` or
+    ``cube.outputs["heat"]`` returns: float32, and 0 where the visible node does not write it. Only opaque
+    nodes that write depth write outputs. The number of the driver's draw buffers (usually 8) limits colour
+    and these outputs together. Without a request the output is an ordinary variable.
 
-    What the source has at hand; names that begin with ``u_``, ``v_``, ``a_``, ``o_`` or ``gl_`` are taken.
+    The source may use the names below. Names that begin with ``u_``, ``v_``, ``a_``, ``o_`` or ``gl_`` are
+    reserved.
 
     In both stages: ``mat4 model_matrix()`` (mesh to world), ``mat3 normal_matrix()`` (its inverse
-    transpose, to any length), ``vec3 eye_position()`` (world; of perspective views).
-    What a vertex hands on is declared in both, as ``out vec3 x;`` and ``in vec3 x;``.
+    transpose, whose result may have any length), ``vec3 eye_position()`` (world space; for perspective views).
+    A value that goes from the vertex to the fragment is declared in both, as ``out vec3 x;`` and
+    ``in vec3 x;``.
 
     ``struct Vertex { vec3 position; vec3 normal; vec2 uv; vec4 color; }``, in the mesh's space.
 
     ``struct Surface``: ``position`` (world), ``normal`` (world, unit, towards the viewer on
     double-sided surfaces), ``incident`` (world, unit, from the eye to the surface), ``position_object``,
-    ``normal_object``, ``uv``, ``color`` (the vertices', white if there is none).
+    ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours).
 
-    ``vec3 environment(vec3 direction)``: what the node's environment shows in a world direction, seamless;
-    ``environment_lod(direction, level)`` at a level of its mipmaps; ``int environment_levels()``: how many levels it has,
-    1 without mipmaps and 0 where there is none; ``bool environment_is_local()``: whether a probe captured it;
-    ``vec3 environment_position()``: where in the world it did.
+    ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
+    seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
     the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
     ambient lights.
-    ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``, as `PhongMaterial`.
+    ``vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess)``: the colour of a
+    `PhongMaterial`.
     ``float schlick(Surface surface, float f0)``: Schlick's Fresnel term.
 
     Examples
     --------
-    The mirror of document 000 in GLSL, on a ball that follows the scene:
+    A golden mirror in GLSL, on a ball that shows the moving scene:
 
     >>> import cubecam as cc
     >>> scene = cc.Scene(background=(.4, .4, .4))
@@ -2602,7 +2613,7 @@ class ShaderMaterial(Material):
     >>> sorted(gold.uniforms)
     ['color', 'share']
 
-    An output of its own, how far above the floor a surface lies:
+    A material with an output, the height of its surface above the floor:
 
     >>> marked = cc.ShaderMaterial('''
     ...     out float height;
@@ -2653,17 +2664,18 @@ class ShaderMaterial(Material):
         """
         Read the source again from its file.
 
-        A source that does not compile raises when it is drawn next; mended and reloaded, it works again.
+        If the new source does not compile, the next picture raises ShaderError; a later `reload` of a corrected file
+        works.
 
         Returns
         -------
         bool
-            Whether it changed.
+            Whether the source changed.
 
         Raises
         ------
         ValueError
-            If no part of the source came from a file, or what is in the file lacks its function.
+            If no part of the source came from a file, or the file lacks its function.
         OSError
             If the file cannot be read; the old source stays.
         """
@@ -2713,17 +2725,17 @@ class ImageEffect:
     """
     A pass over a finished picture, in GLSL (4.50 core): ``renderer.render(..., effects=[effect])``.
 
-    Effects run one after the other, each over all pixels, in linear float32: after multisamples are resolved, before
+    Effects run one after the other, each over all pixels, in linear float32, after multisamples are resolved and before
     tone mapping and encoding.
 
     Parameters
     ----------
     fragment : str or path
-        GLSL with a function ``vec4 effect(vec2 uv)``: a pixel's new value, uv (0, 0) being the picture's
-        bottom-left corner and (1, 1) its top-right; ``vec3`` to keep the alpha. A str is the source itself, a
-        path (``pathlib.Path``) a file that holds it.
+        GLSL with a function ``vec4 effect(vec2 uv)``, which returns a pixel's new value, or a ``vec3``, which
+        keeps the alpha. uv (0, 0) is the picture's bottom-left corner and (1, 1) its top-right. A str is the
+        source itself; a path (``pathlib.Path``) names a file with the source.
     uniforms, textures : dict of str, optional
-        As of `ShaderMaterial`; no probes.
+        As in `ShaderMaterial`, except that a probe is not allowed.
 
     Attributes
     ----------
@@ -2733,12 +2745,13 @@ class ImageEffect:
     Raises
     ------
     ValueError, TypeError, OSError, ShaderError
-        As of `ShaderMaterial`.
+        As in `ShaderMaterial`.
 
     Notes
     -----
-    The source has at hand ``vec4 frame(vec2 uv)`` (the picture so far, bilinear), ``vec4 frame_pixel(ivec2 pixel)`` (one
-    pixel as it is, (0, 0) the bottom-left one), both repeating the border beyond it, and ``ivec2 frame_size()``.
+    The source may call ``vec4 frame(vec2 uv)`` (the picture so far, bilinear), ``vec4 frame_pixel(ivec2 pixel)`` (one
+    pixel, unfiltered; (0, 0) is the bottom-left one) and ``ivec2 frame_size()``. The first two repeat the border pixels
+    outside the picture.
 
     Examples
     --------
@@ -2789,24 +2802,25 @@ class ImageEffect:
         """
         Read the source again from its file.
 
-        A source that does not compile raises when it is drawn next; mended and reloaded, it works again.
+        If the new source does not compile, the next picture raises ShaderError; a later `reload` of a corrected file
+        works.
 
         Returns
         -------
         bool
-            Whether it changed.
+            Whether the source changed.
 
         Raises
         ------
         ValueError
-            If no part of the source came from a file, or what is in the file lacks its function.
+            If no part of the source came from a file, or the file lacks its function.
         OSError
             If the file cannot be read; the old source stays.
         """
     @property
     def fragment(self) -> str:
         """
-        str: GLSL of every pixel. Setting it, to text or a path, shows in the next picture.
+        str: GLSL that runs for every pixel. It can be set to text or a path; the next picture shows the change.
         """
     @fragment.setter
     def fragment(self, arg1: str | typing.Any | None) -> None: ...
@@ -2833,40 +2847,39 @@ class ImageEffect:
 
 class Shadow:
     """
-    How a light's shadow is made: a depth map as the light sees it, and how that is looked up.
+    How a light makes its shadow: a depth map from the light's view, and the filter of its lookups.
 
-    A value that does not change: give a light another one. All visible opaque nodes cast shadows whose
-    ``cast_shadow`` is True, in or out of a picture's view, from either side of their surface. They
-    fall on every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again
-    only when what it sees changes.
+    A Shadow never changes; give a light a new one instead. All visible opaque nodes whose ``cast_shadow`` is
+    True cast shadows, in or out of a picture's view, from either side of their surface. Shadows fall on
+    every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again only when
+    something in its view changes.
 
-    A directional light's map covers all that casts, so a wide floor makes its texels wide: set the
-    floor's ``cast_shadow`` to False, or an ``extent``.
+    The map of a directional light covers all casters, so a wide floor makes its texels wide. In this case set
+    the floor's ``cast_shadow`` to False, or set an ``extent``.
 
-    The edge of a shadow is about ``2 * radius + 1`` texels wide. A surface does not shadow itself, since
-    each texel is compared with the depth of the surface's own plane there, and no distance has to be
-    tuned for that.
+    The edge of a shadow is about ``2 * radius + 1`` texels wide. A surface does not shadow itself, because
+    each texel is compared with the depth of the surface's own plane at that texel; no bias has to be tuned.
 
     Parameters
     ----------
     size : int
-        Texels a side of the map; a point light has six. From 8, and more for a larger radius, to
-        ``info.limits.max_texture_size``.
+        Texels along a side of the map; a point light has six maps. At least 8, and more for a larger radius;
+        at most ``info.limits.max_texture_size``.
     radius : float
-        Of the percentage-closer filter (Reeves, Salesin and Cook, 1987), texels, from 0 to 16: a box of
-        ``2 * radius + 1`` texels. 0 is as hard as a map can be.
+        Radius of the percentage-closer filter (Reeves, Salesin and Cook, 1987) in texels, from 0 to 16: a box
+        of ``2 * radius + 1`` texels. 0 gives the hardest edge.
     bias : float
-        World units, not negative: what is nearer to a surface casts no shadow on it. It comes on top of
-        a fraction of a texel.
+        World units, not negative: a caster nearer than this to a surface casts no shadow on it. The bias is
+        added to a fraction of a texel that is always there.
     near : float
-        Point and spot lights: what is nearer to the light casts no shadow. World units, above 0.
+        Point and spot lights: a caster nearer than this to the light casts no shadow. World units, above 0.
     far : float or None
-        Point and spot lights: what is farther from the light casts no shadow. World units, above near;
-        None: all that there is casts.
+        Point and spot lights: a caster farther than this from the light casts no shadow. World units, above
+        near. None: there is no such limit.
     extent : float or None
-        Directional lights: width and height of what the map covers (but for its outermost texels,
-        which stay empty), world units, around the middle of the bounds of all that casts; beyond, all
-        is lit. None: as much as all that casts.
+        Directional lights: width and height of the area that the map covers, world units, around the middle of
+        the bounds of all casters (except its outermost texels, which stay empty); everything outside is lit.
+        None: the map covers all casters.
 
     Raises
     ------
@@ -2899,39 +2912,39 @@ class Shadow:
     @property
     def bias(self) -> float:
         """
-        float: world units.
+        float: the distance within which nothing casts, world units.
         """
     @property
     def extent(self) -> float | None:
         """
-        float or None: what the map covers, world units; directional lights.
+        float or None: side of the area that the map covers, world units; directional lights.
         """
     @property
     def far(self) -> float | None:
         """
-        float or None: nothing farther casts; point and spot lights.
+        float or None: casters farther from the light cast no shadow; point and spot lights.
         """
     @property
     def near(self) -> float:
         """
-        float: nothing nearer casts; point and spot lights.
+        float: casters nearer to the light cast no shadow; point and spot lights.
         """
     @property
     def radius(self) -> float:
         """
-        float: of the filter, texels.
+        float: radius of the filter, texels.
         """
     @property
     def size(self) -> int:
         """
-        int: texels a side of the map.
+        int: texels along a side of the map.
         """
 
 class Light:
     """
     Base of the lights.
 
-    A light may be in several scenes; a change shows in all of them.
+    A light may be in several scenes; every scene shows a change of it.
     """
     def __reduce__(self) -> tuple: ...
     @property
@@ -2944,7 +2957,7 @@ class Light:
     @property
     def intensity(self) -> float:
         """
-        float: times color.
+        float: a factor of color.
         """
     @intensity.setter
     def intensity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -2958,14 +2971,14 @@ class PointLight(Light):
     position : array_like (3,)
         World space.
     color : array_like (3,) or str
-        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-        decoded to linear. Light has no alpha: "transparent" raises ValueError.
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
+        decoded to linear. A light has no alpha: "transparent" raises ValueError.
     intensity : float
-        Times color, not negative.
+        A factor of `color`, not negative.
     decay : float
-        The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+        The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
     shadow : Shadow, bool or None
-        None: it shines through everything. True: ``Shadow()``.
+        None or False: the light casts no shadows. True: ``Shadow()``.
 
     Raises
     ------
@@ -3008,36 +3021,36 @@ class PointLight(Light):
     @property
     def shadow(self) -> Shadow | None:
         """
-        Shadow or None: None shines through everything; True sets ``Shadow()``.
+        Shadow or None: None casts no shadows; True sets ``Shadow()``.
         """
     @shadow.setter
     def shadow(self, arg1: Shadow | bool | None) -> None: ...
 
 class SpotLight(Light):
     """
-    Light from one point into a cone, as three.js and glTF have it.
+    Light from one point into a cone, by the formulas of three.js and glTF.
 
     Parameters
     ----------
     position : array_like (3,)
         World space.
     direction : array_like (3,)
-        Of the cone's axis, the way the light travels, in world space, of any length but 0; kept
+        The way the light travels along the cone's axis, in world space, of any length except 0; it is kept
         normalised. Straight down by default.
     angle : float
-        From the axis to the cone's edge, degrees: above 0, below 90. Beyond it there is no light.
+        Angle from the axis to the cone's edge, degrees: above 0, below 90. There is no light outside the cone.
     penumbra : float
-        Share of the angle, from the edge inwards, over which the light fades: 0 is a sharp edge, at 1
-        it fades from the axis on. Between the cosines of the two angles it is smoothstep.
+        Share of the angle, from the edge inwards, over which the light fades: with 0 the edge is sharp, with
+        1 the light fades from the axis on. The fade is GLSL's smoothstep between the cosines of the two angles.
     color : array_like (3,) or str
-        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-        decoded to linear. Light has no alpha: "transparent" raises ValueError.
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
+        decoded to linear. A light has no alpha: "transparent" raises ValueError.
     intensity : float
-        Times color, not negative.
+        A factor of `color`, not negative.
     decay : float
-        The light falls with distance**-decay: 0 not at all, 2 as physics has it. Not negative.
+        The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
     shadow : Shadow, bool or None
-        None: it shines through everything. True: ``Shadow()``.
+        None or False: the light casts no shadows. True: ``Shadow()``.
 
     Raises
     ------
@@ -3067,7 +3080,7 @@ class SpotLight(Light):
     @property
     def angle(self) -> float:
         """
-        float: from the axis to the cone's edge, degrees.
+        float: angle from the axis to the cone's edge, degrees.
         """
     @angle.setter
     def angle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -3102,7 +3115,7 @@ class SpotLight(Light):
     @property
     def shadow(self) -> Shadow | None:
         """
-        Shadow or None: None shines through everything; True sets ``Shadow()``.
+        Shadow or None: None casts no shadows; True sets ``Shadow()``.
         """
     @shadow.setter
     def shadow(self, arg1: Shadow | bool | None) -> None: ...
@@ -3114,15 +3127,15 @@ class DirectionalLight(Light):
     Parameters
     ----------
     direction : array_like (3,)
-        The way the light travels, in world space, of any length but 0; kept normalised. Straight down
-        by default.
+        The way the light travels, in world space, of any length except 0; it is kept normalised. Straight
+        down by default.
     color : array_like (3,) or str
-        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-        decoded to linear. Light has no alpha: "transparent" raises ValueError.
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
+        decoded to linear. A light has no alpha: "transparent" raises ValueError.
     intensity : float
-        Times color, not negative.
+        A factor of `color`, not negative.
     shadow : Shadow, bool or None
-        None: it shines through everything. True: ``Shadow()``.
+        None or False: the light casts no shadows. True: ``Shadow()``.
 
     Raises
     ------
@@ -3155,22 +3168,22 @@ class DirectionalLight(Light):
     @property
     def shadow(self) -> Shadow | None:
         """
-        Shadow or None: None shines through everything; True sets ``Shadow()``.
+        Shadow or None: None casts no shadows; True sets ``Shadow()``.
         """
     @shadow.setter
     def shadow(self, arg1: Shadow | bool | None) -> None: ...
 
 class AmbientLight(Light):
     """
-    Light that comes from everywhere alike.
+    Light of the same strength from all directions.
 
     Parameters
     ----------
     color : array_like (3,) or str
-        Linear RGB, not negative; or a CSS name or "#rrggbb", which say sRGB (IEC 61966-2-1) and are
-        decoded to linear. Light has no alpha: "transparent" raises ValueError.
+        Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
+        decoded to linear. A light has no alpha: "transparent" raises ValueError.
     intensity : float
-        Times color, not negative.
+        A factor of `color`, not negative.
 
     Raises
     ------
@@ -3197,15 +3210,15 @@ class Camera:
     A camera given by its matrices.
 
     Matrices act on column vectors and are written in reading order, so that ``view @ point`` works.
-    World and camera are right-handed, +Y up, the camera looking along -Z; clip space is OpenGL's, from
-    -1 to 1 in x, y and z.
+    World and camera space are right-handed with +Y up, and the camera looks along -Z. Clip space is
+    OpenGL's, from -1 to 1 in x, y and z.
 
     Parameters
     ----------
     view : array_like (4, 4)
         World to camera; last row (0, 0, 0, 1).
     projection : array_like (4, 4)
-        Camera to clip space, for the shape of picture that is asked for.
+        Camera to clip space, for the aspect of the pictures that the camera will draw.
 
     Raises
     ------
@@ -3235,7 +3248,7 @@ class Camera:
         Parameters
         ----------
         aspect : float
-            Width of the picture divided by its height. A camera given by its matrices ignores it.
+            Width of the picture divided by its height. A camera given by its matrices ignores `aspect`.
 
         Returns
         -------
@@ -3266,20 +3279,20 @@ class PerspectiveCamera(Camera):
     position : array_like (3,)
         World space.
     target : array_like (3,), optional
-        A point it looks at. None: straight ahead along -Z, wherever it stands.
+        The point that the camera looks at. None: the camera looks along -Z from any position.
     up : array_like (3,)
-        What is up in the picture; not along the line of sight.
+        The direction that is up in the picture; not along the line of sight.
     near, far : float
-        Depths in world units between which things are seen: 0 < near < far.
+        Depths in world units between which surfaces are drawn: 0 < near < far.
     shift : array_like (2,)
-        How far the window that it looks through lies right of and above its axis, in heights of the
-        picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and verticals stay
-        vertical, as with an architect's lens.
+        How far the middle of the picture lies right of and above the camera's axis, in heights of the
+        picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and vertical lines stay
+        vertical, as with a shift lens for architecture.
 
     Raises
     ------
     ValueError
-        For a target that is the position, an up along the line of sight, near >= far, or a number out
+        For a target equal to the position, an up along the line of sight, near >= far, or a number out
         of its range or not finite.
 
     Notes
@@ -3320,13 +3333,13 @@ class PerspectiveCamera(Camera):
         Raises
         ------
         ValueError
-            For a direction that is not three finite numbers, has no length, or lies along `up`.
+            For a direction that is not three finite numbers, has length 0, or lies along `up`.
         TypeError
-            For a camera given by its matrices, or something that is no vector.
+            For a camera given by its matrices, or a direction that is not a vector.
 
         Notes
         -----
-        The target goes to the position plus the direction, at the distance it had; at 1 if there was none.
+        The new target lies in this direction, at the distance of the old target, or at distance 1 if there was none.
 
         Examples
         --------
@@ -3338,18 +3351,18 @@ class PerspectiveCamera(Camera):
         """
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
-        Move round the target, as if the scene were turned in the hand.
+        Move round the target, as if the viewer turned the scene by hand.
 
         Parameters
         ----------
         camera : PerspectiveCamera or OrthographicCamera
-            One that has a target.
+            A camera with a target.
         yaw : float
-            Degrees round `up`. Positive turns what is seen to the right, as a drag to the right does: the camera goes to
-            its left.
+            Degrees round `up`. Positive turns the scene to the right, like a drag to the right: the camera moves to its
+            left.
         pitch : float
-            Degrees of elevation. Positive tips what is seen towards the viewer, as a drag downwards does: the camera
-            rises. It stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
+            Degrees of elevation. Positive tips the scene towards the viewer, like a drag downwards: the camera rises. It
+            stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
 
         Raises
         ------
@@ -3360,7 +3373,7 @@ class PerspectiveCamera(Camera):
 
         Notes
         -----
-        Target and distance stay.
+        The target and the distance to it stay.
 
         Examples
         --------
@@ -3378,8 +3391,8 @@ class PerspectiveCamera(Camera):
         ----------
         camera : PerspectiveCamera or OrthographicCamera
         degrees : float
-            Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; one that
-            is nearer already goes no further.
+            Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; a view that
+            is already nearer to a pole does not move towards it.
 
         Raises
         ------
@@ -3388,7 +3401,7 @@ class PerspectiveCamera(Camera):
 
         Notes
         -----
-        The position stays, and so does the target's distance; without a target one is set at distance 1.
+        The position and the distance to the target stay. A camera without a target gets one at distance 1.
 
         Examples
         --------
@@ -3400,7 +3413,7 @@ class PerspectiveCamera(Camera):
         """
     def strafe(self, distance: float) -> None:
         """
-        Move to the right, target and all.
+        Move position and target to the right.
 
         Parameters
         ----------
@@ -3423,7 +3436,7 @@ class PerspectiveCamera(Camera):
         """
     def walk(self, distance: float) -> None:
         """
-        Move along the view direction, target and all.
+        Move position and target along the view direction.
 
         Parameters
         ----------
@@ -3461,11 +3474,11 @@ class PerspectiveCamera(Camera):
         ValueError
             For a number that is not finite.
         TypeError
-            For a camera given by its matrices, or something that is no number.
+            For a camera given by its matrices, or an angle that is not a number.
 
         Notes
         -----
-        The position stays, and so does the target's distance; without a target one is set at distance 1.
+        The position and the distance to the target stay. A camera without a target gets one at distance 1.
 
         Examples
         --------
@@ -3478,7 +3491,7 @@ class PerspectiveCamera(Camera):
     @property
     def far(self) -> float:
         """
-        float: nothing farther is seen; world units.
+        float: the farthest depth that is drawn, world units.
         """
     @far.setter
     def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -3492,35 +3505,35 @@ class PerspectiveCamera(Camera):
     @property
     def near(self) -> float:
         """
-        float: nothing nearer is seen; world units.
+        float: the nearest depth that is drawn, world units.
         """
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        ndarray (3,) float64: world space, read-only. Setting it leaves the target.
+        ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def shift(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        ndarray (2,) float64: of the window right of and above the axis, in heights of the picture, read-only.
+        ndarray (2,) float64: how far the middle of the picture lies right of and above the axis, in heights of the picture, read-only.
         """
     @shift.setter
     def shift(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
-        ndarray (3,) float64 or None: a point it looks at, read-only; None is along -Z.
+        ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
     @target.setter
     def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def up(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        ndarray (3,) float64: what is up in the picture, read-only.
+        ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
     @up.setter
     def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
@@ -3534,8 +3547,8 @@ class OrthographicCamera(Camera):
     """
     A camera of parallel rays.
 
-    The incident direction of mirrors and highlights is the view direction; `distance` counts from the
-    near plane.
+    For mirrors and highlights, the incident direction is the view direction. The output `distance` counts
+    from the near plane.
 
     Parameters
     ----------
@@ -3544,16 +3557,16 @@ class OrthographicCamera(Camera):
     position : array_like (3,)
         World space.
     target : array_like (3,), optional
-        A point it looks at. None: straight ahead along -Z, wherever it stands.
+        The point that the camera looks at. None: the camera looks along -Z from any position.
     up : array_like (3,)
-        What is up in the picture; not along the line of sight.
+        The direction that is up in the picture; not along the line of sight.
     near, far : float
-        Depths in world units between which things are seen: near < far.
+        Depths in world units between which surfaces are drawn: near < far.
 
     Raises
     ------
     ValueError
-        For a target that is the position, an up along the line of sight, near >= far, or a number out
+        For a target equal to the position, an up along the line of sight, near >= far, or a number out
         of its range or not finite.
 
     Notes
@@ -3591,13 +3604,13 @@ class OrthographicCamera(Camera):
         Raises
         ------
         ValueError
-            For a direction that is not three finite numbers, has no length, or lies along `up`.
+            For a direction that is not three finite numbers, has length 0, or lies along `up`.
         TypeError
-            For a camera given by its matrices, or something that is no vector.
+            For a camera given by its matrices, or a direction that is not a vector.
 
         Notes
         -----
-        The target goes to the position plus the direction, at the distance it had; at 1 if there was none.
+        The new target lies in this direction, at the distance of the old target, or at distance 1 if there was none.
 
         Examples
         --------
@@ -3609,18 +3622,18 @@ class OrthographicCamera(Camera):
         """
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
-        Move round the target, as if the scene were turned in the hand.
+        Move round the target, as if the viewer turned the scene by hand.
 
         Parameters
         ----------
         camera : PerspectiveCamera or OrthographicCamera
-            One that has a target.
+            A camera with a target.
         yaw : float
-            Degrees round `up`. Positive turns what is seen to the right, as a drag to the right does: the camera goes to
-            its left.
+            Degrees round `up`. Positive turns the scene to the right, like a drag to the right: the camera moves to its
+            left.
         pitch : float
-            Degrees of elevation. Positive tips what is seen towards the viewer, as a drag downwards does: the camera
-            rises. It stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
+            Degrees of elevation. Positive tips the scene towards the viewer, like a drag downwards: the camera rises. It
+            stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
 
         Raises
         ------
@@ -3631,7 +3644,7 @@ class OrthographicCamera(Camera):
 
         Notes
         -----
-        Target and distance stay.
+        The target and the distance to it stay.
 
         Examples
         --------
@@ -3649,8 +3662,8 @@ class OrthographicCamera(Camera):
         ----------
         camera : PerspectiveCamera or OrthographicCamera
         degrees : float
-            Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; one that
-            is nearer already goes no further.
+            Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; a view that
+            is already nearer to a pole does not move towards it.
 
         Raises
         ------
@@ -3659,7 +3672,7 @@ class OrthographicCamera(Camera):
 
         Notes
         -----
-        The position stays, and so does the target's distance; without a target one is set at distance 1.
+        The position and the distance to the target stay. A camera without a target gets one at distance 1.
 
         Examples
         --------
@@ -3671,7 +3684,7 @@ class OrthographicCamera(Camera):
         """
     def strafe(self, distance: float) -> None:
         """
-        Move to the right, target and all.
+        Move position and target to the right.
 
         Parameters
         ----------
@@ -3694,7 +3707,7 @@ class OrthographicCamera(Camera):
         """
     def walk(self, distance: float) -> None:
         """
-        Move along the view direction, target and all.
+        Move position and target along the view direction.
 
         Parameters
         ----------
@@ -3732,11 +3745,11 @@ class OrthographicCamera(Camera):
         ValueError
             For a number that is not finite.
         TypeError
-            For a camera given by its matrices, or something that is no number.
+            For a camera given by its matrices, or an angle that is not a number.
 
         Notes
         -----
-        The position stays, and so does the target's distance; without a target one is set at distance 1.
+        The position and the distance to the target stay. A camera without a target gets one at distance 1.
 
         Examples
         --------
@@ -3749,7 +3762,7 @@ class OrthographicCamera(Camera):
     @property
     def far(self) -> float:
         """
-        float: nothing farther is seen; world units.
+        float: the farthest depth that is drawn, world units.
         """
     @far.setter
     def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
@@ -3763,28 +3776,28 @@ class OrthographicCamera(Camera):
     @property
     def near(self) -> float:
         """
-        float: nothing nearer is seen; world units.
+        float: the nearest depth that is drawn, world units.
         """
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        ndarray (3,) float64: world space, read-only. Setting it leaves the target.
+        ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
     @position.setter
     def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
-        ndarray (3,) float64 or None: a point it looks at, read-only; None is along -Z.
+        ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
     @target.setter
     def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
     def up(self) -> numpy.typing.NDArray[numpy.float64]:
         """
-        ndarray (3,) float64: what is up in the picture, read-only.
+        ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
     @up.setter
     def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
@@ -3798,23 +3811,24 @@ class StereoCamera:
     """
     Two eyes, whose pictures are drawn in one call and combined.
 
-    ``renderer.render(scene, stereo_camera, size)`` gives one Frame of that size. Each eye's picture is, bit
-    for bit, the one that its camera gives alone, with the aspect of its part; tone mapping and encoding come
-    before they are combined. Only the eyes whose picture changed are drawn again.
+    ``renderer.render(scene, stereo_camera, size)`` returns one Frame of that size. Each eye's picture equals,
+    bit for bit, the picture that its camera draws alone with the aspect of its part. Tone mapping and encoding
+    come before the pictures are combined. Only an eye whose picture changed is drawn again.
 
     Parameters
     ----------
     left, right : Camera
-        Any two; changed at any time, they show it in the next picture.
+        Any two cameras; the next picture shows a change of either.
     layout : {"anaglyph", "side_by_side", "top_bottom"}
-        "anaglyph", for red-cyan glasses: red from the left eye, green and blue from the right, alpha the
-        greater; there are no outputs. "side_by_side": the left eye in the left half, of an even width;
-        "top_bottom": the left eye in the upper half, of an even height; outputs are combined alike.
+        "anaglyph", for red-cyan glasses: red from the left eye, green and blue from the right, and the greater
+        alpha of both; there are no outputs. "side_by_side": the left eye fills the left half; the width must be
+        even. "top_bottom": the left eye fills the upper half; the height must be even. Outputs are placed side
+        by side, or top to bottom, like the colour.
 
     Raises
     ------
     TypeError
-        For what is no Camera.
+        For an eye that is not a Camera.
     ValueError
         For another layout.
 
@@ -3839,23 +3853,24 @@ class StereoCamera:
         layout: str = "anaglyph",
     ) -> StereoCamera:
         """
-        Eyes beside a camera, with parallel axes.
+        Place two eyes beside a camera, with parallel axes.
 
-        They stand half of `separation` to the left and right of it, along its own right axis, and look the same
-        way. Without `convergence` what is infinitely far has no parallax, and all else stands before the screen.
+        The eyes stand half of `separation` to the left and to the right of the camera, along its own right axis,
+        and look in the camera's direction. Without `convergence`, infinitely far points have no parallax, and all
+        other points appear in front of the screen.
 
         Parameters
         ----------
         camera : Camera
-            The middle of the two; it is copied.
+            The camera in the middle between the eyes; it is copied.
         separation : float
-            Distance of the eyes, world units, not negative. 0.065 is a person's, in metres.
+            Distance between the eyes, world units, not negative. 0.065 is that of a person, in metres.
         convergence : float, optional
             Distance along the camera's axis, world units, at which points have the same place in both pictures:
-            farther ones lie behind the screen, nearer ones before it. The frusta are sheared for that, and not
-            turned, so that no vertical parallax arises. Not for cameras of parallel rays.
+            farther points appear behind the screen, nearer points in front of it. The frusta are sheared and not
+            turned, so that there is no vertical parallax. An orthographic camera has no convergence.
         layout : {"anaglyph", "side_by_side", "top_bottom"}
-            See the class.
+            See `StereoCamera`.
 
         Returns
         -------
@@ -3864,13 +3879,13 @@ class StereoCamera:
         Raises
         ------
         ValueError
-            For a number out of its range or not finite, or a convergence of parallel rays.
+            For a number out of its range or not finite, or a convergence with an orthographic camera.
 
         Notes
         -----
-        P. Bourke, "Calculating Stereo Pairs", 1999. At depth z a point's places differ by
-        ``separation * (1 / convergence - 1 / z) * f / 2`` widths of the picture to the right for the right eye, f
-        being ``camera.projection(aspect)[0, 0]``.
+        P. Bourke, "Calculating Stereo Pairs", 1999. In the right eye's picture, a point at depth z lies
+        ``separation * (1 / convergence - 1 / z) * f / 2`` widths of the picture farther to the right than in the
+        left eye's picture, where f is ``camera.projection(aspect)[0, 0]``.
         """
     @staticmethod
     def toe_in(
@@ -3880,20 +3895,20 @@ class StereoCamera:
         layout: str = "anaglyph",
     ) -> StereoCamera:
         """
-        Eyes on a circle round a camera's target, both looking at it.
+        Place two eyes on a circle round a camera's target; both look at the target.
 
         The view is turned by half of `degrees` to the left and to the right, about the axis through the target
-        that is up in the camera's picture. Simple, and with vertical parallax towards the corners; `off_axis` has
-        none.
+        that is up in the camera's picture. This causes vertical parallax towards the corners, which `off_axis`
+        avoids.
 
         Parameters
         ----------
         camera : PerspectiveCamera or OrthographicCamera
-            The middle of the two, with a target; it is copied.
+            The camera in the middle between the eyes, with a target; it is copied.
         degrees : float
             Angle between the two eyes as seen from the target: from 0 to below 180.
         layout : {"anaglyph", "side_by_side", "top_bottom"}
-            See the class.
+            See `StereoCamera`.
 
         Returns
         -------
@@ -3926,21 +3941,21 @@ class StereoCamera:
     @property
     def left(self) -> Camera:
         """
-        Camera: of the left eye.
+        Camera: the camera of the left eye.
         """
     @left.setter
     def left(self, arg1: Camera) -> None: ...
     @property
     def right(self) -> Camera:
         """
-        Camera: of the right eye.
+        Camera: the camera of the right eye.
         """
     @right.setter
     def right(self, arg1: Camera) -> None: ...
 
 class Stats:
     """
-    What a renderer's last call drew, skipped and took.
+    What the last call of a renderer drew and skipped, and how long it took.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Stats) -> str: ...
@@ -3952,7 +3967,7 @@ class Stats:
     @property
     def milliseconds(self) -> float:
         """
-        float: the whole call, reading back included.
+        float: time of the whole call, including the copy to main memory.
         """
     @property
     def pictures_not_kept(self) -> int:
@@ -3977,7 +3992,7 @@ class Stats:
     @property
     def triangles(self) -> int:
         """
-        int: sent to the GPU, each view counted.
+        int: triangles sent to the GPU, counted once for each view.
         """
     @property
     def views_drawn(self) -> int:
@@ -3987,12 +4002,12 @@ class Stats:
     @property
     def views_skipped(self) -> int:
         """
-        int: pictures that were still true and not drawn again.
+        int: pictures that were up to date and not drawn again.
         """
 
 class Limits:
     """
-    What the driver allows at most.
+    The greatest values that the driver allows.
     """
     def __reduce__(self) -> tuple: ...
     @property
@@ -4013,7 +4028,7 @@ class Limits:
     @property
     def max_samples(self) -> int:
         """
-        int: of multisampling.
+        int: samples of each pixel (MSAA).
         """
     @property
     def max_texture_size(self) -> int:
@@ -4023,14 +4038,14 @@ class Limits:
 
 class RendererInfo:
     """
-    What a renderer runs on.
+    The device, driver and limits of a renderer.
     """
     def __reduce__(self) -> tuple: ...
     def __repr__(self: RendererInfo) -> str: ...
     @property
     def device(self) -> Device:
         """
-        Device: the one that was chosen.
+        Device: the device of the renderer.
         """
     @property
     def egl_version(self) -> str:
@@ -4045,7 +4060,7 @@ class RendererInfo:
     @property
     def layered(self) -> bool:
         """
-        bool: whether one draw call serves all faces of a cube.
+        bool: whether one draw call draws a mesh on all faces of a cube.
         """
     @property
     def limits(self) -> Limits:
@@ -4065,7 +4080,7 @@ class RendererInfo:
     @property
     def software(self) -> bool:
         """
-        bool: whether the CPU draws.
+        bool: whether the device renders on the CPU.
         """
     @property
     def vendor(self) -> str:
@@ -4080,10 +4095,10 @@ class RendererInfo:
 
 class Frame:
     """
-    A rendered picture: arrays with row 0 on top, each the caller's own.
+    A rendered picture: arrays with row 0 on top, which belong to the caller.
 
-    What was not requested by ``outputs=`` is None. Only opaque nodes write the outputs; `depth` and
-    `stencil` are what those buffers hold in the end.
+    An output that ``outputs=`` does not request is None. Only opaque nodes write the outputs; `depth` and
+    `stencil` are the contents of these buffers after the last node is drawn.
 
     Examples
     --------
@@ -4103,7 +4118,7 @@ class Frame:
     @property
     def color(self) -> typing.Any:
         """
-        ndarray (H, W, 4): uint8, float16 or float32 as ``format`` said; linear unless encoded. None with ``format=None``.
+        ndarray (H, W, 4): the colour, uint8, float16 or float32 by ``format``; linear, except with ``encode=``. None with ``format=None``.
         """
     @property
     def depth(self) -> typing.Any:
@@ -4130,9 +4145,9 @@ class Frame:
         """
         dict of str to ndarray: the outputs that were requested, by name.
 
-        Beside the attributes' arrays it holds those that a ``ShaderMaterial`` declares, `out vec4 heat;`,
-        float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for float; 0 where the node that
-        is seen does not write them.
+        The dict holds the built-in outputs, which are attributes as well, and the outputs that a ``ShaderMaterial``
+        declares, such as `out vec4 heat;`: float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for
+        float. A declared output is 0 where the visible node does not write it.
         """
     @property
     def position(self) -> typing.Any:
@@ -4159,30 +4174,31 @@ class Renderer:
     """
     Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
 
-    A renderer owns an OpenGL 4.5 context on EGL: a GPU if there is one, else Mesa's software rasteriser. Any thread may
-    use it; calls on one renderer follow each other, several renderers work in parallel. Use it in a ``with`` block, or
-    call :meth:`close`.
+    A renderer owns an OpenGL 4.5 context on EGL, on a GPU if there is one, else on Mesa's software rasteriser. Any thread
+    may use a renderer; calls on one renderer run one after the other, and several renderers work in parallel. Use a
+    renderer in a ``with`` block, or call :meth:`close`.
 
     Parameters
     ----------
     device : str, int, Device or None
-        "auto" (the environment variable CUBECAM_DEVICE if set, else a GPU, else software), "gpu", "software", an index
-        into :func:`devices`, one of them, part of a device's name, or a UUID. None means "auto".
+        "auto" (the environment variable CUBECAM_DEVICE if it is set, else a GPU, else software), "gpu", "software", an
+        index into the list that :func:`devices` returns, a device of that list, a part of a device's name, or a UUID. None
+        means "auto".
     layered : bool or None
-        Draw all views of a mesh in one call (True), one view after another (False), or as is faster here (None). Both give
-        the same bytes on llvmpipe.
+        True: one draw call draws a mesh in all views. False: each view has a draw call of its own. None: the renderer takes
+        the way that is faster on its device. Both give the same bytes on llvmpipe.
     cache_bytes : int
-        GPU memory kept for targets of frames and captures, so that an unchanged picture is not drawn again. At most as
-        much main memory is kept of results that were let go, for the next ones of their size; what eight calls found no
-        use for is freed, and all of it by :meth:`close`. Default 256 MiB; ``stats.pictures_not_kept`` tells whether a
-        picture is larger than that.
+        GPU memory in which the renderer keeps the targets of frames and captures, so that an unchanged picture is not drawn
+        again. The renderer also keeps at most as much main memory of arrays that the caller no longer uses, for the next
+        results of the same size. Memory that eight calls did not use is freed; :meth:`close` frees the rest. Default
+        256 MiB; ``stats.pictures_not_kept`` reports how many pictures of a call are larger than that.
     debug : bool
-        Ask for a debug context, whose errors tell more.
+        True: the context is a debug context, whose errors say more.
 
     Raises
     ------
     ContextError
-        No context can be had. The message tells each device that was tried, why it failed, and what to install.
+        If no OpenGL context can be made. The message names each device that was tried, why it failed, and what to install.
 
     Examples
     --------
@@ -4227,7 +4243,7 @@ class Renderer:
         depth_order: str = "nearest",
     ) -> CubeMap:
         """
-        Draw what surrounds a point into a cubemap.
+        Draw the surroundings of a point into a cubemap.
 
         Parameters
         ----------
@@ -4239,34 +4255,34 @@ class Renderer:
         near, far : float
             Clip distances along each face's axis, world units, 0 < near < far.
         exclude : sequence of Node
-            Left out, with all below them.
+            Nodes that are left out, with all nodes below them.
         outputs : sequence of str
-            Besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth", "stencil", and of the outputs that
-            the GLSL of a :class:`ShaderMaterial` of a visible node declares.
+            What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth" and "stencil",
+            and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
         format : str
             "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
         samples : int
-            Multisampling of colour, see :meth:`render`.
+            Samples of each texel's colour (MSAA), see :meth:`render`.
         eye : array_like (3,) or None
-            From where highlights and mirrors are seen; None: from ``position``.
+            The point from which highlights and mirrors are computed. None: ``position``.
         depth_format : str or None
-            The depth and stencil buffer, see :meth:`render`.
+            The format of the depth and stencil buffer, see :meth:`render`.
         depth_order : str
-            "nearest", or "farthest": colour and outputs are those of the farthest opaque surface along each ray between
-            ``near`` and ``far``, the background where there is none. Single-sided materials show their front faces alone, so
-            the far side of a body counts with ``double_sided=True``. Of translucent nodes shows what is farther still. It
-            wants a depth buffer.
+            "nearest": colour and outputs are those of the nearest opaque surface along each ray. "farthest": those of the
+            farthest opaque surface between ``near`` and ``far``, and the background where there is none. A single-sided
+            material shows only its front faces, so the far side of a body counts only with ``double_sided=True``. Translucent
+            surfaces show where they lie beyond the farthest opaque surface. "farthest" needs a depth buffer.
 
         Returns
         -------
         CubeMap
-            ``faces`` (6, size, size, 4) in the order +X -X +Y -Y +Z -Z, laid out as OpenGL does (section 8.13 of the 4.6
-            specification): ``texture(cube, world_direction)`` needs no flip.
+            ``faces`` has the shape (6, size, size, 4), in the order +X -X +Y -Y +Z -Z, in the layout of OpenGL (section 8.13 of
+            the 4.6 specification): ``texture(cube, world_direction)`` needs no flip.
 
         Raises
         ------
         ValueError, TypeError, ContextError
-            As :meth:`render`; also for nodes of another scene.
+            As :meth:`render` raises; also for an excluded node of another scene.
 
         Examples
         --------
@@ -4280,26 +4296,26 @@ class Renderer:
         """
     def close(self: Renderer) -> None:
         """
-        Free the context and all it holds. Calls after that raise ContextError; closing twice does nothing.
+        Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing.
         """
     def read_probe(self: Renderer, probe: Probe) -> CubeMap:
         """
-        What a probe holds now, in the probe's format.
+        Read the present contents of a probe, in the probe's format.
 
         Parameters
         ----------
         probe : Probe
-            One that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+            A probe that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
 
         Returns
         -------
         CubeMap
-            A copy; uint8, float16 or float32, faces (6, size, size, 4).
+            A copy; uint8, float16 or float32, with faces of the shape (6, size, size, 4).
 
         Raises
         ------
         ValueError
-            If this renderer has not drawn it yet.
+            If this renderer has not drawn the object yet.
         ContextError
             After :meth:`close`, or in a forked process.
 
@@ -4317,22 +4333,22 @@ class Renderer:
         """
     def read_texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
         """
-        What a render texture holds now, in its format.
+        Read the present contents of a render texture, in its format.
 
         Parameters
         ----------
         render_texture : RenderTexture
-            One that a picture of this renderer has shown.
+            A render texture that a picture of this renderer has shown.
 
         Returns
         -------
         ndarray (H, W, 4)
-            uint8, float16 or float32, row 0 on top; the caller's own.
+            uint8, float16 or float32, row 0 on top. The array belongs to the caller.
 
         Raises
         ------
         ValueError
-            If this renderer has not drawn it yet.
+            If this renderer has not drawn the object yet.
         """
     def render(
         self: Renderer,
@@ -4349,9 +4365,9 @@ class Renderer:
         depth_format: str | None = "depth_component32f",
     ) -> Frame:
         """
-        Draw a picture, with every probe its mirrors need brought up to date first.
+        Draw a picture of a scene. The probes that its mirrors need are brought up to date first.
 
-        A picture that would come out as the last one of this size and format did is not drawn again.
+        If nothing changed since the last picture of this size and format, the picture is not drawn again.
 
         Parameters
         ----------
@@ -4360,26 +4376,27 @@ class Renderer:
         size : (int, int)
             (width, height), pixels.
         outputs : sequence of str
-            Besides colour: any of "distance", "z", "normal", "position", "id", of the outputs that the GLSL of a
-            :class:`ShaderMaterial` of a visible node declares, and of "depth" and "stencil", what those
-            buffers hold in the end.
+            What the frame holds besides colour: any of "distance", "z", "normal", "position" and "id"; any output that the GLSL
+            of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these buffers after
+            the last node is drawn.
         format : str or None
-            "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, read as
-            uint8 of 255; alpha 255). None: no colour buffer, only the outputs are drawn.
+            "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, scaled to
+            uint8 from 0 to 255; alpha 255). None: there is no colour buffer, and only the outputs are drawn.
         samples : int
-            Multisampling of colour: 1 for none, at most ``info.limits.max_samples``. The outputs are those of samples=1.
+            Samples of each pixel's colour (MSAA): 1 for none, at most ``info.limits.max_samples``. The outputs are the same for
+            every number of samples.
         tonemap : str or None
-            "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024),
-            after resolving. None: values stay as they are.
+            "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024), applied
+            after multisamples are resolved. None: values stay as they are.
         encode : str or None
-            "srgb" (IEC 61966-2-1) or None: linear.
+            "srgb" encodes the colour (IEC 61966-2-1). None: the colour stays linear.
         effects : sequence of ImageEffect
-            Passes over the colour, one after the other, after resolving and before the tone curve.
+            Passes over the colour, one after the other, after multisamples are resolved and before tone mapping.
         depth_format : str or None
-            The depth and stencil buffer, by OpenGL's names: "depth_component32f", "depth_component24", "depth_component16",
-            "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without depth nothing is
-            hidden: nodes are painted one over the other, in order of ``render_order``, then id, and there are no outputs but
-            "stencil".
+            The format of the depth and stencil buffer, by OpenGL's names: "depth_component32f", "depth_component24",
+            "depth_component16", "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without
+            a depth buffer no node hides another: nodes are painted one over the other, in order of ``render_order``, then id,
+            and "stencil" is the only output.
 
         Returns
         -------
@@ -4390,7 +4407,8 @@ class Renderer:
         ------
         ValueError
             For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-            outputs that ``depth_format`` does not allow, tone mapping or effects of no colour, or an impossible camera.
+            outputs that ``depth_format`` does not allow, tone mapping or effects with ``format=None``, or a camera without a
+            valid view.
         ContextError
             After :meth:`close`, or in a forked process.
 
@@ -4404,23 +4422,23 @@ class Renderer:
         """
     def shadow_map(self: Renderer, scene: Scene, light: Light) -> numpy.ndarray:
         """
-        What a light sees of what casts shadows, to look at. It is drawn if it is not up to date.
+        Draw the shadow map of a light, as distances, to look at. A map that is up to date is not drawn again.
 
         Parameters
         ----------
         scene : Scene
         light : Light
-            One of the scene's, with a shadow.
+            A light of the scene, with a shadow.
 
         Returns
         -------
         ndarray (L, size, size) float32
-            Distances in world units along the axis of each view, +inf where nothing casts. A spot light has one view, from the
-            light along its direction. A point light has six, +X -X +Y -Y +Z -Z, laid out as the faces of a capture; they, and
-            a spot light's, are a little wider than 90 degrees or the cone: the filter reaches into ``ceil(radius) + 2``
-            texels more on each side. A directional light has one view of parallel rays, and distances count from the plane at
-            which the bounds of all that casts begin; its outermost texels stay empty. Row 0 of a single view is on top: +Y is
-            up there, -Z for light from straight above or below.
+            Distances in world units along the axis of each view, +inf where no node casts a shadow. A spot light has one view,
+            from the light along its direction. A point light has six, +X -X +Y -Y +Z -Z, laid out as the faces of a capture.
+            The views of point and spot lights are a little wider than 90 degrees or the cone, since the filter reads
+            ``ceil(radius) + 2`` texels beyond each side. A directional light has one view of parallel rays; its distances count
+            from the plane at which the bounds of all casters begin, and its outermost texels stay empty. Row 0 of a single view
+            is on top: +Y is up, or -Z for light from straight above or below.
 
         Raises
         ------
@@ -4441,13 +4459,13 @@ class Renderer:
         """
     def update_probes(self: Renderer, scene: Scene, *, probes: typing.Any = None) -> None:
         """
-        Draw probes now, whatever their ``update`` says.
+        Draw probes now, whatever value their ``update`` has.
 
         Parameters
         ----------
         scene : Scene
         probes : Probe, sequence of Probe, or None
-            None: all that visible nodes of the scene use.
+            The probes to draw. None: all probes that visible nodes of the scene use.
 
         Raises
         ------
@@ -4459,17 +4477,17 @@ class Renderer:
     @property
     def closed(self) -> bool:
         """
-        bool
+        bool: whether close() was called.
         """
     @property
     def info(self) -> RendererInfo:
         """
-        RendererInfo: what was chosen; it stays after close().
+        RendererInfo: the device, driver and limits; readable after close(), too.
         """
     @property
     def stats(self) -> Stats:
         """
-        Stats: of the last call.
+        Stats: what the last call drew.
         """
 
 def _check_pickle(format: typing.Any) -> None:
@@ -4491,14 +4509,14 @@ def axis_angle(
     axis: numpy.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
 ) -> numpy.typing.NDArray[numpy.float64]:
     """
-    The quaternion of a turn round an axis.
+    Make the quaternion of a rotation round an axis.
 
     Parameters
     ----------
     axis : array_like (3,)
-        Of any length but 0. Seen with the axis pointing at the viewer, the turn is counter-clockwise.
+        The axis, of any length except 0. If the axis points at the viewer, the rotation is counter-clockwise.
     degrees : float
-        The angle.
+        The angle of the rotation.
 
     Returns
     -------
@@ -4508,7 +4526,7 @@ def axis_angle(
     Raises
     ------
     ValueError
-        For an axis of no length, or numbers that are not finite.
+        For an axis of length 0, or numbers that are not finite.
 
     Examples
     --------
@@ -4519,15 +4537,15 @@ def axis_angle(
 
 def devices() -> list[Device]:
     """
-    The devices that can render.
+    List the devices that can render.
 
-    Nothing is chosen or kept. The first call may start drivers to learn their names. A device whose
-    driver does not start is listed too, with the reason in its `problem`.
+    The list does not affect which device a `Renderer` chooses. The first call may start drivers to learn
+    their names. A device whose driver does not start is listed too, with the reason in its `problem`.
 
     Returns
     -------
     list of Device
-        In the order that ``Renderer(device=index)`` counts them. Empty if EGL cannot list devices; a
+        The devices in the order of ``Renderer(device=index)``. The list is empty if EGL cannot list devices; a
         `Renderer` may still find the surfaceless or the default display.
 
     Raises

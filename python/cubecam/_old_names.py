@@ -1,4 +1,4 @@
-"""The names of cubecam 0.1 that are gone, and what answers in their place."""
+"""The names of cubecam 0.1 that were removed, and errors that give the new names."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ PICKLED_ARGUMENTS = {
 
 
 def renamed(owner: str, name: str) -> str | None:
-    """Say what an old name is now, in one sentence; None for a name that never was."""
+    """Give the sentence that names the new name of an old one; None if the name never existed."""
     new = OLD_NAMES.get(owner, {}).get(name)
     if new is None:
         return None
@@ -57,7 +57,7 @@ def renamed(owner: str, name: str) -> str | None:
 
 
 class OldName:
-    """An attribute that only says what it is called now; one that is found costs nothing."""
+    """An attribute with an old name, which raises AttributeError with the new name."""
 
     def __init__(self, answer: str) -> None:
         self.answer = answer
@@ -72,13 +72,13 @@ class OldName:
 
 
 def _listed(self: Any) -> list[str]:
-    """Give the names that work, for completion."""
+    """List the names without the old ones, for completion."""
     old = {name for kind in type(self).__mro__ for name in OLD_NAMES.get(kind.__name__, {})}
     return [name for name in object.__dir__(self) if name not in old or hasattr(self, name)]
 
 
 def answer_old_names() -> None:
-    """Put an `OldName` wherever a class had an attribute; called once, by `cubecam/__init__.py`."""
+    """Set an `OldName` for each attribute that a class had; called once, when cubecam is imported."""
     for owner, names in OLD_NAMES.items():
         kind = getattr(_core, owner, None)
         if not isinstance(kind, type):

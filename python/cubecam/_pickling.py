@@ -1,4 +1,4 @@
-"""What pickles call. A function of Python is pickled by its name; one of the core would be by an expression."""
+"""The function that pickles call. It is written in Python since pickle stores such a function by its name."""
 
 from __future__ import annotations
 
@@ -10,6 +10,6 @@ __all__ = ["remake"]
 
 
 def remake(version: int, kind: type, arguments: Any) -> Any:
-    """Make an object anew of arguments by position (a tuple) or by name (a dict); refuse pickles of other versions."""
+    """Make an object from arguments by position (a tuple) or by name (a dict); raise TypeError for other formats."""
     _core._check_pickle(version)
     return kind(**arguments) if isinstance(arguments, dict) else kind(*arguments)

@@ -11,9 +11,9 @@ __all__ = ["ShaderInputs", "set_textures", "set_uniforms", "textures", "uniforms
 
 
 class ShaderInputs(MutableMapping[str, Any]):
-    """A live view of an object's uniforms or textures: what is set here shows in the next picture.
+    """A live view of an object's uniforms or textures: the next picture shows a value that is set here.
 
-    Values come back as float, read-only float64 array, Image, RenderTexture, CubeMap or Probe.
+    A value that is read is a float, a read-only float64 array, an Image, a RenderTexture, a CubeMap or a Probe.
     """
 
     def __init__(self, owner: ShaderMaterial | ImageEffect, kind: str) -> None:
@@ -24,7 +24,7 @@ class ShaderInputs(MutableMapping[str, Any]):
         return dict(getattr(self._owner, f"_{self._kind}s")())
 
     def __getitem__(self, name: str) -> Any:
-        """Give a value."""
+        """Return a value."""
         return self._values()[name]
 
     def __setitem__(self, name: str, value: Any) -> None:
@@ -32,15 +32,15 @@ class ShaderInputs(MutableMapping[str, Any]):
         getattr(self._owner, f"_set_{self._kind}")(name, value)
 
     def __delitem__(self, name: str) -> None:
-        """Take a value out: the source's own declaration counts again."""
+        """Remove a value; the uniform then has the value of its declaration in the source."""
         getattr(self._owner, f"_remove_{self._kind}")(name)
 
     def __iter__(self) -> Iterator[str]:
-        """Go through the names, sorted."""
+        """Iterate over the names in alphabetical order."""
         return iter(self._values())
 
     def __len__(self) -> int:
-        """Count the names."""
+        """Return the number of names."""
         return len(self._values())
 
     def __repr__(self) -> str:

@@ -1,6 +1,6 @@
-"""The demo: bunny and teapot circle a mirror ball in a photographed square; every kind of picture of it.
+"""The demo: a bunny and a teapot circle a mirror ball in a photographed square, drawn in every kind of picture.
 
-`build_scene` is the scene of the README, used by the command line, the notebook and the tests alike.
+The command line, a notebook and the tests use the scene that `build_scene` makes.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 __all__ = ["DemoScene", "Step", "build_scene", "run"]
 
 _START = 320.0  # degrees: where the bunny stands in still pictures
-_ORBIT = 1.4  # world units from the ball's centre to the actors
+_ORBIT = 1.4  # world units from the ball's center to the bunny and the teapot
 
 
 @dataclass
@@ -60,7 +60,7 @@ class DemoScene:
         Parameters
         ----------
         angle : float, degrees
-            Of the bunny, counter-clockwise seen from above; 0 is +X, 90 is -Z (away from the camera).
+            The angle of the bunny, counter-clockwise seen from above; 0 is +X, 90 is -Z (away from the camera).
         """
         for node, own in ((self.bunny, angle), (self.teapot, angle + 180)):
             radians = math.radians(own)
@@ -74,7 +74,7 @@ def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) ->
     Parameters
     ----------
     environment : CubeMap, optional
-        What surrounds it; the packaged photograph of a city square by default.
+        The surroundings of the scene. None: the sample photograph of a city square.
     probe_size : int
         Texels along a face of the cubemap that the ball shows.
 
@@ -112,7 +112,7 @@ def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) ->
 
 @dataclass(frozen=True)
 class Step:
-    """One thing the demo did: what, the file it wrote (None: none), how long it took in seconds."""
+    """One step of the demo: its name, the file that it wrote or None, and its time in seconds."""
 
     name: str
     path: Path | None
@@ -132,20 +132,20 @@ def run(
     Parameters
     ----------
     out : path
-        The folder to write to; made if it is missing.
+        The folder to write to; it is made if it does not exist.
     frames : int
-        Pictures of the animation, one turn in all.
+        Number of pictures of the animation, which shows one turn.
     size : int
-        Width and height of the frame in pixels. The animation has half of it, the cubemap's faces too.
+        Width and height of the frame in pixels. The animation and the cubemap's faces have half of it.
     device : str or int, optional
-        As for `Renderer`.
+        The device of the `Renderer`.
     console : rich.console.Console, optional
-        Where to report; standard output by default.
+        The console for reports; standard output by default.
 
     Returns
     -------
     list of Step
-        In the order they were done.
+        The steps in their order.
     """
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
@@ -194,7 +194,7 @@ class _Steps:
 
 
 def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> str:
-    """Do all of it; gives the name of the device."""
+    """Run all steps and return the name of the device."""
     half = max(1, size // 2)
     with steps.step("photograph and meshes"):
         demo = build_scene(probe_size=half)

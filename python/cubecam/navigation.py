@@ -1,8 +1,8 @@
-"""Moving a camera as one who stands or flies in the scene does: turn, look, walk, strafe, orbit.
+"""Move a camera like a person who walks or flies through the scene: yaw, pitch, look, walk, strafe, orbit.
 
-Plain functions on a `PerspectiveCamera` or `OrthographicCamera`, which have them as methods too:
-`camera.yaw(10)` is `yaw(camera, 10)`. They change the camera in place and return None; one that
-raises leaves it as it was. Up is the camera's own `up`; poles are what lies straight along it.
+The functions take a `PerspectiveCamera` or an `OrthographicCamera`, and these have them as methods, too:
+`camera.yaw(10)` is `yaw(camera, 10)`. They change the camera in place and return None. A function that
+raises an error does not change the camera. Up is the camera's own `up`; the poles are the directions up and down.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     ValueError
         For a number that is not finite.
     TypeError
-        For a camera given by its matrices, or something that is no number.
+        For a camera given by its matrices, or an angle that is not a number.
 
     Notes
     -----
-    The position stays, and so does the target's distance; without a target one is set at distance 1.
+    The position and the distance to the target stay. A camera without a target gets one at distance 1.
 
     Examples
     --------
@@ -67,8 +67,8 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
     ----------
     camera : PerspectiveCamera or OrthographicCamera
     degrees : float
-        Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; one that
-        is nearer already goes no further.
+        Positive looks up. The view stops 1 degree (`POLE_MARGIN`) before straight up and straight down; a view that
+        is already nearer to a pole does not move towards it.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
 
     Notes
     -----
-    The position stays, and so does the target's distance; without a target one is set at distance 1.
+    The position and the distance to the target stay. A camera without a target gets one at distance 1.
 
     Examples
     --------
@@ -95,7 +95,7 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
 
 
 def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> None:
-    """Move along the view direction, target and all.
+    """Move position and target along the view direction.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> Non
 
 
 def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> None:
-    """Move to the right, target and all.
+    """Move position and target to the right.
 
     Parameters
     ----------
@@ -152,18 +152,18 @@ def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> N
 def orbit(
     camera: PerspectiveCamera | OrthographicCamera, *, yaw: float = 0.0, pitch: float = 0.0
 ) -> None:
-    """Move round the target, as if the scene were turned in the hand.
+    """Move round the target, as if the viewer turned the scene by hand.
 
     Parameters
     ----------
     camera : PerspectiveCamera or OrthographicCamera
-        One that has a target.
+        A camera with a target.
     yaw : float
-        Degrees round `up`. Positive turns what is seen to the right, as a drag to the right does: the camera goes to
-        its left.
+        Degrees round `up`. Positive turns the scene to the right, like a drag to the right: the camera moves to its
+        left.
     pitch : float
-        Degrees of elevation. Positive tips what is seen towards the viewer, as a drag downwards does: the camera
-        rises. It stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
+        Degrees of elevation. Positive tips the scene towards the viewer, like a drag downwards: the camera rises. It
+        stops 1 degree (`POLE_MARGIN`) before straight above and straight below the target.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def orbit(
 
     Notes
     -----
-    Target and distance stay.
+    The target and the distance to it stay.
 
     Examples
     --------
@@ -210,13 +210,13 @@ def look(camera: PerspectiveCamera | OrthographicCamera, direction: npt.ArrayLik
     Raises
     ------
     ValueError
-        For a direction that is not three finite numbers, has no length, or lies along `up`.
+        For a direction that is not three finite numbers, has length 0, or lies along `up`.
     TypeError
-        For a camera given by its matrices, or something that is no vector.
+        For a camera given by its matrices, or a direction that is not a vector.
 
     Notes
     -----
-    The target goes to the position plus the direction, at the distance it had; at 1 if there was none.
+    The new target lies in this direction, at the distance of the old target, or at distance 1 if there was none.
 
     Examples
     --------
@@ -230,7 +230,7 @@ def look(camera: PerspectiveCamera | OrthographicCamera, direction: npt.ArrayLik
 
 
 class _Standing:
-    """Where a camera is and how it looks, read once."""
+    """The position and the direction of a camera, read once."""
 
     def __init__(self, camera: PerspectiveCamera | OrthographicCamera) -> None:
         if not isinstance(camera, (PerspectiveCamera, OrthographicCamera)):
@@ -248,7 +248,7 @@ class _Standing:
             self.direction, self.distance = _unit(offset), float(_length(offset))
 
     def ahead(self, direction: Vector) -> Vector:
-        """Give the target at the present distance in a direction of length 1."""
+        """Return the target at the present distance in a direction of length 1."""
         return self.position + self.distance * direction
 
     def move(self, offset: Vector) -> None:
@@ -260,7 +260,7 @@ class _Standing:
             camera.position = self.position + offset
             return
         moved = {"position": self.position + offset, "target": self.target + offset}
-        # The first to go leads, so that the two never meet on the way.
+        # The one in front moves first, so that position and target are never equal.
         forwards = float(offset @ self.direction) > 0
         first, second = ("target", "position") if forwards else ("position", "target")
         setattr(camera, first, moved[first])
@@ -272,7 +272,7 @@ class _Standing:
 
 
 def _turned(vector: Vector, axis: Vector, radians: float) -> Vector:
-    """Rotate counter-clockwise seen with the axis, of length 1, pointing at the viewer (Rodrigues)."""
+    """Rotate round an axis of length 1; counter-clockwise if the axis points at the viewer (Rodrigues)."""
     cos, sin = math.cos(radians), math.sin(radians)
     along = axis * float(axis @ vector)
     turned: Vector = along + cos * (vector - along) + sin * np.cross(axis, vector)
@@ -284,7 +284,7 @@ def _raised(direction: Vector, up: Vector, degrees: float) -> Vector:
     sine = float(direction @ up)
     level = direction - sine * up
     elevation = math.degrees(math.atan2(sine, float(_length(level))))
-    # One that is nearer to a pole than the margin may stay or come back.
+    # A direction that is nearer to a pole than the margin may stay or move away from the pole.
     limit = max(90.0 - POLE_MARGIN, abs(elevation))
     wanted = math.radians(min(max(elevation + degrees, -limit), limit))
     raised: Vector = math.cos(wanted) * _unit(level) + math.sin(wanted) * up
@@ -292,12 +292,12 @@ def _raised(direction: Vector, up: Vector, degrees: float) -> Vector:
 
 
 def _length(vector: Vector) -> float:
-    """Give the length, of numbers near the limits of double too."""
+    """Return the length, also for numbers near the limits of double."""
     return math.hypot(*vector)
 
 
 def _unit(vector: Vector) -> Vector:
-    # Divided twice: the length of great numbers is beyond the range, that of tiny ones loses digits.
+    # The division by the maximum comes first: the length of great numbers overflows, that of tiny ones loses digits.
     scaled = vector / np.abs(vector).max()
     unit: Vector = scaled / _length(scaled)
     return unit
@@ -322,5 +322,5 @@ def _direction(value: Any) -> Vector:
     if not np.isfinite(vector).all():
         raise ValueError(f"direction: expected finite numbers, got {tuple(vector.tolist())}")
     if not vector.any():
-        raise ValueError("direction: expected a vector of some length, got (0, 0, 0)")
+        raise ValueError("direction: expected a vector of a length other than 0, got (0, 0, 0)")
     return _unit(vector)

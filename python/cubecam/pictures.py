@@ -19,7 +19,7 @@ _LARGEST_FACE = 256
 def for_screen(pixels: Array) -> Array:
     """Turn (H, W, C) pixels into uint8 for a screen, three channels, opaque.
 
-    uint8 is taken as made for a screen. Floats are linear: tone-mapped, then sRGB-encoded; NaN shows black.
+    uint8 stays as it is. Floats are linear; they are tone-mapped, then sRGB-encoded; NaN becomes black.
     """
     color = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels[..., :3]
     if color.dtype == np.uint8:
@@ -29,7 +29,7 @@ def for_screen(pixels: Array) -> Array:
 
 
 def tonemap_neutral(linear: FloatArray) -> FloatArray:
-    """Compress highlights into 0..1 and leave the rest as it is.
+    """Compress highlights into 0..1 and keep darker colours as they are.
 
     Khronos PBR Neutral Tone Mapper (specification of 2024), whose names the variables keep.
     """
@@ -48,7 +48,7 @@ def tonemap_neutral(linear: FloatArray) -> FloatArray:
 
 
 def cube_picture(cube: CubeMap) -> Array:
-    """Draw the horizontal cross as seen from within: unmirrored, -Z in the middle of the view.
+    """Draw the horizontal cross as seen from inside: not mirrored, with -Z in the middle of the view.
 
     uint8 (3N, 4N, 4); cells that no face covers are transparent, the rest is opaque.
     """

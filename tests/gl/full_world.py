@@ -184,7 +184,7 @@ def full_world(rng):
 
 
 def refused(call):
-    """What a call gives, or the words with which it refuses."""
+    """The result of a call, or the message of its error."""
     try:
         return call()
     except ValueError as error:

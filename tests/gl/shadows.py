@@ -1,4 +1,4 @@
-"""Scenes with shadows, and what ray casting says of them."""
+"""Scenes with shadows, and their shadows by ray casting."""
 
 from dataclasses import dataclass
 
@@ -126,7 +126,7 @@ def around(hits, lamp, radius=1.0):
 
 
 def lit(hits, eye, all_lamps, radius=1.0, background=(0, 0, 0)):
-    """Phong with ray-cast shadows, and where that can be told exactly."""
+    """Phong with ray-cast shadows, and a mask of the pixels where they are exact."""
     color = np.zeros((*hits.id.shape, 3))
     for id_, name in enumerate(("floor", "box", "box", "wall", "ball"), start=1):
         color[hits.id == id_] = COLORS[name]

@@ -29,7 +29,7 @@ def test_no_egl_library(call):
 
 
 def test_no_device(tmp_path):
-    """No vendor library at all: every platform that was tried is told, and what to install."""
+    """Without a vendor library, the error names every platform that was tried, and what to install."""
     text = refused(__EGL_VENDOR_LIBRARY_FILENAMES="/nonexistent")
     for word in ("device", "surfaceless", "default"):
         assert word in text.lower()

@@ -1,4 +1,4 @@
-"""Meshes whose vertices are set anew: the next picture is that of a mesh made so, bit for bit."""
+"""Meshes with replaced vertices: the next picture equals that of a new mesh with these vertices, bit for bit."""
 
 import threading
 

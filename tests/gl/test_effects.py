@@ -52,7 +52,7 @@ def box_filter(picture, radius=1):
     [("rgba8", 1), ("rgba16f", 1), ("rgba32f", 1), ("rgba16f", 4), ("rgba32f", 4)],
 )
 def test_identity_changes_nothing(renderer, kind, samples):
-    """rgba8 with samples clips each sample when nothing is to follow, and must not when something is."""
+    """rgba8 with samples clips each sample if no effect follows, and does not clip it if one follows."""
     options = {"format": kind, "samples": samples}
     plain = draw(renderer, **options)
     effect = cc.ImageEffect(IDENTITY)

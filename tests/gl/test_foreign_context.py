@@ -82,9 +82,9 @@ clear(0.25, 0.5, 0.75, 1.0)
 before = state()
 for step in work():
     assert state() == before, (step, before, state())
-    colour = (ctypes.c_float * 4)()
-    get(0x0C22, colour)
-    assert list(colour) == [0.25, 0.5, 0.75, 1.0]
+    color = (ctypes.c_float * 4)()
+    get(0x0C22, color)
+    assert list(color) == [0.25, 0.5, 0.75, 1.0]
 """
     )
 

@@ -366,7 +366,7 @@ def test_a_frame_without_a_color_is_a_frame(renderer):
 
 
 def test_the_background_needs_no_color(renderer):
-    """A skybox is not drawn, and nothing is drawn again."""
+    """A skybox is not drawn, and a second call draws no picture."""
     scene = cc.Scene(background=cc.CubeMap(smooth_environment(4)))
     camera = cc.PerspectiveCamera()
     renderer.render(scene, camera, (5, 4), format=None, outputs="depth")
@@ -560,7 +560,7 @@ def test_limits_hold_with_each(renderer, options):
 
 
 def test_what_writes_depth_late_is_in_depth(any_path):
-    """A pane that blends and still hides: in `depth`, with samples and without a colour, too."""
+    """A pane that blends and writes depth is in `depth`, also with samples and without a colour buffer."""
     scene = cc.Scene()
     scene.add(cc.Mesh.box((9, 9, 1)), cc.BasicMaterial(), position=(0, 0, -6.5))
     for z, write in ((-2, False), (-3, True)):
@@ -583,7 +583,7 @@ def test_effects_need_a_color(renderer):
 
 @pytest.mark.parametrize("options", COMBINATIONS.values(), ids=COMBINATIONS)
 def test_render_textures_have_them_too(renderer, options):
-    """What a texture holds is what a frame with the same options would."""
+    """A texture equals a frame with the same options."""
     options = {name: value for name, value in options.items() if name != "outputs"}
     scene = crowd(np.random.default_rng(34))
     for index, node in enumerate(scene.nodes):

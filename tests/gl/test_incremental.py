@@ -1,4 +1,4 @@
-"""The promise of every renderer: incremental equals from scratch, bit for bit, whatever was edited before.
+"""A picture after any edits equals a picture drawn from scratch, bit for bit, with every renderer.
 
 What is edited comes from the stubs: each property that can be set has an edit in edits.py.
 """
@@ -59,7 +59,7 @@ def test_the_world_has_something_to_set_each_property_of():
 def test_random_edits(new_renderer, seed):
     """Every edit once, in random order; now and then one is undone.
 
-    What is compared with is drawn from a deep copy: a renderer that has never met these objects holds nothing of
+    The expected picture is drawn from a deep copy: a renderer that has never drawn these objects holds nothing of
     them, and only its programs are not compiled anew.
     """
     rng = np.random.default_rng(seed)

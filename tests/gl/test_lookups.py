@@ -159,7 +159,7 @@ def test_a_mirror_reflects_the_environment_not_the_background(renderer):
 
 @pytest.mark.parametrize("mipmaps", [False, True])
 def test_a_box_textured_by_object_space_position(any_path, mipmaps):
-    """P1: the lookup direction is the object-space position, whatever the node's matrix."""
+    """P1: the lookup direction is the object-space position, for any matrix of the node."""
     rng = np.random.default_rng(3)
     pixels = rng.random((6, 8, 8, 3)).astype(np.float32)
     world = World()

@@ -26,7 +26,7 @@ def test_edges_are_averages(any_path, samples):
     one = any_path.capture(half_plane(), size=32).faces[5, ..., 0]
     many = any_path.capture(half_plane(), size=32, samples=samples).faces[5, ..., 0]
     assert set(np.unique(one)) == {0, 1}
-    # GL may give more samples than asked for: llvmpipe has 4 or none.
+    # GL may give more samples than requested: llvmpipe has 4 or none.
     levels = set(np.unique(many * 4))
     assert levels <= set(range(5))
     assert len(levels) > 2

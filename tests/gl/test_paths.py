@@ -1,4 +1,4 @@
-"""Layered and one-pass drawing give equal bytes, whatever is drawn."""
+"""Layered drawing and one pass for each view give equal bytes, for all kinds of scenes."""
 
 import pytest
 

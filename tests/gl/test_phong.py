@@ -125,7 +125,7 @@ def test_moving_a_light_draws_anew(renderer):
 
 
 def test_many_lights(renderer):
-    """Well beyond what a small uniform array holds."""
+    """The number of lights is far above the size of a small uniform array."""
     world, view = lit([]), perspective((1, 1.5, 3), (0, -0.2, -0.5))
     rng = np.random.default_rng(6)
     theirs = []

@@ -61,7 +61,7 @@ def lit(world, hits, eye):
 
 @pytest.fixture(scope="module")
 def world(meshes):
-    """P13's scene, but for the cube that shows it."""
+    """The scene of P13 without the cube that shows it."""
     made = hall(ceiling=True)
     places = [(-2, -0.5, 2), (2.5, -0.5, 1.5)]
     for mesh, color, place in zip(meshes, [(0.4, 1, 0.4), (1, 0.4, 0.4)], places, strict=True):
@@ -148,7 +148,7 @@ class TestP14:
             self.check(frame.color, held, hits, world, view, ball)
 
     def check(self, color, held, hits, world, view, ball):
-        """The ball against a lookup of what its probe holds, the rest against Phong."""
+        """The ball against a lookup of the contents of its probe, the rest against Phong."""
         want = lit(world, hits, view.eye)
         on_ball = hits.id == ball.id
         reflected = shading.reflect(view.directions()[on_ball], hits.normal[on_ball])

@@ -1,4 +1,4 @@
-"""Render textures that show themselves: refused by name, whatever is in view, and the renderer goes on."""
+"""Render textures that show themselves raise an error with their name, and the renderer stays usable."""
 
 import itertools
 import re
@@ -286,7 +286,7 @@ def test_two_scenes_that_show_each_other_on_two_threads(new_renderer):
 
 
 def test_each_scene_is_seen_at_one_moment(new_renderer):
-    """A box that two textures of one scene and the frame show is in one place in all of them."""
+    """A box that two textures of one scene and the frame show has one place in all three pictures."""
     inner_scene = cc.Scene(background=(0, 0, 0, 1))
     box = inner_scene.add(quad(), cc.BasicMaterial())
     textures = [
@@ -372,7 +372,7 @@ def test_a_probe_by_the_shadow_of_what_it_moves(renderer):
 
 @pytest.mark.parametrize("kind", ["sampler2D", "samplerCube"])
 def test_what_only_colors_a_moved_caster_is_no_circle(any_path, kind):
-    """Waves that mirror a scene with shadows: the shadow hangs on the vertices alone, and all comes to rest."""
+    """Waves that mirror a scene with shadows: the shadow depends only on the vertices, so drawing comes to an end."""
     scene, _, above = lamp_and_floor()
     source = above if kind == "sampler2D" else cc.Probe(position=(0, 1, 0), size=8)
     coordinate = "s.uv" if kind == "sampler2D" else "s.normal"

@@ -1,4 +1,4 @@
-"""Render textures: what they hold, what shows them, when they are drawn."""
+"""Render textures: their contents, the materials that show them, and the times when they are drawn."""
 
 import gc
 import itertools
@@ -28,7 +28,7 @@ PICTURE = random_picture(1)
 OTHER = random_picture(2)
 
 
-# What it holds, and which way round.
+# The contents of a render texture, and their orientation.
 
 
 @pytest.mark.parametrize("fmt", ["rgba8", "rgba16f", "rgba32f"])

@@ -1,4 +1,4 @@
-"""Materials of one's own: what the source has at hand against numpy, its inputs, its errors, its keys."""
+"""Users' materials: the functions of the source against numpy, its inputs, its errors, its keys."""
 
 import copy
 import pathlib
@@ -34,7 +34,7 @@ def constant(renderer, expression, declarations="", **inputs):
     return color[0, 0, :3]
 
 
-# --- what the source has at hand
+# --- the functions that a source may call
 
 
 def ball_world():

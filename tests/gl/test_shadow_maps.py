@@ -109,7 +109,7 @@ def test_what_receives(renderer):
     assert dark(renderer, scene) > 0.1
     floor.material.opacity = 0.999  # translucent things cast none, but show them
     assert dark(renderer, scene) > 0.1
-    # Not of the subtree: a child of one that receives none does.
+    # receive_shadow is not inherited: the child of a node without it receives shadows.
     floor.parent = box.parent = scene.add(receive_shadow=False)
     assert dark(renderer, scene) > 0.1
     floor.material = cc.BasicMaterial(color=(1, 1, 1))
@@ -343,7 +343,7 @@ def test_a_directional_lights_map(renderer):
 
 
 def test_a_directional_map_holds_all_casters(renderer):
-    """Whatever their place and size, and wherever the camera looks; one flat caster included."""
+    """For any place and size of the casters and any view of the camera, also for one flat caster."""
     for direction in ((-1, -2, 0.5), (0, 1, 0), (1, 0, 0), (0.3, -0.1, 5)):
         scene = cc.Scene()
         light = scene.add(cc.DirectionalLight(direction, shadow=cc.Shadow(size=64)))

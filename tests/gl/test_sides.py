@@ -19,7 +19,7 @@ MIRRORED = {
 
 
 def test_back_faces_are_culled(any_path):
-    """From inside a box nothing is seen but what is around it."""
+    """From inside a box only its surroundings are visible."""
     scene = cc.Scene()
     scene.add(cc.Mesh.box(2), cc.BasicMaterial())
     assert not any_path.capture(scene, size=8, outputs=("id",)).id.any()

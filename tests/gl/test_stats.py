@@ -1,4 +1,4 @@
-"""P15: nothing is drawn again while nothing it sees has changed. The counters say so, and so do the pixels."""
+"""P15: no picture is drawn again while nothing in it changes. Counters and pixels show it."""
 
 import numpy as np
 import pytest
@@ -115,7 +115,7 @@ CHANGES = {
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
 def test_every_change_is_seen(renderer, fresh_renderer, change):
-    """Nothing is forgotten in the key: the picture is that of a renderer which never saw the old one."""
+    """The key lacks no input: the picture equals that of a renderer that never drew the old one."""
     scene = ring()
     before = renderer.capture(scene, size=48).faces
     change(scene)

@@ -221,7 +221,7 @@ def test_without_a_stencil_buffer_it_has_no_effect(renderer, depth_format):
 
 @pytest.mark.parametrize("options", [{}, {"samples": 4}, {"format": None}, {"samples": 2}])
 def test_translucent_things_are_counted(any_path, options):
-    """Each adds one, whatever is drawn of its colour: depth complexity of glass."""
+    """Each surface adds one, however its colour is blended: the depth complexity of glass."""
     rng = np.random.default_rng(4)
     scene = cc.Scene(background=(0.5, 0.5, 0.5))
     want = np.zeros(SIZE[::-1], int)

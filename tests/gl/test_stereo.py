@@ -215,7 +215,7 @@ def test_one_picture_is_in_it_once(fresh_renderer, scene):
 
 
 def test_far_from_the_origin_each_eye_counts_from_itself(fresh_renderer, renderer):
-    """Nothing of the left eye's place is in the right eye's picture."""
+    """The right eye's picture does not depend on the place of the left eye."""
     offset = np.array([3e6, -1e6, 2e6])
     scene = crowd(np.random.default_rng(42), offset)
     near = cc.PerspectiveCamera(fov=50, position=np.add(offset, (2, 1.5, 5)), target=offset)

@@ -86,7 +86,7 @@ def lit(hits, colors, eye, background=GREY, **weights):
 
 
 def looked_up(cube, directions):
-    """A seamless lookup of directions that may be NaN where nothing is."""
+    """A seamless lookup of directions, which may be NaN in the background."""
     return sample_faces(cube, np.where(np.isfinite(directions), directions, 1.0))
 
 

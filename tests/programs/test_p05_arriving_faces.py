@@ -81,7 +81,7 @@ def test_what_is_not_square_or_not_equal_is_refused_with_both_sizes(renderer, sh
         assert str(number) in str(caught.value)
     assert (program.cubemap.faces[ORDER[3]] == 102).all()
     assert_identical(program.cubemap.faces[ORDER[2]], images[ORDER[2]])
-    # Six at once are refused as well, both shapes told.
+    # Six faces at once raise the error, too, with both shapes.
     with pytest.raises(ValueError, match="six of one shape") as caught:
         cc.CubeMap(images)
     assert str(shape[1]) in str(caught.value)

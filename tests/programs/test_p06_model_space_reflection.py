@@ -99,7 +99,7 @@ def test_per_fragment(renderer, stretch, frame):
     on_model, on_world = (hits.id == node.id for node in (made.program.model, made.program.world))
     want = looked_up(made.images, per_fragment(made, hits))
     assert_close(color, want, "mirror", mask=on_model & inner_smooth(hits), least=0.03)
-    # The right one is P4's, whatever the matrix.
+    # The teapot on the right equals that of P4, for any matrix.
     want = looked_up(made.images, shading.reflect(made.look.directions(), hits.normal))
     assert_close(color, want, "mirror", mask=on_world & inner_smooth(hits), least=0.03)
 
@@ -114,7 +114,7 @@ def test_per_vertex(renderer, stretch, frame):
     on_model = (hits.id == made.program.model.id) & inner_smooth(hits)
     want = looked_up(made.images, hits.color[..., :3])
     assert_close(color, want, "mirror", mask=on_model, least=0.03)
-    # Reflecting each fragment is not the same.
+    # Reflection in each fragment gives another picture.
     other = looked_up(made.images, per_fragment(made, hits))
     assert np.abs(color - other)[on_model].mean() > 0.01
 

@@ -89,7 +89,7 @@ def test_colors_of_16_bits_are_the_quantised_ones(drawn, frame):
     steps = parts["rgb565"][..., :3] / 255 * levels
     assert np.abs(steps - np.rint(steps)).max() < 0.13, "what 5 or 6 bits can say, in 8"
     exact = parts["color"][..., :3] / 255 * levels
-    # GL asks for the nearest step; llvmpipe cuts. Half a count of 255 is lost in the exact ones.
+    # GL requires rounding to the nearest step; llvmpipe cuts. The exact values are rounded to half a step of 255.
     assert np.abs(np.rint(steps) - exact).max() < 1 + 0.5 * 63 / 255
     assert (parts["rgb565"][..., 3] == 255).all()
     assert len(np.unique(parts["rgb565"][..., 0])) <= 32
@@ -158,7 +158,7 @@ def solid(shapes):
 
 @frames
 def test_the_lamps_map_holds_distances(drawn, frame):
-    """Straight down from the lamp is the face -Y: a ray through a texel's centre meets what the map says."""
+    """The face -Y looks straight down from the lamp: a ray through a texel's center hits at the map's distance."""
     _, parts, shapes, *_ = drawn(frame)
     shadow = parts["shadow"]
     assert shadow.shape == (6, example.SHADOW, example.SHADOW)

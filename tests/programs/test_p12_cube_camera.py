@@ -1,4 +1,4 @@
-"""P12: the capture against ray casting of the moving cubes; what mirrors it shows it and leaves itself out."""
+"""P12: the capture against ray casting of the moving cubes; the mirror shows the capture, without itself."""
 
 import numpy as np
 import pytest

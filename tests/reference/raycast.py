@@ -234,7 +234,7 @@ def cast(shapes, origins, directions, near=0.0, far=np.inf):
 
 
 def cast_farthest(shapes, origins, directions, near=0.0, far=np.inf):
-    """The last hit of each ray: hit after hit is passed until nothing is left."""
+    """The last hit of each ray: the ray continues behind each hit until it hits nothing."""
     last = cast(shapes, origins, directions, near, far)
     passed = last
     while passed.hit.any():

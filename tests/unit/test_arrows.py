@@ -9,7 +9,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 
-#: A folder of cpp/ may include from itself and from those named before it in this order, but for the exceptions.
+#: A folder of cpp/ may include from itself and from those named before it in this order, except the pairs below.
 CPP_ORDER = (
     "core",
     "math",

@@ -163,7 +163,7 @@ def test_picture_of_itself_is_a_png():
 
 
 def test_pickle_keeps_no_revision():
-    """Equal cubes pickle to equal bytes, whatever happened to them before."""
+    """Equal cubes pickle to equal bytes, also after different changes."""
     a, b = cc.CubeMap(face_pattern(4)), cc.CubeMap(np.zeros((6, 4, 4, 4), np.uint8))
     for face, pixels in enumerate(face_pattern(4)):
         b.set_face(face, pixels)

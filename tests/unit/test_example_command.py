@@ -32,7 +32,7 @@ def frames_of(path):
 
 @pytest.fixture
 def ffmpeg(tmp_path, monkeypatch):
-    """A command of that name which keeps what it is given, and fails if told so."""
+    """A command with the name ffmpeg, which stores its input, and fails if the test wants it to."""
     folder = tmp_path / "bin"
     folder.mkdir()
     script = folder / "ffmpeg"

@@ -252,7 +252,7 @@ def test_functions_are_methods_and_give_nothing(verb):
 
 @pytest.mark.parametrize("verb", ["yaw", "pitch", "walk", "strafe", "orbit"])
 def test_nothing_for_nothing(verb):
-    """0 leaves every bit as it is, so that nothing is drawn again."""
+    """0 changes no bit, so that no picture is drawn again."""
     camera = CAMERAS["perspective"]()
     given = ((), {"yaw": 0, "pitch": 0}) if verb == "orbit" else ((0,), {})
     getattr(camera, verb)(*given[0], **given[1])
@@ -287,7 +287,7 @@ BAD = {
     "look 0": (
         lambda c: c.look((0, 0, 0)),
         ValueError,
-        "direction: expected a vector of some length",
+        "direction: expected a vector of a length other than 0",
     ),
     "look 2": (
         lambda c: c.look((1, 0)),

@@ -266,7 +266,7 @@ def test_copies_are_made_the_same_way(name):
 
 @pytest.mark.parametrize("name", MAKE)
 def test_those_of_a_later_version_are_refused(name):
-    """The format stands first in what is called and in the state; here one of the two says 3."""
+    """The format is first in the arguments and in the state; here one of the two is 3."""
     data = pickle.dumps(MAKE[name](), 2)
     mark = b"K\x02"  # BININT1 2, the format
     at = data.find(mark)

@@ -10,7 +10,7 @@ ASSERTING = {"raises", "fail"}
 
 
 def asserts(function):
-    """Whether a test says what must hold: by assert, or by a helper whose name says so."""
+    """Whether a test checks a result: by assert, or by a helper whose name says so."""
     for node in ast.walk(function):
         if isinstance(node, ast.Assert):
             return True

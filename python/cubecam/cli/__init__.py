@@ -1,6 +1,6 @@
 """The command `cubecam`: info, demo, convert, capture, example.
 
-Exit codes: 0 done; 1 something failed (a message says what); 2 the command was not understood.
+Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def _options(
     version: Annotated[
         bool,
         typer.Option(
-            "--version", callback=_print_version, is_eager=True, help="Print the version and leave."
+            "--version", callback=_print_version, is_eager=True, help="Print the version and exit."
         ),
     ] = False,
 ) -> None:
@@ -45,7 +45,7 @@ def _options(
 
 
 def _describe(chosen: Any) -> list[str]:
-    """Tell what a renderer runs on, a line each."""
+    """Describe the device and the limits of a renderer, in lines."""
     limits = chosen.limits
     return [
         f"chosen: {chosen.renderer} ({'software' if chosen.software else 'GPU'}, {chosen.vendor})",
@@ -58,7 +58,7 @@ def _describe(chosen: Any) -> list[str]:
 
 @app.command()
 def info(device: DeviceOption = None) -> None:
-    """Print versions, the devices there are, and what the chosen one offers."""
+    """Print the versions, the devices, and the limits of the chosen device."""
     console = Console(soft_wrap=True)
     console.print(
         f"cubecam {__version__}, Python {platform.python_version()}, {platform.platform()}",

@@ -1,4 +1,4 @@
-"""`cubecam capture`: a mesh file in an environment, to a cubemap or a panorama."""
+"""`cubecam capture`: capture a mesh file in an environment to a cubemap or a panorama."""
 
 from __future__ import annotations
 
@@ -42,16 +42,18 @@ def capture(
     environment: Annotated[
         str | None,
         typer.Option(
-            "--environment", "-e", help="Panorama or cubemap file; six as a name with {face}."
+            "--environment",
+            "-e",
+            help="Panorama or cubemap file; for six files, a name with {face}.",
         ),
     ] = None,
     srgb: Annotated[
-        bool, typer.Option("--srgb", help="8 bit files, read or written, are sRGB-encoded.")
+        bool, typer.Option("--srgb", help="8 bit files that are read or written are sRGB-encoded.")
     ] = False,
     position: Annotated[
-        Triple, typer.Option("--position", "-p", help="Where it is captured from: X Y Z.")
+        Triple, typer.Option("--position", "-p", help="The position of the capture: X Y Z.")
     ] = (0, 0, 0),
-    mesh_position: Annotated[Triple, typer.Option(help="Where the mesh stands: X Y Z.")] = (
+    mesh_position: Annotated[Triple, typer.Option(help="The position of the mesh: X Y Z.")] = (
         0,
         0,
         0,
@@ -59,7 +61,7 @@ def capture(
     mesh_size: Annotated[
         float | None,
         typer.Option(
-            help="Centre the mesh and scale its largest extent to this; default: as in the file."
+            help="Center the mesh and scale its largest extent to this size. Default: as in the file."
         ),
     ] = None,
     material: Annotated[MaterialName, typer.Option("--material", "-m")] = "phong",
@@ -68,9 +70,13 @@ def capture(
         0.8,
         0.8,
     ),
-    light: Annotated[Triple, typer.Option(help="Where the point light stands: X Y Z.")] = (5, 5, 5),
+    light: Annotated[Triple, typer.Option(help="The position of the point light: X Y Z.")] = (
+        5,
+        5,
+        5,
+    ),
     size: Annotated[int, typer.Option("--size", "-s", min=1, help="Texels along a face.")] = 256,
-    samples: Annotated[int, typer.Option(min=1, help="Samples a texel.")] = 1,
+    samples: Annotated[int, typer.Option(min=1, help="Samples of each texel.")] = 1,
     layout: Annotated[
         Layout | None,
         typer.Option("--layout", "-l", help="Default: cross; faces for an output with {face}."),
@@ -80,13 +86,13 @@ def capture(
     ] = None,
     center: Annotated[Center, typer.Option(help="The middle of an equirect.")] = "-z",
     width: Annotated[
-        int | None, typer.Option(min=2, help="Of an equirect; default 4 times --size.")
+        int | None, typer.Option(min=2, help="Width of an equirect. Default: 4 times --size.")
     ] = None,
     outputs: Annotated[
         str,
         typer.Option(
-            help="More to write, to EXR files named after the output: "
-            f"{', '.join(_OUTPUTS)}, with commas between them."
+            help="Further outputs, written to EXR files named after the output: "
+            f"any of {', '.join(_OUTPUTS)}, separated by commas."
         ),
     ] = "",
     near: Annotated[float, typer.Option(help="Nearest distance drawn.")] = 0.05,
@@ -146,7 +152,7 @@ def _check_options(layout: str, output: str, width: int | None, outputs: list[st
             )
     if outputs and layout in ("equirect", "openexr"):
         raise typer.BadParameter(
-            f"distances, normals and ids are not resampled: expected a layout of whole faces, got {layout}",
+            f"distances, normals and ids cannot be resampled: expected a layout of whole faces, got {layout}",
             param_hint="--outputs",
         )
 
@@ -160,14 +166,14 @@ def _material(name: MaterialName, color: Triple) -> Material:
 
 
 def _save_output(cube: CubeMap, name: str, output: str, layout: str, convention: str) -> list[str]:
-    """Write one output as EXR, float or whole numbers, laid out as the colours are."""
+    """Write an output as EXR of float or whole numbers, in the layout of the colours."""
     values = getattr(cube, name)
     path = Path(output)
     target = str(path.with_name(f"{path.stem}_{name}.exr"))
     if layout != "faces":
         save_image(target, arrange(values, layout, convention))
         return [target]
-    # A column in the order of the faces, cut into its six.
+    # The column has the faces in their order; it is cut into six pictures.
     column = arrange(values, "column", convention)
     size = column.shape[1]
     for index, face in enumerate(FACE_NAMES[0]):

@@ -1,4 +1,4 @@
-"""What the commands share: options, and how failures are told."""
+"""Options that the commands share, and their error messages."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Center: TypeAlias = Literal["-z", "+z", "+x", "-x"]
 DeviceOption = Annotated[
     str | None,
     typer.Option(
-        help="auto, software, gpu, an index, part of a name, or a UUID; by default what CUBECAM_DEVICE says."
+        help="auto, software, gpu, an index, part of a name, or a UUID. Default: CUBECAM_DEVICE, else auto."
     ),
 ]
 
@@ -36,7 +36,7 @@ def failures_reported() -> Iterator[None]:
 
 
 def fail(error: Exception) -> None:
-    """Say what went wrong on standard error, and leave."""
+    """Print the error on standard error, and exit."""
     Console(stderr=True, soft_wrap=True).print(
         f"[bold red]error:[/] {escape(describe(error))}", highlight=False
     )
@@ -51,5 +51,5 @@ def describe(error: Exception) -> str:
 
 
 def parse_device(device: str | None) -> str | int | None:
-    """Turn the option's text into what `Renderer` takes: digits are an index."""
+    """Turn the option's text into an argument of `Renderer`: digits are an index."""
     return int(device) if device is not None and device.isdecimal() else device

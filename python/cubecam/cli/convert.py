@@ -1,4 +1,4 @@
-"""`cubecam convert`: between layouts, conventions and kinds of file, many files at a time."""
+"""`cubecam convert`: convert files between layouts, conventions and formats, many files at a time."""
 
 from __future__ import annotations
 
@@ -14,14 +14,16 @@ from .. import Error
 from ..io.cubemaps import load_cubemap
 from .common import Center, Convention, Layout, describe
 
-_FROM = "What is read"
-_TO = "What is written"
+_FROM = "Options for reading"
+_TO = "Options for writing"
 
 
 def convert(
     inputs: Annotated[
         list[str],
-        typer.Argument(help="Files; six files as one name with {face}, such as 'sky/{face}.png'."),
+        typer.Argument(
+            help="Files; for six files, one name with {face}, such as 'sky/{face}.png'."
+        ),
     ],
     output: Annotated[
         str | None,
@@ -29,7 +31,7 @@ def convert(
             "--output",
             "-o",
             help="A file name, a folder, or a name with {name} (the input's) and {face}. "
-            "By default beside the input, with the layout in the name.",
+            "Default: beside the input, with the layout in the name.",
             rich_help_panel=_TO,
         ),
     ] = None,
@@ -53,7 +55,7 @@ def convert(
         str | None,
         typer.Option(
             "--to",
-            help="Extension, such as exr or png; by default the input's.",
+            help="Extension, such as exr or png. Default: that of the input.",
             rich_help_panel=_TO,
         ),
     ] = None,
@@ -61,13 +63,15 @@ def convert(
         int | None, typer.Option(min=1, help="Texels along a face.", rich_help_panel=_TO)
     ] = None,
     width: Annotated[
-        int | None, typer.Option(min=2, help="Of an equirect, in pixels.", rich_help_panel=_TO)
+        int | None,
+        typer.Option(min=2, help="Width of an equirect, in pixels.", rich_help_panel=_TO),
     ] = None,
     half: Annotated[
         bool, typer.Option("--half", help="Store EXR with 16 bits a number.", rich_help_panel=_TO)
     ] = False,
     from_layout: Annotated[
-        Layout | None, typer.Option(help="Default: by shape.", rich_help_panel=_FROM)
+        Layout | None,
+        typer.Option(help="Default: by the shape of the picture.", rich_help_panel=_FROM),
     ] = None,
     from_convention: Annotated[
         Convention | None, typer.Option(help="Default: gl.", rich_help_panel=_FROM)
@@ -79,14 +83,14 @@ def convert(
         bool,
         typer.Option(
             "--srgb",
-            help="8 and 16 bit files are sRGB: decode them when read, encode when written.",
+            help="8 and 16 bit files are sRGB: decode them when reading, encode them when writing.",
         ),
     ] = False,
 ) -> None:
-    """Convert cubemaps and panoramas between layouts, conventions and kinds of file.
+    """Convert cubemaps and panoramas between layouts, conventions and formats of files.
 
-    The kinds of file are named by their extensions; shapes tell the layouts that are read, nothing tells
-    the convention: say --from-convention where it is not "gl".
+    The format of an output follows from its extension, and the layout of an input from its shape. The convention of an
+    input does not follow from the file: give --from-convention if it is not "gl".
     """
     names = [_Target(item, output, layout, to) for item in inputs]
     written: dict[str, str] = {}
@@ -139,7 +143,7 @@ def convert(
 
 
 class _Target:
-    """Where one input goes, and in which layout."""
+    """The path and the layout of the output of one input."""
 
     def __init__(
         self, source: str, output: str | None, layout: str | None, extension: str | None
@@ -172,7 +176,7 @@ class _Target:
 
 
 def _stem(source: str) -> str:
-    """Give the name without folder and extension; for "sky/{face}.png" the folder's, "sky"."""
+    """Return the name without folder and extension; for "sky/{face}.png", the name of the folder, "sky"."""
     stem = Path(source).stem
     if "{face}" not in stem:
         return stem

@@ -1,4 +1,4 @@
-"""`cubecam example`: the documents' programs to pictures, animations and a sheet of all of them."""
+"""`cubecam example`: draw the programs of the course documents as pictures, animations and a sheet of thumbnails."""
 
 from __future__ import annotations
 
@@ -19,13 +19,14 @@ if TYPE_CHECKING:
 
 _MOVING = (".png", ".apng", ".gif", ".webp", ".mp4")
 _ONLY_MOVING = (".apng", ".gif", ".mp4")
-_SAMPLES = 4  # of each pixel, where the device has as many
+_SAMPLES = 4  # samples of each pixel, or fewer if the device allows fewer
 _THUMBNAIL = 208  # pixels
 
 
 def example(
     name: Annotated[
-        str | None, typer.Argument(help="Its name or number, as --list tells: skybox, or P3.")
+        str | None,
+        typer.Argument(help="The name or number of a program from --list, such as skybox or P3."),
     ] = None,
     out: Annotated[
         str | None,
@@ -33,25 +34,32 @@ def example(
             "--out",
             "-o",
             help="The file to write: a still .png, .jpg or .exr, or an animation .png, .gif, .webp or .mp4 "
-            "(.mp4 by the command ffmpeg). Default: its name, .png. With --all a folder.",
+            "(.mp4 needs the command ffmpeg). Default: the program's name with .png. With --all: a folder.",
         ),
     ] = None,
     frames: Annotated[
         int | None,
-        typer.Option(min=1, help="1: a still. Default: the program's own; 1 for .jpg and .exr."),
+        typer.Option(
+            min=1,
+            help="Number of frames; 1 is a still. Default: that of the program; 1 for .jpg and .exr.",
+        ),
     ] = None,
     start: Annotated[
         int | None,
-        typer.Option(min=0, help="The first frame. Default: 0; for a still, one that shows it."),
+        typer.Option(
+            min=0, help="The first frame. Default: 0; for a still, the program's best frame."
+        ),
     ] = None,
     size: Annotated[
-        int | None, typer.Option(min=1, help="Width in pixels. Default: the program's own.")
+        int | None, typer.Option(min=1, help="Width in pixels. Default: that of the program.")
     ] = None,
     fps: Annotated[float, typer.Option(help="Frames a second, up to 100.")] = 25.0,
-    listed: Annotated[bool, typer.Option("--list", help="Print the programs there are.")] = False,
+    listed: Annotated[bool, typer.Option("--list", help="List the programs.")] = False,
     sheet: Annotated[
         str | None,
-        typer.Option("--sheet", help="With --list: draw them all, small, into this picture."),
+        typer.Option(
+            "--sheet", help="With --list: draw thumbnails of all programs into this picture."
+        ),
     ] = None,
     everything: Annotated[
         bool, typer.Option("--all", help="Draw every program into the folder --out.")
@@ -88,7 +96,7 @@ def example(
             if path.lower().endswith(".mp4"):
                 from .movie import find_ffmpeg
 
-                find_ffmpeg(Path(path))  # before anything is drawn
+                find_ffmpeg(Path(path))  # a missing ffmpeg is an error before anything is drawn
             with Renderer(device=parse_device(device)) as renderer:
                 drawn = _save(path, module, renderer, frames, start, size, fps, console)
                 info = renderer.info
@@ -156,7 +164,7 @@ def _save(
     fps: float,
     console: Console,
 ) -> str:
-    """Draw one program into a file; gives what was drawn, in words."""
+    """Draw one program into a file, and return a description of the picture."""
     ending = Path(path).suffix.lower()
     count = frames or (module.FRAMES if ending in _MOVING else 1)
     first = start if start is not None else (module.STILL if count == 1 else 0)
@@ -198,7 +206,7 @@ def _save(
 
 
 def _save_sheet(path: str, renderer: Renderer) -> None:
-    """Draw every program's still into one picture, its number and name under each."""
+    """Draw the stills of all programs into one picture, each with its number and name below."""
     from .sheet import contact_sheet
 
     samples = min(_SAMPLES, renderer.info.limits.max_samples)

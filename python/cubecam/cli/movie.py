@@ -1,4 +1,4 @@
-"""MP4 files by the command ffmpeg, where there is one."""
+"""Write MP4 files with the command ffmpeg."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from ..io.files import PathLike, as_path, replacing
 
 
 def find_ffmpeg(path: Path) -> str:
-    """Give the command's path, or a FileError that says what to do about it; path is the file that needs it."""
+    """Return the path of ffmpeg; raise FileError if there is none. `path` is the file to write."""
     command = shutil.which("ffmpeg")
     if command is None:
         raise FileError(
             f"{path}: expected the command ffmpeg on PATH to write .mp4, found none; "
-            ".png, .gif and .webp need nothing else"
+            ".png, .gif and .webp do not need it"
         )
     return command
 
 
 def save_mp4(path: PathLike, frames: Iterable[Any], fps: float) -> None:
-    """Write uint8 pictures (H, W, 3 or 4), all of one size, as a film; alpha is left out.
+    """Write uint8 pictures (H, W, 3 or 4), all of one size, as a film without alpha.
 
-    Sides of an odd number of pixels get one more, in black: the format wants even ones. Raises FileError
-    without ffmpeg and when it fails, ValueError for pictures that do not fit, OSError as `save_image`.
+    The format needs even sides, so a side of an odd number of pixels gets one more pixel, in black. Raises FileError if
+    ffmpeg is missing or fails, ValueError for pictures of another type or size, and OSError as `save_image` does.
     """
     target = as_path(path)
     command = find_ffmpeg(target)
@@ -52,7 +52,7 @@ def save_mp4(path: PathLike, frames: Iterable[Any], fps: float) -> None:
         )  # fmt: skip
         assert process.stdin is not None
         try:
-            # A pipe that breaks is told of below, in ffmpeg's words.
+            # A broken pipe is reported below, with the message of ffmpeg.
             with contextlib.suppress(BrokenPipeError):
                 process.stdin.write(first.tobytes())
                 for picture in pictures:

@@ -1,4 +1,4 @@
-"""A contact sheet: small pictures in rows, a line of text under each."""
+"""A contact sheet: small pictures in rows, with a line of text below each."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _PAPER, _INK = (250, 250, 250), (30, 30, 30)
 def contact_sheet(
     pictures: Sequence[Array], labels: Sequence[str], cell: int = 208, columns: int = 4
 ) -> Array:
-    """Draw (H, W, 3) uint8 of pictures that are uint8 (H, W, 3 or 4), each fitted into a square of `cell` pixels."""
+    """Draw pictures, uint8 (H, W, 3 or 4), each into a square of `cell` pixels; the sheet is uint8 (H, W, 3)."""
     from PIL import Image, ImageDraw
 
     columns = max(1, min(columns, len(pictures)))
@@ -38,7 +38,7 @@ def contact_sheet(
 
 
 def _font(draw: Any, label: str, width: int) -> Any:
-    """Choose the largest font, from 14 pixels downwards, in which the label is no wider."""
+    """Choose the largest font, from 14 pixels downwards, in which the label is not wider than `width`."""
     from PIL import ImageFont
 
     for size in range(14, 6, -1):

@@ -1,4 +1,4 @@
-"""Sample files that come with the package; CREDITS.md tells where each is from."""
+"""Sample files that come with the package; CREDITS.md names their sources."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def sample_data(name: str) -> Path:
     Returns
     -------
     pathlib.Path
-        Where the file is; read it only.
+        The path of the file, which must not be changed.
 
     Raises
     ------
     ValueError
-        Another name.
+        For another name.
 
     Examples
     --------

@@ -1,16 +1,16 @@
-"""The programs of the course documents, ready to run: each a short module that only says `import cubecam as cc`.
+"""The programs of the course documents, ready to run. Each is a short module that imports only `cubecam as cc`.
 
 Each module has
 
 - ``build(...)``, which makes the scene, the camera and the nodes that move, in one dataclass;
-- ``draw(program, renderer, frame, size=SIZE, **options)``, which gives frame 0, 1, 2, ... as an array (H, W, 4), row 0
-  on top. A frame depends on its number alone, so they may be drawn in any order. The options are those of
+- ``draw(program, renderer, frame, size=SIZE, **options)``, which returns frame 0, 1, 2, ... as an array (H, W, 4), row
+  0 on top. A frame depends only on its number, so frames may be drawn in any order. The options are those of
   `Renderer.render`, such as ``format="rgba32f"``;
-- ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a sensible length of its animation; 1: nothing
-  moves), ``STILL`` (the frame that a single picture shows best) and ``SIZE`` (width and height in pixels).
+- ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
+  ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels).
 
-Colours are the documents': what an 8-bit picture holds is shown as it is, light is added up in those numbers, and
-nothing is tone-mapped or encoded.
+The programs treat colours as the documents do: the numbers of an 8-bit picture are shown unchanged, light is added in
+these numbers, and no picture is tone-mapped or encoded.
 
 The command line draws them: ``cubecam example --list``.
 """
@@ -22,7 +22,7 @@ from typing import Any, Protocol, cast
 
 __all__ = ["NAMES", "Example", "load"]
 
-#: In the order of their numbers, P1 to P17.
+#: The names in the order of the programs' numbers, P1 to P17.
 NAMES: tuple[str, ...] = (
     "textured_cube",
     "inside_the_box",
@@ -45,7 +45,7 @@ NAMES: tuple[str, ...] = (
 
 
 class Example(Protocol):
-    """What every module here has."""
+    """The members of every module here."""
 
     TITLE: str
     PROGRAM: str
@@ -54,7 +54,7 @@ class Example(Protocol):
     SIZE: tuple[int, int]
 
     def build(self) -> Any:
-        """Make the scene; each module's own has options."""
+        """Make the scene; the functions of the modules have options."""
 
     def draw(
         self, program: Any, renderer: Any, frame: int, size: tuple[int, int] = ..., **options: Any
@@ -73,12 +73,12 @@ def load(name: str) -> Example:
     Returns
     -------
     module
-        See the head of this module.
+        The module, with the members that this package's docstring lists.
 
     Raises
     ------
     ValueError
-        Another name; the message lists those there are.
+        For another name; the message lists all names.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Exact mirror images by ray casting: what a cubemap approximates (embreex, the extra `truth`)."""
+"""Exact mirror images by ray casting, which a cubemap approximates. Needs embreex, the extra `truth`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Vectors = npt.NDArray[np.float64]
 
 @dataclass
 class Hits:
-    """What rays (R, 3) met first: node ids (0 where nothing), world positions and unit normals."""
+    """The first hits of rays (R, 3): node ids (0 for no hit), world positions and unit normals."""
 
     id: npt.NDArray[np.int64]
     position: Vectors
@@ -33,7 +33,7 @@ class Geometry:
             scenes = importlib.import_module("embreex.rtcore_scene")
         except ImportError as error:
             raise ImportError(
-                "ray-cast truth needs embreex, which is not installed; expected after "
+                "ray casting: expected the package embreex, found none; install it by "
                 'pip install "cubecam[truth]"'
             ) from error
         corners, normals, ids = [], [], []
@@ -43,7 +43,7 @@ class Geometry:
                 continue
             linear = matrix[:3, :3]
             positions = mesh.positions.astype(np.float64) @ linear.T + matrix[:3, 3]
-            # Normals go by the inverse transpose.
+            # Normals are transformed by the inverse transpose.
             turned = mesh.normals.astype(np.float64) @ np.linalg.inv(linear)
             corners.append(positions[mesh.indices])
             normals.append(turned[mesh.indices])
@@ -56,7 +56,7 @@ class Geometry:
         self._mesh = meshes.TriangleMesh(self._scene, self._corners.astype(np.float32))
 
     def cast(self, origins: Vectors, directions: Vectors) -> Hits:
-        """Find what (R, 3) rays of length 1 meet first; back faces are passed through as the renderer culls them."""
+        """Find the first hits of (R, 3) rays of length 1. They pass through back faces, like the renderer."""
         found = np.full(len(origins), -1)
         rows, start = np.arange(len(origins)), origins
         while len(rows):
@@ -68,13 +68,13 @@ class Geometry:
             back = (self._across[met] * directions[rows]).sum(axis=-1) >= 0
             rows, met = rows[back], met[back]
             t = self._distance(met, start[back], directions[rows])
-            # Past the triangle by more than a float of these coordinates can lose.
+            # The new start lies behind the triangle, farther than the rounding of a float at these coordinates.
             start = start[back] + (t + 1e-4) * directions[rows]
             found[rows] = -1
         hit = found >= 0
         across, (a, b, c) = self._across[found], np.moveaxis(self._corners[found], 1, 0)
-        with np.errstate(all="ignore"):  # of rays that met nothing
-            # Which triangle is embree's answer, in float; where on it is found in double.
+        with np.errstate(all="ignore"):  # rays without a hit divide by 0
+            # embree finds the triangle in float; the position on it is computed in double.
             position = origins + self._distance(found, origins, directions) * directions
             area = _dot(across, across)
             v = _dot(np.cross(position - a, c - a), across) / area
@@ -85,18 +85,18 @@ class Geometry:
         return Hits(np.where(hit, self._ids[found], 0), position, normal)
 
     def _distance(self, triangles: Any, origins: Vectors, directions: Vectors) -> Vectors:
-        """Give (R, 1) distances along rays to the planes of triangles."""
+        """Return (R, 1) distances along rays to the planes of triangles."""
         across = self._across[triangles]
-        with np.errstate(all="ignore"):  # of rays along the plane
+        with np.errstate(all="ignore"):  # rays in the plane divide by 0
             away: Vectors = _dot(self._corners[triangles, 0] - origins, across)
             distance: Vectors = away / _dot(directions, across)
         return distance
 
 
 def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> tuple[Any, Any]:
-    """Render a scene of Phong and mirror materials by casting a ray, and one more off each mirror.
+    """Render a scene of Phong and mirror materials with a ray for each pixel, and one more from each mirror.
 
-    Nodes that are not in probes are seen, but not reflected. Returns colours (H, W, 4) float32 and node ids (H, W).
+    Nodes with ``in_captures=False`` are visible, but not reflected. Returns colours (H, W, 4) float32 and ids (H, W).
     """
     nodes = [node for node in scene.nodes if node.mesh is not None and node.visible]
     origins, directions = _pixel_rays(camera, size)
@@ -122,7 +122,7 @@ def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> t
 
 
 def _pixel_rays(camera: cc.Camera, size: tuple[int, int]) -> tuple[Vectors, Vectors]:
-    """Give origins and unit directions (H * W, 3) of the pixels' centres, row 0 on top."""
+    """Return origins and unit directions (H * W, 3) of the rays through the pixels' centers, row 0 on top."""
     width, height = size
     x = (np.arange(width) + 0.5) / width * 2 - 1
     y = 1 - (np.arange(height) + 0.5) / height * 2
@@ -139,7 +139,7 @@ def _pixel_rays(camera: cc.Camera, size: tuple[int, int]) -> tuple[Vectors, Vect
 def _phong(
     scene: cc.Scene, nodes: list[cc.Node], hits: Hits, eye: Vectors, background: Vectors
 ) -> Vectors:
-    """Shade as document 000 does: Ka once, and for each lamp Kd and, where it is lit, Ks; eye (R, 3)."""
+    """Shade by the formula of document 000: Ka once, and for each lamp Kd and, on lit surfaces, Ks; eye (R, 3)."""
     color: Vectors = np.empty_like(hits.position)
     color[:] = background
     for node in nodes:

@@ -3,12 +3,12 @@
 A textured rectangle is drawn nine times over a black picture, each time with a ninth of its colour
 and moved by one pixel or none in each direction; blending with ONE, ONE adds the nine up. Each
 pixel becomes the mean of itself and its eight neighbours: the box filter of 3 x 3. Frame k draws
-the first k passes, so that one sees it grow bright; the last has all nine.
+the first k passes, so the picture grows brighter from frame to frame; the last frame has all nine.
 
-Look for: the picture is dark at first and no sharper than later; only the sum is right.
+Look for: the picture is dark at first; only the sum of all passes has the right brightness.
 
-Worth trying: a colour buffer of 8 bits rounds after each of the nine passes, by up to half a count:
-the sum may be off by 4.5 of 255. ``draw(..., format="rgba32f")`` shows what is lost.
+Worth trying: a colour buffer of 8 bits rounds after each of the nine passes, by up to half a step of
+255, so the sum may be wrong by 4.5 of 255. ``draw(..., format="rgba32f")`` avoids this error.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ OFFSETS = ((0, 0), (-1, -1), (0, -1), (1, -1), (-1, 0), (1, 0), (-1, 1), (0, 1),
 
 @dataclass
 class Program:
-    """`passes` are the nine rectangles, in the order they are drawn."""
+    """`passes` are the nine rectangles in the order of drawing."""
 
     scene: cc.Scene
     camera: cc.OrthographicCamera
@@ -59,7 +59,7 @@ def build(image: Any = None) -> Program:
     sharp = cc.BasicMaterial(color=(1, 1, 1), **options)
     upright = cc.axis_angle((1, 0, 0), 90)
     passes = tuple(scene.add(cc.Mesh.plane(1, 1), weighted, rotation=upright) for _ in OFFSETS)
-    # One world unit is one pixel: the height is set as the picture's is known.
+    # One world unit is one pixel: `draw` sets the height to that of the picture.
     camera = cc.OrthographicCamera(height=SIZE[1], position=(0, 0, 1), near=0.5, far=2)
     return Program(scene, camera, passes, sharp, weighted)
 
@@ -72,7 +72,7 @@ def draw(
     blurred: bool = True,
     **options: Any,
 ) -> Picture:
-    """Draw the first `frame` passes, at most nine. blurred=False: the rectangle as it is, once, at full weight."""
+    """Draw the first `frame` passes, at most nine. blurred=False: the rectangle once, at full weight."""
     width, height = size
     program.camera.height = height
     for index, (node, offset) in enumerate(zip(program.passes, OFFSETS, strict=True)):

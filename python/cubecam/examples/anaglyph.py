@@ -1,15 +1,16 @@
 """P8: red-cyan stereo from one scene (document 004, section 7.4.1).
 
-The scene is drawn twice into one picture, from two eyes: first with the colour mask on red alone,
-then, the depth buffer cleared but not the colour, on green and blue. The eyes are set up as the
-document has it, by turning the view a few degrees about the Y axis. `cubecam.StereoCamera` draws
-both as two views of one pass and puts the channels together.
+The document draws the scene twice into one picture, from two eyes: first only the red channel, then,
+after it clears the depth buffer, the green and blue channels. The eyes are those of the document: the
+view is turned a few degrees about the Y axis. `cubecam.StereoCamera` draws both as two views of one
+pass and combines the channels.
 
-Look for: things nearer than the target part to one side, farther ones to the other; with red-cyan
-glasses, red on the left, they stand before and behind the screen.
+Look for: the red and the cyan picture of an object lie apart, in one order for objects nearer than the
+target and in the other order for farther ones. With red-cyan glasses, red on the left, the former
+appear in front of the screen and the latter behind it.
 
-Worth trying: greater angles strain the eyes, 0 gives a flat picture. A red thing is seen by one eye
-only and flickers; grey is best.
+Worth trying: greater angles strain the eyes, and 0 gives a flat picture. Only one eye sees a red
+object, so it flickers; grey is best.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ TURN = 3.0  # degrees a frame
 
 @dataclass
 class Program:
-    """`ring` is what turns; `camera` is the eye between the two of `stereo`."""
+    """`ring` turns; `camera` stands in the middle between the two eyes of `stereo`."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera

@@ -1,15 +1,15 @@
 """P5: a mirror cube while its photographs arrive (document 002, environment maps).
 
-On the web images load one after another. All six faces are therefore made at once, of one colour,
-so that the cubemap can be used from the first frame; each image that arrives replaces a face, and
-the mipmaps are made anew. Frame k shows the state after k arrivals; the cube spins meanwhile. The
-second half of the animation begins again, with the same cubemap as the skybox.
+On the web, images load one after another. Therefore all six faces are first made of one colour, so
+that the cubemap can be used from the first frame; each image that arrives replaces a face, and the
+mipmaps are computed again. Frame k shows the state after k arrivals, while the cube spins. The second
+half of the animation starts again, and shows the same cubemap also as the skybox.
 
-Look for: sides of the cube come alive one by one; those that mirror two faces change in two steps.
-Faces are flat, for a cube's corners have a normal for each side.
+Look for: one side of the cube after another shows a photograph; a side that mirrors two faces changes
+twice. The sides are flat mirrors, since each corner of a cube has a normal for each of its sides.
 
-Worth trying: hand a picture that is not square, or not of the others' size, to ``build``: it is
-refused when it arrives, with both sizes in the message, and the face keeps its colour.
+Worth trying: pass a picture to ``build`` that is not square, or has another size than the others. When
+it arrives, it raises an error with both sizes in the message, and the face keeps its colour.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ FOV, NEAR, FAR = 60.0, 1.0, 2000.0  # degrees, world units
 EYE = (0.0, 0.0, 2.0)
 SPIN = (1.6, 2.8)  # degrees a frame round X and Y
 BLANK = 102  # of 255: the colour of a face whose photograph is not there yet
-#: Photographs do not arrive in the order they were asked for.
+#: The faces in the order of their arrival, which is not the order of the requests.
 ARRIVALS = (4, 1, 0, 5, 3, 2)
 
 
 @dataclass
 class Program:
-    """`tilt` turns round X and carries `cube`; `cubemap` is what it mirrors."""
+    """`tilt` turns round X and carries `cube`; the cube mirrors `cubemap`."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -53,7 +53,7 @@ class Program:
 def build(images: Any = None, size: int = PHOTOGRAPH) -> Program:
     """Make the scene with a cubemap whose faces are still of one colour.
 
-    images : as in P1; they are what arrives. size : texels along an edge of the faces made for them.
+    images : the photographs that arrive, as in P1. size : texels along an edge of a face.
     """
     cubemap = cc.CubeMap(np.full((6, size, size, 3), BLANK, np.uint8), mipmaps=True)
     scene = cc.Scene(environment=cubemap, background=(0, 0, 0, 1))
@@ -64,9 +64,9 @@ def build(images: Any = None, size: int = PHOTOGRAPH) -> Program:
 
 
 def arrive(program: Program, count: int) -> None:
-    """Let the first `count` photographs have arrived, and no other.
+    """Set the state after the first `count` photographs have arrived.
 
-    Raises ValueError for one that is not square or not of the cubemap's size; those before it are there.
+    Raises ValueError for a photograph that is not square or not of the cubemap's size; earlier ones are set.
     """
     cubemap = program.cubemap
     for number, face in enumerate(ARRIVALS):
@@ -83,7 +83,7 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame: k photographs have arrived; from frame `HALF` on once more, with the skybox."""
+    """Draw a frame: k photographs have arrived; from frame `HALF` on they arrive again, with the skybox."""
     arrive(program, frame % HALF)
     program.scene.background = program.cubemap if frame // HALF % 2 else (0, 0, 0, 1)
     program.tilt.rotation = cc.axis_angle((1, 0, 0), SPIN[0] * frame)

@@ -1,17 +1,17 @@
 """P12: a cube camera (document 004, section 7.4.4).
 
-A ball, or a teapot, mirrors the skybox and the coloured cubes that move between the two. So its
-cubemap cannot be the skybox; it is drawn anew as the cubes move, by a camera in the middle of the
-ball that looks along the six axes, 90 degrees each, with the ball left out. In cubecam that camera
-is a Probe: assigned to the ball, it keeps itself true.
+A ball, or a teapot, mirrors the skybox and the coloured cubes that move between the two. So the
+skybox cannot serve as its cubemap. A camera in the middle of the ball draws the cubemap again when the
+cubes move: six views along the axes, 90 degrees each, without the ball. In cubecam that camera is a
+Probe: assigned to the ball, it is kept up to date.
 
-Look for: cubes pass behind the camera and are seen in the ball. The teapot shows the cubes but
-never its own spout, which it left out.
+Look for: cubes that pass behind the camera show in the ball. The teapot shows the cubes but never its
+own spout, since the probe leaves the whole teapot out.
 
-Worth trying: ``renderer.read_probe(program.probe)`` is what the cube camera took; save it as a cross.
-The document finds by experiment that each picture must be scaled by (-1, -1, 1); document 000 gets
-the same from its up vectors. Both are the face table of docs/conventions.md, seen from two sides: a
-face is stored as seen from without, row 0 at its t = 0.
+Worth trying: ``renderer.read_probe(program.probe)`` returns the cubemap of the probe; save it as a
+cross. The document finds by experiment that each picture must be scaled by (-1, -1, 1); document 000
+gets the same result from its up vectors. Both follow from the face table of docs/conventions.md: a
+face is stored as seen from outside, with row 0 at t = 0.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ import cubecam as cc
 from ._common import LIGHT, Picture, on_circle, picture, surroundings, teapot
 
 PROGRAM = "P12"
-TITLE = "Cube camera: a mirror for a skybox and for what moves before it"
+TITLE = "Cube camera: a mirror for a skybox and for moving cubes in front of it"
 FRAMES = 120  # one round of the cubes
 STILL = 0
 SIZE = (512, 512)
@@ -78,7 +78,7 @@ def build(
 
 
 def place(program: Program, frame: int) -> None:
-    """Put the cubes where they are in a frame: on circles round +Y, every other backwards, spinning."""
+    """Place the cubes of a frame: they spin on circles round +Y, every second one backwards."""
     for index, (node, (_, _, radius, height, start)) in enumerate(
         zip(program.cubes, CUBES, strict=True)
     ):

@@ -1,16 +1,15 @@
 """P13: a cubemap drawn on the fly, shown on a cube (document 000, Ex12-1).
 
 A camera at the origin draws the hall and its two actors into the six faces of a cubemap, 90 degrees
-each, aspect 1; a cube above the middle then wears it, as P1's wears photographs: no reflection, the
-direction is the object-space position. It turns by 0.45 degrees a frame about (1, 1, 1). A Probe
-used as a material's cubemap is that camera, and leaves the cube out.
+each, aspect 1. A cube above the middle shows the cubemap as the cube of P1 shows photographs: without
+reflection, in the direction of the object-space position. It turns by 0.45 degrees a frame about
+(1, 1, 1). A Probe as a material's cubemap serves as that camera, and leaves the cube out.
 
-Look for: ground, ceiling and actors on the cube's sides, mirrored as on P1's, turning with the
-cube.
+Look for: ground, ceiling and actors on the cube's sides, mirrored as in P1; they turn with the cube.
 
 Worth trying: ``renderer.capture(program.scene, size=256, near=1, far=100, exclude=[program.cube])``
-gives the six faces as an array. The document draws them with the main camera's position in the
-highlights; here a capture's eye is its own position, and ``capture(..., eye=(0, 1, 5))`` gives the
+returns the six faces. The document computes their highlights for the position of the main camera; in
+cubecam the eye of a capture is its own position, and ``capture(..., eye=(0, 1, 5))`` draws the
 document's picture.
 """
 
@@ -36,11 +35,11 @@ DEPTH = "depth_component16"  # of the framebuffer that the faces are drawn in
 CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 PLACE, SCALE = (0.0, 0.8, 0.0), 0.8
 AXIS, TURN = (1.0, 1.0, 1.0), 0.45  # degrees a frame
-#: The document garbles the quads' scale: 10 x 10, centred here.
+#: The document prints no clear scale of the quads; here they are 10 x 10 and centred.
 QUAD = 10.0
 GROUND, GROUND_COLOR = (0.0, -2.0, 0.0), (0.4, 0.4, 1.0)
 CEILING, CEILING_COLOR = (0.0, 3.0, 0.0), (0.4, 1.0, 1.0)
-#: Place and colour of what stands in for sonic.obj and mario.obj.
+#: Place and colour of the meshes that replace sonic.obj and mario.obj.
 BUNNY = ((-2.0, -0.5, 2.0), (0.4, 1.0, 0.4))
 TEAPOT = ((2.5, -0.5, 1.5), (1.0, 0.4, 0.4))
 
@@ -66,7 +65,7 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
     scene.add(cc.PointLight(position=LIGHT))
     quad = cc.Mesh.plane(QUAD, QUAD)
     scene.add(quad, phong(GROUND_COLOR), position=GROUND)
-    # Turned over: its lit side is the one that is seen.
+    # The ceiling is turned over, so that its lit side is visible.
     scene.add(quad, phong(CEILING_COLOR), position=CEILING, rotation=cc.axis_angle((1, 0, 0), 180))
     scene.add(bunny(), phong(BUNNY[1]), position=BUNNY[0])
     scene.add(teapot(), phong(TEAPOT[1]), position=TEAPOT[0])
@@ -93,6 +92,6 @@ def draw(
     **options: Any,
 ) -> Picture:
     """Draw a frame: the cube's matrix is translate * scale * rotate(0.45 k, (1, 1, 1))."""
-    # One scale for all axes, so that translate * rotate * scale, the order of a node's parts, is the same.
+    # The scale is the same for all axes, so the node's own order, translate * rotate * scale, gives the same matrix.
     program.cube.rotation = cc.axis_angle(AXIS, TURN * frame)
     return picture(renderer, program.scene, program.camera, size, options)

@@ -1,14 +1,14 @@
 """P14: dynamic reflection (document 000, Ex12-2).
 
-The cube of P13 gives way to a ball at the origin, which mirrors what the camera in its middle has
-drawn: 0.78 times the cubemap in the direction R, plus 0.3 times the ball's own gold. The ceiling is
-gone, and the two actors circle the ball.
+A ball at the origin replaces the cube of P13. It mirrors the cubemap that the camera in its middle
+draws: 0.78 times the cubemap in the direction R, plus 0.3 times the ball's own gold. There is no
+ceiling, and the two actors circle the ball.
 
-Look for: an actor that passes in front of the ball comes up in it, large; one that goes behind it
-slides to the rim and is gone.
+Look for: an actor that passes in front of the ball appears large in it; an actor that goes behind the
+ball moves to the rim and disappears.
 
-Worth trying: ``build(probe_size=16)``: reflections need few texels. P15 asks when they need be
-drawn at all, P16 who else may use them, P17 bends the rays instead.
+Worth trying: ``build(probe_size=16)``: reflections need few texels. P15 shows when the cubemap need not
+be drawn again, P16 shares one cubemap between several balls, and P17 refracts instead of reflecting.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
 
 
 def stage() -> tuple[cc.Scene, tuple[cc.Node, cc.Node]]:
-    """Make what is not reflective: lamp, ground and the two actors."""
+    """Make the parts that do not reflect: lamp, ground and the two actors."""
     scene = cc.Scene(background=GREY)
     scene.add(cc.PointLight(position=LIGHT))
     scene.add(cc.Mesh.plane(QUAD, QUAD), phong(GROUND_COLOR), position=GROUND)
@@ -95,13 +95,13 @@ def main_camera() -> cc.PerspectiveCamera:
 
 
 def circle(actor: cc.Node, radians: float) -> None:
-    """Put an actor on the circle round +Y, turned with it."""
+    """Place an actor on the circle round +Y, and turn it by the same angle."""
     actor.position = on_circle(RADIUS, HEIGHT, radians)
     actor.rotation = cc.axis_angle((0, 1, 0), math.degrees(radians))
 
 
 def go_round(actors: tuple[cc.Node, cc.Node], frame: int) -> None:
-    """Put the actors, opposite each other, where a tenth of a radian a frame has taken them."""
+    """Place the actors, opposite each other; they move by a tenth of a radian a frame."""
     for index, actor in enumerate(actors):
         circle(actor, TURN * frame + index * math.pi)
 
@@ -113,6 +113,6 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame: the actors, opposite each other, have gone on by a tenth of a radian a frame."""
+    """Draw a frame: the actors, opposite each other, move by a tenth of a radian a frame."""
     go_round(program.actors, frame)
     return picture(renderer, program.scene, program.camera, size, options)

@@ -1,14 +1,14 @@
 """P17: dynamic refraction (document 000, "try and think").
 
-Can the scheme of P14 refract? It can: the same cubemap, looked up where Snell's law sends the ray,
-with eta = 1 / 1.52 for air to glass. Two balls stand side by side, the left one of glass, the right
-one P14's mirror; each has a cubemap of its own, and the actors circle both.
+The scheme of P14 can also refract: the cubemap is looked up in the direction of Snell's law, with
+eta = 1 / 1.52 for air to glass. Two balls stand side by side, the left one of glass, the right one the
+mirror of P14. Each has a cubemap of its own, and the actors circle both.
 
-Look for: the glass shows what is behind it upside down, the mirror what is before it. Both follow
-the actors.
+Look for: the glass shows the scene behind it upside down, and the mirror shows the scene in front of
+it. Both follow the actors.
 
-Worth trying: ``build(fresnel=True)``: glass reflects as well, most at its rim. It is one surface
-that bends here: light that leaves a real ball is bent a second time.
+Worth trying: ``build(fresnel=True)``: the glass also reflects, most of all at its rim. Only the front
+surface refracts here; light that leaves a real ball is refracted a second time.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ def build(
     scene, actors = stage()
     ball = cc.Mesh.sphere(BALL)
     materials = cc.GlassMaterial(ior=1 / eta, fresnel=fresnel), gold()
-    # The balls do not see each other: how mirrors show mirrors is another question.
+    # The balls do not show each other, so that no mirror shows a mirror.
     glass, mirror = (
         scene.add(ball, material, position=(x, 0, 0), scale=SCALE, in_captures=False)
         for x, material in zip((-APART, APART), materials, strict=True)
@@ -80,6 +80,6 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame: the actors have gone on by a tenth of a radian a frame."""
+    """Draw a frame: the actors move by a tenth of a radian a frame."""
     go_round(program.actors, frame)
     return picture(renderer, program.scene, program.camera, size, options)

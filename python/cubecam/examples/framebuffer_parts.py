@@ -1,18 +1,18 @@
 """P11: the parts of a framebuffer (document 004, sections 7.4 and 7.4.3).
 
-A framebuffer has colour buffers, a depth buffer, perhaps a stencil buffer, each of a format: RGBA8
-or RGB565, DEPTH_COMPONENT16, STENCIL_INDEX8. Several colour buffers are filled in one pass: here
-colour, distance, normal, position and id. And it may have depth alone: a shadow map is such a
-target, drawn from the lamp.
+A framebuffer has colour buffers, a depth buffer and sometimes a stencil buffer, each in a format:
+RGBA8 or RGB565, DEPTH_COMPONENT16, STENCIL_INDEX8. One pass can fill several colour buffers: here
+colour, distance, normal, position and id. A framebuffer may also have only a depth buffer: a shadow map
+is such a framebuffer, drawn from the lamp.
 
-Look for, from left to right, above: colour with shadows in RGBA8; the same in RGB565, in bands of
-32, 64 and 32 steps; depth, dark where it is near; the lamp's shadow map, what is near it bright.
-Below: normals and positions as colours; a colour for each id; the stencil, counted up by each thing
-that covers a pixel, hidden or not.
+Look for, from left to right, in the upper row: colour with shadows in RGBA8; the same in RGB565, in
+bands of 32, 64 and 32 steps; depth, dark near the camera; the lamp's shadow map, bright near the lamp.
+In the lower row: normals and positions as colours; a colour for each id; the stencil, which counts the
+surfaces that cover a pixel, hidden ones included.
 
-Worth trying: ``parts(program, renderer, frame, size)`` gives them as arrays of numbers. A depth of
-16 bits has 65,536 steps between near and far, most of them near: move near to 0.01 and see what is
-left for the ground.
+Worth trying: ``parts(program, renderer, frame, size)`` returns the parts as arrays of numbers. A depth
+of 16 bits has 65,536 steps between near and far, most of them near the camera: set near to 0.01 and see
+how few steps are left for the ground.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ OUTPUTS = ("distance", "z", "normal", "position", "id", "depth")
 
 @dataclass
 class Program:
-    """`ring` is what turns; `things` stand on it, over `ground`."""
+    """`ring` turns; `things` stand on it, above `ground`."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -91,7 +91,7 @@ def parts(
     size: tuple[int, int],
     **options: Any,
 ) -> dict[str, Picture]:
-    """Give every part as an array.
+    """Return every part as an array.
 
     "color", "distance", "z", "normal", "position", "id" and "depth" are of one pass with a depth buffer of 16 bits,
     "rgb565" is of one with 16 bits for a colour, "stencil" of one with a stencil buffer beside the depth,
@@ -124,12 +124,12 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame as four by two pictures, uint8; each has its own format, which is therefore no option."""
+    """Draw a frame as four by two pictures, uint8. `format` is not an option, since each picture has its own."""
     cell = (max(size[0] // 4, 1), max(size[1] // 2, 1))
     part = parts(program, renderer, frame, cell, **options)
     normal = part["normal"] / 2 + 0.5
     position = np.nan_to_num(part["position"] / 4 + 0.5, nan=0.4)
-    # Far apart from each other, for ids that follow each other.
+    # Ids that follow each other get colours that differ much.
     hues = (part["id"][..., None] * np.array([0.37, 0.61, 0.83])) % 1
     above = [part["color"], part["rgb565"], _grey(part["depth"]), _grey(_shadow(part, cell))]
     below = [normal, position, hues, _grey(part["stencil"] / 4)]
@@ -142,7 +142,7 @@ def _grey(values: Picture) -> Picture:
 
 
 def _shadow(part: dict[str, Picture], cell: tuple[int, int]) -> Picture:
-    """Give the two faces that look down from the lamp, -Y beside -X, as pictures of the cell's size."""
+    """Return the two faces that look down from the lamp, -Y beside -X, as a picture of the cell's size."""
     width, height = cell
     distances = part["shadow"][[3, 1]]
     pair = np.concatenate(list(np.clip((9 - distances) / 6, 0, 1)), axis=1)
@@ -153,7 +153,7 @@ def _shadow(part: dict[str, Picture], cell: tuple[int, int]) -> Picture:
 
 
 def _bytes(picture: Picture) -> Picture:
-    """Give (H, W, 4) uint8, opaque, of uint8 or of 0..1."""
+    """Turn uint8, or numbers from 0 to 1, into opaque (H, W, 4) uint8."""
     color = picture[..., :3]
     if color.dtype != np.uint8:
         color = np.rint(np.clip(color, 0, 1) * 255).astype(np.uint8)

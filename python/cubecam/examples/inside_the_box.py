@@ -1,15 +1,16 @@
 """P2: standing inside the box (document 001, Ex10-2).
 
 The cube of P1 stands still, and the camera in its middle turns and walks: a drag of the mouse turns
-the view, "w" and "s" take a step of 0.1 along it. Two angles add up the drags; the view direction
-is Rx(angleY) Ry(angleX) (0, 0, 1), both turns about the world's axes. `SCRIPT` stands in for the
-hand: frame k shows what k of its events lead to.
+the view, "w" and "s" take a step of 0.1 along the view. Two angles sum up the drags; the view direction
+is Rx(angleY) Ry(angleX) (0, 0, 1), both turns about the world's axes. `SCRIPT` replaces mouse and
+keyboard: frame k shows the view after k of its events.
 
-Look for: the walls come nearer as one walks, parts of them vanish behind the near plane, and at
-last one stands outside. That is the document's question, and P3 its answer.
+Look for: the walls come nearer as the camera walks, parts of them disappear in front of the near
+plane, and in the end the camera stands outside. The document asks how to avoid this; P3 is the answer.
 
-Worth trying: turn by 90 degrees first and then drag up and down: nothing happens, for the second
-turn is about the world's X, along which one looks. `camera.yaw` and `camera.pitch` turn as people do.
+Worth trying: turn by 90 degrees and then drag up and down: nothing happens, because the second turn is
+about the world's X axis, along which the camera looks. `camera.yaw` and `camera.pitch` turn like a
+person's head.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ STILL = 35
 
 @dataclass
 class Program:
-    """The camera is what moves."""
+    """`camera` moves."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -71,13 +72,13 @@ def walker() -> cc.PerspectiveCamera:
 
 
 def direction(angle_x: float, angle_y: float) -> tuple[float, float, float]:
-    """Give Rx(angle_y) Ry(angle_x) (0, 0, 1), angles in degrees."""
+    """Return Rx(angle_y) Ry(angle_x) (0, 0, 1), angles in degrees."""
     x, y = math.radians(angle_x), math.radians(angle_y)
     return math.sin(x), -math.sin(y) * math.cos(x), math.cos(y) * math.cos(x)
 
 
 def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
-    """Put the camera to its start, and then where the events lead."""
+    """Put the camera at its start, and replay the events."""
     camera.target = None
     camera.position = (0, 0, 0)
     camera.look(FIRST)
@@ -90,7 +91,7 @@ def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
         else:
             angle_x, angle_y = angle_x + event[0], angle_y + event[1]
             view = direction(angle_x, angle_y)
-            # Straight up and straight down have no picture with +Y up; the last view stays.
+            # Straight up and straight down there is no view with +Y up; the last view stays.
             if math.hypot(view[0], view[2]) > 1e-6:
                 camera.look(view)
 
@@ -102,6 +103,6 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw what the first `frame` events of the script lead to."""
+    """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])
     return picture(renderer, program.scene, program.camera, size, options)

@@ -3,18 +3,19 @@
 One picture holds all six faces as a cross; its shape tells the layout. The shader gets the eye in
 model space, inverse(view * model) * (0, 0, 0, 1), reflects there with the mesh's own normal, and
 takes the result to the world by mat3(model). The left teapot is made so; the right one reflects in
-world space, as P4 does. Both have the same matrix but for their place.
+world space, as P4 does. Their matrices differ only in their place.
 
 Look for: the two show the same photographs, as two mirrors side by side do. A rotation and one
-scale for all axes keep angles, so it does not matter in which space one reflects.
+scale for all axes keep angles, so both spaces give the same reflection.
 
-Worth trying: ``build(stretch=(2, 1, 1))``: the two part, by up to 73 degrees, because mat3(model)
-bends a direction that was reflected before it. The right one is right. ``build(per_vertex=True)``
-reflects at the vertices and interpolates, as the document does; on a mesh of few triangles the
-picture breaks along their edges, so try ``mesh=cubecam.Mesh.icosphere(0.75, subdivisions=1)`` with
-it. ``build(skybox=True)`` is the document's RENDER_SKYBOX. The eye in model space is a number of
-one camera; a probe that sees the teapot looks from elsewhere, and would need
-``inverse(model_matrix()) * vec4(eye_position(), 1)``, in the shader.
+Worth trying: with ``build(stretch=(2, 1, 1))`` the directions differ by up to 73 degrees, because
+mat3(model) changes the angle of a direction that is already reflected. The teapot on the right is
+correct. ``build(per_vertex=True)`` reflects at the vertices and interpolates, as the document does; on
+a mesh of few triangles the picture shows kinks along their edges, so try
+``mesh=cubecam.Mesh.icosphere(0.75, subdivisions=1)`` with it. ``build(skybox=True)`` is the
+document's RENDER_SKYBOX. The eye in model space is a number of one camera; a probe that sees the
+teapot looks from elsewhere, and would need ``inverse(model_matrix()) * vec4(eye_position(), 1)``,
+in the shader.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ APART = 0.95  # world units from the middle to each teapot
 TEAPOT = 1.5  # largest extent, world units
 TURN = 4.0  # degrees a frame round Y
 
-#: What both shaders share: the document's lines, in its own names.
+#: The function that both shaders share: the document's lines, with its names.
 REFLECTION = """
 uniform vec3 camPosModel;
 uniform mat3 matModelToWorld;
@@ -119,7 +120,7 @@ def build(
         FRAGMENT_OF_VERTEX if per_vertex else FRAGMENT,
         vertex=VERTEX if per_vertex else None,
         textures={"textureCubeMap": cubemap},
-        displacement=0,  # nothing is moved
+        displacement=0,  # the vertex function moves no vertex
     )
     shape = teapot(TEAPOT) if mesh is None else mesh
     model = scene.add(shape, material, position=(-APART, 0, 0), scale=stretch)

@@ -1,15 +1,15 @@
 """P15: nothing is drawn again while nothing changes (document 000, "try and think").
 
-Drawing six faces for every frame is costly; must it be, if most things stand still? The scene is
-P14's. For ten frames nothing moves, for ten the bunny walks, for ten all is still again, and so on.
-The renderer keeps what it drew with a note of all that went into it, and draws again only what
-would come out different.
+Drawing six faces for every frame is expensive, and not necessary if most objects stand still. The
+scene is that of P14. For ten frames nothing moves, for ten frames the bunny walks, then nothing moves
+again, and so on. The renderer keeps each picture together with a key of everything that it depends on,
+and draws a picture again only if the key changes.
 
-Look for: `views_drawn` after each frame: 0 while all is still. While the bunny moves it is the main
-view and those faces of the probe that see it, not all six.
+Look for: `views_drawn` after each frame. It is 0 while nothing moves. While the bunny moves, it counts
+the main view and the faces of the probe that show the bunny, not all six.
 
-Worth trying: ``cubecam.Renderer(cache_bytes=0)`` keeps no frames; the probe it keeps all the same.
-Or set the colour of an actor to the colour it has: equal is no change.
+Worth trying: ``cubecam.Renderer(cache_bytes=0)`` keeps no frames, but still keeps the probe. Or set the
+colour of an actor to its present colour: an equal value is no change.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .cubemap_on_a_cube import PROBE
 from .dynamic_reflection import TURN, circle, go_round
 
 PROGRAM = "P15"
-TITLE = "Nothing is drawn again while nothing it sees has changed"
+TITLE = "No picture is drawn again while nothing in it changes"
 PHASE = 10  # frames of rest, then as many of movement
 FRAMES = 4 * PHASE
 STILL = 15
@@ -34,7 +34,7 @@ SIZE = (512, 512)  # aspect 1
 
 @dataclass
 class Program:
-    """`walker` is the one that moves at times; all else is P14's."""
+    """`walker` moves in some frames; the rest is the scene of P14."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -51,7 +51,7 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
 
 
 def steps(frame: int) -> int:
-    """Give how many steps the walker has made: none in a phase of rest, one a frame in the next."""
+    """Return the number of steps of the walker: none in a phase of rest, one a frame in the next phase."""
     phases, within = divmod(max(frame, 0), PHASE)
     return PHASE * (phases // 2) + (within + 1 if phases % 2 else 0)
 
@@ -63,11 +63,11 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame; then `views_drawn` tells what that took."""
+    """Draw a frame; `views_drawn` then returns how many pictures it took."""
     circle(program.walker, TURN * steps(frame))
     return picture(renderer, program.scene, program.camera, size, options)
 
 
 def views_drawn(program: Program, renderer: cc.Renderer) -> int:
-    """Give how many pictures the last frame took: 0 to 7, the main view and six faces of the probe."""
+    """Return how many pictures the last frame took, from 0 to 7: the main view and six faces of the probe."""
     return renderer.stats.views_drawn

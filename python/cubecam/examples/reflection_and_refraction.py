@@ -1,18 +1,18 @@
 """P4: reflection and refraction of a still environment (documents 001 and 002).
 
-For each point, I goes from the eye to it, in world space. A mirror looks up R = I - 2 (N.I) N;
-glass looks up what Snell's law makes of I, GLSL's ``refract(I, N, eta)`` with eta the index outside
-divided by that inside, the inverse of ``ior``. The camera circles: the pictures on the surfaces change, the photographs
-that they show do not.
+For each point, I goes from the eye to the point, in world space. A mirror looks up
+R = I - 2 (N.I) N; glass looks up the direction of Snell's law, GLSL's ``refract(I, N, eta)``, where eta
+is the index outside divided by that inside, the inverse of ``ior``. The camera circles, so the pictures
+on the surfaces change; the photographs that they show do not.
 
-Look for: the mirrors, on the left, show what is behind the camera; the glass, on the right, shows
-what is behind it, upside down in the middle. The upper two are balls stretched along X: their
-normals go by the inverse transpose of the model matrix; document 002 takes mat3(model), which is
-right for rotations only.
+Look for: the mirrors, on the left, show the photographs behind the camera; the glass, on the right,
+shows those behind the glass, upside down in the middle. The upper two are balls stretched along X:
+their normals are transformed by the inverse transpose of the model matrix. Document 002 uses
+mat3(model), which is correct only for rotations.
 
-Worth trying: eta 1 makes glass vanish, 1/2.42 is diamond, and above 1 one looks out of the water: at
-the rim nothing is refracted, and the glass mirrors. ``GlassMaterial(fresnel=True)`` shows both in the
-right proportion.
+Worth trying: with eta 1 the glass becomes invisible, 1/2.42 is diamond, and eta above 1 is the view out
+of water: near the rim there is no refraction, and the surface mirrors. ``GlassMaterial(fresnel=True)``
+shows reflection and refraction in the right proportion.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ SIZE = (512, 512)
 
 FOV = 45.0  # degrees
 ETA = 1 / 1.52  # air to window glass
-DISTANCE, HEIGHT, TURN = 5.0, 0.6, 4.0  # of the camera: world units, degrees a frame
+DISTANCE, HEIGHT, TURN = 5.0, 0.6, 4.0  # of the camera's circle: world units, degrees a frame
 #: Half axes of the stretched balls, world units.
 STRETCH = (0.9, 0.6, 0.6)
 
 
 @dataclass
 class Program:
-    """The camera and the group of the four things turn together; the photographs stay."""
+    """`camera` and `group`, which has the four objects, turn together; the photographs stay."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -73,9 +73,9 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame: camera and group have turned by 4 degrees a frame."""
+    """Draw a frame: camera and group turn by 4 degrees a frame."""
     turned = cc.axis_angle((0, 1, 0), TURN * frame)
     program.group.rotation = turned
-    # 0 is on +Z.
+    # In frame 0 the camera is on +Z.
     program.camera.position = on_circle(DISTANCE, HEIGHT, math.radians(TURN * frame - 90))
     return picture(renderer, program.scene, program.camera, size, options)

@@ -1,14 +1,14 @@
 """P10: render to a texture (document 004, section 7.4.2).
 
 A flat picture with moving discs is drawn into a texture of 512 x 512, without a depth buffer, and a
-turning cube wears that texture. The picture is a scene of its own, with a camera of its own;
-`cubecam.RenderTexture` draws it whenever it changed, before what shows it.
+turning cube shows that texture. The texture has a scene and a camera of its own;
+`cubecam.RenderTexture` draws it whenever it changes, before the pictures that show it.
 
-Look for: each side of the cube shows this frame's discs, never the last one's; they are
-translucent, drawn in the order they were added.
+Look for: each side of the cube shows the discs of this frame, never those of the last one. The discs
+are translucent and drawn in the order in which they were added.
 
-Worth trying: put the cube's own scene into the texture. A picture in a picture cannot be finished:
-it is refused, by name, until the cube is left out of it (``exclude=[cube]``).
+Worth trying: draw the cube's own scene into the texture. A picture cannot show itself, so this raises
+an error that names the texture, until the texture leaves the cube out (``exclude=[cube]``).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ import cubecam as cc
 from ._common import LIGHT, Picture, picture
 
 PROGRAM = "P10"
-TITLE = "Render to a texture that an object wears"
+TITLE = "Render to a texture that an object shows"
 FRAMES = 120  # one turn
 STILL = 20
 SIZE = (512, 512)
@@ -30,7 +30,7 @@ SIZE = (512, 512)
 TEXTURE = (512, 512)  # pixels
 WHITE, BLACK = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0)
 TURN = 3.0  # degrees a frame
-#: Colour and radius of the discs, and how often each goes round in one turn of the cube.
+#: Colour and radius of each disc, and its number of rounds in one turn of the cube.
 DISCS = (
     ((0.9, 0.1, 0.1), 0.45, 1),
     ((0.1, 0.6, 0.2), 0.35, -2),
@@ -60,7 +60,7 @@ def build() -> Program:
     for color, radius, _ in DISCS:
         discs.append(
             inner.add(
-                # A cylinder seen from above its cap.
+                # A disc is a flat cylinder, seen from above.
                 cc.Mesh.cylinder(radius, 0.01),
                 cc.BasicMaterial(color=color, opacity=0.6),
                 rotation=upright,
@@ -82,7 +82,7 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame: discs and cube have moved on."""
+    """Draw a frame with the discs and the cube at their places."""
     for node, (_, radius, rounds) in zip(program.discs, DISCS, strict=True):
         angle = rounds * 2 * math.pi * frame / FRAMES
         away = 0.95 - radius

@@ -1,20 +1,22 @@
 """P16: one cubemap for neighbouring mirrors (document 000, "try and think").
 
-Three mirror balls stand in a row. Drawing a cubemap for each costs three times as much as one; may
-the outer two use that of the middle one? A Probe may be assigned to any number of nodes, so one can
-see: above, all three show the probe of the middle ball; below, each has its own. The balls move
-apart and together again.
+Three mirror balls stand in a row. A cubemap for each ball costs three times as much as one cubemap
+that all balls share. Any number of nodes may use one Probe, so this program compares both: in the upper
+picture all three balls show the probe of the middle ball; in the lower picture each has its own. The
+balls move apart and together again.
 
-Look for: the outer balls above show the middle one's view, so the actors and the ground's edges lie
-in wrong places, and the more so the farther they are. ``draw(..., show="difference")`` shows where.
+Look for: the outer balls of the upper picture show the view of the middle ball, so the actors and the
+edges of the ground lie in wrong places; the error grows with the distance of the balls.
+``draw(..., show="difference")`` shows the difference of the two pictures.
 
-How wrong is it? `truth` casts rays off the balls' actual surfaces, and `error_over_distance`
-compares: a probe of its own is wrong too, because rays start on the ball and not in its middle, but
-by less, and by the same at any distance. Document 004 puts it so: the approximation looks right as
-long as other things are not too close. Both need embreex: ``pip install "cubecam[truth]"``.
+How large is the error? `truth` casts rays from the real surfaces of the balls, and
+`error_over_distance` compares. A ball's own probe is wrong, too, because rays start on the ball and not
+in its middle; but its error is smaller, and does not depend on the distance. Document 004 says: the
+approximation looks right as long as other objects are not too close. Both functions need embreex:
+``pip install "cubecam[truth]"``.
 
-Worth trying: give the scene a skybox, and hide the ground and the actors, ``node.visible = False``.
-Of what is infinitely far one cubemap serves all, and the error is gone.
+Worth trying: give the scene a skybox, and hide the ground and the actors, ``node.visible = False``. The
+sky is infinitely far, so one cubemap is right for all balls, and there is no error.
 """
 
 from __future__ import annotations
@@ -88,7 +90,7 @@ def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
     scene.add(bunny(), phong(BUNNY[1]), position=PLACES[0])
     scene.add(teapot(), phong(TEAPOT[1]), position=PLACES[1])
     mesh, mirror = cc.Mesh.sphere(BALL), gold()
-    # No ball is in a cubemap, whoever's it is: what differs is the place it is drawn from, and nothing else.
+    # No cubemap shows a ball, so the cubemaps differ only in the place from which they are drawn.
     balls = tuple(scene.add(mesh, mirror, scale=SCALE, in_captures=False) for _ in range(3))
     probes = tuple(
         cc.Probe(size=probe_size, near=NEAR, far=FAR, format=probe_format, parent=ball)

@@ -1,18 +1,17 @@
 """P3: the skybox (document 001, Ex10-3).
 
-One is never to leave the box, so it is no box: a quad that covers the picture lies on the far
-plane, and each of its points looks up the direction it is seen in, inverse(projection * view
-without translation) * clip position. In cubecam that is a scene whose background is a CubeMap. The
-same drags and steps as in P2 lead round; here three boxes stand about, which the document has not,
-so that walking shows.
+The viewer must never leave the sky, so it is not a box: a quad on the far plane covers the picture,
+and each of its points looks up its direction, inverse(projection * view without translation) * clip
+position. In cubecam this is a scene whose background is a CubeMap. The camera makes the drags and steps
+of P2. Unlike in the document, three boxes stand in the scene, so that walking is visible.
 
-Look for: turning moves the sky, walking does not move one pixel of it, and the boxes stand before
-it at any distance.
+Look for: turning moves the sky; walking does not move a pixel of it; the boxes stand in front of the
+sky at any distance.
 
-Worth trying: ``build(boxes=False)``: pressing w seems to do nothing, though
-`program.camera.position` says otherwise. The document divides the direction by w before it
-normalises; a float loses that w when far / near is 1e8. Leaving the division out gives the same
-direction, and the renderer does.
+Worth trying: with ``build(boxes=False)``, pressing w seems to do nothing, although
+`program.camera.position` changes. The document divides the direction by w before it normalises; a
+float loses this w if far / near is 1e8. Without the division the direction is the same, so the renderer
+does not divide.
 """
 
 from __future__ import annotations
@@ -43,7 +42,7 @@ BOXES = (
 
 @dataclass
 class Program:
-    """The camera is what moves: 60 degrees, near 1, far 15, as in P2."""
+    """`camera` moves: 60 degrees, near 1, far 15, as in P2."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -65,6 +64,6 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw what the first `frame` events of the script lead to."""
+    """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])
     return picture(renderer, program.scene, program.camera, size, options)

@@ -5,12 +5,12 @@ direction of its own position, as seen from the cube's middle: ``textureCube(u_e
 a_Position)``. The direction is taken in object space, before the model matrix, so the pictures turn
 with the cube.
 
-Look for: each side shows one photograph whole, and edges are seamless. The photographs appear
-mirrored: they were taken from within and are seen from without.
+Look for: each side shows one whole photograph, and the edges have no seams. The photographs appear
+mirrored: they were taken from inside the cube and are seen from outside.
 
-Worth trying: stand in the middle with ``build(eye=(0, 0, 0.001))``, as the document asks. Far away
-a face is smaller than its 512 texels, and with LINEAR alone it flickers as it turns: give the
-cubemap mipmaps.
+Worth trying: stand in the middle with ``build(eye=(0, 0, 0.001))``, an exercise of the document. Far
+away, a face covers fewer pixels than its 512 texels, and with LINEAR filtering alone it flickers as it
+turns: give the cubemap mipmaps.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def build(images: Any = None, eye: tuple[float, float, float] = EYE) -> Program:
     images : six arrays or paths in the order +X -X +Y -Y +Z -Z, uploaded as they are; made here by default.
     """
     scene = cc.Scene(background=GREY)
-    # WebGL draws back faces unless told otherwise, so that the cube can be entered.
+    # WebGL draws back faces by default, so the walls are visible from inside the cube.
     material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
     tilt = scene.add()
     cube = scene.add(cc.Mesh.box(CUBE), material, scale=SCALE, parent=tilt)

@@ -1,10 +1,10 @@
-"""P7: translucent things after opaque ones (document 004, section 7.4.1).
+"""P7: translucent objects after opaque ones (document 004, section 7.4.1).
 
-Opaque things are drawn first. Translucent ones follow from far to near, with the depth test on, so
-that what is opaque hides them, and depth writes off, so that they do not hide each other; colours
-are blended with SRC_ALPHA, ONE_MINUS_SRC_ALPHA. The renderer does all that for a material whose
-opacity is below 1. Alpha is blended apart, and over an opaque background stays 1, so that a page
-behind the picture does not show through.
+Opaque objects are drawn first. Translucent objects follow from far to near, with the depth test on, so
+that opaque objects hide them, and depth writes off, so that they do not hide each other. Colours are
+blended with SRC_ALPHA, ONE_MINUS_SRC_ALPHA. The renderer does all this for a material whose opacity is
+below 1. Alpha is blended separately and stays 1 over an opaque background, so that a web page behind
+the picture does not show through.
 
 Look for: the bunny is seen through every pane in front of it, tinted once by each; behind it the
 panes vanish.
@@ -32,14 +32,14 @@ SIZE = (512, 512)
 WHITE = (1.0, 1.0, 1.0, 1.0)
 TURN = 3.0  # degrees a frame
 RADIUS = 1.5  # of the ring, world units
-#: Colour and opacity of what stands in the ring.
+#: Colour and opacity of the objects in the ring.
 PANES = (((1.0, 0.2, 0.1), 0.5), ((0.1, 0.8, 0.2), 0.35), ((0.1, 0.3, 1.0), 0.6))
 BALLS = (((1.0, 0.8, 0.1), 0.4), ((0.7, 0.1, 0.9), 0.55))
 
 
 @dataclass
 class Program:
-    """`ring` is what turns, `translucent` stand in it."""
+    """`ring` turns, with the nodes `translucent`."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -84,6 +84,6 @@ def draw(
     size: tuple[int, int] = SIZE,
     **options: Any,
 ) -> Picture:
-    """Draw a frame: the ring has turned by 3 degrees a frame."""
+    """Draw a frame: the ring turns by 3 degrees a frame."""
     program.ring.rotation = cc.axis_angle((0, 1, 0), TURN * frame)
     return picture(renderer, program.scene, program.camera, size, options)

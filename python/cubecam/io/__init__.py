@@ -1,1 +1,1 @@
-"""Files in and out: pictures, cubemaps and meshes."""
+"""Read and write files: pictures, cubemaps and meshes."""

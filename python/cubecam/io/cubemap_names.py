@@ -10,7 +10,7 @@ from .files import PathLike, as_path
 
 Source: TypeAlias = PathLike | Sequence[PathLike]
 
-# What {face} in a name stands for, in the order of the faces. The first is written, all are read.
+# The texts that replace {face} in a name, in the order of the faces. The first row is written; all rows are read.
 FACE_NAMES = (
     ("px", "nx", "py", "ny", "pz", "nz"),
     ("posx", "negx", "posy", "negy", "posz", "negz"),
@@ -32,7 +32,7 @@ def layout_name(layout: str | None) -> str | None:
 
 
 def check_names(convention: str | None, center: str | None) -> None:
-    """Refuse unknown names, those that will not be needed as well: a typo must not pass."""
+    """Raise ValueError for unknown names, also for names that the call does not need, since they are typos."""
     if convention is not None and str(convention).lower() not in CONVENTIONS:
         raise ValueError(
             f"convention: expected one of {', '.join(CONVENTIONS)}, got {convention!r}"
@@ -49,7 +49,7 @@ def check_openexr(convention: str | None) -> None:
 
 
 def six_paths(path: Source, for_reading: bool) -> list[Path] | None:
-    """Give the six files that a list or a name with {face} means, None for a single path."""
+    """Return the six files of a list or of a name with {face}; None for a single path."""
     if isinstance(path, Sequence) and not isinstance(path, (str, bytes)):
         if len(path) != 6:
             raise ValueError(f"expected six paths in the order +X -X +Y -Y +Z -Z, got {len(path)}")

@@ -1,4 +1,4 @@
-"""Cubemaps to files: the method `CubeMap.save`."""
+"""Write cubemaps to files: the method `CubeMap.save`."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def save_cubemap(
     convention : {"gl", "inside", "three"}, optional
         How the faces are stored; "gl" by default ("inside" for "openexr").
     width : int, optional
-        Of an equirect, in pixels, even; 4 times the face size by default.
+        Width of an equirect in pixels, an even number. None: 4 times the face size.
     center : {"-z", "+z", "+x", "-x"}
         The direction in the middle of an equirect.
     srgb, half : bool
@@ -49,13 +49,13 @@ def save_cubemap(
     Raises
     ------
     OSError
-        A folder is missing or may not be written, or the disk is full. The old files stay as they were.
+        If a folder does not exist or may not be written, or the disk is full. The old files stay as they were.
     ValueError
-        Unknown names, options that do not go together, numbers that the file cannot hold.
+        For unknown names, options that do not go together, or numbers that the file cannot hold.
 
     Notes
     -----
-    Cells of a cross that no face covers are 0. A cubemap of float16 goes to EXR as half.
+    Cells of a cross without a face are 0. A cubemap of float16 is written to EXR as half.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def save_cubemap(
     target = as_path(path)
     attributes: dict[str, Any] = {}
     source = _storable(cube, [target])
-    # What the file will round in the end is not rounded before.
+    # If the file rounds the numbers, they are not rounded before, since two roundings would add up.
     exact = formats.stores(target, cube.dtype) and not srgb
     resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
@@ -104,7 +104,7 @@ def save_cubemap(
             )
         check_openexr(convention)
         picture = source.to_layout("openexr", dtype=resampled)
-        # OpenImageIO makes the envmap attribute of it, and rejects a number set by that name.
+        # OpenImageIO writes the attribute envmap from this text, and rejects a number under that name.
         attributes["textureformat"] = "CubeFace Environment"
     else:
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
@@ -115,8 +115,7 @@ def save_cubemap(
 def arrange(values: Array, layout: str, convention: str) -> Array:
     """Lay out six faces of any numbers, (6, N, N) or (6, N, N, C), as `CubeMap.to_layout` does with colours.
 
-    Ids, and positions with their NaN, are not colours and no CubeMap takes them; so each number travels
-    as its four bytes.
+    A CubeMap cannot hold ids, or positions with NaN; so each number is laid out as its four bytes.
     """
     channels = values[..., None] if values.ndim == 3 else values
     pictures = []
@@ -128,7 +127,7 @@ def arrange(values: Array, layout: str, convention: str) -> Array:
 
 
 def _storable(cube: CubeMap, targets: list[Path]) -> CubeMap:
-    """Leave out an alpha of 1 for files that hold none; before cells that no face covers add their 0."""
+    """Remove an alpha of 1 if a file cannot hold alpha, before a layout adds cells with an alpha of 0."""
     if cube.channels != 4 or all(formats.holds_alpha(target) for target in targets):
         return cube
     faces = cube.faces

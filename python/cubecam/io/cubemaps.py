@@ -1,6 +1,6 @@
-"""Cubemap files to `CubeMap`: six faces, crosses, rows, columns, panoramas and OpenEXR cubes.
+"""Read cubemap files: six faces, crosses, rows, columns, panoramas and OpenEXR cubes.
 
-Which texel goes where is the core's knowledge (docs/conventions.md); this file knows names, files and attributes.
+The core knows the place of each texel (docs/conventions.md); this file handles names, files and attributes.
 """
 
 from __future__ import annotations
@@ -42,17 +42,17 @@ def load_cubemap(
     ----------
     path : path, sequence of six paths, or a name with {face}
         Six paths are in the order +X -X +Y -Y +Z -Z. In a name such as "park/{face}.jpg", {face} stands for
-        px nx py ny pz nz, posx negx ..., or pos-x neg-x ..., whichever files there are.
+        px nx py ny pz nz, posx negx ..., or pos-x neg-x ..., depending on which files exist.
     layout : str, optional
-        "cross", "vertical_cross", "row", "column", "equirect", "openexr", or "faces" for six files. None tells it
-        from the shape: 4:3, 3:4, 6:1, 1:6, 2:1.
+        "cross", "vertical_cross", "row", "column", "equirect", "openexr", or "faces" for six files. None: the layout
+        follows from the shape: 4:3, 3:4, 6:1, 1:6, 2:1.
     convention : {"gl", "inside", "three"}, optional
-        How the faces are stored; no file tells, so the default is "gl", but for OpenEXR environment cubes, which
-        are "inside". A panorama has no faces and needs none.
+        How the faces are stored. No file states its convention, so the default is "gl", except for OpenEXR environment
+        cubes, which are always "inside". A panorama has no faces and no convention.
     size : int, optional
-        Texels along an edge of a face. None: as stored; for a panorama the power of two that loses nothing.
+        Texels along an edge of a face. None: as stored; for a panorama, the power of two that keeps all detail.
     center : {"-z", "+z", "+x", "-x"}, optional
-        The direction in the middle of a panorama: "-z" by default, but for OpenEXR panoramas, which are "+z".
+        The direction in the middle of a panorama. None: "-z", or "+z" for OpenEXR panoramas.
     srgb : bool
         Decode files of 8 and 16 bits to linear float32, as `load_image` does.
     mipmaps : bool
@@ -63,21 +63,22 @@ def load_cubemap(
     Returns
     -------
     CubeMap
-        Linear, raw numbers in `dtype`; rounded to nearest where it had to be resampled (panorama, OpenEXR cube, size).
+        Linear, raw numbers in `dtype`; they are rounded to nearest if the file is resampled (panorama, OpenEXR cube,
+        size).
 
     Raises
     ------
     OSError
-        A file is missing (FileNotFoundError), or may not be read.
+        If a file does not exist (FileNotFoundError), or may not be read.
     ImageError
-        A file is not a picture, or ends early.
+        If a file is not a picture, or ends early.
     ValueError
-        A shape that is no cubemap's, faces that are not square or not of one size, unknown names.
+        For a shape of no layout, faces that are not square or not of one size, or unknown names.
 
     Notes
     -----
-    An EXR file whose `envmap` attribute says so is read by OpenEXR's rule: samples lie on the borders. Such
-    files are resampled; all others are taken texel by texel.
+    In an EXR file with the attribute `envmap`, samples lie on the borders of the faces, by OpenEXR's rule. Such
+    files are resampled; all other cubemaps are copied texel by texel.
 
     Examples
     --------
@@ -124,14 +125,14 @@ def load_environment(
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
 ) -> CubeMap:
-    """Read what surrounds a scene: an equirectangular photograph, or any file that `load_cubemap` reads.
+    """Read the surroundings of a scene: an equirectangular photograph, or any file that `load_cubemap` reads.
 
     Parameters
     ----------
     path : path, sequence of six paths, or a name with {face}
         A picture twice as wide as high is a panorama, row 0 straight up; other shapes are cubemaps.
     size : int, optional
-        Texels along an edge of a face; None: the next power of two from width / pi, which loses nothing.
+        Texels along an edge of a face. None: the next power of two from width / pi, which keeps all detail.
     center : {"-z", "+z", "+x", "-x"}, optional
         The direction in the middle of the panorama: "-z", straight ahead, by default.
     layout, convention, srgb, mipmaps, dtype
@@ -140,8 +141,8 @@ def load_environment(
     Returns
     -------
     CubeMap
-        Linear and unclipped: lamps keep their thousands. In the numbers of the file, such as float16 from an EXR of
-        half floats.
+        Linear numbers that are not clipped: lamps keep values in the thousands. Their type is that of the file, for
+        example float16 from an EXR of half floats.
 
     Raises
     ------
@@ -150,8 +151,8 @@ def load_environment(
 
     Notes
     -----
-    Numbers are the file's. Lossy EXR compression (DWA) leaves some below 0 round lamps, also in the sample
-    photographs; where that shows, use `CubeMap(numpy.maximum(cube.faces, 0))`.
+    The numbers are those of the file. Lossy EXR compression (DWA) leaves some numbers below 0 near lamps, also in
+    the sample photographs; if they are visible, use `CubeMap(numpy.maximum(cube.faces, 0))`.
 
     Examples
     --------
@@ -173,7 +174,7 @@ def load_environment(
 
 
 def _read_faces(paths: list[Path], srgb: bool) -> Array:
-    """Read six square pictures of one size; differing channels and types meet in the richest."""
+    """Read six square pictures of one size, converted to the most channels and, if types differ, to float32."""
     faces = []
     for path in paths:
         picture = oiio.read(existing_file(path))

@@ -1,4 +1,4 @@
-"""Paths in, files out: the checks and the safe write that every loader and saver shares."""
+"""Checks of paths, and safe writing of files, for all loaders and savers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PathLike: TypeAlias = str | os.PathLike[str]
 
 
 def as_path(path: object) -> Path:
-    """Turn a str or path object into a `Path`; anything else is a TypeError that says so."""
+    """Turn a str or path object into a `Path`; raise TypeError for any other type."""
     if isinstance(path, (str, os.PathLike)):
         name = os.fspath(path)
         if isinstance(name, str):
@@ -32,7 +32,7 @@ def existing_file(path: object) -> Path:
     Raises
     ------
     FileNotFoundError, IsADirectoryError, PermissionError
-        As `open` would, before a library gets the name and reports it as "unknown format".
+        As `open` raises them; without this check a library would report an "unknown format".
     """
     found = as_path(path)
     with found.open("rb"):
@@ -41,13 +41,13 @@ def existing_file(path: object) -> Path:
 
 @contextlib.contextmanager
 def replacing(paths: Sequence[Path]) -> Iterator[list[Path]]:
-    """Give temporary names to write to, which become `paths` together when the block ends well.
+    """Give temporary names to write to; the files get the names `paths` when the block ends without an error.
 
     Each temporary file is made at once, beside its target and with the same extension, so that a
     missing folder or a read-only one is an OSError before any work is done. On any exception,
-    KeyboardInterrupt included, they are removed and the old files stay as they were.
+    KeyboardInterrupt included, the temporary files are removed and the old files stay as they were.
     """
-    # A link is written through, as `open` would: its target is replaced, not the link.
+    # If a path is a link, the file that it points to is replaced and not the link, as with `open`.
     targets = [Path(os.path.realpath(path)) for path in paths]
     temporaries: list[Path] = []
     try:
@@ -64,7 +64,7 @@ def replacing(paths: Sequence[Path]) -> Iterator[list[Path]]:
                 f".{target.stem[:80]}-{secrets.token_hex(6)}{target.suffix}"
             )
             try:
-                # O_EXCL: never somebody else's file. The mode leaves the rest to the umask.
+                # O_EXCL never opens a file that exists. The umask limits the mode.
                 os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
             except OSError as error:
                 raise type(error)(
@@ -82,7 +82,7 @@ def replacing(paths: Sequence[Path]) -> Iterator[list[Path]]:
 
 
 def write_files(contents: dict[Path, bytes]) -> None:
-    """Write whole files, all or (up to the instant of renaming) none."""
+    """Write whole files: all of them, or none if an error occurs before the files are renamed."""
     with replacing(list(contents)) as temporaries:
         for temporary, data in zip(temporaries, contents.values(), strict=True):
             temporary.write_bytes(data)

@@ -1,4 +1,4 @@
-"""What each kind of picture file holds, and the rules that fit an array to it."""
+"""The numbers and channels that each kind of picture file holds, and the conversion of an array to them."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Format:
-    """What a kind of file can hold; `attributes` are OpenImageIO's settings for writing it."""
+    """The numbers and channels that a kind of file can hold; `attributes` are OpenImageIO's settings for writing."""
 
     samples: tuple[str, ...]
     channels: tuple[int, ...] = (1, 3, 4)
@@ -53,7 +53,7 @@ FORMATS = {
 
 
 def decode(pixels: Array, srgb: bool) -> Array:
-    """Turn what a file stores into what `load_image` gives."""
+    """Turn the numbers of a file into the array that `load_image` returns."""
     if srgb and pixels.dtype in (np.uint8, np.uint16):
         return on_color(srgb_decode, to_float32(pixels))
     return to_float32(pixels) if pixels.dtype == np.uint16 else pixels
@@ -127,7 +127,7 @@ def fit_samples(pixels: Array, form: Format, extension: str, srgb: bool, half: b
 
 
 def _whole_numbers(pixels: Array, form: Format, extension: str) -> Array:
-    """Whole numbers wider than 16 bits are ids: stored exactly or refused."""
+    """Store whole numbers wider than 16 bits, which are ids, exactly, or raise ValueError."""
     stored = next((name for name in ("uint32", "uint16") if name in form.samples), None)
     if stored is None:
         raise ValueError(

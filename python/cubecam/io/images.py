@@ -1,4 +1,4 @@
-"""Pictures: files to arrays and back. Row 0 is on top; numbers are raw unless `srgb=True` says otherwise."""
+"""Read and write pictures as arrays. Row 0 is on top; numbers are raw, except with `srgb=True`."""
 
 from __future__ import annotations
 
@@ -24,24 +24,26 @@ def load_image(path: PathLike, *, srgb: bool = False) -> Array:
     Parameters
     ----------
     path : str or os.PathLike
-        EXR, HDR, PNG, JPEG, TIFF, WebP and what else OpenImageIO reads; the contents decide, not the name.
+        A file in EXR, HDR, PNG, JPEG, TIFF, WebP or another format that OpenImageIO reads. The format follows from the
+        contents, not from the name.
     srgb : bool
-        True decodes files of 8 and 16 bits from the sRGB curve (IEC 61966-2-1) to linear float32; alpha is
-        not touched. Files of floating-point numbers are linear already and stay as they are.
+        True decodes files of 8 and 16 bits from the sRGB curve (IEC 61966-2-1) to linear float32; alpha stays as it
+        is. Files of floating-point numbers are linear already and stay as they are.
 
     Returns
     -------
     ndarray (H, W, C)
         C is 1, 3 or 4, row 0 on top. uint8 for 8 bits (float32 of value/255 decoded with `srgb`), float32 of
         value/65535 for 16 bits, float16 for half, float32 for float, uint32 for an EXR of whole numbers.
-        Grey with alpha and palettes come as colour. PNG colour is not multiplied by alpha. The array is yours.
+        Grey with alpha and palettes become RGB or RGBA. PNG colour is not multiplied by alpha. The array belongs to the
+        caller.
 
     Raises
     ------
     OSError
-        No file of that name (FileNotFoundError), or it may not be read.
+        If there is no file of that name (FileNotFoundError), or it may not be read.
     ImageError
-        The contents are not a picture, or end early.
+        If the contents are not a picture, or end early.
 
     Examples
     --------
@@ -59,7 +61,7 @@ def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = 
     Parameters
     ----------
     path : str or os.PathLike
-        Ends in .exr, .hdr, .png, .jpg, .tif, .webp, .bmp or .tga.
+        A name that ends in .exr, .hdr, .png, .jpg, .tif, .webp, .bmp or .tga.
     pixels : array_like (H, W) or (H, W, C), C of 1, 3 or 4
         Real numbers, row 0 on top.
     srgb : bool
@@ -71,11 +73,11 @@ def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = 
     Raises
     ------
     OSError
-        The folder is missing or may not be written, or the disk is full. The old file stays as it was.
+        If the folder does not exist or may not be written, or the disk is full. The old file stays as it was.
     ValueError
-        An extension that is not in the list, a shape that is no picture, numbers that the file cannot hold.
+        For an extension that is not in the list, a shape of no picture, or numbers that the file cannot hold.
     TypeError
-        bool, complex, object or text.
+        For bool, complex, object or text.
 
     Notes
     -----
@@ -91,9 +93,9 @@ def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = 
     TIFF                      floats as float32
     ========================  =========================================================================
 
-    One channel is written as grey where the file can, else as three equal ones (HDR, WebP). HDR, JPEG and BMP
-    hold no alpha: a fourth channel is left out where it is 1 throughout, and refused otherwise. WebP
-    forgets the colour where alpha is 0. JPEG is written at quality 95 without colour subsampling.
+    One channel is written as grey if the format allows it, else as three equal channels (HDR, WebP). HDR, JPEG and
+    BMP hold no alpha: a fourth channel is left out if it is 1 everywhere; otherwise it raises ValueError. WebP loses
+    the colour where alpha is 0. JPEG is written at quality 95 without colour subsampling.
 
     Examples
     --------
@@ -111,15 +113,15 @@ def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = 
 def save_animation(
     path: PathLike, frames: Iterable[Any], *, fps: float = 25, srgb: bool = False
 ) -> None:
-    """Write pictures as an animation that repeats for ever.
+    """Write pictures as an animation that repeats forever.
 
     Parameters
     ----------
     path : str or os.PathLike
-        Ends in .png (APNG: all colours, opened by every browser), .gif (256 colours) or .webp (lossless).
+        A name that ends in .png (APNG: all colours, every browser opens it), .gif (256 colours) or .webp (lossless).
     frames : iterable of array_like (H, W) or (H, W, C)
-        As for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored as
-        one that lasts as long.
+        Pictures as for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored
+        as a single frame that lasts as long as all of them.
     fps : float
         Frames a second, above 0 and up to 100. A GIF's frames last a whole number of hundredths of a second.
     srgb : bool
@@ -130,7 +132,7 @@ def save_animation(
     OSError
         As for `save_image`.
     ValueError
-        No frame, frames of unequal sizes, another extension, fps out of range.
+        If there is no frame, for frames of unequal sizes, another extension, or fps out of range.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Mesh files to `Mesh`: OBJ, PLY, STL, glTF and OFF, by trimesh (imported when the first file is read)."""
+"""Read mesh files (OBJ, PLY, STL, glTF, OFF) with trimesh, which is imported when the first file is read."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["load_mesh"]
 
-# What trimesh is told about each kind. Pictures are not wanted, so that a missing one is no error; glTF needs its
-# materials all the same, because trimesh gives texture coordinates with them only.
+# Options of trimesh for each kind of file. An OBJ's materials are skipped, so that a missing picture is no error; those
+# of glTF are read, because trimesh returns texture coordinates only together with materials.
 _KINDS: dict[str, dict[str, Any]] = {
     ".obj": {"skip_materials": True},
     ".ply": {},
@@ -34,7 +34,7 @@ _KINDS: dict[str, dict[str, Any]] = {
 
 @dataclass
 class _Part:
-    """One placed geometry: world positions, and what else the file gives."""
+    """One geometry at its place: world positions, and the other data of the file."""
 
     positions: npt.NDArray[np.float64]
     faces: npt.NDArray[np.int64]
@@ -52,27 +52,26 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
         Wavefront OBJ, PLY, STL, glTF 2 (.gltf, .glb) or OFF; polygons are cut into triangles. A file of several
         objects becomes one mesh, each placed by its transform. Materials and textures are not read.
     size : float, optional
-        World units: centre the mesh (the middle of its bounds goes to the origin) and scale it so that its
-        largest extent is this. None leaves it as it is.
+        The mesh is centred (the middle of its bounds goes to the origin) and scaled so that its largest extent is
+        `size`, in world units. None: the mesh keeps its place and size.
 
     Returns
     -------
     Mesh
-        Vertices in the file's order; an OBJ's are split where texture coordinates or normals differ. Normals
-        are the file's; where it has none they are computed smooth, also
-        across vertices that stand twice in one place (a seam in the texture coordinates). An STL file, which lists
-        three corners for each triangle, has its equal positions merged. New positions (`Mesh.update`) keep all
-        these normals. uvs with (0, 0) at a picture's
-        bottom-left, and colours, where the file has them.
+        Vertices are in the file's order; those of an OBJ are split where texture coordinates or normals differ.
+        Normals are those of the file; if it has none they are computed smooth, also across two vertices at one place
+        (a seam in the texture coordinates). Equal positions of an STL file, which lists three corners for each
+        triangle, are merged. New positions (`Mesh.update`) keep all these normals. The mesh has uvs, with (0, 0) at a
+        picture's bottom-left, and colours if the file has them.
 
     Raises
     ------
     OSError
-        No file of that name (FileNotFoundError), or it may not be read.
+        If there is no file of that name (FileNotFoundError), or it may not be read.
     MeshError
-        Another kind of file, broken contents, or no triangles.
+        For another kind of file, broken contents, or no triangles.
     ValueError
-        size is not above 0.
+        If size is not above 0.
 
     Examples
     --------
@@ -140,7 +139,7 @@ def _read(path: Path, extension: str) -> list[_Part]:
 
 
 def _obj_text(path: Path) -> str:
-    """Read an OBJ file as trimesh wants it: as text, and without comments behind numbers."""
+    """Read an OBJ file as trimesh needs it: as text, and without comments after numbers."""
     data = path.read_bytes()
     try:
         text = data.decode("utf-8")
@@ -156,15 +155,15 @@ def _obj_text(path: Path) -> str:
 
 
 def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> _Part:
-    """Take what the file gives out of a trimesh object, moved to its place."""
+    """Read the file's data from a trimesh object, and move them to their place."""
     linear = matrix[:3, :3]
     positions = np.asarray(geometry.vertices, dtype=np.float64) @ linear.T + matrix[:3, 3]
     faces = np.asarray(geometry.faces, dtype=np.int64)
     normals = None
-    # The property would compute normals; only the cache tells those that came with the file.
+    # The property would compute missing normals; only the cache shows whether the file has normals.
     if "vertex_normals" in geometry._cache:
-        # Normals go by the inverse transpose, which the cofactors are but for a factor, and exist for a flat
-        # matrix too.
+        # Normals are transformed by the inverse transpose. The matrix of cofactors equals it up to a factor, and exists
+        # for a singular matrix, too.
         cofactors = np.stack(
             [
                 np.cross(linear[1], linear[2]),
@@ -231,7 +230,7 @@ def _merged(part: _Part) -> _Part:
 
 
 def _normals(part: _Part) -> npt.NDArray[np.float64]:
-    """Give the file's normals, of length 1, and smooth ones where it has none or null vectors."""
+    """Return the file's normals, of length 1, and smooth ones where the file has none or vectors of length 0."""
     given = part.normals
     if given is not None:
         lengths = np.linalg.norm(given, axis=1, keepdims=True)
@@ -261,7 +260,9 @@ def _joined(parts: list[_Part], size: float | None) -> Mesh:
         raise ValueError("expected finite positions, got NaN or infinity")
     low, high = positions.min(axis=0), positions.max(axis=0)
     extent = float((high - low).max())
-    if extent == 0:  # what trimesh gives for glTF whose compression it cannot decode
+    if (
+        extent == 0
+    ):  # trimesh returns such triangles for glTF with a compression that it cannot decode
         raise ValueError("expected triangles of some extent, got all vertices in one place")
     if size is not None:
         positions = (positions - (low + high) / 2) * (size / extent)

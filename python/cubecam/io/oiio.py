@@ -1,4 +1,4 @@
-"""The one file that speaks to OpenImageIO: a picture file to an array with its attributes, and back.
+"""The only file that calls OpenImageIO: it reads picture files to arrays with attributes, and writes them.
 
 OpenImageIO is imported when the first file is read or written, not with `cubecam`.
 """
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from .pixels import Array
 
-# OpenImageIO's names of the sample types that are read as they are stored; all others as float.
+# OpenImageIO's names of the sample types that are read without conversion; all other types are read as float.
 _STORED = {
     "uint8": "uint8",
     "uint16": "uint16",
@@ -39,7 +39,7 @@ _SAMPLES = {
 
 @dataclass(frozen=True)
 class Picture:
-    """What a file holds: (H, W, C) pixels, row 0 on top, C of 1, 3 or 4, and its attributes by name."""
+    """The contents of a file: (H, W, C) pixels, row 0 on top, C of 1, 3 or 4, and its attributes by name."""
 
     pixels: Array
     attributes: dict[str, Any] = field(default_factory=dict)
@@ -62,7 +62,7 @@ def read(path: Path) -> Picture:
     import OpenImageIO as oiio
 
     config = oiio.ImageSpec()
-    # Without it colour comes multiplied by alpha, and what was drawn under alpha 0 is lost.
+    # Without this attribute colour is multiplied by alpha, and the colour where alpha is 0 is lost.
     config.attribute("oiio:UnassociatedAlpha", 1)
     file = oiio.ImageInput.open(str(path), config)
     if file is None:
@@ -76,7 +76,7 @@ def read(path: Path) -> Picture:
         problem = _reason(file)
     finally:
         file.close()
-    # A JPEG that ends early is filled with grey and told by a message alone.
+    # OpenImageIO fills a JPEG that ends early with grey, and reports the error only by a message.
     if pixels is None or "remature end" in problem:
         raise ImageError(f"{path}: the picture is broken or ends early: {problem}")
     try:

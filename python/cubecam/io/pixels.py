@@ -1,4 +1,4 @@
-"""Numbers of pictures: what a file stores and what an array holds, and the curves between them."""
+"""Conversions between the numbers of picture files and those of arrays."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def on_color(curve: Any, pixels: FloatArray) -> FloatArray:
 
 
 def check_picture(pixels: Any, name: str = "pixels") -> Array:
-    """Check that an array is a picture: (H, W) or (H, W, 1, 3 or 4) real numbers; gives (H, W, C).
+    """Check that an array is a picture: (H, W) or (H, W, 1, 3 or 4) real numbers. Return (H, W, C).
 
     Raises
     ------
@@ -88,9 +88,9 @@ def to_float32(array: Array, name: str = "pixels") -> FloatArray:
 
 
 def to_integers(array: Array, maximum: int, name: str = "pixels") -> Array:
-    """Turn numbers into what an integer file stores: clipped to 0..1, scaled to `maximum`, rounded.
+    """Turn numbers into the integers of a file: clipped to 0..1, scaled to `maximum`, rounded.
 
-    Infinity is clipped as any number is; NaN has no place in such a file and is refused.
+    Infinity is clipped like any number; NaN raises ValueError, since integers cannot hold it.
     """
     dtype = np.uint8 if maximum == 255 else np.uint16
     if array.dtype == dtype:

@@ -1,19 +1,19 @@
 /// Docstrings of cubecam.Scene.
 #pragma once
 
-namespace cubecam::bindings {
+namespace cubecam::docs {
 
-inline constexpr const char* scene_doc = R"doc(Nodes, lights and what surrounds them.
+inline constexpr const char* scene = R"doc(Nodes, lights and their surroundings.
 
-A scene knows nothing of who draws it; any number of renderers may, on any threads.
+A scene does not depend on a renderer: any number of renderers may draw it, on any threads.
 
 Parameters
 ----------
 environment : CubeMap, optional
-    What mirrors and glass show; see `load_environment`.
+    The surroundings that mirrors and glass show; see `load_environment`.
 background : array_like (3,) or (4,), str, or CubeMap, optional
-    What is seen where nothing is: a colour, or a cubemap as skybox. Numbers are linear; a CSS name or
-    "#rrggbb" says sRGB and is decoded. None: the environment if there is one, else transparent black.
+    A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
+    or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.
 
 Raises
 ------
@@ -34,12 +34,12 @@ Scene(1 node, 1 light)
 (1, True)
 )doc";
 
-inline constexpr const char* add_light_doc = R"doc(Add a light.
+inline constexpr const char* add_light = R"doc(Add a light.
 
 Parameters
 ----------
 light : Light
-    It may be in other scenes as well.
+    The light to add. It may be in other scenes, too.
 
 Returns
 -------
@@ -49,46 +49,48 @@ Light
 Raises
 ------
 ValueError
-    If it is in this scene already.
+    If the light is already in this scene.
 )doc";
 
-inline constexpr const char* add_node_doc = R"doc(Add a mesh with a material, or a group.
+inline constexpr const char* add_node = R"doc(Add a mesh with a material, or a group.
 
 Parameters
 ----------
 mesh : Mesh, optional
-    None: a group, to carry other nodes.
+    None: the node is a group, which carries other nodes.
 material : Material, optional
-    None: a new PhongMaterial.
+    None: a new `PhongMaterial`.
 position : array_like (3,), optional
-    Relative to the parent; (0, 0, 0).
+    Relative to the parent. None: (0, 0, 0).
 rotation : array_like (4,), optional
-    Quaternion (w, x, y, z) of any length but 0, such as `axis_angle` gives; (1, 0, 0, 0).
+    Quaternion (w, x, y, z) of any length except 0, such as `axis_angle` gives. None: (1, 0, 0, 0).
 scale : float or array_like (3,), optional
-    Along the node's own axes, never 0; 1. A negative number mirrors.
+    Factors along the node's own axes, not 0. A negative number mirrors. None: 1.
 matrix : array_like (4, 4), optional
     Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
 parent : Node, optional
-    A node of this scene that the new one moves with.
+    A node of this scene that the new node moves with.
 environment : CubeMap or Probe, optional
-    What mirrors and glass show; None is the scene's.
+    The surroundings that mirrors and glass show on this node. None: the scene's environment.
 visible : bool
-    False is drawn nowhere, nor is anything below it.
+    False: no picture shows the node or any node below it.
 in_captures : bool
-    False is absent from captures and probes, as is all below it; still drawn in frames.
+    False: captures and probes show neither the node nor any node below it; frames do.
 name : str
-    For people.
+    A name for people; need not be unique.
 render_order : int
-    Among opaque and among translucent nodes, lower is drawn first, before distance; of 32 bits.
+    Nodes of lower order are drawn first, before any distance counts, among opaque and among translucent
+    nodes; 32 bits.
 cast_shadow : bool
-    False casts no shadows, nor does anything below it; see `Shadow`. Translucent nodes never cast.
+    False: neither the node nor any node below it casts shadows; see `Shadow`. Translucent nodes never
+    cast shadows.
 receive_shadow : bool
-    Whether shadows show on its own surface.
+    Whether shadows show on the node's own surface.
 
 Returns
 -------
 Node
-    With the next id: 1 for the first.
+    The new node, with the next id; the first id is 1.
 
 Raises
 ------
@@ -108,21 +110,21 @@ Examples
 ([2.0, 2.0, 2.0], 'crate')
 )doc";
 
-inline constexpr const char* set_positions_doc =
-    R"doc(Place many nodes at once, as `Node.position` does for each, in a hundredth of the time.
+inline constexpr const char* set_positions =
+    R"doc(Place many nodes at once, as `Node.position` does for each node, in a hundredth of the time.
 
 Parameters
 ----------
 nodes : sequence of Node
     Nodes of this scene.
 positions : array_like (len(nodes), 3)
-    Relative to the parent of each, world units.
+    Positions relative to the parent of each node, world units.
 
 Raises
 ------
 ValueError
-    For another number of positions than nodes, numbers that are not finite, or a node of another scene. No node is
-    moved then.
+    For another number of positions than nodes, numbers that are not finite, or a node of another scene. In this case
+    no node moves.
 
 Examples
 --------
@@ -134,8 +136,8 @@ Examples
 [0.0, 1.0, 0.0]
 )doc";
 
-inline constexpr const char* set_matrices_doc =
-    R"doc(Place many nodes at once, as `Node.matrix` does for each.
+inline constexpr const char* set_matrices =
+    R"doc(Place many nodes at once, as `Node.matrix` does for each node.
 
 Parameters
 ----------
@@ -147,8 +149,8 @@ matrices : array_like (len(nodes), 4, 4)
 Raises
 ------
 ValueError
-    For another number of matrices than nodes, a matrix that is singular or not finite, or a node of another scene. No
-    node is moved then.
+    For another number of matrices than nodes, a matrix that is singular or not finite, or a node of another scene. In
+    this case no node moves.
 
 Examples
 --------
@@ -160,19 +162,19 @@ Examples
 [2.0, 2.0, 2.0]
 )doc";
 
-inline constexpr const char* remove_doc = R"doc(Take a node and all below it, or a light, out.
+inline constexpr const char* remove = R"doc(Remove a light, or a node with all nodes below it.
 
-They keep their values; ids are not used again.
+Removed objects keep their values; their ids are not used again.
 
 Parameters
 ----------
 thing : Node or Light
-    What to remove.
+    The object to remove.
 
 Raises
 ------
 ValueError
-    If it is not in this scene.
+    If the object is not in this scene.
 
 Examples
 --------
@@ -185,4 +187,4 @@ Examples
 ((), True)
 )doc";
 
-}  // namespace cubecam::bindings
+}  // namespace cubecam::docs

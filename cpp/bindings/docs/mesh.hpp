@@ -1,13 +1,13 @@
 /// Docstrings of cubecam.Mesh.
 #pragma once
 
-namespace cubecam::bindings {
+namespace cubecam::docs {
 
-inline constexpr const char* mesh_doc =
+inline constexpr const char* mesh =
     R"doc(Indexed triangles, which any number of nodes, scenes and renderers share.
 
-The vertices may be set anew: `update` sets several arrays at once. The number of vertices and the
-triangles stay.
+The vertices can be replaced: `update` replaces several arrays at once. The number of vertices and
+the triangles never change.
 
 Parameters
 ----------
@@ -16,14 +16,14 @@ positions : array_like (V, 3)
 indices : array_like (F, 3) of int
     The three corners of each triangle, counter-clockwise seen from outside, from 0 to V - 1.
 normals : array_like (V, 3), optional
-    Outward normals of any length. Those of length 0 become smooth ones. None: all are computed
-    smooth, as the sum of the triangles' normals weighted by the angle at the vertex (G. Thuermer
-    and C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
+    Outward normals of any length. A normal of length 0 becomes a smooth one. None: all normals are
+    smooth: the sum of the triangles' normals, weighted by the angle at the vertex (G. Thuermer and
+    C. Wuethrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998).
 uvs : array_like (V, 2), optional
     Texture coordinates; (0, 0) is a picture's bottom-left corner, (1, 1) its top-right one.
 colors : array_like (V, 3) or (V, 4), optional
-    Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Shown by
-    materials with ``vertex_colors=True``.
+    Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Materials with
+    ``vertex_colors=True`` show them.
 
 Raises
 ------
@@ -46,47 +46,47 @@ Examples
 Mesh(24 vertices, 12 triangles)
 )doc";
 
-inline constexpr const char* positions_doc =
-    R"doc(ndarray (V, 3) float32: where the vertices are; a read-only view.
+inline constexpr const char* positions =
+    R"doc(ndarray (V, 3) float32: the positions of the vertices; a read-only view.
 
-May be set; the normals then behave as `update` says. An array handed out before keeps its values.)doc";
+Positions can be set; `update` says what the normals become. An array that was read before keeps its
+values.)doc";
 
-inline constexpr const char* normals_doc =
+inline constexpr const char* normals =
     R"doc(ndarray (V, 3) float32: unit vectors; a read-only view.
 
-May be set. None: smooth ones, computed now and whenever the positions are set without normals.)doc";
+Normals can be set. None: smooth normals, computed now and whenever positions are set without normals.)doc";
 
-inline constexpr const char* uvs_doc =
+inline constexpr const char* uvs =
     R"doc(ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
 
-May be set. None: no texture coordinates.)doc";
+Texture coordinates can be set. None: the mesh has none.)doc";
 
-inline constexpr const char* colors_doc =
+inline constexpr const char* colors =
     R"doc(ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
 
-May be set. None: no colours.)doc";
+Colours can be set. None: the mesh has none.)doc";
 
-inline constexpr const char* update_doc =
-    R"doc(Set vertices anew: several arrays at once, which one picture shows together.
+inline constexpr const char* update =
+    R"doc(Replace several arrays of the vertices at once.
 
-All nodes of the mesh show the new values in the next picture; only what is given is uploaded to the
-GPU again. Any call with an array counts as a change, even if all numbers are the same: comparing
-them would cost more than it saves. Other threads may draw meanwhile: a picture shows the mesh
-before or after an update, never part of it. Arrays that the mesh handed out before keep their
-values.
+All nodes of the mesh show the new values in the next picture; only the given arrays are uploaded to
+the GPU again. Any call with an array counts as a change, even if all numbers are the same, since
+comparing them would cost more than it saves. Other threads may draw at the same time: a picture shows
+the mesh before or after an update, never a part of it. Arrays that were read before keep their values.
 
 Parameters
 ----------
 positions : array_like (V, 3), optional
-    Object-space positions, finite. None: they stay.
+    Object-space positions, finite. None: the positions stay.
 normals : array_like (V, 3), optional
-    Outward normals of any length. None: normals that were given stay, also those of primitives
-    and of `load_mesh`; smooth ones that the mesh computed are computed anew with new positions.
-    ``mesh.normals = None`` makes them smooth.
+    Outward normals of any length. None: normals that were given stay, also those of primitives and of
+    `load_mesh`; smooth normals that the mesh computed are computed again with new positions.
+    ``mesh.normals = None`` makes all normals smooth.
 uvs : array_like (V, 2), optional
-    Texture coordinates. None: they stay.
+    Texture coordinates. None: the texture coordinates stay.
 colors : array_like (V, 3) or (V, 4), optional
-    Linear RGB or RGBA; uint8 stands for value/255. None: they stay.
+    Linear RGB or RGBA; uint8 stands for value/255. None: the colours stay.
 
 Raises
 ------
@@ -115,9 +115,9 @@ A sheet that waves:
 [1.0, 0.2, 1.0]
 )doc";
 
-inline constexpr const char* plane_doc = R"doc(A rectangle in the XZ plane, centred, normal +Y.
+inline constexpr const char* plane = R"doc(A rectangle in the XZ plane, centred, normal +Y.
 
-Seen from +Y with -Z up, a picture on it is upright. Its back is culled unless the material is
+Seen from +Y with -Z up, a picture on the plane is upright. The back is culled unless the material is
 double-sided.
 
 Parameters
@@ -142,7 +142,7 @@ Examples
 [[-5.0, 0.0, -2.0], [5.0, 0.0, 2.0]]
 )doc";
 
-inline constexpr const char* box_doc =
+inline constexpr const char* box =
     R"doc(A centred box with flat faces, each with uv from 0 to 1.
 
 Pictures are upright seen from outside: +Y up on the sides, -Z on top (as on `plane`), +Z below.
@@ -150,7 +150,7 @@ Pictures are upright seen from outside: +Y up on the sides, -Z on top (as on `pl
 Parameters
 ----------
 size : float or array_like (3,)
-    Extents along X, Y and Z, above 0; one number for all three.
+    Extents along X, Y and Z, above 0; a single number is the extent along all three.
 
 Returns
 -------
@@ -169,20 +169,20 @@ Examples
 [0.5, 1.0, 1.5]
 )doc";
 
-inline constexpr const char* sphere_doc =
+inline constexpr const char* sphere =
     R"doc(A centred sphere of rings and segments, as on a globe.
 
-u runs once round the Y axis and v from the south pole (-Y) to the north pole: an equirectangular
-picture on it reads unmirrored from outside, its center at +Z and its seam at -Z.
+u runs once round the Y axis, and v from the south pole (-Y) to the north pole. An equirectangular
+picture on the sphere is not mirrored when seen from outside; its center is at +Z and its seam at -Z.
 
 Parameters
 ----------
 radius : float
-    Above 0.
+    Radius, above 0.
 segments : int
-    Round the Y axis, at least 3.
+    Segments round the Y axis, at least 3.
 rings : int
-    From pole to pole, at least 2.
+    Rings from pole to pole, at least 2.
 
 Returns
 -------
@@ -201,7 +201,7 @@ Examples
 Mesh(2145 vertices, 3968 triangles)
 )doc";
 
-inline constexpr const char* icosphere_doc =
+inline constexpr const char* icosphere =
     R"doc(A centred sphere of triangles of nearly equal size: a subdivided icosahedron.
 
 Texture coordinates are those of `sphere`.
@@ -209,9 +209,9 @@ Texture coordinates are those of `sphere`.
 Parameters
 ----------
 radius : float
-    Above 0.
+    Radius, above 0.
 subdivisions : int
-    From 0 to 9; each splits every triangle into four.
+    Number of subdivisions, from 0 to 9; each one splits every triangle into four.
 
 Returns
 -------
@@ -230,16 +230,16 @@ Examples
 1280
 )doc";
 
-inline constexpr const char* cylinder_doc = R"doc(A centred, closed cylinder round the Y axis.
+inline constexpr const char* cylinder = R"doc(A centred, closed cylinder round the Y axis.
 
-On its side u runs round as on `sphere` and v upwards; each cap shows the disc of a picture.
+On the side, u runs round as on `sphere`, and v upwards. Each cap shows the round middle of a picture.
 
 Parameters
 ----------
 radius, height : float
-    Above 0.
+    Radius, and height along the axis, above 0.
 segments : int
-    Round the axis, at least 3.
+    Segments round the axis, at least 3.
 
 Returns
 -------
@@ -258,15 +258,15 @@ Examples
 [1.0, 2.0, 1.0]
 )doc";
 
-inline constexpr const char* cone_doc =
+inline constexpr const char* cone =
     R"doc(A centred, closed cone round the Y axis: base at -height/2, apex at +height/2.
 
 Parameters
 ----------
 radius, height : float
-    Of the base, and from the base to the apex; above 0.
+    Radius of the base, and height from the base to the apex, above 0.
 segments : int
-    Round the axis, at least 3.
+    Segments round the axis, at least 3.
 
 Returns
 -------
@@ -285,18 +285,18 @@ Examples
 32
 )doc";
 
-inline constexpr const char* torus_doc = R"doc(A centred torus round the Y axis.
+inline constexpr const char* torus = R"doc(A centred torus round the Y axis.
 
 Parameters
 ----------
 radius : float
-    From the axis to the center of the tube.
+    Distance from the axis to the center of the tube.
 tube : float
     Radius of the tube: above 0, below `radius`.
 segments : int
-    Round the axis, at least 3.
+    Segments round the axis, at least 3.
 sides : int
-    Round the tube, at least 3.
+    Sides round the tube, at least 3.
 
 Returns
 -------
@@ -306,7 +306,7 @@ Mesh
 Raises
 ------
 ValueError
-    For such lengths or numbers, or more than 16,777,216 vertices.
+    For a length or number out of its range, or more than 16,777,216 vertices.
 
 Examples
 --------
@@ -315,8 +315,8 @@ Examples
 [1.25, 0.25, 1.25]
 )doc";
 
-inline constexpr const char* resized_doc =
-    R"doc(The same mesh, centred at the origin and scaled evenly.
+inline constexpr const char* resized =
+    R"doc(Copy the mesh, centred at the origin and scaled evenly.
 
 Parameters
 ----------
@@ -340,4 +340,4 @@ Examples
 [0.125, 0.25, 0.5]
 )doc";
 
-}  // namespace cubecam::bindings
+}  // namespace cubecam::docs

@@ -1,0 +1,182 @@
+// The methods of cubecam.CubeMap that make pictures of it and read it from pictures.
+#include "arrays.hpp"
+#include "cubemap_arguments.hpp"
+#include "docs/cubemap.hpp"
+
+#include "cubecam/core/memory.hpp"
+#include "cubecam/cubemap/cubemap_layout.hpp"
+#include "cubecam/cubemap/cubemap_resample.hpp"
+
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace cubecam::bindings {
+
+namespace {
+
+using DTypeOrNone = OneOf<DTypeLike, py::none>;
+
+Sampling parse_sampling(const std::string& name) {
+    if (name == "centers") return Sampling::centers;
+    if (name == "borders") return Sampling::borders;
+    throw py::value_error("sampling: expected 'centers' or 'borders', got '" + name + "'");
+}
+
+/// Raises ValueError for a picture that memory cannot hold.
+void check_picture(double width, double height, int channels, DType dtype) {
+    check_memory(static_cast<double>(dtype_size(dtype)) * width * height * channels,
+                 std::to_string(static_cast<long long>(width)) + " x " +
+                     std::to_string(static_cast<long long>(height)) + " pixels");
+}
+
+py::array to_equirect(const CubeMap& cube, std::optional<int> width, const std::string& center_name,
+                      const std::string& sampling_name, const DTypeOrNone& dtype) {
+    const Center center = parse_center(center_name);
+    const Sampling sampling = parse_sampling(sampling_name);
+    const auto state = cube.data();
+    const DType to = to_dtype(dtype, state->dtype);
+    const int columns = to_texels(width.value_or(4 * state->size), "width");
+    check_picture(columns, columns / 2.0, state->channels, to);
+    PixelBuffer pixels;
+    {
+        const py::gil_scoped_release release;
+        pixels = cube_to_equirect(*state, columns, center, sampling, to);
+    }
+    return owned_pixels(std::move(pixels), to, {columns / 2, columns, state->channels});
+}
+
+CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center center, bool mipmaps,
+                      Sampling sampling, DType to) {
+    const int height = to_texels(image.shape(0), "image");
+    const int width = to_texels(image.shape(1), "image");
+    const auto channels = static_cast<int>(image.shape(2));
+    const int n = to_texels(size.value_or(default_face_size(width)), "size");
+    check_picture(n, 6.0 * n, channels, to);
+    const py::gil_scoped_release release;
+    PixelBuffer faces = equirect_to_cube(
+        {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to);
+    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps);
+}
+
+CubePtr from_layout(const py::object& value, const std::optional<std::string>& layout_name,
+                    const std::string& convention_name, std::optional<int> size,
+                    const std::string& center_name, bool mipmaps, const DTypeOrNone& dtype) {
+    const Convention convention = parse_convention(convention_name);
+    const Center center = parse_center(center_name);
+    const PixelArray image = pixel_array(value, "image", "(H, W, C)");
+    const DType to = to_dtype(dtype, image.dtype());
+    const int height = to_texels(image.shape(0), "image");
+    const int width = to_texels(image.shape(1), "image");
+    const Layout layout =
+        layout_name ? parse_layout(*layout_name) : recognize_layout(width, height);
+    if (layout == Layout::equirect) {
+        return from_equirect(image, size, center, mipmaps, Sampling::centers, to);
+    }
+    if (size) throw py::value_error("size: expected only with an equirect; see CubeMap.resize");
+    const bool openexr = layout == Layout::openexr;
+    const Layout cells = openexr ? Layout::column : layout;
+    const int n = layout_face_size(cells, width, height);
+    const auto channels = static_cast<int>(image.shape(2));
+    const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(image.dtype());
+    const Convention given = openexr ? Convention::inside : convention;
+
+    const py::gil_scoped_release release;
+    PixelBuffer faces = picture_to_faces(image.data(), width, height, texel, cells, given);
+    if (given != Convention::gl)
+        faces = convert_faces(faces.data(), n, texel, given, Convention::gl);
+    if (openexr) {
+        const CubeMap bordered(n, channels, image.dtype(), std::move(faces));
+        faces = resample_faces(*bordered.data(), Sampling::borders, n, Sampling::centers, to);
+    } else if (to != image.dtype()) {
+        faces = convert_pixels(faces, image.dtype(), to);
+    }
+    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps);
+}
+
+py::array to_convention(const CubeMap& cube, const std::string& name) {
+    const Convention convention = parse_convention(name);
+    const auto state = cube.data();
+    PixelBuffer faces;
+    {
+        const py::gil_scoped_release release;
+        const std::size_t texel =
+            static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
+        faces =
+            convert_faces(state->pixels->data(), state->size, texel, Convention::gl, convention);
+    }
+    return owned_pixels(std::move(faces), state->dtype, face_shape(state->size, state->channels));
+}
+
+py::array to_layout(const CubeMap& cube, const std::string& layout_name,
+                    const std::string& convention_name, const DTypeOrNone& dtype) {
+    const Layout layout = parse_layout(layout_name);
+    const Convention convention = parse_convention(convention_name);
+    if (layout == Layout::equirect) return to_equirect(cube, std::nullopt, "-z", "centers", dtype);
+    const auto state = cube.data();
+    const bool openexr = layout == Layout::openexr;
+    const DType to = to_dtype(dtype, state->dtype);
+    const PictureSize shape = layout_size(openexr ? Layout::column : layout, state->size);
+    PixelBuffer picture;
+    {
+        const py::gil_scoped_release release;
+        const auto channels = static_cast<std::size_t>(state->channels);
+        if (openexr) {
+            const PixelBuffer faces =
+                resample_faces(*state, Sampling::centers, state->size, Sampling::borders, to);
+            picture = convert_faces(faces.data(), state->size, channels * dtype_size(to),
+                                    Convention::gl, Convention::inside);
+        } else {
+            const std::size_t texel = channels * dtype_size(state->dtype);
+            const PixelBuffer faces = convert_faces(state->pixels->data(), state->size, texel,
+                                                    Convention::gl, convention);
+            picture = faces_to_picture(faces.data(), state->size, texel, layout, convention);
+            if (to != state->dtype) picture = convert_pixels(picture, state->dtype, to);
+        }
+    }
+    return owned_pixels(std::move(picture), to, {shape.height, shape.width, state->channels});
+}
+
+CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
+    to_texels(size, "size");
+    const auto state = cube.data();
+    const DType to = to_dtype(dtype, state->dtype);
+    check_picture(size, 6.0 * size, state->channels, to);
+    const py::gil_scoped_release release;
+    PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers, to);
+    return std::make_shared<CubeMap>(size, state->channels, to, std::move(faces), state->mipmaps);
+}
+
+}  // namespace
+
+void bind_cubemap_pictures(Class<CubeMap>& cube) {
+    cube.def("to_equirect", &to_equirect, py::kw_only(), py::arg("width") = py::none(),
+             py::arg("center") = "-z", py::arg("sampling") = "centers",
+             py::arg("dtype") = py::none(), docs::to_equirect)
+        .def_static(
+            "from_equirect",
+            [](const py::object& image, std::optional<int> size, const std::string& center,
+               const std::string& sampling, bool mipmaps, const DTypeOrNone& dtype) {
+                const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
+                return from_equirect(pixels, size, parse_center(center), mipmaps,
+                                     parse_sampling(sampling), to_dtype(dtype, pixels.dtype()));
+            },
+            py::arg("image"), py::kw_only(), py::arg("size") = py::none(), py::arg("center") = "-z",
+            py::arg("sampling") = "centers", py::arg("mipmaps") = false,
+            py::arg("dtype") = py::none(), docs::from_equirect)
+        .def("to_convention", &to_convention, py::arg("convention"), docs::to_convention)
+        .def("to_layout", &to_layout, py::arg("layout") = "cross", py::kw_only(),
+             py::arg("convention") = "gl", py::arg("dtype") = py::none(), docs::to_layout)
+        .def_static("from_layout", &from_layout, py::arg("image"), py::kw_only(),
+                    py::arg("layout") = py::none(), py::arg("convention") = "gl",
+                    py::arg("size") = py::none(), py::arg("center") = "-z",
+                    py::arg("mipmaps") = false, py::arg("dtype") = py::none(), docs::from_layout)
+        .def("resize", &resize, py::arg("size"), py::kw_only(), py::arg("dtype") = py::none(),
+             docs::resize);
+}
+
+}  // namespace cubecam::bindings

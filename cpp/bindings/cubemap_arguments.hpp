@@ -1,0 +1,33 @@
+/// What the two binding files of cubecam.CubeMap share.
+#pragma once
+
+#include "objects.hpp"
+
+#include "cubecam/cubemap/cubemap.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace cubecam::bindings {
+
+using CubePtr = std::shared_ptr<CubeMap>;
+
+inline std::vector<py::ssize_t> face_shape(int size, int channels) {
+    return {6, size, size, channels};
+}
+
+inline int to_texels(py::ssize_t length, const char* name) {
+    constexpr py::ssize_t limit = 1 << 20;  // no texture is larger, and products stay in range
+    if (length < 1 || length > limit) {
+        throw py::value_error(std::string(name) + ": expected 1 to " + std::to_string(limit) +
+                              " texels, got " + std::to_string(length));
+    }
+    return static_cast<int>(length);
+}
+
+/// The methods that turn a cube into pictures and back: panoramas, layouts, other conventions and
+/// other sizes.
+void bind_cubemap_pictures(Class<CubeMap>& cube);
+
+}  // namespace cubecam::bindings

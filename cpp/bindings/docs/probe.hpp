@@ -1,0 +1,59 @@
+/// Docstrings of cubecam.Probe.
+#pragma once
+
+namespace cubecam::docs {
+
+inline constexpr const char* probe =
+    R"doc(A cubemap of the scene that renderers keep up to date.
+
+A probe is only a description, and any number of nodes may use it: assign it to ``node.environment``, or
+to the cubemap of a `BasicMaterial`. Each renderer holds its own contents of the probe
+(``renderer.read_probe(probe)``) and draws a face again only if the face would change. The probe leaves out
+the nodes that use it.
+
+Parameters
+----------
+position : array_like (3,)
+    World space; with a parent, relative to the parent's position.
+size : int
+    Texels along an edge of a face.
+near, far : float
+    Clip distances along each face's axis, world units: 0 < near < far.
+format : {"rgba16f", "rgba8", "rgba32f", "rgb565"}
+    The format of a texel. rgba8 and rgb565 clip light above 1.
+mipmaps : bool
+    True: lookups are trilinear. False: lookups are bilinear.
+samples : int
+    Samples of each texel, for smooth edges (MSAA); 1 is none.
+update : {"on_change", "once", "manual"} or int
+    "on_change": the probe is drawn whenever its picture would change. "once": it is drawn when a picture
+    first needs it. "manual": only ``renderer.update_probes`` draws it. n: it is drawn on every n-th call
+    that needs it.
+exclude : iterable of Node
+    Nodes that the probe leaves out with all nodes below them, besides the nodes that use it.
+parent : Node, optional
+    A node that the probe moves with; the axes of the probe stay those of the world. The probe does not
+    keep the node alive.
+faces_per_frame : int
+    The greatest number of faces that one call draws, from 1 to 6.
+depth_format : str or None
+    The format of the depth and stencil buffer, see `Renderer.render`.
+
+Raises
+------
+ValueError
+    For a number out of its range, near >= far, or another format or update.
+TypeError
+    For a parent or an excluded object that is not a node.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(0, 1, 0))
+>>> ball.environment = cc.Probe(parent=ball, size=128)
+>>> ball.environment.update
+'on_change'
+)doc";
+
+}  // namespace cubecam::docs

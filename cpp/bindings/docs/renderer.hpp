@@ -1,0 +1,266 @@
+/// Docstrings of cubecam.Renderer.
+#pragma once
+
+namespace cubecam::docs {
+
+inline constexpr const char* renderer =
+    R"doc(Draws scenes without a screen: frames, cubemaps and the probes that mirrors need.
+
+A renderer owns an OpenGL 4.5 context on EGL, on a GPU if there is one, else on Mesa's software rasteriser. Any thread
+may use a renderer; calls on one renderer run one after the other, and several renderers work in parallel. Use a
+renderer in a ``with`` block, or call :meth:`close`.
+
+Parameters
+----------
+device : str, int, Device or None
+    "auto" (the environment variable CUBECAM_DEVICE if it is set, else a GPU, else software), "gpu", "software", an
+    index into the list that :func:`devices` returns, a device of that list, a part of a device's name, or a UUID. None
+    means "auto".
+layered : bool or None
+    True: one draw call draws a mesh in all views. False: each view has a draw call of its own. None: the renderer takes
+    the way that is faster on its device. Both give the same bytes on llvmpipe.
+cache_bytes : int
+    GPU memory in which the renderer keeps the targets of frames and captures, so that an unchanged picture is not drawn
+    again. The renderer also keeps at most as much main memory of arrays that the caller no longer uses, for the next
+    results of the same size. Memory that eight calls did not use is freed; :meth:`close` frees the rest. Default
+    256 MiB; ``stats.pictures_not_kept`` reports how many pictures of a call are larger than that.
+debug : bool
+    True: the context is a debug context, whose errors say more.
+
+Raises
+------
+ContextError
+    If no OpenGL context can be made. The message names each device that was tried, why it failed, and what to install.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene(background=(0.1, 0.2, 0.3))
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.BasicMaterial(color=(1, 1, 0)))
+>>> camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 3), target=(0, 0, 0))
+>>> with cc.Renderer() as renderer:
+...     frame = renderer.render(scene, camera, size=(64, 48), outputs=("distance",))
+...     cube = renderer.capture(scene, position=(0, 0, 2), size=32)
+>>> frame.color.shape, round(float(frame.distance.min()), 1)
+((48, 64, 4), 2.5)
+>>> cube.faces.shape
+(6, 32, 32, 4)
+)doc";
+
+inline constexpr const char* render =
+    R"doc(Draw a picture of a scene. The probes that its mirrors need are brought up to date first.
+
+If nothing changed since the last picture of this size and format, the picture is not drawn again.
+
+Parameters
+----------
+scene : Scene
+camera : Camera or StereoCamera
+size : (int, int)
+    (width, height), pixels.
+outputs : sequence of str
+    What the frame holds besides colour: any of "distance", "z", "normal", "position" and "id"; any output that the GLSL
+    of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these buffers after
+    the last node is drawn.
+format : str or None
+    "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, scaled to
+    uint8 from 0 to 255; alpha 255). None: there is no colour buffer, and only the outputs are drawn.
+samples : int
+    Samples of each pixel's colour (MSAA): 1 for none, at most ``info.limits.max_samples``. The outputs are the same for
+    every number of samples.
+tonemap : str or None
+    "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024), applied
+    after multisamples are resolved. None: values stay as they are.
+encode : str or None
+    "srgb" encodes the colour (IEC 61966-2-1). None: the colour stays linear.
+effects : sequence of ImageEffect
+    Passes over the colour, one after the other, after multisamples are resolved and before tone mapping.
+depth_format : str or None
+    The format of the depth and stencil buffer, by OpenGL's names: "depth_component32f", "depth_component24",
+    "depth_component16", "depth24_stencil8", "depth32f_stencil8", "stencil_index8" (no depth) or None (neither). Without
+    a depth buffer no node hides another: nodes are painted one over the other, in order of ``render_order``, then id,
+    and "stencil" is the only output.
+
+Returns
+-------
+Frame
+    Arrays of shape (height, width, ...), row 0 on top.
+
+Raises
+------
+ValueError
+    For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
+    outputs that ``depth_format`` does not allow, tone mapping or effects with ``format=None``, or a camera without a
+    valid view.
+ContextError
+    After :meth:`close`, or in a forked process.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> with cc.Renderer() as renderer:
+...     frame = renderer.render(cc.Scene(background=(2, 0, 0)), cc.PerspectiveCamera(), size=(1, 1), format="rgba16f")
+>>> frame.color.tolist()
+[[[2.0, 0.0, 0.0, 1.0]]]
+)doc";
+
+inline constexpr const char* capture =
+    R"doc(Draw the surroundings of a point into a cubemap.
+
+Parameters
+----------
+scene : Scene
+position : array_like (3,)
+    World position. The six views look along the world's axes, 90 degrees each.
+size : int
+    Pixels along an edge of a face.
+near, far : float
+    Clip distances along each face's axis, world units, 0 < near < far.
+exclude : sequence of Node
+    Nodes that are left out, with all nodes below them.
+outputs : sequence of str
+    What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth" and "stencil",
+    and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
+format : str
+    "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
+samples : int
+    Samples of each texel's colour (MSAA), see :meth:`render`.
+eye : array_like (3,) or None
+    The point from which highlights and mirrors are computed. None: ``position``.
+depth_format : str or None
+    The format of the depth and stencil buffer, see :meth:`render`.
+depth_order : str
+    "nearest": colour and outputs are those of the nearest opaque surface along each ray. "farthest": those of the
+    farthest opaque surface between ``near`` and ``far``, and the background where there is none. A single-sided
+    material shows only its front faces, so the far side of a body counts only with ``double_sided=True``. Translucent
+    surfaces show where they lie beyond the farthest opaque surface. "farthest" needs a depth buffer.
+
+Returns
+-------
+CubeMap
+    ``faces`` has the shape (6, size, size, 4), in the order +X -X +Y -Y +Z -Z, in the layout of OpenGL (section 8.13 of
+    the 4.6 specification): ``texture(cube, world_direction)`` needs no flip.
+
+Raises
+------
+ValueError, TypeError, ContextError
+    As :meth:`render` raises; also for an excluded node of another scene.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> floor = scene.add(cc.Mesh.plane(10, 10), cc.BasicMaterial(color=(1, 0, 0)), position=(0, -1, 0))
+>>> with cc.Renderer() as renderer:
+...     cube = renderer.capture(scene, size=16, outputs=("distance", "id"))
+>>> cube.sample((0, -1, 0)).tolist(), int(cube.id[3, 8, 8])
+([1.0, 0.0, 0.0, 1.0], 1)
+)doc";
+
+inline constexpr const char* update_probes =
+    R"doc(Draw probes now, whatever value their ``update`` has.
+
+Parameters
+----------
+scene : Scene
+probes : Probe, sequence of Probe, or None
+    The probes to draw. None: all probes that visible nodes of the scene use.
+
+Raises
+------
+ValueError
+    For a probe that no visible node uses.
+ContextError
+    After :meth:`close`, or in a forked process.
+)doc";
+
+inline constexpr const char* read_probe =
+    R"doc(Read the present contents of a probe, in the probe's format.
+
+Parameters
+----------
+probe : Probe
+    A probe that a picture of this renderer has shown, or that :meth:`update_probes` has drawn.
+
+Returns
+-------
+CubeMap
+    A copy; uint8, float16 or float32, with faces of the shape (6, size, size, 4).
+
+Raises
+------
+ValueError
+    If this renderer has not drawn the object yet.
+ContextError
+    After :meth:`close`, or in a forked process.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene(background="teal")
+>>> ball = scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial())
+>>> ball.environment = cc.Probe(size=8)
+>>> with cc.Renderer() as renderer:
+...     renderer.update_probes(scene)
+...     held = renderer.read_probe(ball.environment)
+>>> held.faces.shape, held.dtype.name
+((6, 8, 8, 4), 'float16')
+)doc";
+
+inline constexpr const char* read_texture =
+    R"doc(Read the present contents of a render texture, in its format.
+
+Parameters
+----------
+render_texture : RenderTexture
+    A render texture that a picture of this renderer has shown.
+
+Returns
+-------
+ndarray (H, W, 4)
+    uint8, float16 or float32, row 0 on top. The array belongs to the caller.
+
+Raises
+------
+ValueError
+    If this renderer has not drawn the object yet.
+)doc";
+
+inline constexpr const char* shadow_map =
+    R"doc(Draw the shadow map of a light, as distances, to look at. A map that is up to date is not drawn again.
+
+Parameters
+----------
+scene : Scene
+light : Light
+    A light of the scene, with a shadow.
+
+Returns
+-------
+ndarray (L, size, size) float32
+    Distances in world units along the axis of each view, +inf where no node casts a shadow. A spot light has one view,
+    from the light along its direction. A point light has six, +X -X +Y -Y +Z -Z, laid out as the faces of a capture.
+    The views of point and spot lights are a little wider than 90 degrees or the cone, since the filter reads
+    ``ceil(radius) + 2`` texels beyond each side. A directional light has one view of parallel rays; its distances count
+    from the plane at which the bounds of all casters begin, and its outermost texels stay empty. Row 0 of a single view
+    is on top: +Y is up, or -Z for light from straight above or below.
+
+Raises
+------
+ValueError
+    For a light that is not in the scene or has no shadow, or a size beyond the driver's limits.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> sun = scene.add(cc.DirectionalLight(direction=(0, -1, 0), shadow=cc.Shadow(size=32)))
+>>> box = scene.add(cc.Mesh.box(1), position=(0, 3, 0))
+>>> floor = scene.add(cc.Mesh.plane(4, 4))
+>>> with cc.Renderer() as renderer:
+...     depth = renderer.shadow_map(scene, sun)
+>>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
+((1, 32, 32), 0.0, 3.5)
+)doc";
+
+}  // namespace cubecam::docs
