@@ -1,7 +1,7 @@
 # cubecam_compile_options(TARGET)
 #
-# What every C++ target of this project is compiled with. Warnings apply to our C++ only: generated C (glad) and
-# imported headers (GLM, pybind11) are not ours to correct.
+# Sets the compile options that every C++ target of this project has. Warnings apply to our C++ only: we do not
+# correct generated C (glad) and imported headers (GLM, pybind11).
 function(cubecam_compile_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     set_target_properties(${target} PROPERTIES

@@ -1,9 +1,9 @@
 # cubecam_embed_shaders(TARGET DIR)
 #
-# Compiles every *.glsl, *.vert, *.tesc, *.tese, *.geom, *.frag and *.comp file below DIR into TARGET, as the table that
-# cubecam::gl::embedded_shaders() returns (cpp/cubecam/gl/embedded.hpp), sorted by path. A shader's name in the table is
-# its path from DIR. The table is written anew when a shader changes, comes or goes; nothing is read from disk at run
-# time.
+# Compiles every *.glsl, *.vert, *.tesc, *.tese, *.geom, *.frag and *.comp file below DIR into TARGET, as the table
+# that cubecam::gl::embedded_shaders() returns (cpp/cubecam/gl/embedded.hpp), sorted by path. A shader's name in the
+# table is its path from DIR. The table is written again when a shader changes, appears or disappears; the program
+# reads no shader from disk at run time.
 function(cubecam_embed_shaders target directory)
     set(patterns "")
     foreach(ending IN ITEMS glsl vert tesc tese geom frag comp)

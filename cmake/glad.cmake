@@ -1,14 +1,14 @@
 # cubecam_add_glad(TARGET)
 #
-# Gives TARGET the header <glad/gl.h> and the loader of OpenGL 4.5 core, generated at build by glad2 from the
-# specification that it carries (--reproducible: nothing is fetched). --mx makes one table of functions a context;
-# without --loader nothing is opened: the table is filled through eglGetProcAddress.
+# Gives TARGET the header <glad/gl.h> and the loader of OpenGL 4.5 core, which glad2 generates at build from its own
+# copy of the specification (--reproducible: glad2 fetches nothing). With --mx each context has its own table of
+# functions; without --loader glad2 opens no library: eglGetProcAddress fills the table.
 #
-# Another extension: add its name to the list below.
+# To use another extension, add its name to the list below.
 set(cubecam_glad_extensions
-    GL_KHR_debug                          # core since 4.3; names objects and collects messages
+    GL_KHR_debug                          # in the core since 4.3; names objects and collects messages
     GL_ARB_shader_viewport_layer_array    # gl_Layer from the vertex shader
-    GL_AMD_vertex_shader_layer            # the same on older AMD drivers
+    GL_AMD_vertex_shader_layer            # gl_Layer on older AMD drivers
     GL_ARB_texture_filter_anisotropic
     GL_EXT_texture_filter_anisotropic
     GL_NVX_gpu_memory_info)               # how much memory a size may take
@@ -33,7 +33,7 @@ function(cubecam_add_glad target)
             VERBATIM)
 
         add_library(cubecam_glad STATIC ${outputs})
-        # SYSTEM: its warnings are not ours to correct.
+        # SYSTEM: we do not correct the warnings of generated code.
         target_include_directories(cubecam_glad SYSTEM PUBLIC "${folder}/include")
         set_target_properties(cubecam_glad PROPERTIES
             C_VISIBILITY_PRESET hidden

@@ -1,7 +1,7 @@
-# Provides glm::glm: the installed GLM if there is one, else the release below.
+# Provides glm::glm: the installed GLM if there is one, otherwise the release below.
 #
-# The download is tried by itself first: FetchContent alone would hang for minutes on a machine without a network and
-# then say nothing of the package that solves it.
+# This file downloads the archive itself first: on a machine without a network FetchContent alone would wait for
+# minutes, and its message would not name the package to install.
 find_package(glm CONFIG QUIET)
 
 if(NOT TARGET glm::glm)
@@ -34,8 +34,8 @@ if(NOT TARGET glm::glm)
     endif()
 
     include(FetchContent)
-    # SOURCE_SUBDIR names a folder that does not exist: GLM is headers only, and its own CMake file would install them
-    # into our wheel.
+    # SOURCE_SUBDIR names a folder that does not exist: GLM consists of headers only, and its own CMake file would
+    # install them into our wheel.
     FetchContent_Declare(glm_release URL "${glm_archive}" URL_HASH SHA256=${glm_sha256}
         DOWNLOAD_EXTRACT_TIMESTAMP ON SOURCE_SUBDIR headers-only)
     FetchContent_MakeAvailable(glm_release)

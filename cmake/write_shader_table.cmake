@@ -1,6 +1,6 @@
 # cmake -DOUTPUT=<file.cpp> -DDIRECTORY=<folder> -DSHADERS=<files> -P write_shader_table.cmake
 #
-# Writes the table of embedded shaders; run by cubecam_embed_shaders at build.
+# Writes the table of embedded shaders. cubecam_embed_shaders runs this script at build.
 
 # Compilers limit one string literal (the least is Microsoft's, 16 KiB); neighbouring literals are one string.
 set(chunk_size 8000)

@@ -41,6 +41,7 @@ DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
 NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
 RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
+CROWDS = ("tests/gl/test_crowds.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -201,8 +202,8 @@ MUTATIONS = [
     Mutation(
         "culling of mirrored nodes",
         RASTER,
-        "(glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror",
-        "mirror",
+        "const bool turned = node.turned != mirror;",
+        "const bool turned = mirror;",
         SIDES,
     ),
     Mutation(
@@ -359,7 +360,7 @@ MUTATIONS = [
     Mutation(
         "key: what a mirror shows forgotten",
         DRAWN,
-        "picture.textures.push_back(found.environment.revision);",
+        "found.environment.add_to(picture.textures);",
         "",
         PROBES,
     ),
@@ -373,8 +374,8 @@ MUTATIONS = [
     Mutation(
         "probe: a cycle shows old contents",
         "texture_lookup.cpp",
-        "if (!back && held.texture != 0) return held;",
-        "(void)back; if (held.texture != 0) return held;",
+        "if (!back && held.cube.texture != 0) return known.emplace(held);",
+        "(void)back; if (held.cube.texture != 0) return known.emplace(held);",
         PROBES + INCREMENTAL,
     ),
     Mutation(
@@ -942,5 +943,62 @@ MUTATIONS = [
         "} else if (moved && smooth_) {",
         "} else if (moved && !smooth_) {",
         ("tests/unit/test_meshes.py",),
+    ),
+    # Many nodes: crowds, kept snapshots, unchanged calls, what is reflected.
+    Mutation(
+        "crowd: windings are drawn together",
+        "surface_calls.cpp",
+        "if (a.mesh != b.mesh || a.node->turned != b.node->turned) return false;",
+        "if (a.mesh != b.mesh) return false;",
+        CROWDS,
+    ),
+    Mutation(
+        "crowd: dense meshes share the first one's numbers",
+        "surface_calls.cpp",
+        "return same_material || has_flat_constants(left);",
+        "return true;",
+        CROWDS,
+    ),
+    Mutation(
+        "crowd: far to near",
+        "draw_plan.cpp",
+        "return std::tie(a.order, a.crowd, a.distance, a.planned.node) <",
+        "return std::tie(a.order, a.crowd, b.distance, a.planned.node) <",
+        ("tests/gl/test_render_order.py", "tests/gl/test_alpha.py"),
+    ),
+    Mutation(
+        "snapshot: a move below a moved node goes unseen",
+        "snapshot.cpp",
+        "for (const auto& below : moved->subtree()) follow(*below);",
+        "",
+        INCREMENTAL,
+    ),
+    Mutation(
+        "snapshot: probes of moved nodes stay",
+        "snapshot.cpp",
+        "probe.position += glm::dvec3(parent->locked_world_matrix()[3]);",
+        "",
+        (*PROBES, "tests/gl/test_environments.py"),
+    ),
+    Mutation(
+        "call: what a probe holds may change",
+        "frame_context.cpp",
+        "if (last && last->scene == scenes.revision && last->contents == gpu.contents &&",
+        "if (last && last->scene == scenes.revision &&",
+        (*PROBES, *STATS, *INCREMENTAL),
+    ),
+    Mutation(
+        "environment: where it was captured is no part of the key",
+        "environment.cpp",
+        "key.push_back(std::bit_cast<std::uint64_t>((*position)[axis]));",
+        "",
+        ("tests/gl/test_environments.py",),
+    ),
+    Mutation(
+        "damage: a change of order goes unseen",
+        "picture_key.cpp",
+        "} else if (place < last_same) {\n            return to.add_all();",
+        "} else if (false) {\n            return to.add_all();",
+        (*INCREMENTAL, "tests/gl/test_damage.py", "tests/gl/test_render_order.py"),
     ),
 ]

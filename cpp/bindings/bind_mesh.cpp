@@ -226,7 +226,7 @@ void bind_mesh(pybind11::module_& module) {
         "resized",
         [](const Mesh& self, double size) {
             const py::gil_scoped_release release;
-            return std::make_shared<Mesh>(self.data()->centred_and_scaled(size));
+            return std::make_shared<Mesh>(self.data()->centered_and_scaled(size));
         },
         py::arg("size"), docs::resized);
 

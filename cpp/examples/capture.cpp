@@ -2,8 +2,8 @@
 //
 //     cubecam_capture_example OUT_DIR
 //
-// writes OUT_DIR/face_0.pfm ... face_5.pfm in the order +X -X +Y -Y +Z -Z: linear RGB floats, each
-// file's rows bottom to top as the PFM format has them, so that a picture viewer shows row 0 of the
+// The example writes OUT_DIR/face_0.pfm ... face_5.pfm in the order +X -X +Y -Y +Z -Z, as linear
+// RGB floats. The rows of a PFM file go from bottom to top, so a picture viewer shows row 0 of the
 // face (t = 0) on top.
 #include "cubecam/geometry/primitives.hpp"
 #include "cubecam/materials/basic.hpp"
@@ -50,7 +50,7 @@ void build(Scene& scene) {
     red.color = {1.0F, 0.4F, 0.4F, 1.0F};
     add(scene, primitives::sphere(0.5), std::make_shared<BasicMaterial>(red), {-0.5, 0.25, -2.0});
 
-    // A mirror ball that shows all of the above, by way of a cubemap of its own.
+    // A mirror ball that shows the other objects, by a probe of its own.
     const auto ball =
         add(scene, primitives::sphere(0.75), std::make_shared<MirrorMaterial>(), {0.0, 0.5, 2.5});
     ProbeValue probe;

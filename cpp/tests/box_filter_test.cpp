@@ -1,4 +1,4 @@
-/// The filter of all resampling: the average over a box along one axis.
+/// Tests the filter that all resampling uses: the average over a box along one axis.
 
 #include "check.hpp"
 
@@ -12,7 +12,7 @@ using namespace cubecam;
 
 namespace {
 
-/// The integral of steps texels[i] from i - 1/2 to i + 1/2 over a box, divided by its width.
+/// The average over a box of a step function that is texels[i] from i - 1/2 to i + 1/2.
 double average(const std::vector<double>& texels, double center, double wide) {
     const double begin = center + 0.5 - wide / 2;
     const double end = center + 0.5 + wide / 2;
@@ -24,7 +24,7 @@ double average(const std::vector<double>& texels, double center, double wide) {
     return sum / wide;
 }
 
-/// As four equal channels, which is how texels are filtered.
+/// Filters four equal channels, since texels have four.
 float filtered(const std::vector<double>& texels, double center, double wide) {
     const BoxTap tap = box_tap(center, BoxWidth(wide));
     const auto texel = [&](int i) {
@@ -47,7 +47,7 @@ int main() {
             CHECK(std::abs(got - average(texels, center, wide)) < 1e-5);
         }
     }
-    // Width 1 is linear interpolation; narrower boxes are no narrower than that.
+    // Width 1 is linear interpolation, and narrower boxes get this width.
     CHECK(filtered(texels, 2.25, 1.0) == 3.25F);
     CHECK_EQUAL(BoxWidth(0.2).texels, 1.0);
     // Equal texels give exactly that texel.

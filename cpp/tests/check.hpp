@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string>
 
-/// A few lines instead of a framework: what fails is printed, and makes the program return 1.
+/// A few lines instead of a framework: a failed check is printed, and the program then returns 1.
 namespace cubecam::test {
 
 inline int failures = 0;

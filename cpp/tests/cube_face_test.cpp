@@ -1,4 +1,5 @@
-/// The faces of a cube against table 8.19 of the OpenGL 4.6 specification, and which edges touch.
+/// Compares the faces of a cube with table 8.19 of the OpenGL 4.6 specification, and tests which
+/// edges touch.
 
 #include "check.hpp"
 

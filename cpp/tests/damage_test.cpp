@@ -1,4 +1,5 @@
-/// Which rectangles of a picture are drawn again: nodes that came, went, moved, or changed places.
+/// Tests which rectangles of a picture are drawn again when nodes are added, removed, moved or
+/// reordered.
 
 #include "check.hpp"
 
@@ -48,7 +49,7 @@ int main() {
     CHECK(damage(one, one, whole).empty());
     CHECK(damage(one, picture({node(1, left), node(2, right)}, 1), whole) == Rects{whole});
 
-    // A node that changed damages where it was and where it is; one that went, where it was.
+    // A changed node damages its old and its new rectangle, a removed node its old one.
     const Rects moved = damage(one, picture({node(1, {20, 0, 30, 10}, 2), node(2, right)}), whole);
     CHECK(covers(moved, left));
     CHECK(covers(moved, {20, 0, 30, 10}));
@@ -56,15 +57,15 @@ int main() {
     CHECK(damage(one, picture({node(2, right)}), whole) == Rects{left});
     CHECK(damage(picture({node(2, right)}), one, whole) == Rects{left});
 
-    // What did not change, but is drawn in another order, may look different everywhere.
+    // Unchanged nodes in another order may change the picture everywhere.
     CHECK(damage(one, picture({node(2, right), node(1, left)}), whole) == Rects{whole});
 
-    // Most of the picture is all of it; a node that touches no pixel is nothing.
+    // Damage of most of the picture becomes the whole; a node that touches no pixel causes none.
     CHECK(damage(one, picture({node(1, {0, 0, 90, 90}, 2), node(2, right)}), whole) ==
           Rects{whole});
     CHECK(damage(one, picture({node(1, left), node(2, right), node(3, {})}), whole).empty());
 
-    // Never more rectangles than there may be, and they do not overlap.
+    // There are at most max_damage rectangles, and they do not overlap.
     std::vector<NodeKey> many;
     for (std::int32_t i = 0; i < 40; ++i) {
         const int x = 10 * (i % 10);

@@ -1,8 +1,10 @@
-/// What is drawn in which order: near to far, translucent nodes last and far to near, ties by id.
+/// Tests the order of drawing: near to far, translucent nodes last and far to near, the id breaks
+/// ties.
 
 #include "check.hpp"
 
 #include "cubecam/geometry/primitives.hpp"
+#include "cubecam/materials/basic.hpp"
 #include "cubecam/render/passes/draw_plan.hpp"
 #include "cubecam/scene/scene.hpp"
 
@@ -61,12 +63,14 @@ int main() {
         }
     }
 
-    // Without a depth buffer nodes are painted one over the other, by order and id.
+    // Without a depth buffer later nodes are drawn over earlier ones, in the order of render_order
+    // and id.
     const DrawPlan painted = make_plan(*snapshot, views, 64, 64, all, DepthMode::by_order);
     CHECK_EQUAL(ids(*snapshot, painted.opaque), "8 1 2 4 5 6 7");
     CHECK(painted.transparent.empty());
 
-    // Six views of one place share a sequence; a node behind the first is in front of another.
+    // Six views at one position share a sequence; a node behind the first view is in front of
+    // another.
     const std::vector<View> six = cube_views({}, 0.1, 100.0);
     const DrawPlan around = make_plan(*snapshot, six, 64, 64, all);
     CHECK_EQUAL(ids(*snapshot, around.opaque), "8 2 3 1 6 7");

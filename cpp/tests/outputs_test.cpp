@@ -1,5 +1,5 @@
-/// Outputs by themselves: their slots, what becomes of a user's declarations, and how texels are
-/// turned into what a caller gets.
+/// Tests the slots of outputs, the adaptation of a user's declarations, and the conversion of
+/// texels for a caller.
 
 #include "check.hpp"
 
@@ -131,10 +131,10 @@ void test_pool() {
     CHECK(places[0] != places[1]);
     a.reset();
     b.reset();
-    c.reset();  // the first does not fit any more
+    c.reset();  // the first one does not fit any more
     a = pool->take(bytes);
     b = pool->take(bytes);
-    CHECK((a.get() == places[2] && b.get() == places[1]));  // the last one let go first
+    CHECK((a.get() == places[2] && b.get() == places[1]));  // the last one released comes first
     CHECK(pool->take(bytes / 2)->size() == bytes / 2);
     pool.reset();
     a.reset();  // to no pool

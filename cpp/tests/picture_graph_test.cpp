@@ -1,6 +1,6 @@
-/// The graph of pictures by itself, with pictures that draw nothing. The kinds that are to come,
-/// and that no class draws yet, are among them: a cube filtered from another picture, several
-/// bounces of one probe, a mirror that depends on who looks.
+/// Tests the graph of pictures alone, with pictures that draw nothing. Some of their kinds have no
+/// class yet: a cube filtered from another picture, several bounces of one probe, a mirror that
+/// depends on its viewer.
 
 #include "check.hpp"
 
@@ -50,7 +50,7 @@ std::string names(const Ids& ids) {
     return text;
 }
 
-/// What the pictures of one test depend on, and what was done with them.
+/// The dependencies of the pictures of one test, and a record of the calls.
 struct World {
     std::function<Ids(const PictureId&)> shown = [](const PictureId&) { return Ids(); };
     std::function<Ids(const PictureId&)> possible = shown;
@@ -112,7 +112,7 @@ void test_identity() {
     CHECK(make_id(probe, 1) != make_id(texture, 1));
     CHECK(make_id(probe, 1) != make_id(probe, 1, 1));
     CHECK((PictureId{probe, 0, 1, 0, nullptr} != PictureId{probe, 1, 1, 0, nullptr}));
-    // By value: two viewers that are equal are the same.
+    // Viewers are compared by value: equal viewers are the same.
     CHECK(mirror_in(1, viewer) == mirror_in(1, make_id(frame, 0)));
     CHECK(mirror_in(1, viewer) != mirror_in(1, make_id(frame, 1)));
     CHECK(mirror_in(1, viewer) != make_id(mirror, 1));
@@ -134,7 +134,7 @@ void test_a_diamond_draws_its_shared_part_once() {
     CHECK_EQUAL(world.planned.size(), 4U);
 }
 
-/// Any subset of roots, in any order: the pictures that they share come in one order.
+/// For every subset of the roots, in every order, the shared pictures have one order.
 void test_the_order_does_not_depend_on_where_the_search_began() {
     World world;
     world.shown = [](const PictureId& id) -> Ids {
@@ -190,7 +190,7 @@ void test_a_picture_that_depends_on_who_looks() {
     CHECK_EQUAL(drawn(world, {make_id(frame, 0), make_id(frame, 1)}),
                 "probe0 mirror1(mirror0(frame0)) mirror0(frame0) mirror1(mirror0(frame1)) "
                 "mirror0(frame1) frame0 frame1");
-    // Made when its viewer was planned, so not before it.
+    // A mirror is made when its viewer is planned, so not before the viewer.
     const auto place = [&world](const PictureId& id) {
         return std::find(world.made.begin(), world.made.end(), id) - world.made.begin();
     };
@@ -202,7 +202,7 @@ void test_an_edge_back_inside_a_circle_of_probes() {
     World world;
     world.shown = [](const PictureId& id) -> Ids {
         if (id.kind == frame) return {make_id(probe, id.object)};
-        // 0, 1 and 2 go round; 2 sees itself as well, and 3, which sees none.
+        // Probes 0, 1 and 2 form a circle; 2 also sees itself and 3, which sees no probe.
         if (id.object == 2) return {make_id(probe, 0), make_id(probe, 2), make_id(probe, 3)};
         if (id.object == 3) return {};
         return {make_id(probe, id.object + 1)};
@@ -219,16 +219,16 @@ void test_an_edge_back_inside_a_circle_of_probes() {
         CHECK(back(2, 2));
         CHECK(!back(2, 3));
         CHECK(!graph.is_edge_back(make_id(frame, start), make_id(probe, start)));
-        const PictureId unknown = make_id(probe, 1, 5);  // its place would be that of probe 2
+        const PictureId unknown = make_id(probe, 1, 5);  // sorts to the index of probe 2
         CHECK(!graph.is_edge_back(make_id(probe, 2), unknown));
         CHECK(!graph.is_edge_back(unknown, make_id(probe, 0)));
         CHECK(!back(2, 99));
     }
-    // What is seen by edges back alone is planned but not drawn.
+    // A picture that is seen only by edges back is planned but not drawn.
     CHECK_EQUAL(drawn(world, {make_id(frame, 0)}), "probe3 probe2 probe1 probe0 frame0");
     CHECK_EQUAL(drawn(world, {make_id(frame, 1)}), "probe3 probe2 probe1 frame1");
     CHECK_EQUAL(world.planned.size(), 5U);
-    // Probes are not strict: nothing is refused.
+    // Probes are not strict, so no circle is refused.
     world.possible = world.shown;
     CHECK_EQUAL(refusal(world, {make_id(frame, 0)}), "");
 }
@@ -238,7 +238,7 @@ void test_circles_of_strict_pictures_are_refused_by_name() {
     world.possible = [](const PictureId& id) -> Ids {
         if (id.kind == frame) return {make_id(texture, 0)};
         if (id.kind == probe) return {make_id(texture, 2), make_id(probe, id.object)};
-        // Texture 0 shows 1, 1 shows 2 by a probe and directly, 2 shows 0; 5 shows itself.
+        // Texture 0 shows 1, 1 shows 2 directly and in a probe, 2 shows 0; 5 shows itself.
         switch (id.object) {
             case 0: return {make_id(texture, 1)};
             case 1: return {make_id(probe, 7), make_id(texture, 2)};
@@ -247,7 +247,7 @@ void test_circles_of_strict_pictures_are_refused_by_name() {
             default: return {};
         }
     };
-    // The shortest way, from the first strict picture.
+    // The message names the shortest path, from the first strict picture on.
     const std::string text =
         "The texture0 shows itself: texture0#1 -> texture1#2 -> texture2#3 -> texture0#1; advice";
     CHECK_EQUAL(refusal(world, {make_id(frame, 0)}), text);
@@ -257,11 +257,12 @@ void test_circles_of_strict_pictures_are_refused_by_name() {
     CHECK_EQUAL(refusal(world, {make_id(texture, 3)}), "");
     CHECK(world.planned.empty());
     CHECK(world.updated.empty());
-    // What has no label is passed over, at the beginning, too.
+    // A picture without a label is skipped, also at the beginning.
     world.labelled = [](const PictureId& id) { return id.object != 0; };
     CHECK_EQUAL(refusal(world, {make_id(frame, 0)}),
                 "The texture1 shows itself: texture1#1 -> texture2#2 -> texture1#1; advice");
-    // The fewest names: by way of two probes without a label rather than by one texture.
+    // The path has the fewest names: it goes through two probes without a label rather than through
+    // one texture.
     world.possible = [](const PictureId& id) -> Ids {
         if (id == make_id(texture, 1)) return {make_id(probe, 7), make_id(texture, 2)};
         if (id == make_id(probe, 7)) return {make_id(probe, 8)};

@@ -1,5 +1,5 @@
-/// Includes of GLSL files resolved, options put ahead, and a driver's log with the user's own
-/// lines.
+/// Tests includes of GLSL files, the lines before the source, and a driver's log with the user's
+/// own lines.
 
 #include "check.hpp"
 
@@ -50,7 +50,7 @@ int main() {
     CHECK(text.find("int c;") == text.rfind("int c;"));  // each file once
     CHECK(!contains(text, "#include"));
 
-    // Every line knows where it came from.
+    // The origin of every line is known.
     std::size_t line = 0;
     std::size_t begin = 0;
     while (text.compare(begin, 6, "int b;") != 0) {
@@ -60,7 +60,7 @@ int main() {
     CHECK_EQUAL(std::string(shader.files[shader.lines[line].file].name), "b.glsl");
     CHECK_EQUAL(shader.lines[line].number, std::size_t{2});
 
-    // Mesa's and NVIDIA's way to say where an error is; the title stands for the name.
+    // Mesa and NVIDIA name the place of an error differently; the title replaces the name.
     std::size_t of_c = 0;
     for (std::size_t i = 0; i < shader.lines.size(); ++i) {
         const std::size_t file = shader.lines[i].file;

@@ -1,4 +1,4 @@
-/// Targets of every shape on a driver: an array of cubes holds what its cubes hold one by one, on
+/// Tests targets of every shape on a driver: an array of cubes has the contents of single cubes, on
 /// both paths of drawing and with several samples.
 
 #include "check.hpp"
@@ -61,7 +61,7 @@ std::vector<Layer> draw(RendererState& gpu, const SceneSnapshot& scene, TargetSh
     const bool cubes = shape.kind == TargetShape::Kind::cube_array;
     CHECK_EQUAL(kind == GL_TEXTURE_CUBE_MAP_ARRAY, cubes);
     FrameContext frame(gpu, scene);
-    frame.draw(views, target, [](const NodeSnapshot&) { return true; });
+    frame.draw(views, target, [](const NodeSnapshot&) { return true; }, Key());
     std::vector<Layer> layers;
     for (int layer = 0; layer < description.layers(); ++layer) {
         layers.push_back(read_layer(gpu.context.gl(), target, layer));

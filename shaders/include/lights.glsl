@@ -1,14 +1,15 @@
-// Lights that have a direction; ambient ones are in the material's own term already. Those with a shadow come first.
+// Lights that have a direction; the term of the material already contains the ambient ones. Lights with a shadow come
+// first.
 const int MAX_LIGHTS = 256;
 
 struct Light {
-    vec4 position;  // xyz: where it is, from u_origin (w = 1), or the direction towards it (w = 0); world
+    vec4 position;  // xyz: its position, from u_origin (w = 1), or the direction towards it (w = 0); world
     vec4 color;     // rgb: linear colour times intensity; a: decay
-    vec4 cone;      // spot lights: xyz: the way they point, stretched; w: see cone_share. Others: all 0, but w of 1
+    vec4 cone;      // spot lights: xyz: scaled direction in which they point; w: see cone_share. Others: 0, 0, 0, 1
 };
 
-// Declared where it is read. Of a known number of lights no more than these: a driver may copy the block for each draw.
-// Both stages declare the same, or they do not link.
+// The block is declared if the stage reads it. A known number of lights limits its length, since a driver may copy the
+// block for each draw. Both stages declare the same block, or they do not link.
 #ifdef LIGHT_COUNT
 #define LIGHTS_READ LIGHT_COUNT
 #else
@@ -22,7 +23,8 @@ layout(std140, binding = 1) uniform Lights {
 };
 #endif
 
-// How much of a spot light goes a way (unit length, from the light): 0 outside its cone, 1 where the penumbra ends.
+// The share of a spot light in a direction (unit length, from the light): 0 outside its cone, 1 where the penumbra
+// ends.
 float cone_share(vec4 cone, vec3 way) {
     float t = clamp(dot(cone.xyz, way) + cone.w, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);

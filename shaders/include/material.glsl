@@ -1,1 +1,1 @@
-// Stands for the GLSL file of the material, which takes its place (cpp/cubecam/render/passes/programs.cpp).
+// The GLSL file of the material replaces this file (cpp/cubecam/render/passes/programs.cpp).

@@ -1,6 +1,6 @@
-// A node (cpp/cubecam/render/resources/node_record.hpp). Where nodes are drawn together (INSTANCED) each is a record of
-// attributes, else one uniform block. Fragment shaders get what they need of it as flat inputs (surface.glsl), except a
-// user's source, which has the block.
+// A node (cpp/cubecam/render/resources/node_record.hpp). If nodes are drawn together (INSTANCED), each node is a record
+// of attributes; otherwise the node is a uniform block. Fragment shaders get the values that they need as flat inputs
+// (surface.glsl), except a user's source, which has the block.
 #ifdef INSTANCED
 layout(location = 4) in vec4 a_model[4];          // columns; [0].w: alpha
 layout(location = 8) in vec4 a_normal_matrix[3];  // columns
@@ -18,10 +18,10 @@ layout(location = 13) in int a_node_id;
 #define u_alpha a_model[0].w
 #else
 layout(std140, binding = 0) uniform Node {
-    mat4 u_model;          // to the world, counted from u_origin
+    mat4 u_model;          // to the world, relative to u_origin
     mat4 u_normal_matrix;  // inverse transpose of u_model, upper 3x3
-    float u_alpha;         // opacity and the colours' alpha; shade() returns what else counts
+    float u_alpha;         // opacity and the colours' alpha; shade() returns all other factors
     int u_node_id;
-    vec4 u_origin;         // xyz: world position of the view; positions are small near it, and floats precise
+    vec4 u_origin;         // xyz: world position of the view; near it positions are small, so floats are precise
 };
 #endif

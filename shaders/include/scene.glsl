@@ -1,8 +1,8 @@
-// What the GLSL of a ShaderMaterial has at hand. The documentation of cubecam.ShaderMaterial lists these names: they are
-// an interface, and stay.
+// The functions that the GLSL of a ShaderMaterial can use. The documentation of cubecam.ShaderMaterial lists these
+// names: they are an interface and must not change.
 #ifdef USER_SOURCE
 
-// The node's matrix, from the mesh's space to the world, and what turns its normals there (to any length).
+// The node's matrix, from the mesh's space to the world, and the matrix that turns its normals there (to any length).
 mat4 model_matrix() {
     mat4 model = u_model;
     model[3].xyz += u_origin.xyz;
@@ -11,11 +11,11 @@ mat4 model_matrix() {
 mat3 normal_matrix() { return mat3(u_normal_matrix); }
 
 #ifdef VERTEX_STAGE
-// Where the picture is seen from, in the world.
+// The viewpoint of the picture, in the world.
 vec3 eye_position() { return a_view_eye.xyz + u_origin.xyz; }
 
 struct Vertex {
-    vec3 position;  // the mesh's space, as all of these
+    vec3 position;  // in the mesh's space
     vec3 normal;
     vec2 uv;
     vec4 color;
@@ -27,17 +27,28 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // The environment at a chosen level of detail; 0 is the finest.
 vec3 environment_lod(vec3 direction_world, float level) { return textureLod(u_cube, direction_world, level).rgb; }
 
-// The scene's ambient lights, added up.
+// The number of levels of the environment: 1 without mipmaps, 0 without an environment.
+int environment_levels() { return u_environment_levels.x; }
+
+// Whether a probe captured the environment in this world. Otherwise it is a photograph, which is infinitely far away.
+bool environment_is_local() { return u_environment_position.w != 0.0; }
+
+// The world position where the environment was captured; for a photograph the world's origin.
+vec3 environment_position() {
+    return environment_is_local() ? u_environment_position.xyz + u_origin.xyz : vec3(0.0);
+}
+
+// The sum of the scene's ambient lights.
 vec3 ambient_light() { return u_ambient.rgb; }
 
 int light_count() { return u_counts.x; }
 
 struct LightSample {
     vec3 direction;  // world, unit length, from the surface to the light
-    vec3 radiance;   // linear: colour, intensity, falloff, the cone of a spot light, what shadows leave of it
+    vec3 radiance;   // linear: colour, intensity, falloff, the cone of a spot light, shadows
 };
 
-// What light number `index` sends to a surface; the surface's angle to it does not count yet.
+// The light that light number `index` sends to a surface; the surface's angle to it is not included.
 LightSample sample_light(int index, Surface surface) {
     Light light = u_lights[index];
     vec3 to_light = light.position.xyz - surface.from_origin * light.position.w;
@@ -48,9 +59,9 @@ LightSample sample_light(int index, Surface surface) {
     return LightSample(direction, light.color.rgb * share);
 }
 
-// As PhongMaterial has it.
+// The reflection model of PhongMaterial.
 vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shininess) {
-    vec3 result = ka * color * (1.0 + ambient_light());  // the model has an ambient light of 1 of its own
+    vec3 result = ka * color * (1.0 + ambient_light());  // the model has its own ambient light of 1
     for (int i = 0; i < light_count(); ++i) {
         LightSample light = sample_light(i, surface);
         float n_dot_l = dot(surface.normal, light.direction);
@@ -61,7 +72,7 @@ vec3 phong(Surface surface, vec3 color, float ka, float kd, float ks, float shin
     return result;
 }
 
-// F0 + (1 - F0) (1 - cos)^5, from a surface's normal and the way it is seen (Schlick, 1994).
+// F0 + (1 - F0) (1 - cos)^5, from a surface's normal and the direction of view (Schlick, 1994).
 float schlick(Surface surface, float f0) {
     float m = 1.0 - clamp(-dot(surface.incident, surface.normal), 0.0, 1.0);
     return f0 + (1.0 - f0) * (m * m) * (m * m) * m;

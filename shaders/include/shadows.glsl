@@ -1,26 +1,27 @@
-// Whether light reaches a point, from the shadow maps of the first SHADOW_COUNT lights. Percentage-closer filtering:
-// W. Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987. Each texel under the
-// filter is compared with the depth that the surface's own plane has there, so that a surface does not shadow itself,
-// however it is tilted, and needs no bias that would cut the shadow off from what casts it (receiver plane: J. Isidoro,
-// "Shadow Mapping: GPU-based Tips and Techniques", GDC 2006).
+// Whether light reaches a point, from the shadow maps of the first SHADOW_COUNT lights. Percentage-closer filtering: W.
+// Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987. Each texel under the
+// filter is compared with the depth of the surface's own plane at that texel. A surface of any tilt then does not
+// shadow itself, and needs no bias that would separate the shadow from its caster (receiver plane: J. Isidoro, "Shadow
+// Mapping: GPU-based Tips and Techniques", GDC 2006).
 #ifdef SHADOW_COUNT
 struct ShadowMap {
-    vec4 rows[3];  // from a position to the light's axes, z away from the light; for a cube, the world's axes
-    vec4 lens;     // the map holds x + y * z (parallel) or x + y / z; z: texels to a unit; w: texels a side
+    vec4 rows[3];  // from a position to the light's axes, z away from the light; for a cube, to the world's axes
+    vec4 lens;     // the map contains x + y * z (parallel) or x + y / z; z: texels for a unit; w: texels of a side
     vec4 filter_;  // x: radius, texels; y: bias, world units
 };
 
 layout(std140, binding = 2) uniform Shadows {
     ShadowMap u_shadows[MAX_SHADOWS];
 };
-// Of each light's two bits, 0: parallel rays, 1: one view, 2: six. Known when this is compiled, since llvmpipe runs
-// both sides of a branch.
+// The kind of a light, two bits of SHADOW_KINDS: 0: parallel rays, 1: one view, 2: six views. It is known at compile
+// time, since llvmpipe runs both sides of a branch.
 uint shadow_kind(int index) { return (SHADOW_KINDS >> (2 * index)) & 3u; }
 layout(binding = SHADOW_UNIT) uniform sampler2DArray u_shadow_maps[SHADOW_COUNT];
 
-// The triangle that the fragment lies on. Found once, before any branch: derivatives ask the neighbours.
-vec3 facet_normal;   // unit length, on the side that the shading normal is on
-float facet_height;  // how far above it the rounded surface lies that the shading normals tell of
+// The triangle of the fragment. It is computed once, before any branch: derivatives need the values of neighbour
+// fragments.
+vec3 facet_normal;   // unit length, on the side of the shading normal
+float facet_height;  // the height above it of the rounded surface that the shading normals describe
 
 // `height` interpolates dot(position, normal) of the corners, `normal` is of any length.
 void find_facet(vec3 position, vec3 normal, float height) {
@@ -32,21 +33,21 @@ void find_facet(vec3 position, vec3 normal, float height) {
     float length_squared = dot(across, across);
     facet_normal = length_squared > 1e-12 ? across * inversesqrt(length_squared) : normalize(normal);
     if (dot(facet_normal, normal) < 0.0) facet_normal = -facet_normal;
-    // The mean of the corners' tangent planes, as T. Boubekeur and M. Alexa, "Phong Tessellation", 2008, have it.
-    // Less what rounding may make of nothing.
+    // The mean of the corners' tangent planes, as in T. Boubekeur and M. Alexa, "Phong Tessellation", 2008, minus the
+    // error that rounding may cause.
     float size_squared = max(dot(normal, normal), 1e-36);
     facet_height = max((height - dot(position, normal)) * inversesqrt(size_squared) - 1e-6 * length(position), 0.0);
 }
 
-// The axes of a cube's face: cpp/cubecam/math/cube_face.hpp. `axis` is 0 to 2, `s` the sign.
+// Converts to the axes of a cube's face (cpp/cubecam/math/cube_face.hpp). `axis` is 0 to 2, `s` is the sign.
 vec3 to_face(vec3 v, int axis, float s) {
     return axis == 0 ? vec3(-s * v.z, -v.y, s * v.x)
                      : axis == 1 ? vec3(v.x, s * v.z, s * v.y) : vec3(s * v.x, -v.y, s * v.z);
 }
 #endif
 
-// The share of light `index` that reaches a point, from 0 to 1. `position` is where a fragment's own positions are,
-// `normal` of unit length and on the side that is lit.
+// The share of light `index` that reaches a point, from 0 to 1. `position` has the fragment's origin of positions;
+// `normal` has unit length and lies on the lit side.
 float light_visibility(int index, vec3 position, vec3 normal) {
 #ifndef SHADOW_COUNT
     return 1.0;
@@ -57,8 +58,8 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     mat3 turn = transpose(mat3(map.rows[0].xyz, map.rows[1].xyz, map.rows[2].xyz));
     vec3 place = turn * position + vec3(map.rows[0].w, map.rows[1].w, map.rows[2].w);
 
-    // Where a facet looks away from a light that its shading normals still see, as coarse spheres have them along the
-    // terminator, the rounded surface stands in for it: else each facet would show.
+    // A facet may face away from a light that its shading normals still face, as on a coarse sphere along the
+    // terminator. The rounded surface then replaces the facet: otherwise each facet would be visible.
     vec3 plane = turn * facet_normal;
     vec3 ray = parallel ? vec3(0.0, 0.0, 1.0) : place;
     if (dot(plane, ray) >= 0.0 && facet_height > 0.0) {
@@ -80,7 +81,7 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     float z = place.z;
     if (!parallel && z < 1e-30) return 1.0;
 
-    // Depth here, and by how much it grows a texel to the right and up, along the plane.
+    // The depth here, and its increase along the plane for a texel to the right and for a texel up.
     float inverse_z = parallel ? 1.0 : 1.0 / z;
     vec2 texel = place.xy * inverse_z * map.lens.z + 0.5 * map.lens.w;
     float scale = abs(map.lens.y);
@@ -89,8 +90,8 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     towards = (towards > 0.0 ? 1.0 : -1.0) * max(abs(towards), 0.02 * length(ray));
     vec2 slope = scale * plane.xy / (towards * map.lens.z);
 
-    // Some of a texel's width off the surface, since what lies beside this triangle is another; and what float
-    // arithmetic and vertices snapped to 1/256 texel may be off.
+    // The bias is a part of a texel's width, since the neighbour triangle has another plane, plus the errors of float
+    // arithmetic and of vertices snapped to 1/256 texel.
     float width = 1.0 / (map.lens.z * inverse_z);
     float half_width = map.filter_.x + 0.5;
     float bias = (0.25 + 0.25 * half_width) * width / (abs(towards) * inverse_z);
@@ -98,8 +99,9 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     float bias_depth = scale * bias * (parallel ? 1.0 : inverse_z / max(z - bias, 0.1 * z));
     bias_depth += (abs(slope.x) + abs(slope.y)) / 128.0;
 
-    // A box, 2 * radius + 1 texels wide, so the share is continuous in where the point lies. Counted from its first
-    // texel: numbers stay small, and their digits go into the weights. Beyond the map is what its border holds: nothing.
+    // The filter is a box, 2 * radius + 1 texels wide, so the share is a continuous function of the position. Texels
+    // count from the first one of the box: small numbers keep the weights precise. Lookups beyond the map read its
+    // border, which is empty.
     texel = clamp(texel, -half_width - 1.0, map.lens.w + half_width + 1.0);
     vec2 first = floor(texel - half_width);
     vec2 start = texel - half_width - first;
@@ -109,12 +111,12 @@ float light_visibility(int index, vec3 position, vec3 normal) {
     float lit = 0.0;
     for (int j = 0; j < count; j += 2) {
         for (int i = 0; i < count; i += 2) {
-            // Four texels round a corner, in the order of the GLSL specification, section 8.9.4: left and right above,
-            // then right and left below.
+            // Four texels round a corner, in the order of the GLSL specification, section 8.9.4: upper left, upper
+            // right, lower right, lower left.
             vec2 corner = vec2(i, j) + 1.0;
             vec4 held = textureGather(u_shadow_maps[index], vec3((first + corner) / map.lens.w, float(layer)));
-            // Where the plane falls away no more is asked for than here: a wall that meets the surface there
-            // would shadow it.
+            // If the plane falls away from the light, the depth here is used: a wall that meets the surface there would
+            // shadow it.
             vec4 there = dot(corner - start - half_width, slope) + to_corners;
             vec4 reached = vec4(lessThanEqual(held, max(depth + max(there, 0.0) + bias_depth, 0.0)));
             vec2 x = max(min(corner.xx + vec2(0.0, 1.0), end.xx) - max(corner.xx - vec2(1.0, 0.0), start.xx), 0.0);

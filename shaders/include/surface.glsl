@@ -1,7 +1,7 @@
-// What the vertex shader hands to the fragment shader; STAGE is `out` or `in`.
+// The values that the vertex shader passes to the fragment shader; STAGE is `out` or `in`.
 //
-// A few lights travel as flat inputs, as the constants of a material do (constants.glsl). Meshes of many small triangles
-// (DENSE) leave them in their blocks: every input costs each triangle.
+// Some lights are flat inputs, as the constants of a material are (constants.glsl). For meshes of many small triangles
+// (DENSE) they stay in their blocks: every input has a cost for each triangle.
 #if FLAT_LIGHT_COUNT > 0
 flat STAGE vec4 v_light_position[FLAT_LIGHT_COUNT];
 flat STAGE vec4 v_light_color[FLAT_LIGHT_COUNT];
@@ -10,7 +10,7 @@ flat STAGE vec4 v_light_cone[FLAT_LIGHT_COUNT];
 #endif
 #endif
 
-STAGE vec3 v_position;  // world, from u_origin
+STAGE vec3 v_position;  // world, relative to u_origin
 STAGE vec3 v_normal;    // world, any length
 #ifdef SHADOW_COUNT
 STAGE float v_height;  // dot(v_position, v_normal) at the corners
@@ -39,7 +39,7 @@ flat STAGE int v_node_id;
 #endif
 #if FLAT_LIGHT_COUNT > 0 && !defined(VERTEX_STAGE)
 
-// Light `i` of the first FLAT_LIGHT_COUNT.
+// Returns light `i`, which is below FLAT_LIGHT_COUNT.
 Light flat_light(int i) {
 #ifdef LIGHT_CONE
     return Light(v_light_position[i], v_light_color[i], v_light_cone[i]);

@@ -1,4 +1,4 @@
-// What multiplies the colour of a material that has a map and vertex colours: the product of both.
+// The factor for the colour of a material: the product of its map and the vertex colours.
 #ifdef HAS_MAP
 layout(binding = UNIT_MAP) uniform sampler2D u_map;
 #endif

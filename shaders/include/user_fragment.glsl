@@ -1,1 +1,1 @@
-// Stands for the source of a ShaderMaterial or an ImageEffect, which takes its place (cpp/cubecam/render/passes/user_program.cpp).
+// The source of a ShaderMaterial or an ImageEffect replaces this file (cpp/cubecam/render/passes/user_program.cpp).

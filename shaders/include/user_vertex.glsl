@@ -1,1 +1,1 @@
-// Stands for the vertex source of a ShaderMaterial, which takes its place.
+// The vertex source of a ShaderMaterial replaces this file.

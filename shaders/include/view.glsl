@@ -1,4 +1,4 @@
-// A view (cpp/cubecam/render/resources/view_record.hpp): one record an instance or, where the instances are nodes
+// A view (cpp/cubecam/render/resources/view_record.hpp): one record for each instance or, if the instances are nodes
 // (INSTANCED), a uniform block.
 #ifdef INSTANCED
 layout(std140, binding = 4) uniform View {
@@ -6,7 +6,7 @@ layout(std140, binding = 4) uniform View {
     vec4 u_view_eye;
     vec4 u_view_position;
     vec4 u_view_forward;
-    vec4 u_origin;  // xyz: world position that positions count from
+    vec4 u_origin;  // xyz: world position of the origin of positions
 };
 #define a_view_matrix u_view_matrix
 #define a_view_eye u_view_eye
@@ -19,7 +19,8 @@ layout(location = 9) in vec4 a_view_position;
 layout(location = 10) in vec4 a_view_forward;
 #endif
 
-// Sends the triangle to the view's layer. Without the extension each layer is bound alone, and nothing is to be said.
+// Sends the triangle to the view's layer. Without the extension each layer is bound alone, and this function does
+// nothing.
 void route_to_layer() {
 #ifdef LAYERED
     gl_Layer = int(a_view_forward.w);

@@ -1,4 +1,4 @@
-// Unlit. material[0].rgb: colour.
+// An unlit material. material[0].rgb: colour.
 #include "include/tint.glsl"
 
 #ifdef HAS_CUBEMAP

@@ -1,5 +1,5 @@
-// material[0]: tint, eta = n_outside / n_inside = 1 / ior. Without FRESNEL the refraction alone, but where there is none.
-// Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
+// material[0]: tint, eta = n_outside / n_inside = 1 / ior. Without FRESNEL only the refraction, except at total
+// reflection. Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
 vec3 shade(Surface surface) {
     float eta = material[0].a;
     vec3 reflected = reflect(surface.incident, surface.normal);
@@ -16,6 +16,6 @@ vec3 shade(Surface surface) {
 #endif
     f = total ? 1.0 : f;
 
-    // Both lookups for every fragment: a mipmapped one takes its level from the neighbours'.
+    // Every fragment makes both lookups: the level of a mipmapped lookup depends on the neighbour fragments.
     return f * environment(reflected) + (1.0 - f) * material[0].rgb * environment(total ? reflected : refracted);
 }

@@ -1,5 +1,5 @@
-// material[0]: env_weight * tint, f0 (with FRESNEL). material[1].rgb: color_weight * color.
-// Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994.
+// material[0]: env_weight * tint, f0 (with FRESNEL). material[1].rgb: color_weight * color. Schlick, "An Inexpensive
+// BRDF Model for Physically-based Rendering", Eurographics 1994.
 vec3 shade(Surface surface) {
     vec3 reflected = material[0].rgb * environment(reflect(surface.incident, surface.normal));
 #ifdef FRESNEL

@@ -8,7 +8,7 @@ vec3 light_answer(Surface surface, vec3 tint, int index, Light source) {
     vec4 light = source.color;
     vec3 to_light = place.xyz - surface.from_origin * place.w;
     float distance_squared = dot(to_light, to_light);
-    to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface shall not be NaN
+    to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface must not give NaN
     float n_dot_l = dot(surface.normal, to_light);
     if (n_dot_l <= 0.0) return vec3(0.0);
     // dot(reflect(-to_light, normal), -incident)

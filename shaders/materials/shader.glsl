@@ -1,2 +1,2 @@
-// ShaderMaterial: shade() is the user's own.
+// ShaderMaterial: the user's source defines shade().
 #include "include/scene.glsl"

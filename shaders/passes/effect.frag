@@ -1,21 +1,22 @@
-// An ImageEffect: one pass over a finished picture in linear float. The documentation of cubecam.ImageEffect lists these
-// names: they are an interface, and stay.
+// An ImageEffect: one pass over a finished picture in linear float. The documentation of cubecam.ImageEffect lists
+// these names: they are an interface and must not change.
 layout(binding = 0) uniform sampler2DArray u_frame;
 layout(location = 0) uniform int u_layer;
 layout(location = 0) out vec4 o_color;
 
-// Pixels: width, height.
+// Width and height in pixels.
 ivec2 frame_size() { return textureSize(u_frame, 0).xy; }
 
-// The picture at uv, (0, 0) being its bottom-left corner and (1, 1) its top-right: bilinear, borders repeat beyond.
+// The picture at uv, where (0, 0) is its bottom-left corner and (1, 1) its top-right one. The lookup is bilinear;
+// beyond the picture its border is repeated.
 vec4 frame(vec2 uv) { return textureLod(u_frame, vec3(uv, u_layer), 0.0); }
 
-// One pixel as it is, (0, 0) being the bottom-left one; borders repeat beyond.
+// One pixel without a filter, where (0, 0) is the bottom-left one; beyond the picture its border is repeated.
 vec4 frame_pixel(ivec2 pixel) { return texelFetch(u_frame, ivec3(clamp(pixel, ivec2(0), frame_size() - 1), u_layer), 0); }
 
 #include "include/user_fragment.glsl"
 
-// effect() may give a colour with its alpha, or a colour alone, to keep the picture's alpha.
+// effect() may return a colour with an alpha, or only a colour, which keeps the picture's alpha.
 vec4 with_alpha(vec4 color) { return color; }
 vec4 with_alpha(vec3 color) { return vec4(color, frame_pixel(ivec2(gl_FragCoord.xy)).a); }
 

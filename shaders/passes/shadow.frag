@@ -1,2 +1,2 @@
-// Depth alone.
+// This pass writes only depth.
 void main() {}

@@ -1,4 +1,4 @@
-// What casts shadows, for one light. Here a_view_matrix goes from the mesh's own space to clip space at once.
+// Casters of one light. Here a_view_matrix goes directly from the mesh's own space to clip space.
 #include "include/view.glsl"
 
 layout(location = 0) in vec3 a_position;

@@ -1,8 +1,8 @@
-// The background as one quad, where nothing else was drawn. Here a_view_matrix takes clip space to the world, translation left
-// out, so walking does not move the sky.
+// The background: one quad, visible where nothing else was drawn. Here a_view_matrix goes from clip space to the world
+// without translation, so moving the camera does not move the sky.
 #include "include/view.glsl"
 
-layout(location = 0) uniform float u_depth;  // what the depth buffer was cleared to
+layout(location = 0) uniform float u_depth;  // the clear value of the depth buffer
 
 out vec4 v_near;
 out vec4 v_far;

@@ -1,4 +1,4 @@
-// Every mesh: what is common here, what a material answers in its own file.
+// Draws every mesh. This file has the common part; the part of a material is in its own file.
 #define STAGE in
 #ifdef USER_SOURCE
 #include "include/node.glsl"
@@ -10,12 +10,12 @@
 #include "include/surface.glsl"
 
 struct Surface {
-    vec3 from_origin;      // world, from u_origin
-    vec3 position_object;  // with USES_POSITION_OBJECT, as of every material that shows a cubemap
+    vec3 from_origin;      // world, relative to u_origin
+    vec3 position_object;  // with USES_POSITION_OBJECT: for materials that show a cubemap
     vec3 normal;           // world, unit length, towards the viewer on double-sided surfaces
     vec3 incident;         // world, unit length, from the eye to the surface
-    vec2 uv;               // with USES_UV, as of every material that shows a map
-    vec4 color;            // the vertices', white where the mesh has none or the material ignores them
+    vec2 uv;               // with USES_UV: for materials that show a map
+    vec4 color;            // the vertices' colour; white if the mesh has none or the material ignores it
 #ifdef USER_SOURCE
     vec3 position;       // world
     vec3 normal_object;  // any length
@@ -30,20 +30,20 @@ struct Surface {
 #endif
 #include "include/material.glsl"
 
-// shade() may give a colour, or a colour and an alpha.
+// shade() may return a colour, or a colour and an alpha.
 vec4 with_alpha(vec3 color) { return vec4(color, 1.0); }
 vec4 with_alpha(vec4 color) { return color; }
 
 layout(location = 0) out vec4 o_color;
 #ifdef OUTPUTS
-// `o_<name>` of each row of output_table (cpp/cubecam/render/resources/outputs.hpp): an output of the program where it
-// is requested, else a variable.
+// `o_<name>` of each row of output_table (cpp/cubecam/render/resources/outputs.hpp): an output of the program if it is
+// requested, otherwise a variable.
 OUTPUT_DECLARATIONS
 #endif
 
 void main() {
 #ifdef OUTPUT_ZEROS
-    OUTPUT_ZEROS  // of the outputs that users' sources declare
+    OUTPUT_ZEROS  // for the outputs that users' sources declare
 #endif
     Surface surface;
     surface.from_origin = v_position;
@@ -51,7 +51,7 @@ void main() {
 #if defined(USES_POSITION_OBJECT) || defined(USER_SOURCE)
     surface.position_object = v_position_object;
 #endif
-    // A mesh may bring normals of no length; they shall not become NaN.
+    // A mesh may have normals of length 0; they must not become NaN.
     float length_squared = dot(v_normal, v_normal);
     surface.normal = length_squared > 0.0 ? v_normal * inversesqrt(length_squared) : vec3(0.0);
 #ifdef DOUBLE_SIDED
@@ -82,7 +82,7 @@ void main() {
 #else
     o_color.a = 1.0;
 #endif
-    // What the blending of raster_state.cpp wants of its source.
+    // The changes of the colour that the blending in raster_state.cpp needs.
 #if defined(BLEND_ADDITIVE)
     o_color.rgb *= o_color.a;
 #elif defined(BLEND_MULTIPLY)

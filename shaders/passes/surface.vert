@@ -1,4 +1,5 @@
-// Every mesh, for every view. One source and an invariant position: layered and one-pass drawing give equal bytes.
+// Draws every mesh for every view. With one source and an invariant position, layered drawing and drawing view by view
+// give equal bytes.
 #define STAGE out
 #define VERTEX_STAGE
 #include "include/view.glsl"

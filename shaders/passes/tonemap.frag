@@ -1,4 +1,4 @@
-// Tone mapping and transfer function, over a finished frame in linear float. Alpha passes through.
+// Applies tone mapping and the transfer function to a finished frame in linear float. Alpha does not change.
 layout(binding = 0) uniform sampler2DArray u_frame;
 layout(location = 0) uniform int u_layer;
 layout(location = 0) out vec4 o_color;
@@ -31,7 +31,7 @@ vec3 tonemap(vec3 c) {
 vec3 tonemap(vec3 c) { return c; }
 #endif
 
-// IEC 61966-2-1.
+// The transfer function of IEC 61966-2-1.
 vec3 encode_srgb(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
 }
@@ -39,7 +39,7 @@ vec3 encode_srgb(vec3 c) {
 void main() {
     vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, u_layer), 0);
 #if defined(TONEMAP) || defined(ENCODE_SRGB)
-    // A lamp may be infinite; its square must not be.
+    // The colour of a lamp may be infinite, but its square must be finite.
     color.rgb = tonemap(clamp(color.rgb, 0.0, 1e18));
 #endif
 #ifdef ENCODE_SRGB

@@ -61,6 +61,8 @@ BY_POSITION = {
     "StereoCamera.off_axis": ["camera"],
     "StereoCamera.toe_in": ["camera"],
     "Scene.remove": ["thing"],
+    "Scene.set_positions": ["nodes", "positions"],
+    "Scene.set_matrices": ["nodes", "matrices"],
     "Renderer.update_probes": ["scene"],
     "Renderer.read_probe": ["probe"],
     "Renderer.read_texture": ["render_texture"],

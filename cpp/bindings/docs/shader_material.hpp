@@ -69,7 +69,10 @@ double-sided surfaces), ``incident`` (world, unit, from the eye to the surface),
 ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours).
 
 ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
-seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps.
+seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps;
+``int environment_levels()``: the number of levels, 1 without mipmaps and 0 without an environment;
+``bool environment_is_local()``: whether a probe captured the environment;
+``vec3 environment_position()``: the world position of the capture.
 ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
 the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
 ambient lights.

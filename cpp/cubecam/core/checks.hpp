@@ -12,7 +12,7 @@
 /// Words for messages, and the checks that use them: "expected ..., got ...".
 namespace cubecam {
 
-/// The shortest decimal number that reads back as the same value: 0.2f is "0.2".
+/// Returns the shortest decimal number that reads back as the same value: "0.2" for 0.2f.
 template <class Real>
 std::string describe(Real value) {
     char text[64];
@@ -37,7 +37,8 @@ inline void expect(bool condition, std::string_view expected, std::string_view g
     throw std::invalid_argument(text);
 }
 
-/// Numbers that a float32, which is what the GPU gets, can hold. NaN and infinities fail.
+/// Whether a float32, the type that the GPU gets, can hold the value. NaN and infinities do not
+/// pass.
 inline bool fits_float(double value) { return std::abs(value) <= 3.4e38; }
 
 inline bool fits_float(const glm::dvec3& v) {
@@ -69,8 +70,8 @@ inline void expect_positive(double value, std::string_view name) {
     }
 }
 
-/// A linear RGBA colour: any finite numbers (an unlit colour may as well say a direction), alpha
-/// from 0 to 1.
+/// A linear RGBA colour: red, green and blue are any finite numbers (an unlit colour may also store
+/// a direction), alpha is from 0 to 1.
 inline void expect_color(const glm::vec4& color, std::string_view name) {
     bool right = color.a >= 0.0F && color.a <= 1.0F;
     for (int i = 0; i < 3; ++i) right = right && std::isfinite(color[i]);

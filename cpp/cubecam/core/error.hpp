@@ -4,15 +4,15 @@
 #include <string>
 #include <utility>
 
-/// What the library throws.
+/// The exceptions that the library throws.
 ///
-/// Three kinds of failure are told apart, so that a caller (and Python above it) can tell whose
-/// they are:
+/// There are three kinds of failure, so that a caller (and Python above it) knows who caused one:
 ///  - the caller's mistakes: `std::invalid_argument` (Python's ValueError), `std::out_of_range`
 ///    (IndexError), `cubecam::TypeError` (TypeError); the text says "expected ..., got ...";
 ///  - the environment's failures: `Error` and what is below it;
 ///  - everything else is a defect of this library.
-/// Nothing here ever prints, exits or aborts.
+///
+/// The library never prints, exits or aborts.
 namespace cubecam {
 
 /// Base of every failure that is not the caller's own mistake.
@@ -21,7 +21,7 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// No OpenGL context can be had, or the one there was can no longer be used.
+/// No OpenGL context can be created, or the existing one can no longer be used.
 class ContextError : public Error {
 public:
     using Error::Error;
@@ -52,7 +52,7 @@ private:
     unsigned code_;
 };
 
-/// A value of the wrong kind, Python's TypeError.
+/// A value has the wrong type: TypeError in Python.
 class TypeError : public std::logic_error {
 public:
     using std::logic_error::logic_error;

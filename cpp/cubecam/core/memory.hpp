@@ -7,9 +7,9 @@
 
 namespace cubecam {
 
-/// Refuses what cannot fit into this machine's memory. The kernel grants more than there is, and
-/// ends the process that then uses it.
-/// @throws std::invalid_argument naming `what`, which is of `bytes`.
+/// Refuses an allocation that cannot fit into this machine's memory: the kernel would grant it and
+/// would end the process as soon as the process writes to it.
+/// @throws std::invalid_argument that names `what`, which takes `bytes`.
 inline void check_memory(double bytes, const std::string& what) {
     const double memory =
         static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));

@@ -1,5 +1,5 @@
-/// Loops over ranges on several threads. Threads live for one call only: a process that forks
-/// between two calls loses nothing, and a library unloaded leaves nothing running.
+/// Loops over ranges on several threads. The threads end with the call: a process that forks
+/// between two calls loses none, and no thread is left when the library is unloaded.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace cubecam {
 
-/// Cores that this process may use (its affinity counts), at least 1.
+/// The number of cores that this process may use (within its CPU affinity), at least 1.
 inline std::size_t worker_count() {
     return std::max<std::size_t>(1, std::thread::hardware_concurrency());
 }
 
-/// Calls body(begin, end, scratch) on pieces that together cover [begin, end) once: pieces of
-/// `grain` on all cores, the calling thread among them, or all at once, here, where there is one
-/// core or one piece. Each thread makes a `Scratch` of its own for all its pieces. The first
-/// exception that a piece throws is thrown here once all have stopped; pieces not begun are left
-/// out.
+/// Calls body(begin, end, scratch) on pieces that together cover [begin, end) once. The pieces have
+/// `grain` elements and run on all cores, including the calling thread; with one core or one piece,
+/// the calling thread does the whole range in one call. Each thread makes one `Scratch` for all its
+/// pieces. When a piece throws, the pieces that have not begun are skipped, and the first exception
+/// is thrown again here after all threads have stopped.
 template <typename Scratch, typename Body>
 void parallel_for_with(std::size_t begin, std::size_t end, std::size_t grain, const Body& body) {
     if (begin >= end) return;
@@ -57,14 +57,14 @@ void parallel_for_with(std::size_t begin, std::size_t end, std::size_t grain, co
     try {
         for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
     } catch (const std::system_error&) {
-        // No more threads to be had: those that run, this one at least, do all of the work.
+        // The system gives no more threads: the running ones, at least this one, do all the work.
     }
     work();
     for (std::thread& thread : threads) thread.join();
     if (error) std::rethrow_exception(error);
 }
 
-/// The same for a body(begin, end) that needs no memory of its own.
+/// Like parallel_for_with, for a body(begin, end) that needs no scratch memory.
 template <typename Body>
 void parallel_for(std::size_t begin, std::size_t end, std::size_t grain, const Body& body) {
     struct Nothing {};

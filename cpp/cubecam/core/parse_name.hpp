@@ -9,8 +9,9 @@
 
 namespace cubecam {
 
-/// The value that `name` stands for. @throws std::invalid_argument listing the known names; `what`
-/// is the argument that the name was given for.
+/// Returns the value that `name` stands for. `what` is the argument that has this name as its
+/// value.
+/// @throws std::invalid_argument that lists the known names.
 template <class Value, std::size_t N>
 Value parse_name(std::string_view what, std::string_view name,
                  const std::array<std::pair<std::string_view, Value>, N>& known) {

@@ -10,8 +10,8 @@ namespace cubecam {
 
 /// A plain value behind a mutex, with the revision of its last real change.
 ///
-/// Setting an equal value changes nothing: the renderer compares revisions to decide whether a
-/// picture it already holds is still true, so a needless new revision would be a needless redraw.
+/// Setting an equal value does not change the revision: the renderer compares revisions to decide
+/// whether a picture is still valid, so a needless new revision would cause a needless redraw.
 template <class Value>
 class Versioned {
 public:
@@ -32,7 +32,7 @@ public:
 
     Value value() const { return state().value; }
 
-    /// That of the state, which can be read without waiting for anyone.
+    /// The revision of the state; reading it never waits for another thread.
     const Revision& revision() const { return revision_; }
 
     /// Applies `change` to a copy; keeps it, under a new revision, only if it differs.

@@ -1,5 +1,5 @@
-/// The filter of all resampling: the average over a box along one axis. For the .cpp files of
-/// cubemaps only.
+/// The filter that all resampling uses: the average over a box along one axis. Only the .cpp files
+/// of cubemap/ include this header.
 #pragma once
 
 #include "cubecam/cubemap/cube_texels.hpp"
@@ -21,9 +21,9 @@ struct BoxWidth {
         : texels(std::max(wide, 1.0)), inverse(std::min(one_by_wide, 1.0)) {}
 };
 
-/// How many texels boxes reach over: two (width 1: linear interpolation), two or three (up to 2),
-/// any number. Loops are compiled for each, as the branch between would be mispredicted at every
-/// other texel.
+/// How many texels a box covers: linear: two (width 1, which is linear interpolation); near: two or
+/// three (width up to 2); far: any number. The loops are compiled for each value, since the
+/// processor would mispredict a branch between them at every other texel.
 enum class Reach { linear, near, far };
 
 inline Reach reach_of(double texels) {
@@ -38,8 +38,9 @@ decltype(auto) with_reach(Reach reach, const Body& body) {
     return body(std::integral_constant<Reach, Reach::far>{});
 }
 
-/// A box over texels first ... first + inner + 1. The first weighs what the others leave. Where
-/// inner is 0 the second weighs `near`, else each of the inner ones does, and the last `last`.
+/// A box over texels first ... first + inner + 1. The weights add up to 1. If inner is 0, the
+/// second texel has the weight `near`; otherwise each inner texel has the weight `near` and the
+/// last one has the weight `last`.
 struct BoxTap {
     std::int32_t first;
     std::int32_t inner;
@@ -49,16 +50,18 @@ struct BoxTap {
     std::int32_t end() const { return first + inner + 2; }
 };
 
-/// As std::floor, for numbers that int can hold; without SSE 4.1 that is a call into the library.
+/// Like std::floor, for numbers that an int can hold; without SSE 4.1, std::floor is a call into
+/// the library.
 inline std::int32_t floor_to_int(double value) {
     const auto towards_zero = static_cast<std::int32_t>(value);
     return towards_zero - (value < towards_zero ? 1 : 0);
 }
 
-/// The box round `center`, where texel i covers i - 1/2 to i + 1/2. At width 1 it weighs its two
-/// texels as linear interpolation does.
+/// The box round `center`, where texel i covers i - 1/2 to i + 1/2. At width 1 the weights of its
+/// two texels are those of linear interpolation.
 inline BoxTap box_tap(double center, const BoxWidth& width) {
-    // A border this near to a texel's is that border: no texel is read for the rounding's sake.
+    // A border this close to a texel's border counts as that border, so that a rounding error does
+    // not add a texel.
     constexpr double snap = 1e-7;
     const double begin = center + 0.5 - width.texels / 2;
     const double end = center + 0.5 + width.texels / 2;
@@ -70,8 +73,8 @@ inline BoxTap box_tap(double center, const BoxWidth& width) {
             two ? 0.0f : rest};
 }
 
-/// Applies a tap to texels that `texel(0)`, `texel(1)`, ... give, counted from tap.first. Sums of
-/// differences, so that equal texels give exactly that texel; long boxes are summed in double.
+/// Applies a tap to the texels that `texel(0)`, `texel(1)`, ... return, counted from tap.first. It
+/// sums differences, so that equal texels give exactly that texel; long boxes are summed in double.
 template <Reach reach, typename Texels>
 auto apply_tap(const BoxTap& tap, const Texels& texel) {
     const auto first = texel(0);

@@ -2,9 +2,9 @@
 
 #include <cstring>
 
-// One object file holds both versions; the loader takes the one that the processor can run. That
-// needs GCC, x86 and glibc; elsewhere the plain version is all there is, with the same results bit
-// for bit. (Sanitizers are not set up yet when the loader asks.)
+// One object file holds both versions; the loader takes the one that the processor can run. This
+// needs GCC, x86 and glibc; elsewhere there is only the plain version, with the same results bit
+// for bit. (Sanitizers are not ready yet when the loader chooses.)
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__GLIBC__) &&       \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CUBECAM_CLONES __attribute__((target_clones("avx2", "default")))
@@ -16,7 +16,8 @@ namespace cubecam {
 
 namespace {
 
-/// Two texels side by side. Never passed by value: without AVX that has no fixed ABI.
+/// Two texels side by side. Functions take them by reference: without AVX, passing them by value
+/// has no fixed ABI.
 typedef float Float8 __attribute__((vector_size(32)));
 
 [[gnu::always_inline]] inline void join(const Float4& a, const Float4& b, Float8& both) {
@@ -28,7 +29,7 @@ typedef float Float8 __attribute__((vector_size(32)));
 }
 
 [[gnu::always_inline]] inline Float4 texel_at(const char* address) {
-    Float4 texel;  // at any address that floats may have
+    Float4 texel;  // `address` is aligned for a float only
     std::memcpy(&texel, address, sizeof texel);
     return texel;
 }
@@ -73,8 +74,8 @@ template <bool near>
     weigh<near>(first, second, third, weights, result);
 }
 
-/// Calls body(i, j, result) for pairs of texels, and once with the same one twice where one is
-/// left.
+/// Calls body(i, j, result) for pairs of texels. If one texel is left at the end, the call has it
+/// as both i and j.
 template <typename Body>
 [[gnu::always_inline]] inline void for_pairs(std::size_t count, Float4* to, const Body& body) {
     Float8 result;

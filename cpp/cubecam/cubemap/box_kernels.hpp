@@ -1,5 +1,6 @@
-/// The inner loops of resampling for texels of three and four channels: two at a time where the
-/// processor has AVX2, which is asked at run time. For the .cpp files of cubemaps only.
+/// The inner loops of resampling for texels of three and four channels: two texels at a time if the
+/// processor has AVX2, which is checked at run time. Only the .cpp files of cubemap/ include this
+/// header.
 #pragma once
 
 #include "cubecam/cubemap/box_filter.hpp"
@@ -9,8 +10,8 @@
 
 namespace cubecam {
 
-/// A tap that knows where its texels lie: bytes from the base to its first texel, and from there to
-/// its last. The weights are BoxTap's.
+/// A tap with the places of its texels in memory: the bytes from the base to its first texel, and
+/// from there to its last. The weights are those of BoxTap.
 struct BoundTap {
     std::int32_t first;
     std::int32_t last;
@@ -19,7 +20,7 @@ struct BoundTap {
 };
 
 /// to[i] = the box taps[i] over texels from `base`, the second one `step` bytes after the first,
-/// for taps of two texels (linear) or three at most (near).
+/// for taps of two texels (linear) or at most three (near).
 void filter_linear(const void* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,
                    Float4* to);
 void filter_near(const void* base, std::ptrdiff_t step, const BoundTap* taps, std::size_t count,

@@ -1,5 +1,5 @@
-/// Texels of a cube with their neighbours beyond the edges, as floats. For the .cpp files of
-/// cubemaps only.
+/// Texels of a cube as floats, with their neighbours beyond the edges. Only the .cpp files of
+/// cubemap/ include this header.
 #pragma once
 
 #include "cubecam/image/pixels.hpp"
@@ -18,7 +18,7 @@ namespace cubecam {
 /// Four floats that compilers keep in one register (GCC and Clang).
 typedef float Float4 __attribute__((vector_size(16)));
 
-/// A texel of 1, 3 or 4 channels under way. The fourth lane of three channels is 0.
+/// A texel of 1, 3 or 4 channels during a computation. With three channels the fourth lane is 0.
 template <int Channels>
 using Lane = std::conditional_t<Channels == 1, float, Float4>;
 
@@ -47,8 +47,8 @@ Lane<Channels> load_texel(const Pixel* from) {
     }
 }
 
-/// The same, faster, where another texel follows in memory: the fourth lane of three channels is
-/// then what comes next, and nobody's concern.
+/// Like load_texel, but faster, for a texel that another one follows in memory. With three channels
+/// the fourth lane then holds the number that follows, and no caller may use it.
 template <int Channels, typename Pixel>
 Lane<Channels> load_texel_before_another(const Pixel* from) {
     if constexpr (Channels == 3 && std::is_same_v<Pixel, float>) {
@@ -72,7 +72,7 @@ void store_texel(Lane<Channels> texel, float* to) {
     }
 }
 
-/// From a to b. Not a (1 - w) + b w: between equal texels this is exact.
+/// Interpolates from a to b. Between equal texels the result is exact, unlike a (1 - w) + b w.
 template <typename LaneType>
 LaneType mix_texels(LaneType a, LaneType b, float weight) {
     return a + (b - a) * weight;
@@ -97,8 +97,9 @@ struct CubeTexels {
 
     bool contains(int index) const { return index >= 0 && index < size; }
 
-    /// Any row and column: beyond an edge the neighbour's texels, unfolded; where both are outside,
-    /// the average of the three texels that meet in that corner.
+    /// Returns the texel of any row and column. Beyond an edge it is a texel of the neighbour face,
+    /// as if the cube were unfolded; if both row and column are outside, it is the average of the
+    /// three texels that meet in that corner.
     Lane<Channels> seamless(Face face, int row, int column) const {
         const bool row_in = contains(row);
         const bool column_in = contains(column);
@@ -112,7 +113,7 @@ struct CubeTexels {
         const int next_row = row < 0 ? -1 : size;
         const int next_column = column < 0 ? -1 : size;
         const Lane<Channels> own = inside(face, near_row, near_column);
-        // Differences, so that three equal texels give exactly the fourth.
+        // A sum of differences: three equal texels give exactly the same fourth one.
         return own + ((seamless(face, next_row, near_column) - own) +
                       (seamless(face, near_row, next_column) - own)) /
                          3.0f;
@@ -123,14 +124,15 @@ struct CubeTexels {
                        t * static_cast<float>(size) - 0.5f);
     }
 
-    /// The same at column x and row y, with texel centres at whole numbers: -1/2 to N - 1/2.
+    /// The bilinear lookup at column x and row y, from -1/2 to N - 1/2; texel centres lie at whole
+    /// numbers.
     Lane<Channels> between(Face face, float x, float y) const {
-        // From -1/2 on: rounding towards 0 after adding 1 is rounding down.
+        // x and y are at least -1/2: after adding 1, rounding towards 0 is rounding down.
         const int column = static_cast<int>(x + 1.0f) - 1;
         const int row = static_cast<int>(y + 1.0f) - 1;
         const float right_weight = x - static_cast<float>(column);
         const float bottom_weight = y - static_cast<float>(row);
-        // Not the last column: behind its last texel there may be no memory.
+        // The last column is excluded: there may be no memory behind its last texel.
         if (column >= 0 && row >= 0 && column + 2 < size && row + 1 < size) {
             const auto load = [](const Pixel* from) {
                 return load_texel_before_another<Channels>(from);
@@ -154,7 +156,7 @@ struct CubeTexels {
     }
 };
 
-/// Calls body(std::integral_constant<int, C>) for the C that is `channels`.
+/// Calls body(std::integral_constant<int, C>), where C is `channels`.
 template <typename Body>
 decltype(auto) with_channels(int channels, const Body& body) {
     if (channels == 1) return body(std::integral_constant<int, 1>{});
@@ -163,7 +165,7 @@ decltype(auto) with_channels(int channels, const Body& body) {
     throw std::invalid_argument("channels: expected 1, 3 or 4, got " + std::to_string(channels));
 }
 
-/// Calls body(const Pixel*) with the pixels as what they are.
+/// Calls body(const Pixel*), where Pixel is the type that `dtype` names.
 template <typename Body>
 decltype(auto) with_pixels(DType dtype, const std::byte* pixels, const Body& body) {
     if (dtype == DType::uint8) return body(reinterpret_cast<const std::uint8_t*>(pixels));

@@ -33,7 +33,7 @@ std::array<std::uint64_t, face_count> new_face_revisions() {
     return revisions;
 }
 
-/// By bytes, as NaN (the position of the background) equals itself there.
+/// Compares bytes, so that NaN (the position of the background) equals itself.
 template <typename T>
 bool same_values(const std::shared_ptr<const Buffer<T>>& a,
                  const std::shared_ptr<const Buffer<T>>& b) {
@@ -110,7 +110,7 @@ CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffe
             " " + dtype_name(dtype) + "), got " + std::to_string(pixels->size()));
     }
     check_outputs(outputs_, size);
-    // Not memory of const: set_face may write to it when nobody else holds it.
+    // The buffer itself is not const: set_face may write to it when there is no other owner.
     data.pixels = std::move(pixels);
     set_data(std::move(data));
 }
@@ -147,9 +147,9 @@ void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
     if (std::memcmp(data_->face_pixels(face).data(), pixels.data(), bytes) == 0) return;
 
     CubeMapData next = *data_;
-    // Where nobody else holds this state, nor can come by it while we hold the mutex, its memory is
-    // written in place: six faces that arrive one by one then cost one copy, not six. Two owners
-    // here: data_ and next. The fence pairs with the release of whoever let go of it last.
+    // If this state has no other owner (and cannot get one while we hold the mutex), the new face
+    // is written into its memory: six faces that arrive one by one then cost one copy, not six. The
+    // two owners here are data_ and next. The fence pairs with the release of the last other owner.
     const bool alone = data_.use_count() == 1 && next.pixels.use_count() == 2;
     if (alone) {
         std::atomic_thread_fence(std::memory_order_acquire);
@@ -179,7 +179,7 @@ std::shared_ptr<const CubeMap::MipChain> CubeMap::mip_chain() const {
 
 void CubeMap::sample(const float* directions, std::size_t count, const float* lods,
                      std::size_t lod_count, float* to) const {
-    // One state for both: a set_face in between must not mix two.
+    // Pixels and mip chain must belong to one state, even if set_face runs in between.
     const std::shared_ptr<const CubeMapData> state = data();
     std::shared_ptr<const MipChain> chain;
     if (state->mipmaps && lods) {
@@ -230,8 +230,8 @@ void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const 
                 for (std::size_t i = begin; i < end; ++i) {
                     const float* d = directions + 3 * i;
                     const FaceUv<float> uv = direction_to_face_uv(glm::vec3(d[0], d[1], d[2]));
-                    const float asked = lods ? lods[lod_count == 1 ? 0 : i] : 0.0f;
-                    const float lod = std::clamp(asked, 0.0f, top);
+                    const float level = lods ? lods[lod_count == 1 ? 0 : i] : 0.0f;
+                    const float lod = std::clamp(level, 0.0f, top);
                     const auto below = static_cast<std::size_t>(lod);
                     const float weight = lod - static_cast<float>(below);
                     Lane<channels> texel = levels[below].bilinear(uv.face, uv.s, uv.t);

@@ -15,7 +15,7 @@
 
 namespace cubecam {
 
-/// One state of a cubemap. Nothing in it changes any more, so threads may share it.
+/// One state of a cubemap. It never changes, so threads may share it.
 struct CubeMapData {
     int size;      ///< N, texels along an edge
     int channels;  ///< C: 1, 3 or 4
@@ -23,7 +23,7 @@ struct CubeMapData {
     bool mipmaps;                               ///< lookups are trilinear
     std::shared_ptr<const PixelBuffer> pixels;  ///< [6][N][N][C], laid out as cube_face.hpp says
     std::array<std::uint64_t, face_count> face_revisions;
-    std::uint64_t revision;  ///< of the whole: it changes whenever a face's does
+    std::uint64_t revision;  ///< of all faces: changes with each of them
 
     std::size_t face_bytes() const {
         return static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
@@ -34,8 +34,9 @@ struct CubeMapData {
     }
 };
 
-/// Six faces that surround a point: a handle, safe to share between threads, on one CubeMapData
-/// after another. It knows no GL: the renderer keys its copy on this object and `face_revisions`.
+/// Six faces that surround a point. A CubeMap is a handle that threads may share; it points to one
+/// CubeMapData after another. It does not use GL: the key of the renderer's copy consists of this
+/// object and `face_revisions`.
 class CubeMap {
 public:
     /// All six faces, in "gl" layout.
@@ -45,21 +46,22 @@ public:
             OutputList outputs = {})
         : CubeMap(size, channels, dtype, std::make_shared<PixelBuffer>(std::move(pixels)), mipmaps,
                   std::move(outputs)) {}
-    /// The same of memory that came with an owner of its own.
+    /// Makes a cubemap of memory that already has a shared owner.
     CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels, bool mipmaps,
             OutputList outputs);
 
-    /// A second, independent cubemap with the same contents, under revisions of its own. Pixels are
-    /// shared until one of the two changes.
+    /// Makes an independent cubemap with the same contents and new revisions. The two share their
+    /// pixels until one of them changes.
     CubeMap(const CubeMap& other);
     CubeMap& operator=(const CubeMap&) = delete;
 
-    /// The state of this moment.
+    /// Returns the current state.
     std::shared_ptr<const CubeMapData> data() const;
-    /// That of the state, which can be read without waiting for anyone.
+    /// The revision of the state; reading it never waits for another thread.
     const Revision& revision() const { return revision_; }
 
-    /// What a capture holds besides colour, [6][N][N][channels]. Set once, by the constructor.
+    /// The outputs of a capture besides colour, [6][N][N][channels]. Only the constructor sets
+    /// them.
     const OutputList& outputs() const { return outputs_; }
 
     /// Replaces one face ("gl" layout, this cube's size, channels and dtype). Only this face's
@@ -70,21 +72,23 @@ public:
     /// Looks up `count` directions (xyz each, from the center outwards, of any length but 0) and
     /// writes count * channels floats, uint8 as value/255.
     ///
-    /// The same numbers as GLSL textureLod with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (GL 4.6
-    /// section 8.14): texels beyond an edge are the neighbour's, the fourth of a corner is the
-    /// average of its other three. `lods`: null for level 0, else one (`lod_count` 1) or `count`
-    /// levels, trilinear between box-filtered ones; without mipmaps every level is level 0.
+    /// The numbers are those of GLSL textureLod with GL_LINEAR and GL_TEXTURE_CUBE_MAP_SEAMLESS (GL
+    /// 4.6 section 8.14): texels beyond an edge belong to the neighbour face, and the fourth texel
+    /// of a corner is the average of the other three. `lods` is null for level 0, otherwise it
+    /// holds one level (`lod_count` 1) or `count` levels; the lookup is trilinear between
+    /// box-filtered levels. Without mipmaps every level is level 0.
     void sample(const float* directions, std::size_t count, const float* lods,
                 std::size_t lod_count, float* to) const;
 
     /// Levels 1, 2, ... down to 1x1, each [6][M][M][C] in the cube's dtype, M = max(1, size >> l):
-    /// each texel the average of those of the level before that it covers (by area where a side
-    /// is odd). What `sample` uses, and what to upload, so that both give the same numbers.
-    /// Empty without mipmaps.
+    /// each texel is the average of the texels that it covers in the level before (weighted by area
+    /// if a side is odd). `sample` and the renderer both use this chain, so that their numbers
+    /// agree. It is empty without mipmaps.
     using MipChain = std::vector<PixelBuffer>;
     std::shared_ptr<const MipChain> mip_chain() const;
 
-    /// The same contents bit for bit, captured outputs included; revisions do not count.
+    /// Whether all contents, including captured outputs, are the same bit for bit. Revisions are
+    /// not compared.
     bool same_contents(const CubeMap& other) const;
 
 private:
@@ -94,13 +98,13 @@ private:
     std::shared_ptr<const CubeMapData> data_;
     Revision revision_;  ///< of data_
     OutputList outputs_;
-    mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_, made on first use
+    mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_; made on first use
 };
 
 /// Box-filtered levels of a state; see CubeMap::mip_chain.
 CubeMap::MipChain make_mip_chain(const CubeMapData& data);
 
-/// As CubeMap::sample, on one state; `chain` may be null.
+/// Like CubeMap::sample, for one state; `chain` may be null.
 void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const float* directions,
                  std::size_t count, const float* lods, std::size_t lod_count, float* to);
 

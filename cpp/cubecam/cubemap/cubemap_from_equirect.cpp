@@ -18,19 +18,19 @@ namespace cubecam {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int tile_size = 64;  ///< whose sources fit a core's own cache
+constexpr int tile_size = 64;  ///< the sources of such a tile fit into the cache of one core
 constexpr std::size_t largest_block = std::size_t{1} << 20;  ///< texels: 16 MiB a thread
 
-/// A panorama, its columns a ring, its rows going on over the poles.
+/// A panorama whose columns form a ring and whose rows continue beyond the poles.
 template <typename Pixel, int Channels>
 struct EquirectTexels {
     const Pixel* pixels;
     int width;
     int height;
     Center center;
-    int period;     ///< columns in a full turn: a border-sampled picture has its first one twice
-    double offset;  ///< column and row of an edge of the picture: -1/2, with borders 0
-    double rows;    ///< in half a turn
+    int period;     ///< columns in a full turn; a border-sampled picture repeats its first column
+    double offset;  ///< column and row of an edge of the picture: -1/2; 0 with borders
+    double rows;    ///< rows in half a turn
 
     double column_of(double longitude) const {
         return period * (0.5 + longitude / (2 * pi)) + offset;
@@ -38,12 +38,12 @@ struct EquirectTexels {
     double row_of(double latitude) const { return rows * (0.5 - latitude / pi) + offset; }
 
     int wrap(int column) const {
-        if (column >= 0 && column < period) return column;  // mostly; a division takes longer
+        if (column >= 0 && column < period) return column;  // the usual case, without a division
         const int rest = column % period;
         return rest < 0 ? rest + period : rest;
     }
 
-    /// Beyond a pole the rows come back on the far side, half a turn away.
+    /// Beyond a pole the rows continue on the other side, half a turn away.
     const Pixel* row_texels(int& row, int& column) const {
         const int last = height - 1;
         const int mirror = offset < 0 ? 1 : 0;  // centres: row -1 is row 0 there; borders: row 1
@@ -75,8 +75,8 @@ struct EquirectTexels {
         }
     }
 
-    /// Where texels begin..end lie one after another, as floats, with another one behind, else
-    /// null.
+    /// Returns where texels begin..end lie one after another as floats with another texel behind
+    /// them, or null if they do not.
     const float* in_place([[maybe_unused]] int row, [[maybe_unused]] int begin,
                           [[maybe_unused]] int end) const {
         if constexpr (std::is_same_v<Pixel, float>) {
@@ -95,7 +95,7 @@ struct EquirectTexels {
         }
     }
 
-    /// The average over a box of any size, without a copy.
+    /// Returns the average over a box of any size, without copying texels.
     Lane<Channels> box(const BoxTap& down, const BoxTap& across) const {
         return apply_tap<Reach::far>(down, [&](int i) {
             int row = down.first + i;
@@ -119,11 +119,11 @@ public:
         center_azimuth_ = std::atan2(forward.x, forward.z);
     }
 
-    /// Whether all numbers came out finite.
+    /// Returns whether all results are finite.
     bool run() const {
         std::atomic<bool> numbers{true};
-        // Tiles of one quarter of a face, and with each tile its mirror images, which share its
-        // angles.
+        // The loop runs over the tiles of one part of a face; each tile also fills its mirror
+        // images, which have the same angles.
         const int half = (size_ + 1) / 2;
         const int across = (half + tile_size - 1) / tile_size;
         const int down = (size_ + tile_size - 1) / tile_size;
@@ -146,7 +146,7 @@ public:
     }
 
 private:
-    /// Memory that one tile after another uses.
+    /// Memory that the tiles of one thread reuse.
     struct Scratch {
         TapList across;
         TapList down;
@@ -159,23 +159,23 @@ private:
         bool numbers;
     };
 
-    /// Of a texel's center: -1 to 1 across the face.
+    /// The coordinate of a texel's center, from -1 to 1 across the face.
     double coordinate(int index) const { return (index + 0.5) * texel_ - 1; }
 
-    /// Of a texel in the six faces.
+    /// The index of a texel among those of all six faces.
     std::size_t index_of(Face face, int row, int column) const {
         const auto n = static_cast<std::size_t>(size_);
         return (face_index(face) * n + static_cast<std::size_t>(row)) * n +
                static_cast<std::size_t>(column);
     }
 
-    /// Counted from the picture's center to the right: against the azimuth, which turns from +Z to
-    /// +X.
+    /// The longitude, counted from the picture's center to the right: opposite to the azimuth,
+    /// which turns from +Z to +X.
     double longitude(double azimuth) const { return center_azimuth_ - azimuth; }
 
-    /// A tile of the left half of each side face, and its mirror image. With a the horizontal and y
-    /// the vertical coordinate on the face: longitude = +-atan(a), latitude = atan(y
-    /// cos(longitude)).
+    /// Fills a tile of the left half of each side face, and its mirror image. Where a is the
+    /// horizontal and y the vertical coordinate on the face: longitude = +-atan(a), latitude =
+    /// atan(y cos(longitude)).
     void sides(int row_begin, int column_begin, int half, Scratch& scratch) const {
         TapList& across = scratch.across;
         TapList& down = scratch.down;
@@ -233,9 +233,9 @@ private:
         }
     }
 
-    /// A tile of one quarter of +Y, and its mirror images on +Y and -Y. The box is laid along rows
-    /// and columns of the panorama: as high as the texel is along the meridian, as wide as across
-    /// it.
+    /// Fills a tile of one quarter of +Y, and its mirror images on +Y and -Y. The box lies along
+    /// rows and columns of the panorama: its height is the size of the texel along the meridian,
+    /// its width the size across the meridian.
     void poles(int row_begin, int column_begin, int half, Scratch& scratch) const {
         TapList& across = scratch.across;
         TapList& north = scratch.down;
@@ -268,7 +268,7 @@ private:
                 widths.emplace_back(std::min(texel_ / (2 * pi * radius), 1.0) * source_.period);
             }
         }
-        const bool even = source_.period % 2 == 0;  // half a turn on, the same taps do again
+        const bool even = source_.period % 2 == 0;  // the same taps serve half a turn further
         for (const bool acute : {false, true}) {
             for (const bool positive_x : {true, false}) {
                 const bool positive_z = acute == positive_x;
@@ -291,7 +291,8 @@ private:
                                        source_.read(row, begin + shift, end + shift, to);
                                    });
                     }
-                    // x grows with the column; z with the row on +Y, against it on -Y.
+                    // x grows with the column; z grows with the row on +Y, and falls with the row
+                    // on -Y.
                     const bool last_rows = positive_z == (face == Face::pos_y);
                     const int at_column = positive_x ? size_ - 1 - column_begin : column_begin;
                     for (int i = 0; i < rows; ++i) {
@@ -320,7 +321,7 @@ private:
         return tap;
     }
 
-    /// Boxes grow towards the pole: runs of texels that reach equally far.
+    /// Boxes grow towards the pole, so this filters runs of texels whose boxes have the same reach.
     static void filter_runs(const SourceBlock<Channels>& block, const TapList& down,
                             const TapList& across, const Buffer<BoxWidth>& widths,
                             std::size_t begin, std::size_t end, Lane<Channels>* to) {
@@ -338,7 +339,7 @@ private:
 
     EquirectTexels<Pixel, Channels> source_;
     int size_;
-    double texel_;  ///< its width on a face that reaches from -1 to 1
+    double texel_;  ///< the width of a texel on a face from -1 to 1
     double center_azimuth_;
     TexelTarget<Channels> to_;
 };
@@ -358,9 +359,9 @@ void check_equirect(const EquirectPixels& from, int size) {
     }
 }
 
-/// A copy in which inf is the largest number there is, or half floats have: inf - inf, which
-/// filters would come to, is NaN. Looked for only where a result was NaN, since most pictures have
-/// none.
+/// Returns a copy in which each inf is replaced by the largest finite number of the picture, at
+/// least that of half floats: a filter would compute inf - inf, which is NaN. It is called only
+/// after a result was NaN, since most pictures have no inf.
 template <typename Pixel>
 Buffer<float> without_infinities(const Pixel* pixels, std::size_t values,
                                  const EquirectPixels& from) {

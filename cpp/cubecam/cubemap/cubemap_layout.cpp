@@ -26,8 +26,8 @@ std::string plain_name(std::string_view name) {
                                 std::string(got) + "'");
 }
 
-/// How a convention shows the gl cube. Each is its own inverse: flips are, and the exchange of +X
-/// and -X flips both alike.
+/// How a convention shows the gl cube. Each conversion is its own inverse: a flip is, and the
+/// exchange of +X and -X flips both faces in the same way.
 FaceSource face_in_gl(Convention convention, Face face) {
     const bool vertical = face == Face::pos_y || face == Face::neg_y;
     switch (convention) {
@@ -46,11 +46,12 @@ struct Cell {
     Face face;
     int column;
     int row;
-    bool turned;  ///< by 180 degrees
+    bool turned;  ///< the face is turned by 180 degrees
 };
 
 std::array<Cell, face_count> layout_cells(Layout layout, Convention convention) {
-    // Someone inside who looks at -Z has +X to the right; gl and three pictures show that for +Z.
+    // A viewer inside who looks at -Z has +X to the right; in gl and three pictures +X is to the
+    // right of +Z.
     const bool inside = convention == Convention::inside;
     const Face front = inside ? Face::neg_z : Face::pos_z;
     const Face back = inside ? Face::pos_z : Face::neg_z;
@@ -82,7 +83,7 @@ std::array<Cell, face_count> layout_cells(Layout layout, Convention convention) 
                                 std::string(to_string(layout)) + "', which must be resampled");
 }
 
-/// Copies rows of texels; `from` and `to` point at the first, rows lie a stride of bytes apart.
+/// Copies rows of texels; `from` and `to` point to the first row, and the strides are in bytes.
 void copy_rows(const std::byte* from, std::size_t from_stride, std::byte* to, std::size_t to_stride,
                int size, std::size_t texel, bool flip_columns, bool flip_rows) {
     const auto count = static_cast<std::size_t>(size);
@@ -122,7 +123,7 @@ Layout parse_layout(std::string_view name) {
 }
 
 Center parse_center(std::string_view name) {
-    const std::string plain = plain_name(name);  // '-' has become '_'
+    const std::string plain = plain_name(name);  // plain_name turns '-' into '_'
     if (plain == "_z") return Center::neg_z;
     if (plain == "+z") return Center::pos_z;
     if (plain == "+x") return Center::pos_x;

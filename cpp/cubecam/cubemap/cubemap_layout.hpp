@@ -1,5 +1,5 @@
-/// Conventions of six faces, and the single pictures that hold them. All of it moves texels and
-/// computes nothing, so that each way there and back gives the same bytes.
+/// Conventions of six faces, and layouts of single pictures that hold six faces. These functions
+/// only move texels, so a conversion and its inverse give the same bytes.
 #pragma once
 
 #include "cubecam/image/pixels.hpp"
@@ -15,8 +15,8 @@ namespace cubecam {
 
 /// How six pictures show a cube.
 enum class Convention {
-    gl,      ///< memory, cube_face.hpp
-    inside,  ///< what one sees from within: sides of gl flipped left-right, +-Y top-bottom. OpenEXR
+    gl,      ///< as in memory, see cube_face.hpp
+    inside,  ///< as seen from inside: gl with sides flipped left-right, +-Y top-bottom. OpenEXR
     three,   ///< three.js, KTX, D3D skyboxes, sampled with -x: +-X swapped, all flipped left-right
 };
 
@@ -30,7 +30,8 @@ enum class Layout {
     openexr,         ///< N x 6N, "inside", samples on the faces' borders: resampled
 };
 
-/// Names in any case, with '-' or ' ' for '_'. @throws std::invalid_argument listing the names.
+/// These accept names in any letter case, with '-' or ' ' in place of '_'.
+/// @throws std::invalid_argument that lists the names.
 Convention parse_convention(std::string_view name);
 Layout parse_layout(std::string_view name);  ///< "horizontal_cross" is "cross"
 Center parse_center(std::string_view name);  ///< "-z", "+z", "+x", "-x"
@@ -39,21 +40,21 @@ Face parse_face(std::string_view name);      ///< "+x", "px" or "pos_x", ...
 std::string_view to_string(Convention convention);
 std::string_view to_string(Layout layout);
 
-/// Where a face comes from: texel (row, col) of it is texel (row or N-1-row, col or N-1-col) there.
+/// The source of a face: its texel (row, col) is texel (row or N-1-row, col or N-1-col) of `face`.
 struct FaceSource {
     Face face;
     bool flip_columns;
     bool flip_rows;
 };
 
-/// Which face, called so in `from`, is face `face` of `to`. It is its own inverse with the two
-/// exchanged.
+/// Returns which face of convention `from` is face `face` of convention `to`. With `from` and `to`
+/// exchanged the function is its own inverse.
 FaceSource face_source(Convention from, Convention to, Face face);
 
-/// Copies one face, flipped as asked; `texel` bytes each.
+/// Copies one face with the given flips; a texel has `texel` bytes.
 void copy_face(const std::byte* from, int size, std::size_t texel, FaceSource flips, std::byte* to);
 
-/// Six faces [6][N][N], `texel` bytes each, from one convention to another.
+/// Converts six faces [6][N][N], of texels of `texel` bytes, from one convention to another.
 PixelBuffer convert_faces(const std::byte* faces, int size, std::size_t texel, Convention from,
                           Convention to);
 
@@ -62,21 +63,22 @@ struct PictureSize {
     int height;
 };
 
-/// Of a cross, vertical cross, row or column of faces N x N.
+/// The size of a cross, vertical cross, row or column of faces N x N.
 PictureSize layout_size(Layout layout, int face_size);
 
-/// The layout that only this shape can be: 4:3, 3:4, 6:1, 1:6 or 2:1.
-/// @throws std::invalid_argument listing the shapes.
+/// Returns the only layout with this shape: 4:3, 3:4, 6:1, 1:6 or 2:1.
+/// @throws std::invalid_argument that lists the shapes.
 Layout recognize_layout(int width, int height);
 
-/// N, when a picture is of this layout. @throws std::invalid_argument otherwise.
+/// Returns N of a picture of this layout. @throws std::invalid_argument if its size does not fit
+/// the layout.
 int layout_face_size(Layout layout, int width, int height);
 
-/// Six faces of a convention into one picture of it; cells that no face covers are 0.
+/// Puts six faces of a convention into one picture; cells without a face are 0.
 PixelBuffer faces_to_picture(const std::byte* faces, int size, std::size_t texel, Layout layout,
                              Convention convention);
 
-/// The inverse; cells that no face covers are not looked at.
+/// The inverse of faces_to_picture; it ignores cells without a face.
 PixelBuffer picture_to_faces(const std::byte* picture, int width, int height, std::size_t texel,
                              Layout layout, Convention convention);
 

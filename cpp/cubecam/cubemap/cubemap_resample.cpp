@@ -15,15 +15,15 @@ namespace cubecam {
 
 namespace {
 
-constexpr int panorama_tile = 64;  ///< whose sources fit a core's own cache
+constexpr int panorama_tile = 64;  ///< the sources of such a tile fit into one core's cache
 
-/// One destination column of a panorama, as its side face sees it.
+/// One destination column of a panorama, in the coordinates of its side face.
 struct PanoramaColumn {
     Face face;
     double across;  ///< horizontal coordinate on the face, -1 to 1 from left to right as seen in
                     ///< GL's picture
     double secant;  ///< of the longitude within the face
-    double cosine;  ///< its inverse
+    double cosine;  ///< 1 / secant
     double x;       ///< the horizontal unit direction
     double z;
 };
@@ -51,13 +51,13 @@ public:
             latitudes_.push_back(latitude);
             pole_rows_.push_back(make_pole_row(latitude));
         }
-        // A quarter turn on, another side face is seen just as the one before.
+        // After a quarter turn the next side face has the same taps as the one before.
         if (!borders && width_ % 8 == 0) turns_ = 4;
     }
 
     void run() const {
         constexpr int tile = panorama_tile;
-        std::vector<std::pair<int, int>> spans;  // of columns that look at one side face
+        std::vector<std::pair<int, int>> spans;  // of columns within one side face
         const int turn = width_ / turns_;
         for (int begin = 0; begin < turn;) {
             int end = begin + 1;
@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    /// Memory that one tile after another uses.
+    /// Memory that the tiles of one thread reuse.
     struct Scratch {
         TapList down;
         TapList across;
@@ -92,8 +92,9 @@ private:
     }
     double latitude(int row) const { return latitudes_[static_cast<std::size_t>(row)]; }
 
-    /// One row of a panorama as +Y or -Y sees it, where the destination's texels are turned against
-    /// the face's: they are sampled there, as often each way as they are texels long.
+    /// One row of a panorama on +Y or -Y, where the destination's texels are turned against the
+    /// texels of the face. Such a texel is sampled at several points: in each direction as many as
+    /// it is texels long.
     struct PoleRow {
         struct Sample {
             float cosine;  ///< of the turn round the pole, times the radius
@@ -131,17 +132,19 @@ private:
         return {face, glm::dot(s_axis, d) * secant, secant, 1 / secant, d.x, d.z};
     }
 
-    /// Of a texel in the panorama.
+    /// The index of a texel in the panorama.
     std::size_t index_of(int row, int at_column) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(at_column);
     }
 
-    /// A coordinate of -1 to 1 on a face, in texels with centres at whole numbers.
+    /// Converts a coordinate from -1 to 1 on a face into texels, whose centres lie at whole
+    /// numbers.
     double texel_of(double coordinate) const { return ((coordinate + 1) * cube_.size - 1) / 2; }
 
-    /// Side faces meet a vertical line at t = tan(latitude) / cos(longitude), for which s is
-    /// constant: rows first, columns then. What looks over a side's edge is on +Y or -Y.
+    /// On a side face s is constant along a column of the panorama, and t = tan(latitude) /
+    /// cos(longitude). The filter therefore runs along rows first and along columns then. A texel
+    /// beyond the upper or lower edge of the side lies on +Y or -Y.
     void fill_tile(int row_begin, int row_end, int begin, int end, Scratch& scratch) const {
         TapList& down = scratch.down;
         TapList& across = scratch.across;
@@ -192,7 +195,8 @@ private:
         }
     }
 
-    /// `columns` texels of a row from column `first` on, whose taps in `down` begin at `taps`.
+    /// Fills `columns` texels of a row from column `first` on; their taps in `down` begin at
+    /// `taps`.
     void fill_row(int row, int first, std::size_t columns, std::size_t taps,
                   Scratch& scratch) const {
         const TapList& down = scratch.down;
@@ -212,7 +216,7 @@ private:
         }
     }
 
-    /// `count` texels of a row from column `first` on, which are on +Y or -Y.
+    /// Computes `count` texels of a row from column `first` on, which lie on +Y or -Y.
     void sample_pole(int row, int first, std::size_t count, Lane<Channels>* to) const {
         const auto& samples = pole_rows_[static_cast<std::size_t>(row)].samples;
         const bool up = latitude(row) > 0;
@@ -257,12 +261,12 @@ private:
     std::vector<PanoramaColumn> columns_;
     std::vector<double> latitudes_;
     std::vector<PoleRow> pole_rows_;
-    int turns_ = 1;  ///< round the panorama after which all repeats but the faces: 4, or 1
+    int turns_ = 1;  ///< parts of the panorama that differ only in their faces: 4, or 1
     TexelTarget<Channels> to_;
 };
 
-/// The taps of one axis from faces of n texels to texels begin..end of faces of `size`, each
-/// `times`.
+/// Makes the taps of one axis, from faces of n texels to texels begin..end of faces of `size`; each
+/// tap is repeated `times` times.
 void face_taps(int n, Sampling from, int size, Sampling to, int begin, int end, std::size_t times,
                TapList& taps) {
     const double reach = from == Sampling::borders ? n - 1.0 : n;  // texels from edge to edge
@@ -278,7 +282,7 @@ void face_taps(int n, Sampling from, int size, Sampling to, int begin, int end, 
     }
 }
 
-/// Rows of faces, filtered along rows first and along columns then.
+/// Resamples all faces, in bands of rows: along rows first, along columns then.
 template <typename Pixel, int Channels>
 void resample_all(const CubeTexels<Pixel, Channels>& texels, Sampling from, int size, Sampling to,
                   const TexelTarget<Channels>& target) {

@@ -1,5 +1,5 @@
-/// What resampling works with, tile by tile: filters as lists of taps, copied and filtered pieces
-/// of the source. For the .cpp files of cubemaps only.
+/// The parts of resampling, which works tile by tile: lists of taps, and copied or filtered pieces
+/// of the source. Only the .cpp files of cubemap/ include this header.
 #pragma once
 
 #include "cubecam/cubemap/box_filter.hpp"
@@ -26,7 +26,7 @@ struct TapRange {
     std::size_t size() const { return begin < end ? static_cast<std::size_t>(end - begin) : 0; }
 };
 
-/// Taps of a tile, with what they have in common.
+/// The taps of a tile, with their common range and their largest width.
 class TapList {
 public:
     void resize(std::size_t count) {
@@ -42,7 +42,7 @@ public:
         widest_ = std::max(widest_, width.texels);
     }
 
-    /// For a texel that is not this tile's to filter.
+    /// Marks a texel that this list does not filter.
     void set_absent(std::size_t index) { taps_[index] = {0, -1, 0, 0}; }
     bool absent(std::size_t index) const { return taps_[index].inner < 0; }
 
@@ -51,13 +51,14 @@ public:
     const TapRange& range() const { return range_; }
     double widest() const { return widest_; }
 
-    /// For texels that lie `stride` apart, where the list's range begins at 0. `columns`: tap i is
-    /// then for column i % columns, which is one texel further on each. Does nothing a second time.
+    /// Binds the taps to texels that lie `stride` texels apart; the list's range begins at address
+    /// 0. Tap i belongs to column i % columns, and neighbour columns are one texel apart. A second
+    /// call with the same stride does nothing.
     void bind(std::size_t stride, std::size_t columns = 1) {
         bind_bytes(stride * sizeof(Float4), columns);
     }
 
-    /// The same for texels `stride` bytes apart.
+    /// Like bind, with a stride in bytes.
     void bind_bytes(std::size_t stride, std::size_t columns = 1) {
         if (stride == bound_stride_) return;
         bound_stride_ = stride;
@@ -80,23 +81,23 @@ private:
     Buffer<BoundTap> bound_;
     TapRange range_;
     double widest_ = 0;
-    std::size_t bound_stride_ = 0;  ///< in bytes; 0: not bound
+    std::size_t bound_stride_ = 0;  ///< in bytes; 0 before the first call of bind
 };
 
-/// A rectangle of the source, copied together: read in order of memory, and looked up without a
-/// thought for seams and edges.
+/// A copy of a rectangle of the source. The copy is made in order of memory, and lookups in it need
+/// no care for seams and edges.
 template <int Channels>
 class SourceBlock {
 public:
     using Texel = Lane<Channels>;
 
-    /// `read(row, begin, end, to)` gives texels begin..end of a source row, whatever lies there.
-    /// Binds the two lists to the block.
+    /// Copies the rectangle and binds both lists to it. `read(row, begin, end, to)` writes texels
+    /// begin..end of a source row, also those beyond the edges.
     template <typename Read>
     void fill(TapList& down, TapList& across, const Read& read) {
         rows_ = down.range();
         columns_ = across.range();
-        stride_ = (columns_.size() + 15) / 16 * 16;  // often the next block's too: bound once
+        stride_ = (columns_.size() + 15) / 16 * 16;  // often that of the next block, too
         down.bind(stride_);
         across.bind(1);
         texels_.resize(rows_.size() * stride_);
@@ -106,7 +107,7 @@ public:
         }
     }
 
-    /// The averages over `count` boxes, down[index] by across[index] and on.
+    /// Computes the averages over `count` boxes, from down[index] by across[index] on.
     void filter(Reach reach, const TapList& down, const TapList& across, std::size_t index,
                 std::size_t count, Texel* to) const {
         if constexpr (Channels > 1) {
@@ -145,16 +146,17 @@ private:
     TapRange columns_;
 };
 
-/// A tile whose columns depend on the destination's column alone: filtered along rows once, then
-/// along columns.
+/// A tile whose source columns depend on the destination's column alone: it is filtered along rows
+/// once, then along columns.
 template <int Channels>
 class FilteredRows {
 public:
     using Texel = Lane<Channels>;
 
-    /// Source rows that `down` needs, filtered by `across`, one tap a column. `down` has a tap for
-    /// each texel of the destination, [row][column], and is bound to the result.
-    /// What `in_place(row, begin, end)` can point to as floats, another texel behind, is not read.
+    /// Filters the source rows that `down` needs by `across`, which has one tap for each column.
+    /// `down` has a tap for each texel of the destination, [row][column], and is bound to the
+    /// result. `in_place(row, begin, end)` may return a pointer to the texels as floats with
+    /// another texel behind them; then `read` is not called.
     template <typename Read, typename InPlace>
     void fill(TapList& down, TapList& across, const Read& read, const InPlace& in_place) {
         rows_ = down.range();
@@ -163,7 +165,7 @@ public:
         refill(across, read, in_place);
     }
 
-    /// The same rows and `down` once more, with other columns.
+    /// Repeats fill for the same rows and the same `down`, with other columns.
     template <typename Read, typename InPlace>
     void refill(TapList& across, const Read& read, const InPlace& in_place) {
         const TapRange range = across.range();
@@ -182,7 +184,7 @@ public:
         }
     }
 
-    /// Along columns: taps down[index] and on, for columns from `column` on.
+    /// Filters along columns, by taps from down[index] on, for columns from `column` on.
     void filter(Reach reach, const TapList& down, std::size_t index, std::size_t column,
                 std::size_t count, Texel* to) const {
         if constexpr (Channels > 1) {
@@ -209,7 +211,7 @@ public:
     }
 
 private:
-    /// Texels `step` bytes apart, for reaches other than far.
+    /// Filters texels that lie `step` bytes apart, for every reach except far.
     void filter_near_line([[maybe_unused]] Reach reach, [[maybe_unused]] const void* from,
                           [[maybe_unused]] std::size_t step, [[maybe_unused]] TapList& across,
                           [[maybe_unused]] Texel* to) const {
@@ -239,12 +241,13 @@ private:
     TapRange rows_;
 };
 
-/// Writes texels one after another, or in the opposite order: step 1 or -1. `to` is where the first
-/// of them goes. Whether none of them is NaN or infinite.
+/// Writes texels one after another, or in the opposite order: step 1 or -1. The first of them goes
+/// to `to`. Returns whether all are finite.
 template <int Channels>
 bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float* to) {
     auto bad = from[0] - from[0] != 0.0f;
-    // In order of memory, so that each may write over its neighbour's beginning, in one piece.
+    // The loop runs in order of memory: each store may also write over the beginning of the next
+    // texel.
     const std::ptrdiff_t last = static_cast<std::ptrdiff_t>(count) - 1;
     if (step < 0) {
         from += last;
@@ -263,14 +266,14 @@ bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float
     }
 }
 
-/// A picture under way, of whatever type its numbers are kept in.
+/// A picture that is being written, of any type.
 template <int Channels>
 struct TexelTarget {
     std::byte* pixels;
     DType dtype;
 
     /// Writes texels one after another, or in the opposite order: step 1 or -1. The first of them
-    /// is texel `index` of the picture. Whether none of them is NaN or infinite.
+    /// is texel `index` of the picture. Returns whether all are finite.
     bool store(const Lane<Channels>* from, std::size_t count, int step, std::size_t index) const {
         if (dtype == DType::float32) {
             return store_texels<Channels>(from, count, step,
@@ -291,14 +294,15 @@ struct TexelTarget {
     }
 };
 
-/// Asks for `bytes` from an address that will be read soon. Rows of a picture lie on different
-/// pages, where the processor does not look ahead by itself.
+/// Prefetches `bytes` from an address that will be read soon. Rows of a picture lie on different
+/// pages, and the processor does not prefetch from another page by itself.
 inline void prefetch(const void* address, std::size_t bytes) {
     const auto* from = static_cast<const char*>(address);
     for (std::size_t i = 0; i < bytes; i += 64) __builtin_prefetch(from + i);
 }
 
-/// Where texels begin..end of one row of a face lie in it with another one behind, else null.
+/// Returns where texels begin..end of one row of a face lie if the face holds them with another
+/// texel behind them, otherwise null.
 template <typename Pixel, int Channels>
 const float* face_row_in_place([[maybe_unused]] const CubeTexels<Pixel, Channels>& cube,
                                [[maybe_unused]] Face face, [[maybe_unused]] int row,
@@ -315,7 +319,7 @@ const float* face_row_in_place([[maybe_unused]] const CubeTexels<Pixel, Channels
     }
 }
 
-/// Texels begin..end of one row of a face, neighbours beyond its edges.
+/// Reads texels begin..end of one row of a face; beyond its edges those of the neighbour faces.
 template <typename Pixel, int Channels>
 void read_face_row(const CubeTexels<Pixel, Channels>& cube, Face face, int row, int begin, int end,
                    Lane<Channels>* to) {

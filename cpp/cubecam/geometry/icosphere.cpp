@@ -17,7 +17,7 @@ namespace {
 
 constexpr int most_subdivisions = 9;  // 5,242,880 triangles
 
-/// Unit directions and the triangles between them; every direction once.
+/// Unit directions and the triangles between them; no direction occurs twice.
 struct Icosahedron {
     std::vector<glm::dvec3> directions;
     std::vector<glm::uvec3> triangles;
@@ -47,7 +47,7 @@ Icosahedron icosahedron() {
     return solid;
 }
 
-/// Each triangle into four, the new corners pushed out to the sphere.
+/// Splits each triangle into four and moves the new corners out to the sphere.
 void subdivide(Icosahedron& solid) {
     std::unordered_map<std::uint64_t, std::uint32_t> middles;
     middles.reserve(solid.triangles.size() * 3 / 2);
@@ -73,7 +73,8 @@ void subdivide(Icosahedron& solid) {
     solid.triangles = std::move(finer);
 }
 
-/// As on sphere(): u from -Z through -X, +Z (0.5) and +X back to -Z, v from the south pole up.
+/// The uv of a direction, as in sphere(): u runs from -Z through -X, +Z (0.5) and +X back to -Z, v
+/// from the south pole up.
 glm::dvec2 uv_of(const glm::dvec3& d) {
     return {0.5 + std::atan2(d.x, d.z) / (2.0 * std::numbers::pi),
             0.5 + std::asin(std::clamp(d.y, -1.0, 1.0)) / std::numbers::pi};
@@ -81,8 +82,8 @@ glm::dvec2 uv_of(const glm::dvec3& d) {
 
 bool is_pole(const glm::dvec3& d) { return d.x * d.x + d.z * d.z < 1e-20; }
 
-/// The u of a triangle's corners, made to run on over the seam; a pole gets the middle of the
-/// others.
+/// The u of a triangle's corners, continued beyond 1 where the triangle crosses the seam; a pole
+/// gets the average of the other two.
 std::array<double, 3> unwrapped_us(const std::array<glm::dvec3, 3>& corners) {
     std::array<double, 3> u{};
     double largest = 0.0;

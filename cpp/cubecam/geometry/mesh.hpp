@@ -8,9 +8,9 @@
 
 namespace cubecam {
 
-/// A mesh that scenes share and whose vertices may be set anew, from any thread.
+/// A mesh that scenes share and whose vertices may be updated from any thread.
 ///
-/// Whoever draws it holds its data of one moment, which stays as it is.
+/// The renderer holds the data of one moment, which never change.
 class Mesh {
 public:
     explicit Mesh(MeshData data);
@@ -18,15 +18,16 @@ public:
     /// The vertices and triangles of this moment.
     std::shared_ptr<const MeshData> data() const;
 
-    /// That of the data, readable without waiting for anyone.
+    /// The revision of the data; reading it never waits for another thread.
     const Revision& revision() const { return revision_; }
 
-    /// Sets vertices anew; what the update leaves out stays. Without any value nothing changes.
-    /// @throws as MeshData::updated does; the mesh then stays as it was.
+    /// Replaces the vertex values that the update contains and keeps the others. An empty update
+    /// changes nothing.
+    /// @throws the exceptions of MeshData::updated; the mesh then stays as it was.
     void update(MeshUpdate update);
 
 private:
-    std::mutex updates_;        ///< one update follows another: none is lost
+    std::mutex updates_;        ///< updates run one after the other, so none is lost
     mutable std::mutex mutex_;  ///< of data_, held for a moment only
     std::shared_ptr<const MeshData> data_;
     Revision revision_;

@@ -15,7 +15,7 @@ namespace cubecam {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;  // no branch within, so that the compiler can use SIMD
+constexpr std::size_t block_size = 1024;  // blocks have no branch, so compilers use SIMD
 
 template <class Vector>
 void check_finite(const std::vector<Vector>& values, const char* name) {
@@ -65,7 +65,8 @@ void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t verti
     }
 }
 
-/// Whether a normal stays as it is, so that arrays that went out come back unchanged.
+/// Whether a normal has unit length and is kept as it is: normals that a mesh gave out come back
+/// unchanged.
 bool unit_length(const glm::vec3& normal) {
     const glm::dvec3 wide(normal);
     constexpr double close = 1e-6;
@@ -75,9 +76,10 @@ bool unit_length(const glm::vec3& normal) {
     return squared >= least && squared <= most;
 }
 
-/// Makes every normal unit length. Those without a direction (files hold such) become smooth ones.
-void normalise(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>& positions,
-               const std::vector<glm::uvec3>& triangles) {
+/// Gives every normal unit length. Zero normals, which some files contain, are replaced by smooth
+/// ones.
+void normalize_all(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>& positions,
+                   const std::vector<glm::uvec3>& triangles) {
     std::vector<glm::vec3> smooth;
     for (std::size_t begin = 0; begin < normals.size(); begin += block_size) {
         const std::size_t end = std::min(normals.size(), begin + block_size);
@@ -152,7 +154,7 @@ void MeshData::set_normals(std::vector<glm::vec3> normals) {
     if (smooth_) {
         normals = smooth_normals(*positions(), *triangles());
     } else {
-        normalise(normals, *positions(), *triangles());
+        normalize_all(normals, *positions(), *triangles());
     }
     normals_ = stream_of(std::move(normals), revision_);
 }
@@ -197,7 +199,7 @@ MeshData MeshData::of_new_mesh() && {
     return std::move(*this);
 }
 
-MeshData MeshData::centred_and_scaled(double size) const {
+MeshData MeshData::centered_and_scaled(double size) const {
     expect_positive(size, "size");
     const glm::dvec3 extent = bounds().extent();
     const double largest = std::max({extent.x, extent.y, extent.z});
@@ -229,7 +231,7 @@ std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& positions,
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 a = corners[(i + 1) % 3] - corners[i];
             const glm::dvec3 b = corners[(i + 2) % 3] - corners[i];
-            // |a x b| is twice the area at every corner; atan2 keeps its digits at small angles.
+            // |a x b| is twice the area at every corner; atan2 stays accurate at small angles.
             sums[triangle[i]] += std::atan2(twice_area, glm::dot(a, b)) * normal;
         }
     }

@@ -30,29 +30,29 @@ inline Bounds transformed(const Bounds& bounds, const glm::dmat4& m) {
     return {center - reach, center + reach};
 }
 
-/// Names a mesh over all its updates, and lives as long as the mesh or any of its data does.
+/// Identifies a mesh across all its updates. It lives as long as the mesh or any of its data.
 struct MeshIdentity {};
 
-/// One value for each vertex, under the revision at which they were set.
+/// One value for each vertex, and the revision at which the values were set.
 template <class T>
 struct VertexStream {
     std::shared_ptr<const std::vector<T>> values;  ///< null: none
     std::uint64_t revision = 0;
 };
 
-/// Vertices to be set anew; those without a value stay as they are.
+/// New values of vertices; the mesh keeps its values where a member is absent.
 struct MeshUpdate {
     std::optional<std::vector<glm::vec3>> positions;
     std::optional<std::vector<glm::vec3>>
-        normals;                                   ///< empty: smooth ones, also after later updates
-    std::optional<std::vector<glm::vec2>> uvs;     ///< empty: none
+        normals;                                ///< empty: smooth normals, also after later updates
+    std::optional<std::vector<glm::vec2>> uvs;  ///< empty: none
     std::optional<std::vector<glm::vec4>> colors;  ///< empty: none
 
     bool empty() const { return !positions && !normals && !uvs && !colors; }
 };
 
-/// Indexed triangles with smooth normals, and texture coordinates and colours where there are some,
-/// as they are at one moment: nothing in it changes any more. Copies share the values.
+/// Indexed triangles with normals and, if the mesh has them, texture coordinates and colours, at
+/// one moment: the data never change. Copies share the values.
 class MeshData {
 public:
     template <class T>
@@ -79,12 +79,13 @@ public:
     const Bounds& bounds() const { return bounds_; }
     std::uint64_t revision() const { return revision_; }
 
-    /// Whether the normals are the smooth ones of the positions, and follow them.
+    /// Whether the normals are smooth normals, computed again whenever the positions change.
     bool smooth() const { return smooth_; }
     /// Whether any vertex colour has an alpha below one.
     bool translucent_colors() const { return translucent_colors_; }
 
-    // For copies of the data: the same triangles, and the streams of another revision set anew.
+    // The GPU cache uses these: the identity finds its copy of the mesh, and it uploads the streams
+    // whose revision differs.
 
     const std::shared_ptr<const MeshIdentity>& identity() const { return identity_; }
     const VertexStream<glm::vec3>& position_stream() const { return positions_; }
@@ -92,16 +93,16 @@ public:
     const VertexStream<glm::vec2>& uv_stream() const { return uvs_; }
     const VertexStream<glm::vec4>& color_stream() const { return colors_; }
 
-    /// The same mesh after an update. New positions without normals keep the normals that were
-    /// given, and have smooth ones computed anew.
+    /// The same mesh after an update. New positions without normals keep normals that were given;
+    /// smooth normals are computed again.
     /// @throws std::invalid_argument for another number of vertices, or a value that is not finite.
     MeshData updated(MeshUpdate update) const;
 
-    /// The same, as a mesh of its own.
+    /// The same data as a new mesh, with an identity of its own.
     MeshData of_new_mesh() &&;
 
-    /// The same, centred at the origin and scaled so that its largest extent is `size`.
-    MeshData centred_and_scaled(double size) const;
+    /// A copy that is centred at the origin and scaled so that its largest extent is `size`.
+    MeshData centered_and_scaled(double size) const;
 
 private:
     void set_positions(std::vector<glm::vec3> positions);

@@ -14,7 +14,7 @@ namespace cubecam::primitives {
 
 namespace {
 
-/// Enough for any picture; a count typed wrong must not eat the memory.
+/// Enough vertices for any picture; a mistyped count must not exhaust the memory.
 constexpr std::int64_t most_vertices = std::int64_t{1} << 24;
 
 void expect_count(int count, int least, const char* name) {
@@ -29,8 +29,8 @@ void expect_vertices(std::int64_t columns, std::int64_t rows) {
            std::to_string(vertices));
 }
 
-/// (sine, cosine) of step / steps of a full turn. Quarter turns come out exact, and step = steps is
-/// bit for bit step = 0, so that bounds are round numbers and seams are closed.
+/// (sine, cosine) of step / steps of a full turn. Quarter turns are exact, and step = steps gives
+/// the same bits as step = 0, so that bounds are round numbers and seams are closed.
 glm::dvec2 turn(int step, int steps) {
     const std::int64_t quarter_steps = 4 * std::int64_t{step % steps};
     if (quarter_steps % steps == 0) {
@@ -41,7 +41,7 @@ glm::dvec2 turn(int step, int steps) {
     return {std::sin(angle), std::cos(angle)};
 }
 
-/// Gathers vertices, then triangles between them.
+/// Collects vertices, then triangles between them.
 class Builder {
 public:
     std::uint32_t vertex(glm::dvec3 position, glm::dvec3 normal, glm::dvec2 uv) {
@@ -55,7 +55,7 @@ public:
         arrays_.triangles.emplace_back(a, b, c);
     }
 
-    /// Corners counter-clockwise, seen from outside.
+    /// The corners are counter-clockwise, seen from outside.
     void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
         triangle(a, b, c);
         triangle(a, c, d);
@@ -67,10 +67,10 @@ private:
     MeshData::Arrays arrays_;
 };
 
-/// The direction at a fraction of a turn round +Y that begins at -Z, passes +X where a viewer in
-/// front (at +Z) has the right-hand side, and so shows a picture unmirrored, its middle at +Z.
+/// The direction at step / steps of a turn round +Y that begins at -Z. A viewer in front, at +Z,
+/// sees a picture on it unmirrored, with its middle at +Z.
 glm::dvec3 around(int step, int steps) {
-    // Behind (step 0) is -Z; growing u turns to -X, then +Z, then +X.
+    // Step 0 is -Z; with growing u the direction turns to -X, then +Z, then +X.
     const glm::dvec2 t = turn(step, steps);
     return {0.0 - t.x, 0.0, 0.0 - t.y};
 }
@@ -82,7 +82,7 @@ void add_disc(Builder& builder, double radius, double height, double side, int s
     std::uint32_t last = 0;
     for (int i = 0; i <= segments; ++i) {
         const glm::dvec3 d = around(i % segments, segments);
-        // As on the plane: +X to the right; up in the picture is -Z from above, +Z from below.
+        // As on the plane, +X is to the right; up in the picture is -Z from above, +Z from below.
         const auto rim = builder.vertex({radius * d.x, height, radius * d.z}, normal,
                                         {0.5 + 0.5 * d.x, 0.5 - 0.5 * side * d.z});
         if (i > 0 && side > 0.0) builder.triangle(center, last, rim);
@@ -110,7 +110,8 @@ MeshData plane(double width, double depth) {
 
 MeshData box(glm::dvec3 size) {
     for (int axis = 0; axis < 3; ++axis) expect_positive(size[axis], "size");
-    // Normal, and what is up in the face's picture, seen from outside; right is up x normal.
+    // The normal of each face, and the direction that is up in its picture, seen from outside;
+    // right is up x normal.
     constexpr std::array<std::pair<glm::dvec3, glm::dvec3>, 6> faces = {{
         {{1, 0, 0}, {0, 1, 0}},
         {{-1, 0, 0}, {0, 1, 0}},
@@ -149,7 +150,8 @@ MeshData sphere(double radius, int segments, int rings) {
             const glm::dvec3 outward =
                 pole ? glm::dvec3(0.0, -polar.y, 0.0)
                      : polar.x * around(column, segments) + glm::dvec3(0.0, -polar.y, 0.0);
-            // A pole's vertices belong to one triangle each: the middle of its stretch of picture.
+            // Each vertex at a pole belongs to one triangle and has the u of that triangle's
+            // middle.
             const double shift = row == 0 ? -0.5 : row == rings ? 0.5 : 0.0;
             const double u = std::clamp((column + shift) / segments, 0.0, 1.0);
             builder.vertex(radius * outward, outward, {u, double(row) / rings});
@@ -217,7 +219,8 @@ MeshData cone(double radius, double height, int segments) {
         const auto b = builder.vertex({radius * outward.x, -half, radius * outward.z},
                                       slope(outward), {double(i) / segments, 0.0});
         if (i > 0) {
-            // The apex once for each triangle, with the normal of that triangle's middle.
+            // Each triangle has an apex vertex of its own, with the normal of the triangle's
+            // middle.
             const glm::dvec3 middle = around(2 * i - 1, 2 * segments);
             const auto apex =
                 builder.vertex({0.0, half, 0.0}, slope(middle), {(i - 0.5) / segments, 1.0});
@@ -239,7 +242,8 @@ MeshData torus(double radius, double tube, int segments, int sides) {
     expect_vertices(std::int64_t{segments} + 1, std::int64_t{sides} + 1);
     Builder builder;
     for (int side = 0; side <= sides; ++side) {
-        // From the inside, where the seam is, down, outside and up: v grows upwards outside.
+        // The circle starts at the inside, where the seam is, and goes down, outside and up: v
+        // grows upwards outside.
         const glm::dvec2 t = turn(side, sides);
         for (int i = 0; i <= segments; ++i) {
             const glm::dvec3 ring = around(i, segments);

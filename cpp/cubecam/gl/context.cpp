@@ -20,7 +20,7 @@ std::string candidate_in_words(const Candidate& candidate) {
 }
 
 [[noreturn]] void throw_attempts(const CandidateList& list) {
-    std::string text = "no OpenGL 4.5 context for " + list.asked + ":";
+    std::string text = "no OpenGL 4.5 context for " + list.choice + ":";
     for (std::size_t i = 0; i < list.attempts.size(); ++i) {
         text += "\n  " + std::to_string(i + 1) + ". " + list.attempts[i];
     }
@@ -29,11 +29,11 @@ std::string candidate_in_words(const Candidate& candidate) {
 }
 
 std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
-    // A GPU's driver may quietly render on the CPU: that is kept in hand while a GPU may still
-    // follow.
+    // The driver of a GPU may render on the CPU without saying so: such a context is kept in
+    // reserve while a GPU may still follow.
     std::unique_ptr<Context::Impl> second_best;
     for (const Candidate& candidate : list.candidates) {
-        // Nothing that follows is better than a software device in hand.
+        // No later candidate is better than the software context in reserve.
         if (second_best != nullptr && candidate.info.software) break;
         try {
             std::unique_ptr<Context::Impl> impl = start_context(candidate, debug);
@@ -63,7 +63,7 @@ std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
 }  // namespace
 
 Context::Context(const ContextOptions& options) {
-    egl::library();  // first, so that a missing library or a forked child is told plainly
+    egl::library();  // first, so that a missing library or a forked child gets a clear message
     impl_ = start_first(list_candidates(options.device), options.debug);
 }
 

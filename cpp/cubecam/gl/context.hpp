@@ -9,18 +9,16 @@
 #include <variant>
 #include <vector>
 
-struct GladGLContext;  // <glad/gl.h>, only needed by those who call GL
+struct GladGLContext;  // <glad/gl.h>; only files that call GL include it
 
 namespace cubecam::gl {
 
 /// Which device a context is made on:
-///  - "auto": the environment variable CUBECAM_DEVICE if it is set, else GPU devices, then the
-///  software
-///    device, then the surfaceless platform, then the default display;
-///  - "gpu", "software": the same, of that kind only;
+///  - "auto": the environment variable CUBECAM_DEVICE if it is set, otherwise GPU devices, then
+///    the software device, then the surfaceless platform, then the default display;
+///  - "gpu", "software": as "auto", but devices of this kind only;
 ///  - an index into list_devices(), a UUID, or a part of a name in any letter case. A string of
-///  digits
-///    is an index when there is such a device.
+///    digits is an index when there is such a device.
 using DeviceChoice = std::variant<std::string, int>;
 
 struct ContextOptions {
@@ -29,7 +27,7 @@ struct ContextOptions {
         false;  ///< collect the driver's messages (GL_KHR_debug), see take_debug_messages()
 };
 
-/// What the context's driver allows, queried once.
+/// The limits of the context's driver, queried once.
 struct Limits {
     int max_texture_size = 0;
     int max_3d_texture_size = 0;
@@ -44,7 +42,7 @@ struct Limits {
     int max_samples = 0;  ///< the least of GL_MAX_SAMPLES and GL_MAX_{COLOR,DEPTH}_TEXTURE_SAMPLES
     int max_color_attachments = 0;
     int max_draw_buffers = 0;
-    int max_texture_units = 0;          ///< combined
+    int max_texture_units = 0;          ///< of all stages together
     int max_vertex_storage_blocks = 0;  ///< storage buffers the vertex stage can read
     int max_fragment_storage_blocks = 0;
     std::int64_t max_storage_block_size = 0;  ///< bytes
@@ -56,19 +54,19 @@ struct Limits {
 
 /// An OpenGL 4.5 core context without a window, current on no thread between CurrentScopes.
 ///
-/// Any thread may use it, one at a time: whoever owns it holds a mutex. Contexts are independent of
-/// each other (nothing is shared), and several may be used in parallel.
+/// Any thread may use a context, one thread at a time: its owner holds a mutex. Contexts share
+/// nothing, so several may be used in parallel.
 class Context {
 public:
-    /// Throws ContextError that tells every attempt, why it failed, and what to install;
+    /// Throws ContextError that lists every attempt, why it failed, and what to install;
     /// std::invalid_argument for an empty device string.
     explicit Context(const ContextOptions& options = {});
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;
     ~Context();
 
-    /// The table of GL functions, at one address for the life of the context (moves included).
-    /// To be called only inside a CurrentScope.
+    /// The table of GL functions, at one address for the life of the context (moves included). Its
+    /// functions may be called only inside a CurrentScope.
     const GladGLContext& gl() const noexcept;
 
     const std::string& vendor() const noexcept;        ///< GL_VENDOR
@@ -86,11 +84,12 @@ public:
     bool has_extension(std::string_view name) const noexcept;
     const std::vector<std::string>& extensions() const noexcept;  ///< sorted
 
-    /// What the driver said since the last call (debug contexts only), one line each.
+    /// The driver's messages since the last call (debug contexts only), one line each.
     std::vector<std::string> take_debug_messages();
 
     /// From now on destroying objects of this context, and the context, touches neither GL nor EGL.
-    /// For an owner that cannot make the context current any more. What they held is lost.
+    /// An owner that cannot make the context current any more calls this; the GPU memory of the
+    /// objects is lost.
     void abandon() noexcept;
 
     struct Impl;
@@ -100,12 +99,12 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Makes a context current on this thread, and at its end puts back whatever was current before
-/// (context, surfaces, display and client API, another library's included), also when an exception
-/// passes. Scopes nest.
+/// Makes a context current on this thread. The destructor restores what was current before
+/// (context, surfaces, display and client API, also those of another library), also after an
+/// exception. Scopes can be nested.
 class CurrentScope {
 public:
-    /// Throws ContextError, and then leaves the thread as it was.
+    /// Throws ContextError; the thread's current context is then unchanged.
     explicit CurrentScope(const Context& context);
     ~CurrentScope();
 
@@ -118,7 +117,7 @@ private:
     alignas(void*) unsigned char saved_[6 * sizeof(void*)];
 };
 
-/// True in a process forked after EGL was opened: nothing there may touch EGL or GL.
+/// True in a process forked after EGL was opened: such a process must not call EGL or GL.
 bool in_forked_child() noexcept;
 
 }  // namespace cubecam::gl

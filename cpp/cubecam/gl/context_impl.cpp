@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_messages = 1000;
 
-// glad asks for one name at a time, without a user pointer.
+// glad calls this with one name at a time, without a user pointer.
 GLADapiproc load_function(const char* name) { return egl::library().get_proc_address(name); }
 
 std::string gl_text(const GladGLContext& gl, GLenum name) {
@@ -43,7 +43,7 @@ std::string message_line(GLenum type, GLuint id, GLenum severity, const GLchar* 
 void GLAD_API_PTR collect_message(GLenum, GLenum type, GLuint id, GLenum severity, GLsizei,
                                   const GLchar* text, const void* user) {
     if (severity == GL_DEBUG_SEVERITY_NOTIFICATION) return;
-    // The driver is C: nothing may be thrown through it.
+    // The driver is written in C: no exception may pass through it.
     try {
         auto& impl = *static_cast<Context::Impl*>(const_cast<void*>(user));
         const std::lock_guard lock(impl.messages_mutex);
@@ -71,7 +71,7 @@ Context::Impl::Impl(egl::RawContext made, DeviceInfo info, const egl::OpenDispla
     software = device.software;
     query_limits();
     if (debug) start_debug_output();
-    // A query above may be unknown to the driver; the first check of the caller must not report it.
+    // The driver may not know a query above; the caller's first check must not report that error.
     while (gl.GetError() != GL_NO_ERROR) {
     }
 }

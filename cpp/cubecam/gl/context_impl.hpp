@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What a Context holds. Private to gl/.
+/// The contents of a Context. Private to gl/.
 namespace cubecam::gl {
 
 struct Context::Impl {
@@ -36,7 +36,7 @@ struct Context::Impl {
     std::vector<std::string> messages;
 };
 
-/// One attempt. Throws ContextError whose text is the failed step.
+/// Makes one attempt to start a context. Throws ContextError whose text names the failed step.
 std::unique_ptr<Context::Impl> start_context(const Candidate& candidate, bool debug);
 
 }  // namespace cubecam::gl

@@ -42,8 +42,8 @@ std::string list_in_words(const std::vector<DeviceInfo>& devices) {
     return text;
 }
 
-/// "gpu" and "software" order and filter devices by what EGL says of them without starting a
-/// driver.
+/// Adds the candidates of "auto", "gpu" and "software", filtered and sorted by what EGL reports
+/// about a device before its driver starts.
 void add_by_kind(CandidateList& list) {
     std::string problem;
     const std::vector<egl::Device> devices = egl::query_devices(&problem);
@@ -75,7 +75,7 @@ void add_by_index(CandidateList& list, int index) {
     if (index < 0 || index >= static_cast<int>(devices.size())) {
         const std::string range =
             devices.empty() ? "" : "expected 0 to " + std::to_string(devices.size() - 1) + "; ";
-        throw ContextError("no " + list.asked + ": " + range + list_in_words(list_devices()));
+        throw ContextError("no " + list.choice + ": " + range + list_in_words(list_devices()));
     }
     const egl::Device device = devices[static_cast<std::size_t>(index)];
     list.candidates.push_back({egl::Platform::device, device, probe_extensions(device, index)});
@@ -93,7 +93,7 @@ void add_by_name(CandidateList& list, const std::string& name) {
     }
     if (list.candidates.empty()) {
         throw ContextError(
-            "no " + list.asked +
+            "no " + list.choice +
             ": expected \"auto\", \"gpu\", \"software\", an index, a UUID or a part of a name; " +
             list_in_words(infos));
     }
@@ -104,7 +104,7 @@ void add_by_name(CandidateList& list, const std::string& name) {
 CandidateList list_candidates(const DeviceChoice& choice) {
     CandidateList list;
     if (const int* index = std::get_if<int>(&choice)) {
-        list.asked = "device " + std::to_string(*index);
+        list.choice = "device " + std::to_string(*index);
         add_by_index(list, *index);
         return list;
     }
@@ -122,7 +122,7 @@ CandidateList list_candidates(const DeviceChoice& choice) {
             origin = " (from CUBECAM_DEVICE)";
         }
     }
-    list.asked = "device \"" + name + "\"" + origin;
+    list.choice = "device \"" + name + "\"" + origin;
 
     const std::string word = lower_case(name);
     if (word == "auto" || word == "gpu" || word == "software") {
@@ -132,7 +132,8 @@ CandidateList list_candidates(const DeviceChoice& choice) {
         add_by_kind(list);
         return list;
     }
-    // A name may be digits too ("4090"): it is an index only when there is such a device.
+    // A part of a name may also consist of digits ("4090"): it is an index only if there is such a
+    // device.
     const std::optional<int> index = to_index(name);
     if (index && *index < static_cast<int>(egl::query_devices().size())) {
         add_by_index(list, *index);

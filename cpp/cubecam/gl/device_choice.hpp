@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// From a DeviceChoice to what is tried, in order. Private to gl/.
+/// Turns a DeviceChoice into a list of attempts, in order. Private to gl/.
 namespace cubecam::gl {
 
 enum class DeviceKind { any, gpu, software };
@@ -15,17 +15,17 @@ enum class DeviceKind { any, gpu, software };
 struct Candidate {
     egl::Platform platform = egl::Platform::device;
     egl::Device device = nullptr;
-    DeviceInfo info;  ///< index -1 and no name beyond the device platform
+    DeviceInfo info;  ///< index -1 and no name if `platform` is not `device`
 };
 
 struct CandidateList {
-    std::string asked;  ///< the choice in words, for messages
+    std::string choice;  ///< the choice in words, for messages
     DeviceKind kind = DeviceKind::any;
     std::vector<Candidate> candidates;
-    std::vector<std::string> attempts;  ///< what already failed, such as the enumeration of devices
+    std::vector<std::string> attempts;  ///< failures so far, such as that of listing devices
 };
 
-/// Throws ContextError that lists the devices when there is none of that index, name or UUID.
+/// Throws ContextError that lists the devices if none has that index, name or UUID.
 CandidateList list_candidates(const DeviceChoice& choice);
 
 }  // namespace cubecam::gl

@@ -14,7 +14,7 @@ namespace cubecam::gl {
 
 namespace {
 
-// Here by value: for one function this file needs no GL header.
+// Copies of GL's constants: this file needs one function of GL and no header.
 constexpr unsigned gl_vendor = 0x1F00;
 constexpr unsigned gl_renderer = 0x1F01;
 constexpr unsigned gl_version = 0x1F02;
@@ -40,7 +40,7 @@ std::string format_uuid(const std::array<unsigned char, 16>& bytes) {
     return text;
 }
 
-/// Starts the driver: learns why it does not start, and the name where EGL does not tell it.
+/// Starts the driver to learn why it fails, and its name if EGL does not report it.
 void probe_driver(DeviceInfo& info, egl::Device device) {
     try {
         const egl::OpenDisplay display = egl::open_display(egl::Platform::device, device);
@@ -119,7 +119,7 @@ DeviceInfo probe_extensions(egl::Device device, int index) {
         if (egl.query_device_attrib(device, egl::cuda_device, &number))
             info.cuda_index = static_cast<int>(number);
     }
-    // The render node is the one that needs no rights to the screen.
+    // The render node is preferred: opening it needs no rights to the screen.
     if (has("EGL_EXT_device_drm_render_node")) info.drm_node = string(egl::drm_render_node_file);
     if (info.drm_node.empty() && has("EGL_EXT_device_drm"))
         info.drm_node = string(egl::drm_device_file);
@@ -135,7 +135,7 @@ egl::RawContext create_gl45(const egl::OpenDisplay& display, bool debug, DeviceI
         text = error.what();
     }
     try {
-        // Asked for the least core version, a driver answers with its newest.
+        // When the lowest core version is requested, a driver gives its newest one.
         const egl::RawContext older(display, 3, 2, false);
         const egl::Current current(older);
         complete_from_gl(info, gl_string(gl_vendor), gl_string(gl_renderer), gl_string(gl_version));
@@ -159,7 +159,7 @@ std::string explain_failure(const std::string& text, const DeviceInfo& device) {
 }
 
 std::vector<DeviceInfo> list_devices() {
-    // What a device is does not change; a driver that failed is asked again.
+    // The description of a working device does not change; a driver that failed is tried again.
     static std::mutex known_mutex;
     static auto* known = new std::map<egl::Device, DeviceInfo>();
 

@@ -16,7 +16,7 @@ namespace cubecam::gl {
 
 namespace {
 
-// Constant-initialised, trivially destroyed: nothing runs at import or at exit.
+// These are constant-initialised and trivially destroyed: no code runs at import or at exit.
 std::atomic<bool> library_opened{false};
 std::atomic<bool> forked_after_open{false};
 
@@ -66,8 +66,8 @@ void fill(Table& table, void* library) {
     resolve(library, table.get_current_surface, "eglGetCurrentSurface");
     resolve(library, table.get_current_display, "eglGetCurrentDisplay");
 
-    // A library may hand out a pointer for any name at all: an extension is used only where the
-    // extension strings say so.
+    // A library may return a pointer for any name, even an unknown one: an extension is used only
+    // if the extension strings contain it.
     const char* client = table.query_string(nullptr, extensions);
     if (has_name(client, "EGL_EXT_platform_base")) {
         resolve_extension(table, table.get_platform_display, "eglGetPlatformDisplayEXT");
@@ -101,12 +101,12 @@ const Table& library() {
 
     const char* chosen = std::getenv("CUBECAM_EGL_LIBRARY");
     const std::string name = chosen != nullptr && *chosen != '\0' ? chosen : default_library;
-    // From the opening on drivers may hold threads and locks, which a forked child finds without
-    // their owners.
+    // As soon as the library is open, drivers may hold threads and locks; a forked child would have
+    // the locks without the threads that own them.
     static const int registered = pthread_atfork(nullptr, nullptr, note_fork);
     if (registered != 0) throw ContextError("no memory left to register a fork handler");
     library_opened = true;
-    // Local: its symbols must not be seen by what the process loads later.
+    // RTLD_LOCAL: libraries that the process loads later must not see these symbols.
     void* handle = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) {
         library_opened = false;
@@ -115,7 +115,7 @@ const Table& library() {
                            (reason != nullptr ? reason : "the loader gives no reason") + ". " +
                            library_hint());
     }
-    // Never freed: contexts may be destroyed while the process ends.
+    // The table is never freed: contexts may be destroyed while the process ends.
     auto* table = new Table();
     try {
         fill(*table, handle);
@@ -172,7 +172,7 @@ std::string gpu_hint() {
         "/usr/share/glvnd/egl_vendor.d (in a container: NVIDIA_DRIVER_CAPABILITIES=all); other "
         "GPUs need Mesa's drivers and "
         "the right to open /dev/dri/renderD*.";
-    // GLVND then looks at no other driver, and a wrong path means none at all.
+    // If this variable is set, GLVND looks at no other driver; with a wrong path it finds none.
     const char* vendors = std::getenv("__EGL_VENDOR_LIBRARY_FILENAMES");
     if (vendors != nullptr)
         text += std::string(" __EGL_VENDOR_LIBRARY_FILENAMES is set: ") + vendors;

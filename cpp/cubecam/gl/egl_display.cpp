@@ -94,8 +94,8 @@ OpenDisplay open_display(Platform platform, Device device) {
     open.display = get_display(egl, platform, device);
     Int major = 0;
     Int minor = 0;
-    // Repeated for each context: it does nothing on a display that is initialised, and brings back
-    // one that another library has terminated.
+    // This call is repeated for each context: it does nothing if the display is initialised, and
+    // initialises it again if another library has terminated it.
     if (!egl.initialize(open.display, &major, &minor)) throw_egl(egl, "eglInitialize");
 
     const char* version_text = egl.query_string(open.display, version);
@@ -112,7 +112,7 @@ OpenDisplay open_display(Platform platform, Device device) {
 RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool debug)
     : display_(display.display) {
     const Table& egl = library();
-    // The bound API is the thread's, and another library may count on its own.
+    // The bound API belongs to the thread, and another library may depend on its own choice.
     const Enum api = egl.query_api();
     if (!egl.bind_api(opengl_api))
         throw_egl(egl, "eglBindAPI(EGL_OPENGL_API)", " (EGL without desktop OpenGL)");
@@ -159,7 +159,7 @@ RawContext::~RawContext() {
 
 Current::Current(const RawContext& context) : ours_(context.display()) {
     const Table& egl = library();
-    // In this order: what is current is asked for under the API that the thread had bound.
+    // The order matters: these calls report what is current for the API that the thread had bound.
     api_ = egl.query_api();
     display_ = egl.get_current_display();
     context_ = egl.get_current_context();
@@ -189,9 +189,10 @@ Current::~Current() {
 }
 
 void Current::restore() const noexcept {
-    const Table& egl = library();  // open since the constructor, which is the only way here
+    const Table& egl = library();  // open since the constructor: cannot throw
     if (context_ == nullptr || !egl.make_current(display_, draw_, read_, context_)) {
-        // Nothing was current, or it was destroyed meanwhile: ours must not stay in its place.
+        // No context was current before, or it has been destroyed since: ours must not stay
+        // current.
         egl.make_current(ours_, nullptr, nullptr, nullptr);
     }
     if (api_ != static_cast<Enum>(none)) egl.bind_api(api_);

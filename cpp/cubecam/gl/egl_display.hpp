@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-/// Devices, displays, contexts and what is current, as EGL sees them. Private to gl/.
-/// Failures are ContextErrors whose text is the call and the decoded error, to be put into a list
-/// of attempts.
+/// EGL's devices, displays, contexts and the current context. Private to gl/. Failures throw
+/// ContextError whose text is the call and the decoded error; the caller puts it into a list of
+/// attempts.
 namespace cubecam::gl::egl {
 
 enum class Platform { device, surfaceless, fallback };
 
 const char* platform_name(Platform platform) noexcept;
 
-/// EGL's devices, in its order; none when EGL cannot enumerate. `problem` (may be null) gets the
-/// reason.
+/// Returns EGL's devices, in EGL's order; none if EGL cannot list devices: `problem` (may be null)
+/// then gets the reason.
 std::vector<Device> query_devices(std::string* problem = nullptr);
 
 /// An initialised display. Displays are shared by the whole process (other libraries included) and
@@ -53,7 +53,8 @@ private:
     bool abandoned_ = false;
 };
 
-/// Makes a context current for its own life, then puts back what was current on the thread before.
+/// Makes a context current during its own life; the destructor restores what was current on the
+/// thread before.
 class Current {
 public:
     explicit Current(const RawContext& context);

@@ -5,8 +5,8 @@
 /// The part of EGL that this library uses: types, constants and signatures. Private to gl/.
 ///
 /// Values are those of the Khronos EGL registry (https://registry.khronos.org/EGL/, api/egl.xml).
-/// They are repeated here so that building needs no EGL headers, which a machine without a GL
-/// development package lacks.
+/// They are repeated here so that the build needs no EGL headers, which belong to a GL development
+/// package.
 namespace cubecam::gl::egl {
 
 using Boolean = unsigned int;
@@ -60,7 +60,8 @@ inline constexpr Int device_uuid = 0x335C;           // EGL_EXT_device_persisten
 inline constexpr Int driver_name = 0x335E;           // EGL_EXT_device_persistent_id
 inline constexpr Int renderer_name = 0x335F;         // EGL_EXT_device_query_name
 
-/// Pointers into the EGL library. The core ones are always there, the extensions' may be null.
+/// Pointers into the EGL library. Core functions are never null, functions of extensions may be
+/// null.
 struct Table {
     Proc (*get_proc_address)(const char*) = nullptr;
     Int (*get_error)() = nullptr;

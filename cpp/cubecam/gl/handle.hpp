@@ -12,8 +12,9 @@ bool in_forked_child() noexcept;
 
 /// Owner of one OpenGL object. Move-only; a moved-from or default-made handle is empty (id 0).
 ///
-/// It must die while its context is current (the owner of the context sees to that). In a forked
-/// child it does nothing; after Context::abandon() the table's delete functions do nothing.
+/// A handle must be destroyed while its context is current; the owner of the context ensures that.
+/// In a forked child the destructor does nothing; after Context::abandon() the table's delete
+/// functions do nothing.
 template <class Traits>
 class Handle {
 public:
@@ -51,7 +52,7 @@ public:
         return std::exchange(id_, 0u);
     }
 
-    /// Forgets the object without deleting it: it goes with its context.
+    /// Forgets the object without deleting it: OpenGL deletes it with its context.
     void abandon() noexcept { (void)release(); }
 
     /// Deletes the object, if there is one.

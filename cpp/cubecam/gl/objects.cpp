@@ -11,7 +11,7 @@ namespace cubecam::gl {
 
 namespace {
 
-// A lost context may report its error for ever.
+// A lost context may report its error again and again.
 constexpr int most_errors = 16;
 
 constexpr std::array error_names{"GL_INVALID_ENUM",
@@ -68,12 +68,12 @@ void check_gl(const GladGLContext& gl, std::string_view what) {
         if (!names.empty()) names += ", ";
         names += gl_error_name(error);
         out_of_memory = out_of_memory || error == GL_OUT_OF_MEMORY;
-        // Lost: every further call gives the same.
+        // After GL_CONTEXT_LOST every further call returns the same error.
         error = error == GL_CONTEXT_LOST ? GLenum{GL_NO_ERROR} : gl.GetError();
     }
     std::string text = std::string(what) + ": " + names;
     if (out_of_memory)
-        text += ": no memory left for this; ask for smaller sizes, fewer samples or fewer outputs";
+        text += ": no memory left for this; use smaller sizes, fewer samples or fewer outputs";
     throw GlError(text, first);
 }
 
@@ -135,7 +135,7 @@ Texture create_view_2d(const GladGLContext& gl, const Texture& array, int levels
     GLint format = 0;
     gl.GetTextureLevelParameteriv(array.id(), 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
     GLuint id = 0;
-    gl.GenTextures(1, &id);  // a view wants a name that is no texture yet
+    gl.GenTextures(1, &id);  // glTextureView needs a name without a texture
     Texture view(gl, id);
     gl.TextureView(id, GL_TEXTURE_2D, array.id(), static_cast<GLenum>(format), 0,
                    static_cast<GLuint>(levels), 0, 1);

@@ -45,7 +45,7 @@ ShaderHandle compile(const GladGLContext& gl, std::string_view name, const Expan
     gl.GetShaderInfoLog(shader.id(), log_length, &written, log.data());
     log.resize(static_cast<std::size_t>(written));
     const std::string explained = explain_shader_log(log, source);
-    // A source that has a title is somebody's own, and what they look for.
+    // A source with a title was written by the user, who looks for this name in the message.
     const auto own = std::find_if(
         source.files.begin(), source.files.end(), [&explained](const ShaderSource& file) {
             return !file.title.empty() && explained.starts_with(std::string(file.title) + ":");
@@ -100,7 +100,7 @@ GLint Program::location(std::string_view name) const {
     return place;
 }
 
-// Location -1 is silently ignored by OpenGL itself (GL 4.5 section 7.6.1).
+// OpenGL ignores location -1 (GL 4.5 section 7.6.1).
 void Program::set(std::string_view name, int value) const {
     handle_.gl().ProgramUniform1i(id(), location(name), value);
 }

@@ -17,22 +17,22 @@
 
 namespace cubecam::gl {
 
-/// What is put ahead of each stage, after `#version 450 core`.
+/// Lines that are put before the source of each stage, after `#version 450 core`.
 struct ShaderOptions {
     std::vector<std::string> extensions;  ///< `#extension <name> : require`
     std::vector<std::pair<std::string, std::string>>
         defines;  ///< `#define <name> <value>`, in this order
 };
 
-/// A stage's source with its includes resolved, and where each of its lines comes from. The lines
-/// are numbered through, without `#line`: Mesa forgets the string number of an expression (it says
-/// 0), so that errors in an included file would name the wrong one.
+/// A stage's source with its includes resolved, and the origin of each of its lines. The lines are
+/// numbered from the first to the last without `#line`: Mesa reports the string number 0 for every
+/// expression, so that an error in an included file would name the wrong file.
 struct ExpandedShader {
-    /// In place of a file's number: one of the lines put ahead.
+    /// Used as the number of the file for a line that was put before the source.
     static constexpr std::size_t ahead = static_cast<std::size_t>(-1);
 
     struct Line {
-        std::size_t file;    ///< its place in `files`, or `ahead`
+        std::size_t file;    ///< index into `files`, or `ahead`
         std::size_t number;  ///< from 1
     };
 
@@ -41,14 +41,15 @@ struct ExpandedShader {
     std::vector<Line> lines;
 };
 
-/// Resolves `#include "x.glsl"` (each file once a stage, names as in `sources`) and puts the
-/// options ahead. A `#version` line in a file is refused: the version is said in one place, here.
-/// Throws ShaderError for a missing file, naming the file and line that asked for it.
+/// Resolves `#include "x.glsl"` (each file once in a stage, with names as in `sources`) and puts
+/// the lines of the options before the source. A `#version` line in a file is refused, since this
+/// function writes it. Throws ShaderError for a missing file; it names the file and line of the
+/// include.
 ExpandedShader expand_shader(std::string_view name, const ShaderOptions& options,
                              std::span<const ShaderSource> sources);
 
-/// The driver's log with file names for string numbers, and the numbered source lines round each
-/// error.
+/// Returns the driver's log with file names in place of string numbers, and with the numbered
+/// source lines around each error.
 std::string explain_shader_log(std::string_view log, const ExpandedShader& shader);
 
 /// A linked program. Uniforms are set without binding it (glProgramUniform*).
@@ -56,8 +57,8 @@ class Program {
 public:
     Program() noexcept = default;
 
-    /// Compiles and links the named files; the ending tells the stage: .vert .tesc .tese .geom
-    /// .frag .comp. Throws ShaderError with the log and source lines.
+    /// Compiles and links the named files. The ending of a name determines its stage: .vert .tesc
+    /// .tese .geom .frag .comp. Throws ShaderError with the log and source lines.
     Program(const GladGLContext& gl, std::initializer_list<std::string_view> files,
             const ShaderOptions& options = {},
             std::span<const ShaderSource> sources = embedded_shaders());
@@ -71,11 +72,12 @@ public:
     void use() const { handle_.gl().UseProgram(id()); }
     void abandon() noexcept { handle_.abandon(); }
 
-    /// The location of a uniform, looked up once; -1 when there is none or nothing uses it.
+    /// The location of a uniform, looked up once; -1 if the program does not have or does not use
+    /// it.
     GLint location(std::string_view name) const;
 
-    /// Setting a uniform that the program does not use does nothing: variants compiled with other
-    /// defines keep the same caller.
+    /// Setting a uniform that the program does not use does nothing, so one caller serves variants
+    /// that are compiled with other defines.
     void set(std::string_view name, int value) const;
     void set(std::string_view name, unsigned value) const;
     void set(std::string_view name, float value) const;

@@ -1,4 +1,4 @@
-// The text side of programs: includes, options put ahead, and logs made readable. No OpenGL here.
+// The text of programs: includes, options and readable logs. This file does not use OpenGL.
 #include "cubecam/core/error.hpp"
 #include "cubecam/gl/program.hpp"
 
@@ -26,7 +26,7 @@ std::string_view skip_spaces(std::string_view text) {
     return start == std::string_view::npos ? std::string_view{} : text.substr(start);
 }
 
-/// The word after `#` when a line is the directive `word`, and what follows it.
+/// Returns what follows the directive `#word` if a line is one.
 std::optional<std::string_view> directive(std::string_view line, std::string_view word) {
     line = skip_spaces(line);
     if (!line.starts_with('#')) return std::nullopt;
@@ -38,7 +38,7 @@ std::optional<std::string_view> directive(std::string_view line, std::string_vie
     return skip_spaces(line);
 }
 
-/// Takes the next line off `text`, without its end.
+/// Removes the next line from `text` and returns it without its end.
 std::string_view take_line(std::string_view& text) {
     const std::size_t end = text.find('\n');
     std::string_view line = text.substr(0, end);
@@ -99,8 +99,8 @@ private:
 
 struct LogPlace {
     std::size_t line;       ///< of the expanded text
-    std::string_view rest;  ///< from behind the line number
-    std::string_view head;  ///< what stood before the string number, such as "ERROR: "
+    std::string_view rest;  ///< the text after the line number
+    std::string_view head;  ///< the text before the string number, such as "ERROR: "
 };
 
 std::optional<std::size_t> take_number(std::string_view& text) {

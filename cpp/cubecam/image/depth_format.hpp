@@ -6,8 +6,8 @@
 
 namespace cubecam {
 
-/// What a picture's depth and stencil buffer is, under OpenGL's names. Depth is reversed in all of
-/// them (docs/adr/0001).
+/// The format of a picture's depth and stencil buffer, with OpenGL's names. Depth is reversed in
+/// every format (docs/adr/0001).
 enum class DepthFormat : std::uint8_t {
     none,  ///< neither depth nor stencil
     depth_component16,
@@ -18,10 +18,10 @@ enum class DepthFormat : std::uint8_t {
     stencil_index8,  ///< a stencil without depth
 };
 
-/// @throws std::invalid_argument for a name it does not know, listing those it does; `none` has no
+/// @throws std::invalid_argument that lists the known names, for any other name; `none` has no
 /// name.
 DepthFormat parse_depth_format(std::string_view name);
-/// "none" for `none`.
+/// Returns the name of a format, "none" for `none`.
 std::string_view to_string(DepthFormat format);
 
 constexpr bool has_depth(DepthFormat format) {
@@ -33,8 +33,8 @@ constexpr bool has_stencil(DepthFormat format) {
            format == DepthFormat::stencil_index8;
 }
 
-/// Bits of a depth that is stored as a whole number, 0..2^bits - 1 for 0..1; 0 where it is a float
-/// or there is none.
+/// The bits of a depth that is stored as a whole number, 0..2^bits - 1 for 0..1; 0 if the depth is
+/// a float or does not exist.
 constexpr int fixed_depth_bits(DepthFormat format) {
     switch (format) {
         case DepthFormat::depth_component16: return 16;
@@ -44,7 +44,7 @@ constexpr int fixed_depth_bits(DepthFormat format) {
     }
 }
 
-/// Bytes of a texel on the GPU, as drivers pad them.
+/// The bytes of a texel on the GPU, with the padding of drivers.
 constexpr std::size_t texel_size(DepthFormat format) {
     switch (format) {
         case DepthFormat::none: return 0;

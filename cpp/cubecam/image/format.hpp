@@ -27,7 +27,7 @@ constexpr DType dtype_of(Format format) {
     return DType::float32;
 }
 
-/// Bytes of a texel on the GPU.
+/// The bytes of a texel on the GPU.
 constexpr std::size_t texel_size(Format format) {
     return format == Format::rgb565 ? 2 : 4 * dtype_size(dtype_of(format));
 }

@@ -9,7 +9,7 @@
 
 namespace cubecam {
 
-/// What a lookup outside 0..1 gives. glTF's names for the same: REPEAT, CLAMP_TO_EDGE.
+/// How a lookup outside 0..1 is treated; glTF's names are REPEAT and CLAMP_TO_EDGE.
 enum class Wrap : std::uint8_t { repeat, clamp };
 
 /// @throws std::invalid_argument for any other name.
@@ -19,7 +19,8 @@ std::string_view to_string(Wrap wrap);
 /// A picture that a material shows: (height, width, channels), row 0 on top, uv (0, 0) its
 /// bottom-left.
 ///
-/// Immutable: the renderer uploads it once, keyed by its revision, and threads may share it.
+/// An image never changes: the renderer uploads it once, with its revision as the key, and threads
+/// may share it.
 class Image {
 public:
     using Pixels = std::shared_ptr<const PixelBuffer>;
@@ -37,7 +38,8 @@ public:
     const Pixels& pixels() const { return pixels_; }
     std::uint64_t revision() const { return revision_; }
 
-    /// Whether any texel has an alpha below one: what shows such an image is drawn as translucent.
+    /// Whether any texel has an alpha below one: surfaces that show such an image are drawn as
+    /// translucent.
     bool translucent() const { return translucent_; }
 
 private:

@@ -22,8 +22,8 @@ constexpr const char* output_type_name(OutputType type) {
     return type == OutputType::float32 ? "float32" : type == OutputType::int32 ? "int32" : "uint8";
 }
 
-/// What a picture holds besides its colour, under the name that it was requested by. The values
-/// stand in the order of the picture's pixels, with `channels` numbers each.
+/// One output of a picture besides its colour, with the name that requested it. The values are in
+/// the order of the picture's pixels, with `channels` numbers for each pixel.
 struct OutputValues {
     std::string name;
     int channels = 1;
@@ -37,7 +37,7 @@ struct OutputValues {
 
 using OutputList = std::vector<OutputValues>;
 
-/// Null where the list has no output of this name.
+/// Returns the output of this name, or null if the list has none.
 inline const OutputValues* find_output(const OutputList& outputs, std::string_view name) {
     for (const OutputValues& output : outputs) {
         if (output.name == name) return &output;

@@ -1,5 +1,5 @@
-/// Types of pixels, and the way from one to another. Numbers are linear and raw: uint8 stands for
-/// value/255 wherever floats are asked for, as GL's normalised formats do.
+/// Types of pixels and their conversions. Numbers are linear and raw: as a float, a uint8 is
+/// value/255, as in GL's normalised formats.
 #pragma once
 
 #include <bit>
@@ -23,8 +23,8 @@ constexpr const char* dtype_name(DType dtype) {
     return dtype == DType::uint8 ? "uint8" : dtype == DType::float16 ? "float16" : "float32";
 }
 
-/// An allocator that leaves trivial elements unset. A vector's zeroes would touch every page on
-/// one thread before the workers fill it on all: a third of the time of small conversions.
+/// An allocator that leaves trivial elements uninitialized. A plain vector would set them to zero
+/// on one thread before all workers fill it, which takes a third of the time of small conversions.
 template <typename T>
 struct UninitializedAllocator : std::allocator<T> {
     template <typename U>
@@ -36,7 +36,7 @@ struct UninitializedAllocator : std::allocator<T> {
     UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}
     template <typename U>
     void construct(U* at) noexcept {
-        // GCC sets even `new Float4` to 0, so nothing at all is done where nothing needs to be.
+        // GCC sets even `new Float4` to 0, so trivial elements are not constructed at all.
         if constexpr (!std::is_trivially_default_constructible_v<U>) {
             ::new (static_cast<void*>(at)) U;
         }
@@ -47,13 +47,13 @@ struct UninitializedAllocator : std::allocator<T> {
     }
 };
 
-/// Raw pixels, and arrays of floats or ids, as everyone keeps them. New elements are NOT zero.
+/// The vector type of raw pixels and of arrays of floats or ids. New elements are NOT zero.
 template <typename T>
 using Buffer = std::vector<T, UninitializedAllocator<T>>;
 using PixelBuffer = Buffer<std::byte>;
 
 /// binary16 to binary32, exact for every bit pattern (IEEE 754-2008; after F. Giesen, "half to
-/// float done quic", 2012). Only normal floats are met on the way, so flush-to-zero cannot hurt.
+/// float done quic", 2012). The computation uses only normal floats, so flush-to-zero does no harm.
 inline float half_to_float(std::uint16_t half) {
     constexpr std::uint32_t exponent_mask = 0x7c00u << 13;
     std::uint32_t bits = (half & 0x7fffu) << 13;
@@ -67,7 +67,7 @@ inline float half_to_float(std::uint16_t half) {
     return std::bit_cast<float>(bits | (half & 0x8000u) << 16);
 }
 
-/// binary32 to binary16, to nearest, ties to even; 65520 and above give inf, NaN stays NaN.
+/// binary32 to binary16, rounded to nearest, ties to even; 65520 and above give inf, NaN stays NaN.
 inline std::uint16_t float_to_half(float value) {
     const std::uint32_t all = std::bit_cast<std::uint32_t>(value);
     const std::uint32_t sign = all & 0x80000000u;
@@ -85,7 +85,7 @@ inline std::uint16_t float_to_half(float value) {
     return static_cast<std::uint16_t>(half | (sign >> 16));
 }
 
-/// To nearest, clamped to 0..1; NaN gives 0 (GL 4.6 section 2.3.5.2).
+/// Rounds to nearest after clamping to 0..1; NaN gives 0 (GL 4.6 section 2.3.5.2).
 inline std::uint8_t float_to_unorm8(float value) {
     const float clamped = value > 0.0f ? (value < 1.0f ? value : 1.0f) : 0.0f;
     return static_cast<std::uint8_t>(clamped * 255.0f + 0.5f);
@@ -93,7 +93,8 @@ inline std::uint8_t float_to_unorm8(float value) {
 
 inline float unorm8_to_float(std::uint8_t value) { return static_cast<float>(value) / 255.0f; }
 
-/// `count` values from `pixels` (at least 1-, 2- or 4-byte aligned, as the type asks) to floats.
+/// Converts `count` values from `pixels` to floats. `pixels` has the alignment of its type: 1, 2 or
+/// 4 bytes.
 inline void pixels_to_floats(DType dtype, const std::byte* pixels, std::size_t count, float* to) {
     if (dtype == DType::uint8) {
         const auto* from = reinterpret_cast<const std::uint8_t*>(pixels);
@@ -107,7 +108,8 @@ inline void pixels_to_floats(DType dtype, const std::byte* pixels, std::size_t c
     }
 }
 
-/// `count` floats to pixels of a type; the inverse of pixels_to_floats up to rounding.
+/// Converts `count` floats to pixels of a type; the inverse of pixels_to_floats except for
+/// rounding.
 inline void floats_to_pixels(DType dtype, const float* from, std::size_t count, std::byte* pixels) {
     if (dtype == DType::uint8) {
         auto* to = reinterpret_cast<std::uint8_t*>(pixels);

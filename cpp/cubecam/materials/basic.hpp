@@ -5,7 +5,7 @@
 
 namespace cubecam {
 
-/// Unlit: color * map * vertex colour * cubemap at the object-space position.
+/// An unlit surface: color * map * vertex colour * cubemap at the object-space position.
 struct Basic {
     glm::vec4 color{1.0F};
     MapSource map;

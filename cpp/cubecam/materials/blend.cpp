@@ -8,7 +8,7 @@
 namespace cubecam {
 namespace {
 
-// In the order of the enums.
+// The names are in the order of the enums.
 constexpr std::string_view blend_names[] = {"opaque",   "alpha",    "alpha_keep",
                                             "additive", "multiply", "premultiplied"};
 constexpr std::string_view factor_names[] = {"zero",

@@ -5,8 +5,8 @@
 
 namespace cubecam {
 
-/// How a surface's colour joins what is drawn already; S is the surface, D what is there, a is S's
-/// alpha.
+/// How a surface's colour is combined with the colour already drawn: S is the surface's colour, D
+/// the one already drawn, a is S's alpha.
 enum class Blend : std::uint8_t {
     opaque,         ///< S, with alpha 1
     alpha,          ///< a S + (1 - a) D; alpha a + (1 - a) D
@@ -14,14 +14,14 @@ enum class Blend : std::uint8_t {
     additive,       ///< a S + D; alpha a + D (T. Porter and T. Duff's "plus")
     multiply,       ///< (1 - a + a S) D; alpha D
     premultiplied,  ///< S + (1 - a) D, for colours that are multiplied by their alpha already
-    factors,        ///< as SurfaceOptions::blend_factors says
+    factors,        ///< by SurfaceOptions::blend_factors
 };
 
 /// @throws std::invalid_argument for any other name, and for "factors", which has no name.
 Blend parse_blend(std::string_view name);
 std::string_view to_string(Blend blend);
 
-/// What a colour or an alpha is multiplied with before it is blended (GL 4.5, table 17.2).
+/// The factor of a colour or an alpha before it is blended (GL 4.5, table 17.2).
 enum class BlendFactor : std::uint8_t {
     zero,
     one,
@@ -36,17 +36,18 @@ enum class BlendFactor : std::uint8_t {
     src_alpha_saturate,
 };
 
-/// What becomes of both products (GL 4.5, table 17.1). min and max take S and D as they are.
+/// How the two products are combined (GL 4.5, table 17.1). min and max take S and D without
+/// factors.
 enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
 
-/// `name` is the argument that the word was given for. @throws std::invalid_argument for any other
-/// word.
+/// `name` is the argument that has this word as its value. @throws std::invalid_argument for any
+/// other word.
 BlendFactor parse_blend_factor(std::string_view word, std::string_view name);
 BlendEquation parse_blend_equation(std::string_view word);
 std::string_view to_string(BlendFactor factor);
 std::string_view to_string(BlendEquation equation);
 
-/// Blending as OpenGL has it: src * S and dst * D, added or otherwise.
+/// Blending as in OpenGL: src * S and dst * D, combined by the equation.
 struct BlendFactors {
     BlendFactor src = BlendFactor::one;
     BlendFactor dst = BlendFactor::zero;

@@ -24,7 +24,7 @@ struct Glass {
     };
 
     void check() const {
-        // The shader gets its inverse.
+        // The shader gets 1 / ior, which must be finite, too.
         if (!(ior > 0.0F && std::isfinite(ior) && std::isfinite(1.0F / ior))) {
             expect(false, "ior finite and above 0", describe(ior));
         }

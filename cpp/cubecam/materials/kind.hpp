@@ -15,18 +15,18 @@
 #include <type_traits>
 #include <utility>
 
-/// What a kind of material is: a plain struct that says everything about itself. CONTRIBUTING.md
-/// has the recipe; basic.hpp, phong.hpp, mirror.hpp and glass.hpp are examples.
+/// A kind of material is a plain struct that declares everything about itself. CONTRIBUTING.md has
+/// the recipe; basic.hpp, phong.hpp, mirror.hpp and glass.hpp are examples.
 namespace cubecam {
 
 /// Whether the alpha of a map multiplies the alpha of the surface.
 enum class MapAlpha : bool { ignored, counts };
 
-/// What a material does with the vertex colours of a mesh that has some.
+/// How a material uses the vertex colours of a mesh.
 enum class VertexColors : std::uint8_t {
     ignored,
-    color,            ///< reads them; their alpha makes no surface translucent
-    color_and_alpha,  ///< reads them; an alpha below 1 makes the surface translucent
+    color,            ///< it reads them; their alpha makes no surface translucent
+    color_and_alpha,  ///< it reads them; an alpha below 1 makes the surface translucent
 };
 
 /// One parameter of a kind: its name in Python and GLSL, the member that holds it, and the
@@ -44,7 +44,7 @@ struct Field {
         : name(name_), member(member_), doc(doc_) {}
 };
 
-/// A map, placed by the uvs: its field also says what becomes of its alpha.
+/// The field of a map, which lies on the surface by its uvs, also says how its alpha is used.
 template <class Kind>
 struct Field<Kind, MapSource> {
     using Type = MapSource;
@@ -63,21 +63,21 @@ Field(const char*, Value Kind::*, const char*) -> Field<Kind, Value>;
 template <class Kind>
 Field(const char*, MapSource Kind::*, MapAlpha, const char*) -> Field<Kind, MapSource>;
 
-/// A define of the material's shader that is set, or not. Each set of switches is a program of its
-/// own: llvmpipe runs both sides of a branch.
+/// A define of the material's shader that is on or off. Each combination of switches is a separate
+/// program, since llvmpipe runs both sides of a branch.
 struct Switch {
     const char* name;
     bool on;
 };
 
-/// The GLSL that a user wrote, where a material has some; the pointers lead into the material.
+/// The GLSL that a user wrote for a material; the pointers point into the material.
 struct UserCode {
     const UserSource* fragment = nullptr;
     const UserSource* vertex = nullptr;
     const ShaderInputs* inputs = nullptr;
-    /// How far `vertex` moves a vertex at most, in the mesh's units; none: unknown.
+    /// The largest distance by which `vertex` moves a vertex, in the mesh's units; none: unknown.
     std::optional<float> displacement;
-    /// Where the textures of `inputs` start among the textures of the material.
+    /// The index of the first texture of `inputs` among the textures of the material.
     std::size_t first_texture = 0;
 
     bool moves_vertices() const { return !vertex->text.empty(); }
@@ -148,9 +148,9 @@ struct Members;
 
 template <class Kind, std::size_t... index>
 struct Members<Kind, std::index_sequence<index...>> {
-    /// Whether the struct takes the fields' values, in their order.
+    /// Whether the fields' values, in their order, initialize the struct.
     static constexpr bool fit = requires { Kind{std::declval<FieldType<Kind, index>>()...}; };
-    /// Whether the struct takes one more: a member that no field names.
+    /// Whether the struct takes one more value, so that some member has no field.
     static constexpr bool more = requires { Kind{std::declval<FieldType<Kind, index>>()..., {}}; };
     static constexpr std::size_t textures =
         ((std::size_t{std::same_as<FieldType<Kind, index>, MapSource> ||
@@ -164,7 +164,7 @@ struct Members<Kind, std::index_sequence<index...>> {
 template <class Kind>
 using MembersOf = Members<Kind, std::make_index_sequence<field_count<Kind>>>;
 
-/// Whether two fields name one member, or have one name.
+/// Whether all fields have different names and different members.
 template <class Kind>
 constexpr bool fields_differ() {
     return std::apply(
@@ -193,7 +193,7 @@ concept SaysUserCode = !MembersOf<Kind>::user_code || HasUserCode<Kind>;
 
 }  // namespace kinds
 
-/// A complete kind of material. `kinds::check_kind` says in words what one lacks.
+/// A complete kind of material. For an incomplete one, `kinds::check_kind` reports what is missing.
 template <class Kind>
 concept MaterialKind =
     kinds::HasName<Kind> && kinds::HasShader<Kind> && kinds::HasFields<Kind> &&
@@ -204,7 +204,8 @@ concept MaterialKind =
 
 namespace kinds {
 
-/// Refuses to compile where `Kind` is not a MaterialKind, with a sentence on what is missing.
+/// Does not compile unless `Kind` is a MaterialKind; the compiler's message then says what is
+/// missing.
 template <class Kind>
 constexpr bool check_kind() {
     static_assert(HasName<Kind>, "a material kind needs its name in Python: "
@@ -227,8 +228,8 @@ constexpr bool check_kind() {
     }
     static_assert(HasCheck<Kind>, "a material kind needs: void check() const, which throws "
                                   "std::invalid_argument for a value out of its range");
-    static_assert(HasAlpha<Kind>, "a material kind needs: float alpha() const, by which its "
-                                  "colours multiply the opacity");
+    static_assert(HasAlpha<Kind>, "a material kind needs: float alpha() const, the factor of its "
+                                  "colours for the opacity");
     static_assert(HasConstants<Kind>,
                   "a material kind needs the numbers of its uniform block: "
                   "std::array<glm::vec4, N> constants(const glm::vec3& ambient) const");

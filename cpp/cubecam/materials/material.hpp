@@ -13,14 +13,14 @@
 
 namespace cubecam {
 
-/// What every material has.
+/// The options that every material has.
 struct SurfaceOptions {
     float opacity = 1.0F;  ///< 0..1, times the colour's alpha
     bool double_sided = false;
-    std::optional<Blend> blend;       ///< none: alpha where anything is translucent, else opaque
-    BlendFactors blend_factors;       ///< where blend is Blend::factors
-    std::optional<bool> depth_write;  ///< none: what is opaque writes depth
-    bool depth_test = true;           ///< hidden by what is nearer
+    std::optional<Blend> blend;       ///< none: alpha if anything is translucent, else opaque
+    BlendFactors blend_factors;       ///< if blend is Blend::factors
+    std::optional<bool> depth_write;  ///< none: opaque surfaces write depth
+    bool depth_test = true;           ///< nearer surfaces hide it
     glm::bvec4 color_write{true};     ///< channels of the colour that are written
     std::optional<Stencil> stencil;   ///< none: neither tested nor written
 
@@ -41,7 +41,8 @@ struct MaterialValue {
 /// Throws std::invalid_argument for an option that is out of its range or not finite.
 void check(const MaterialValue& value);
 
-/// How a surface answers light. Shared by any number of nodes; setters are thread-safe and checked.
+/// How a surface reflects light. Any number of nodes may share a material; setters are thread-safe
+/// and check their values.
 class Material {
 public:
     using State = Versioned<MaterialValue>::State;
@@ -67,7 +68,7 @@ private:
     Versioned<MaterialValue> value_;
 };
 
-/// One class for each kind, so that C++ and Python users name what they mean.
+/// Each kind has a class of its own, so that C++ and Python users can name it.
 template <class Kind>
 class MaterialOf : public Material {
 public:
@@ -94,8 +95,8 @@ private:
     }
 };
 
-/// Whether the material alone makes a surface translucent. Its maps and the mesh's colours may do
-/// so, too.
+/// Whether the material alone makes a surface translucent. Its maps and the mesh's colours may also
+/// do so.
 bool translucent(const MaterialValue& value);
 
 }  // namespace cubecam

@@ -5,8 +5,8 @@
 
 namespace cubecam {
 
-/// env_weight * tint * environment(R) + color_weight * color; with `f0`, env_weight times Schlick's
-/// term.
+/// env_weight * tint * environment(R) + color_weight * color; with `f0`, env_weight is multiplied
+/// by Schlick's term.
 struct Mirror {
     glm::vec4 tint{1.0F};
     float env_weight = 1.0F;

@@ -16,11 +16,12 @@
 
 namespace cubecam {
 
-/// Textures of one material, besides a user's: the shaders have units 2 to 15 for them.
+/// The largest number of textures of one material, except those of a user's shader: the shaders use
+/// units 2 to 15 for them.
 inline constexpr std::size_t most_material_textures = 14;
 
-/// What all materials of a kind have in common. There is one object for each kind, so that pointers
-/// tell kinds apart.
+/// What all materials of a kind have in common. Each kind has one object, so that pointers
+/// distinguish kinds.
 struct KindInfo {
     std::string_view name;                ///< in Python: "MirrorMaterial"
     std::string_view shader;              ///< the GLSL file: "materials/mirror.glsl"
@@ -28,24 +29,24 @@ struct KindInfo {
     std::span<const char* const> fields;  ///< names of the parameters
 };
 
-/// A texture that a material looks up, by the name of its field or of a user's sampler. The pointer
-/// leads into the material's own model, so that nothing is held twice (scene/cycle_collector.cpp
-/// counts).
+/// A texture that a material looks up, with the name of its field or of a user's sampler. The
+/// pointer points into the material's own model, so that no texture has a second owner
+/// (scene/cycle_collector.cpp counts owners).
 struct NamedTexture {
     std::string_view name;
     std::variant<const MapSource*, const CubeSource*> source;
     bool placed_by_uv;  ///< shown only on meshes that have uvs
-    bool alpha_counts;  ///< an alpha of it below 1 makes the surface translucent
+    bool alpha_counts;  ///< its alpha, if below 1, makes the surface translucent
 };
 
-/// All that drawing asks of a material, found once when the material changes.
+/// Everything that drawing needs to know about a material, computed once when the material changes.
 struct MaterialTraits {
     const KindInfo* kind;
-    float alpha;                            ///< of its colours, without the opacity
+    float alpha;                            ///< the alpha of its colours, without the opacity
     std::vector<const char*> switch_names;  ///< every switch of the kind, set or not
     std::uint32_t switches = 0;             ///< bit i: switch_names[i] is set
-    std::vector<NamedTexture> textures;     ///< in the order of the fields, none left out
-    bool textured = false;                  ///< whether any of them shows something, or is a user's
+    std::vector<NamedTexture> textures;     ///< all of them, in the order of the fields
+    bool textured = false;                  ///< whether any of them is set, or is a user's
     bool uses_environment;
     bool uses_lights;
     VertexColors vertex_colors;
@@ -54,8 +55,8 @@ struct MaterialTraits {
     bool moves_vertices() const { return user_code && user_code->moves_vertices(); }
 };
 
-/// The parameters of a material of any kind. Never changes, so that any number of scenes and
-/// snapshots share it.
+/// The parameters of a material of any kind. A model never changes, so that any number of scenes
+/// and snapshots share it.
 class MaterialModel {
 public:
     virtual ~MaterialModel() = default;
@@ -64,11 +65,11 @@ public:
 
     const MaterialTraits& traits() const { return traits_; }
 
-    /// Writes what the shader file reads as material[i]. `ambient` is what the scene's ambient
-    /// lights send to every surface; `to` has `traits().kind->constants` elements.
+    /// Writes the numbers that the shader file reads as material[i]. `ambient` is the sum of the
+    /// scene's ambient lights; `to` has `traits().kind->constants` elements.
     virtual void write_constants(const glm::vec3& ambient, std::span<glm::vec4> to) const = 0;
 
-    /// Whether both are of one kind and have equal parameters.
+    /// Whether both models have the same kind and equal parameters.
     virtual bool equals(const MaterialModel& other) const = 0;
 
 protected:
@@ -77,7 +78,7 @@ protected:
     MaterialTraits traits_{};
 };
 
-/// The one model class: `Kind` says everything else.
+/// The only model class; `Kind` defines everything else.
 template <class Kind>
 class MaterialModelOf final : public MaterialModel {
     static_assert(kinds::check_kind<Kind>());

@@ -40,8 +40,8 @@ struct Phong {
         expect_positive(shininess, "shininess");
     }
     float alpha() const { return color.a; }
-    /// Factors that no texture changes are multiplied here, once. The model has an ambient light of
-    /// its own, of radiance 1.
+    /// The factors that no texture changes are multiplied here once. The model has an ambient light
+    /// of its own, with radiance 1.
     std::array<glm::vec4, 2> constants(const glm::vec3& ambient) const {
         const glm::vec3 rgb(color);
         return {glm::vec4(ka * rgb * (1.0F + ambient), shininess), glm::vec4(kd * rgb, ks)};

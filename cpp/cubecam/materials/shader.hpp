@@ -5,14 +5,14 @@
 
 namespace cubecam {
 
-/// What a user's own GLSL says: `shade(Surface)` for every fragment and, if there is one,
+/// A material in a user's own GLSL: `shade(Surface)` for every fragment and, optionally,
 /// `vertex(inout Vertex)` for every vertex (shaders/include/scene.glsl).
 struct Shader {
     UserSource fragment;
     UserSource vertex;  ///< empty: vertices stay where they are
     ShaderInputs inputs;
-    /// How far `vertex` moves a vertex at most, in the mesh's units; none: nobody knows, so nothing
-    /// is culled.
+    /// The largest distance by which `vertex` moves a vertex, in the mesh's units; none: unknown,
+    /// so the node is never culled.
     std::optional<float> displacement;
 
     static constexpr const char* name = "ShaderMaterial";
@@ -38,11 +38,15 @@ struct Shader {
         cubecam::check(inputs);
         if (displacement) expect_not_negative(*displacement, "displacement");
     }
-    float alpha() const { return 1.0F; }  // the alpha that shade() returns only a driver knows
+    float alpha() const { return 1.0F; }  // the alpha of shade() is known only when it runs
     std::array<glm::vec4, 0> constants(const glm::vec3&) const { return {}; }
     std::array<Switch, 0> switches() const { return {}; }
     bool uses_environment() const {
-        return mentions(fragment.text, "environment") || mentions(fragment.text, "environment_lod");
+        for (const char* word : {"environment", "environment_lod", "environment_levels",
+                                 "environment_position", "environment_is_local"}) {
+            if (mentions(fragment.text, word)) return true;
+        }
+        return false;
     }
     bool uses_lights() const {
         return mentions(fragment.text, "sample_light") || mentions(fragment.text, "phong");

@@ -9,7 +9,7 @@ namespace cubecam {
 
 namespace {
 
-// In the order of the enums.
+// The names are in the order of the enums.
 constexpr std::array<std::string_view, 8> func_names = {"never",   "less",     "equal",  "lequal",
                                                         "greater", "notequal", "gequal", "always"};
 constexpr std::array<std::string_view, 8> op_names = {"keep",      "zero", "replace",   "incr",

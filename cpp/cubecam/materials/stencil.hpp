@@ -18,12 +18,12 @@ enum class StencilFunc : std::uint8_t {
     always
 };
 
-/// What becomes of the stored number. incr and decr stop at 255 and 0, incr_wrap and decr_wrap go
-/// round.
+/// How the stored number changes. incr and decr stop at 255 and 0, incr_wrap and decr_wrap wrap
+/// around.
 enum class StencilOp : std::uint8_t {
     keep,
     zero,
-    replace,  ///< by the reference
+    replace,  ///< the reference is stored
     incr,
     incr_wrap,
     decr,
@@ -31,8 +31,8 @@ enum class StencilOp : std::uint8_t {
     invert
 };
 
-/// A stencil test and what drawing does to the stencil buffer, front and back faces alike
-/// (OpenGL 4.6, section 17.3.3).
+/// A stencil test, and how drawing changes the stencil buffer; front and back faces are treated
+/// alike (OpenGL 4.6, section 17.3.3).
 struct Stencil {
     StencilFunc func = StencilFunc::always;
     std::uint8_t reference = 0;
@@ -40,12 +40,12 @@ struct Stencil {
     std::uint8_t write_mask = 255;  ///< bits that the operations may change
     StencilOp fail = StencilOp::keep;
     StencilOp depth_fail = StencilOp::keep;
-    StencilOp depth_pass = StencilOp::keep;  ///< also where there is no depth test
+    StencilOp depth_pass = StencilOp::keep;  ///< also without a depth test
 
     bool operator==(const Stencil&) const = default;
 };
 
-/// Both throw std::invalid_argument "NAME: expected ..., got ..." for a word they do not know.
+/// Both functions throw std::invalid_argument "NAME: expected ..., got ..." for an unknown word.
 StencilFunc parse_stencil_func(std::string_view word, std::string_view name);
 StencilOp parse_stencil_op(std::string_view word, std::string_view name);
 std::string_view to_string(StencilFunc func);

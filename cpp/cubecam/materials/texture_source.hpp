@@ -10,11 +10,10 @@ class Image;
 class Probe;
 class RenderTexture;
 
-/// A cubemap that a surface looks up: none of its own, a fixed one, or a probe that follows the
-/// scene.
+/// The cubemap that a surface looks up: none, a fixed one, or a probe that follows the scene.
 using CubeSource = std::variant<std::monostate, std::shared_ptr<CubeMap>, std::shared_ptr<Probe>>;
 
-/// A 2D picture that a surface shows by its uvs: none, a fixed one, or one drawn from a scene.
+/// The 2D picture that a surface shows by its uvs: none, a fixed one, or one drawn from a scene.
 using MapSource =
     std::variant<std::monostate, std::shared_ptr<const Image>, std::shared_ptr<RenderTexture>>;
 

@@ -10,7 +10,8 @@ namespace {
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// "color", and for members and elements "lamps[2].color".
+/// Refuses a name that GLSL cannot have. Valid names are "color" and, for members and elements,
+/// "lamps[2].color".
 void check_name(const std::string& name, const char* what) {
     const bool right = !name.empty() && std::isdigit(static_cast<unsigned char>(name[0])) == 0 &&
                        is_word(name[0]) && std::all_of(name.begin(), name.end(), [](char c) {

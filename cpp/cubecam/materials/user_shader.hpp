@@ -11,8 +11,7 @@
 
 namespace cubecam {
 
-/// GLSL that a user wrote. `path` is the file it was read from, empty if there is none; messages
-/// name it.
+/// GLSL that a user wrote. `path` is the file that it was read from, or empty; messages name it.
 struct UserSource {
     std::string text;
     std::string path;
@@ -20,7 +19,7 @@ struct UserSource {
     bool operator==(const UserSource&) const = default;
 };
 
-/// The numbers of one uniform in C order: a matrix's rows follow each other.
+/// The numbers of one uniform in C order: the rows of a matrix follow each other.
 struct UniformValue {
     std::vector<double> numbers;
     std::vector<int> shape;  ///< empty: one number
@@ -28,11 +27,11 @@ struct UniformValue {
     bool operator==(const UniformValue&) const = default;
 };
 
-/// What a user's shader looks up: by a sampler2D or a samplerCube.
+/// A texture that a user's shader looks up, by a sampler2D or a samplerCube.
 using TextureSource = std::variant<MapSource, CubeSource>;
 
-/// What a user's shader gets by name. Which of them it declares, and as what, only a driver knows:
-/// that is checked when it is drawn.
+/// The values that a user's shader gets by name. Only a driver knows which names the shader
+/// declares, and their types: they are checked when the shader is used for drawing.
 struct ShaderInputs {
     std::map<std::string, UniformValue> uniforms;
     std::map<std::string, TextureSource> textures;
@@ -44,7 +43,7 @@ struct ShaderInputs {
 /// a texture.
 void check(const ShaderInputs& inputs);
 
-/// Whether `word` stands in GLSL text as a word of its own, in a comment too.
+/// Whether GLSL text contains `word` as a whole word, also in a comment.
 bool mentions(std::string_view text, std::string_view word);
 
 }  // namespace cubecam

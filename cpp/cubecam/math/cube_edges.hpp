@@ -8,15 +8,16 @@
 
 namespace cubecam {
 
-/// Sides of a face: columns before 0, columns from N, rows before 0, rows from N.
+/// The sides of a face: left is before column 0, right is from column N on, top is before row 0,
+/// bottom is from row N on.
 enum class Side : int { left, right, top, bottom };
 
-/// What lies beyond one side of a face.
+/// The neighbour beyond one side of a face.
 struct CubeEdge {
     Face face;
-    bool along_rows;  ///< the shared edge is a column there: walking along it changes the row
+    bool along_rows;  ///< the shared edge is a column of the neighbour, not a row
     bool at_end;      ///< the edge is the neighbour's last column (row), not its first
-    bool reversed;    ///< walking along it, the neighbour's row (column) shrinks
+    bool reversed;    ///< moving along the edge, the neighbour's row (column) shrinks
 };
 
 namespace detail {
@@ -62,9 +63,9 @@ struct TexelPlace {
     int column;
 };
 
-/// The texel that lies where (row, column) would be, of which exactly one is outside 0..N-1, were
-/// the neighbour unfolded into the face's plane: -1 and N are the neighbour's edge, -2 and N + 1
-/// the texels behind it, down to its far edge.
+/// The texel at (row, column) if the neighbour were unfolded into the face's plane. Exactly one of
+/// row and column is outside 0..N-1: -1 and N are the texels at the neighbour's edge, -2 and N + 1
+/// those behind them, as far as its opposite edge.
 constexpr TexelPlace texel_beyond_edge(Face face, int row, int column, int size) {
     const Side side = column < 0       ? Side::left
                       : column >= size ? Side::right

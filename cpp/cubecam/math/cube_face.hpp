@@ -1,4 +1,5 @@
-/// The one owner of the cube convention: face order, axes, texel centres. All else refers here.
+/// This file defines the cube convention: face order, axes, texel centres. All other files refer to
+/// it.
 ///
 /// OpenGL 4.6 core profile, section 8.13, table 8.19 (first: ARB_texture_cube_map); r is the
 /// direction from the cube's center, in world axes:
@@ -41,7 +42,7 @@ inline constexpr int face_count = 6;
 inline constexpr std::array<Face, face_count> all_faces = {Face::pos_x, Face::neg_x, Face::pos_y,
                                                            Face::neg_y, Face::pos_z, Face::neg_z};
 
-/// "+x", "-x", ... in the order of the faces: how messages and file names call them.
+/// "+x", "-x", ... in the order of the faces: the names in messages and file names.
 inline constexpr std::array<const char*, face_count> face_names = {"+x", "-x", "+y",
                                                                    "-y", "+z", "-z"};
 
@@ -65,7 +66,7 @@ constexpr std::size_t face_index(Face face) { return static_cast<std::size_t>(fa
 
 constexpr const FaceAxes& face_axes(Face face) { return face_axes_table[face_index(face)]; }
 
-/// Where the camera that captures a face looks.
+/// The direction in which the camera that captures a face looks.
 constexpr glm::vec3 face_forward(Face face) { return face_axes(face).major; }
 
 /// The up vector of the camera that captures a face: -Y -Y +Z -Z -Y -Y. It is the t axis, since GL
@@ -79,8 +80,8 @@ struct FaceUv {
     T t;  ///< 0 at row 0's border
 };
 
-/// Direction, from the cube's center outwards, of (s, t) on a face. Not normalised: its largest
-/// component is 1 for s and t within [0, 1].
+/// The direction, from the cube's center outwards, of (s, t) on a face. It is not normalised: its
+/// largest component is 1 for s and t within [0, 1].
 template <typename T>
 glm::vec<3, T> face_uv_to_direction(Face face, T s, T t) {
     const FaceAxes& axes = face_axes(face);
@@ -88,8 +89,9 @@ glm::vec<3, T> face_uv_to_direction(Face face, T s, T t) {
            (2 * t - 1) * glm::vec<3, T>(axes.t_axis);
 }
 
-/// The face that a direction (from the center outwards, of any length but 0) meets, and where.
-/// On an edge the first of x, y, z wins: GL leaves that open, and seamless lookups agree there.
+/// The face that a direction (from the center outwards, of any length but 0) meets, and where. On
+/// an edge the first of x, y, z is taken: GL does not define which, and seamless lookups give the
+/// same result for both.
 template <typename T>
 FaceUv<T> direction_to_face_uv(const glm::vec<3, T>& direction) {
     const T x = std::abs(direction.x);

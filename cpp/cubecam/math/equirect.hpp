@@ -1,5 +1,6 @@
-/// The panorama that the whole of docs/conventions.md calls "equirect": unmirrored (what stands to
-/// the right of the center is to the right in the picture), row 0 at +Y, center column named.
+/// The panorama that docs/conventions.md calls "equirect". It is not mirrored: objects to the right
+/// of the center are to the right in the picture. Row 0 is at +Y, and `Center` names the axis in
+/// the middle column.
 ///
 /// u = 1/2 + longitude / (2 pi), v = 1/2 - latitude / pi; longitude counts from the center to the
 /// right, latitude from the horizon up. Texel (row, col) of a (H, W) picture is the direction with
@@ -32,14 +33,15 @@ constexpr glm::vec<3, T> center_forward(Center center) {
     return {0, 0, -1};
 }
 
-/// What lies a quarter to the right of the center: forward x up.
+/// The world axis a quarter turn to the right of the center: forward x up.
 template <typename T>
 constexpr glm::vec<3, T> center_right(Center center) {
     const glm::vec<3, T> forward = center_forward<T>(center);
     return {-forward.z, 0, forward.x};
 }
 
-/// Direction (from the viewer outwards, any length but 0) to (u, v), both within [0, 1].
+/// Converts a direction (from the viewer outwards, of any length except 0) to (u, v), both within
+/// [0, 1].
 template <typename T>
 glm::vec<2, T> direction_to_equirect_uv(const glm::vec<3, T>& direction, Center center) {
     const T pi = std::numbers::pi_v<T>;
@@ -49,7 +51,7 @@ glm::vec<2, T> direction_to_equirect_uv(const glm::vec<3, T>& direction, Center 
             T(0.5) - std::atan2(direction.y, std::hypot(right, forward)) / pi};
 }
 
-/// (u, v) to the unit direction from the viewer outwards.
+/// Converts (u, v) to the unit direction from the viewer outwards.
 template <typename T>
 glm::vec<3, T> equirect_uv_to_direction(T u, T v, Center center) {
     const T pi = std::numbers::pi_v<T>;

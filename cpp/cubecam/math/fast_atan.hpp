@@ -1,4 +1,4 @@
-/// The arc tangent where the maths library's is most of the time: panoramas.
+/// A faster arc tangent for panoramas, where the library's function would take most of the time.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,8 @@ namespace cubecam {
 /// atan(x) for |x| <= 1.47, within 2e-12: less than a millionth of a texel in any panorama.
 ///
 /// atan(x) = 2 atan(y), y = x / (1 + sqrt(1 + x^2)), |y| <= 0.53; then a polynomial fitted to
-/// atan(y) / y in y^2 at Chebyshev nodes. `secant` is sqrt(1 + x^2), which callers mostly have.
+/// atan(y) / y in y^2 at Chebyshev nodes. `secant` is sqrt(1 + x^2), which most callers already
+/// have.
 inline double fast_atan(double x, double secant) {
     const double y = x / (1 + secant);
     const double z = y * y;

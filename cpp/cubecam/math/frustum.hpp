@@ -7,7 +7,7 @@
 
 namespace cubecam {
 
-/// The six planes that bound what the picture of a matrix to GL's clip space shows.
+/// The six planes that bound the visible space of a matrix to GL's clip space.
 class Frustum {
 public:
     explicit Frustum(const glm::dmat4& view_projection) {
@@ -20,15 +20,16 @@ public:
         }
     }
 
-    /// Whether a box can show: false only if all of it lies beyond one and the same plane
-    /// (U. Assarsson, T. Moeller, "Optimized View Frustum Culling Algorithms for Bounding Boxes",
-    /// JGT 5(1), 2000, in clip space). Holds for any matrix, perspective or not.
+    /// Whether a box can be visible: false only if the whole box lies beyond one plane (U.
+    /// Assarsson, T. Moeller, "Optimized View Frustum Culling Algorithms for Bounding Boxes", JGT
+    /// 5(1), 2000, in clip space). The test works for any matrix, perspective or not.
     ///
-    /// `error()` gives how far off, at most, arithmetic on the GPU may put a vertex in clip space:
-    /// a box within that of a plane counts as inside. It is called only where that decides.
+    /// `error()` returns the largest error of the GPU's arithmetic for a vertex in clip space: a
+    /// box within this distance of a plane counts as inside. It is called only if the result
+    /// depends on it.
     template <class Error>
     bool may_show(const glm::dvec3& center, const glm::dvec3& half, Error&& error) const {
-        std::array<double, 6> farthest;  // of the box's corners, from each plane inwards
+        std::array<double, 6> farthest;  // corner of the box, from each plane inwards
         bool inside = true;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
             const Plane& plane = planes_[i];
@@ -39,7 +40,7 @@ public:
         if (inside) return true;
         const glm::dvec4 off = error();
         for (std::size_t i = 0; i < planes_.size(); ++i) {
-            // What is not a number is never beyond.
+            // NaN never counts as beyond.
             if (farthest[i] < -(off[static_cast<int>(i / 2)] + off.w)) return false;
         }
         return true;

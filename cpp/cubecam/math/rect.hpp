@@ -5,7 +5,7 @@
 
 namespace cubecam {
 
-/// Pixels from (x0, y0) up to, and without, (x1, y1).
+/// The pixels from (x0, y0) up to (x1, y1), which is excluded.
 struct Rect {
     int x0 = 0;
     int y0 = 0;
@@ -21,7 +21,7 @@ struct Rect {
         return x0 < other.x1 && other.x0 < x1 && y0 < other.y1 && other.y0 < y1;
     }
 
-    /// The least rectangle round both; neither may be empty.
+    /// The smallest rectangle that contains both; neither may be empty.
     Rect united(const Rect& other) const {
         return {std::min(x0, other.x0), std::min(y0, other.y0), std::max(x1, other.x1),
                 std::max(y1, other.y1)};

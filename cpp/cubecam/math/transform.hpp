@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-/// Matrices of views and lenses. Right-handed world, +Y up, a camera at rest looks along -Z; GL's
-/// clip space, -1..1 in x, y and z. Double throughout: only what the GPU gets is rounded to float.
+/// Matrices of views and lenses. The world is right-handed with +Y up, and a camera without
+/// rotation looks along -Z; clip space is GL's, -1..1 in x, y and z. All numbers are doubles; only
+/// the values for the GPU are rounded to float.
 namespace cubecam {
 
 constexpr double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
@@ -65,14 +66,14 @@ inline bool is_finite(const glm::dmat4& m) {
     return true;
 }
 
-/// Whether the upper 3x3 part squashes space flat: its determinant is nothing beside the lengths of
-/// its columns.
+/// Whether a 3x3 matrix is singular: its determinant is tiny compared with the product of the
+/// lengths of its columns.
 inline bool is_singular(const glm::dmat3& m) {
     const double lengths = glm::length(m[0]) * glm::length(m[1]) * glm::length(m[2]);
     return !(std::abs(glm::determinant(m)) > 1e-12 * lengths);
 }
 
-/// The same for all of a projection. Never is a determinant more than that product (Hadamard's
+/// Whether a projection is singular. A determinant is never larger than that product (Hadamard's
 /// inequality).
 inline bool is_singular(const glm::dmat4& m) {
     double lengths = 1.0;

@@ -15,10 +15,10 @@ void check_outputs_of(const RequestedOutputs& requested, DepthFormat depth_forma
         refuse("\"stencil\" only with a depth_format that has one, depth24_stencil8, "
                "depth32f_stencil8 or stencil_index8");
     }
-    // Nothing says which node is the nearest.
+    // Without depth no test determines the nearest node.
     const bool shaded = outputs.shaded() || !requested.others.empty();
     if ((shaded || outputs.has(OutputSource::depth)) && !has_depth(depth_format)) {
-        refuse(has_stencil(depth_format) ? "\"stencil\" at most without a depth buffer"
+        refuse(has_stencil(depth_format) ? "at most \"stencil\" without a depth buffer"
                                          : "none without a depth buffer");
     }
 }

@@ -19,10 +19,10 @@ namespace cubecam {
 
 struct RendererOptions {
     gl::DeviceChoice device = std::string("auto");
-    /// Draw all views of a mesh at once: yes, no (one pass per view), or nothing: where that is
-    /// faster.
+    /// Whether one draw call draws all views of a mesh (true) or each view has its own pass
+    /// (false); none: whichever is faster.
     std::optional<bool> layered;
-    std::size_t cache_bytes = std::size_t{256} << 20;  ///< kept for targets of frames and captures
+    std::size_t cache_bytes = std::size_t{256} << 20;  ///< limit for targets of frames and captures
     bool debug = false;                                ///< errors quote the driver's messages
 };
 
@@ -34,7 +34,7 @@ struct FrameOptions {
     std::int64_t samples = 1;
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
-    bool color = true;  ///< false: no colour buffer, only outputs; `format` does not count
+    bool color = true;  ///< false: no colour buffer, only outputs; `format` is ignored
     DepthFormat depth_format = DepthFormat::depth_component32f;
 };
 
@@ -43,7 +43,7 @@ struct CaptureOptions {
     std::int64_t size = 256;  ///< pixels along an edge of a face
     double near = 0.05;
     double far = 1000.0;
-    std::vector<std::int32_t> exclude;  ///< ids of nodes left out, with all below them
+    std::vector<std::int32_t> exclude;  ///< ids of nodes; their subtrees are not drawn
     RequestedOutputs outputs;
     Format format = Format::rgba32f;
     std::int64_t samples = 1;
@@ -52,8 +52,8 @@ struct CaptureOptions {
     DepthOrder depth_order = DepthOrder::nearest;
 };
 
-/// Both throw std::invalid_argument for what cannot be drawn or read together: outputs that the
-/// depth format lacks what they need for, tone mapping without a colour, a picture of nothing.
+/// Both functions throw std::invalid_argument for options that do not fit together: outputs that
+/// need another depth format, tone mapping without a colour, a picture without any buffer.
 void check_buffers(const FrameOptions& options);
 void check_buffers(const CaptureOptions& options);
 

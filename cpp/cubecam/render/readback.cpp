@@ -23,8 +23,8 @@ GLenum gl_type(Format format) {
     return GL_FLOAT;
 }
 
-/// How the driver gives a texel: as the type that it is stored in, since a driver that must convert
-/// takes ten times as long.
+/// The format in which the driver returns a texel. It is the stored type, since a driver that must
+/// convert takes ten times as long.
 struct Given {
     GLenum format;
     GLenum type;
@@ -90,7 +90,7 @@ private:
                     });
     }
 
-    /// Window-space z; what is stored is reversed.
+    /// Reads window-space z; the stored depth is reversed.
     Result read_depth() {
         const int bits = fixed_depth_bits(d_.depth_format);
         const float clear = depth_state(d_.depth_order).clear;
@@ -114,8 +114,8 @@ private:
     using Row = void (*)(const std::byte* from, std::byte* to, std::size_t texels);
     static constexpr Row copy_row = nullptr;
 
-    /// `slot`: none for the depth and stencil buffer. `row` turns what is given into texels of
-    /// `bytes`; null: they are the same.
+    /// Reads one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
+    /// converts the driver's texels into texels of `bytes`; null: they are the same.
     Result read(Layers& layers, std::optional<std::size_t> slot, const Given& given,
                 std::size_t bytes, Row row) {
         const auto rows = static_cast<std::size_t>(d_.height);

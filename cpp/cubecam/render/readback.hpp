@@ -9,8 +9,8 @@
 
 namespace cubecam {
 
-/// Copies of what a target holds. Frames are flipped to row 0 on top, and several views stand one
-/// below the other; cube faces are taken as they are.
+/// Copies of a target's contents. Frames are flipped so that row 0 is on top, with several views
+/// one below the other; cube faces are copied as they are.
 Frame read_frame(const GladGLContext& gl, Target& target, ResultPool& pool);
 std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool);
 

@@ -23,10 +23,10 @@ constexpr const char* forked = "this renderer belongs to the parent process: Ope
 
 constexpr const char* layer_extension = "GL_ARB_shader_viewport_layer_array";
 
-/// llvmpipe frees the memory of a frame's triangles after each frame, and glibc gives it back to
-/// the kernel: a thousand page faults a frame with large meshes. Freeing one large block raises
-/// glibc's threshold for that (dynamic M_MMAP_THRESHOLD, mallopt(3)): 1.8 times the speed, measured
-/// with Mesa 22.3.
+/// llvmpipe frees the memory of a frame's triangles after each frame, and glibc returns it to the
+/// kernel, which causes a thousand page faults in each frame with large meshes. Freeing one large
+/// block raises glibc's threshold for this (dynamic M_MMAP_THRESHOLD, mallopt(3)). The result is
+/// 1.8 times the speed, measured with Mesa 22.3.
 void keep_freed_memory() {
     void* volatile block = std::malloc(std::size_t{32} * 1000 * 1000);
     std::free(block);
@@ -58,7 +58,7 @@ void check(const CaptureOptions& options) {
 
 }  // namespace
 
-/// The context outlives what was made in it.
+/// The context outlives the objects that were made in it.
 struct Renderer::Gpu {
     Gpu(gl::Context made, const RendererOptions& options) : context(std::move(made)) {
         const gl::CurrentScope scope(context);
@@ -84,8 +84,8 @@ Renderer::~Renderer() { close(); }
 
 void Renderer::close() noexcept {
     if (gl::in_forked_child()) {
-        // The lock may be held by a thread that was not forked along, and the objects are the
-        // parent's.
+        // A thread that does not exist in this process may hold the lock, and the objects belong to
+        // the parent.
         (void)gpu_.release();
         return;
     }
@@ -95,7 +95,7 @@ void Renderer::close() noexcept {
         const gl::CurrentScope scope(gpu_->context);
         gpu_->state.reset();
     } catch (...) {
-        gpu_->context.abandon();  // the driver is gone: what is left goes with the process
+        gpu_->context.abandon();  // the driver is lost: the process frees the rest at its end
     }
     gpu_.reset();
 }
@@ -126,7 +126,7 @@ auto Renderer::run(Work&& work) {
     state.shadow_maps.sweep();
     state.results->next_call();
     stats_ = {};
-    gpu_->context.take_debug_messages();  // of earlier calls
+    gpu_->context.take_debug_messages();  // drops those of earlier calls
     try {
         auto result = work(state);
         stats_.pictures_not_kept = state.targets.trim();
@@ -225,8 +225,8 @@ void Renderer::update_probes(const SceneSnapshot& scene,
                              const std::vector<std::shared_ptr<Probe>>& probes) {
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < scene.probes.size(); ++i) {
-        const auto asked = std::find(probes.begin(), probes.end(), scene.probes[i].object);
-        if (probes.empty() || asked != probes.end()) indices.push_back(i);
+        const auto given = std::find(probes.begin(), probes.end(), scene.probes[i].object);
+        if (probes.empty() || given != probes.end()) indices.push_back(i);
     }
     for (const auto& probe : probes) {
         const bool known =

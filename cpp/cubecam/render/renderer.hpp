@@ -18,7 +18,7 @@
 
 namespace cubecam {
 
-/// What a renderer runs on.
+/// The device and the driver of a renderer.
 struct RendererInfo {
     std::string vendor;        ///< GL_VENDOR
     std::string renderer;      ///< GL_RENDERER
@@ -29,25 +29,25 @@ struct RendererInfo {
     gl::DeviceInfo device;
     gl::Limits limits;
     bool software = false;
-    bool layered = false;  ///< all views of a mesh in one draw call
+    bool layered = false;  ///< one draw call can draw all views of a mesh
 };
 
-/// What a light sees of what casts shadows.
+/// The distances of the casters from a light.
 struct ShadowDistances {
     int size = 0;
     int layers = 0;
     Buffer<float> distances;
 };
 
-/// Draws scenes, into frames, captures and probes. It owns an OpenGL context and everything on the
+/// Draws scenes into frames, captures and probes. It owns an OpenGL context and everything on the
 /// GPU.
 ///
-/// Any thread may call it; calls on one renderer follow each other, several renderers work in
-/// parallel. Between calls its context is current nowhere. After close(), and in a process forked
-/// after EGL was opened, every call throws ContextError.
+/// Any thread may call it; calls on one renderer run one after the other, several renderers run in
+/// parallel. Between calls its context is current on no thread. After close(), and in a process
+/// forked after EGL was opened, every call throws ContextError.
 class Renderer {
 public:
-    /// @throws ContextError with every attempt, if no OpenGL 4.5 context can be had.
+    /// @throws ContextError that lists every attempt, if no OpenGL 4.5 context can be created.
     explicit Renderer(RendererOptions options = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
@@ -59,7 +59,7 @@ public:
         return render(*scene.snapshot(), camera.value(), options);
     }
 
-    /// Both eyes' pictures as one; each eye's `aspect` is that of its part.
+    /// Draws the pictures of both eyes as one; each eye has the `aspect` of its part.
     Frame render(const SceneSnapshot& scene, const StereoValue& camera,
                  const FrameOptions& options);
     Frame render(const Scene& scene, const StereoCamera& camera, const FrameOptions& options) {
@@ -71,36 +71,38 @@ public:
         return capture(*scene.snapshot(), options);
     }
 
-    /// Draws probes now, whatever their policy says: those given, or all that the scene's visible
-    /// nodes use.
+    /// Draws probes now, whatever their policy is: the given ones or, if `probes` is empty, all
+    /// that the scene's visible nodes use.
     /// @throws std::invalid_argument for a probe that no visible node of the scene uses.
     void update_probes(const SceneSnapshot& scene,
                        const std::vector<std::shared_ptr<Probe>>& probes);
 
-    /// What a probe holds now. @throws std::invalid_argument if it was not drawn yet.
+    /// Returns the current cube of a probe. @throws std::invalid_argument if it was not drawn yet.
     std::shared_ptr<CubeMap> read_probe(const std::shared_ptr<Probe>& probe);
 
-    /// What a render texture holds now. @throws std::invalid_argument if it was not drawn yet.
+    /// Returns the current picture of a render texture. @throws std::invalid_argument if it was not
+    /// drawn yet.
     Frame read_texture(const std::shared_ptr<RenderTexture>& texture);
-    /// Distances along the axis of each view of a light's map, all six of a point light in the
-    /// order of a cube's faces: from the light, for a directional one from where the casters'
-    /// bounds begin; infinite where nothing casts. Row 0 is on top, of a cube's faces t = 0.
+    /// Returns distances along the axis of each view of a light's map; the six views of a point
+    /// light are in the order of a cube's faces. Distances count from the light, for a directional
+    /// light from the beginning of the casters' bounds; they are infinite where there is no caster.
+    /// Row 0 is on top; for a cube's faces it is t = 0.
     /// @throws std::invalid_argument for a light that is not in the scene or has no shadow.
     ShadowDistances shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
 
     Stats stats() const;
     const RendererInfo& info() const { return info_; }
 
-    /// Frees everything on the GPU; further calls throw. Closing twice is no mistake.
+    /// Frees everything on the GPU; further calls throw. Closing twice is allowed.
     void close() noexcept;
     bool closed() const;
 
 private:
-    struct Gpu;  // what lives as long as the context
+    struct Gpu;  // the context and everything made in it
 
     template <class Work>
     auto run(Work&& work);
-    /// The cameras' pictures, each of the size that the options say, one below the other.
+    /// Draws the cameras' pictures, each with the size of the options, one below the other.
     Frame render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
                        const FrameOptions& options);
 

@@ -8,7 +8,7 @@
 namespace cubecam {
 namespace {
 
-/// Channels by name.
+/// The outputs that the scene's materials declare: channels by name.
 std::map<std::string, int> outputs_in(const SceneSnapshot& scene) {
     std::map<std::string, int> channels;
     for (const NodeSnapshot& node : scene.nodes) {

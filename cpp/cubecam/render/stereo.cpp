@@ -16,10 +16,10 @@ std::int64_t half_of(std::int64_t length, const char* name, StereoLayout layout)
                                 std::to_string(length));
 }
 
-/// The upper half of a picture's rows to the left of the lower one.
+/// Puts the upper half of a picture to the left of its lower half.
 void put_side_by_side(std::shared_ptr<PixelBuffer>& stacked, std::size_t rows) {
     if (stacked == nullptr) return;
-    const std::size_t row = stacked->size() / (2 * rows);  // of one eye
+    const std::size_t row = stacked->size() / (2 * rows);  // bytes of a row of one eye
     auto pair = std::make_shared<PixelBuffer>(stacked->size());
     for (std::size_t y = 0; y < rows; ++y) {
         for (std::size_t eye = 0; eye < 2; ++eye) {
@@ -39,8 +39,7 @@ std::uint16_t greater_half(std::uint16_t a, std::uint16_t b) {
     return half_to_float(a) < half_to_float(b) ? b : a;
 }
 
-/// Red of the left eye, green and blue of the right one
-/// alpha the greater.
+/// Mixes red of the left eye with green and blue of the right one, and the greater alpha.
 template <class Channel, class Greater>
 PixelBuffer mix(const PixelBuffer& stacked, Greater&& most) {
     const std::size_t bytes = stacked.size() / 2;

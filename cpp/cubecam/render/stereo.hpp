@@ -6,12 +6,12 @@
 
 namespace cubecam {
 
-/// The options of each eye's part of a picture of `whole`.
-/// @throws std::invalid_argument for a side that has no middle, or for what an anaglyph cannot
-/// hold.
+/// The options of one eye's part of a picture with options `whole`.
+/// @throws std::invalid_argument for a side of odd length, or for outputs that an anaglyph cannot
+/// have.
 FrameOptions eye_options(const FrameOptions& whole, StereoLayout layout);
 
-/// One picture of two: `stacked` holds the left eye's above the right one's.
+/// Combines two pictures into one; in `stacked` the left eye's picture is above the right eye's.
 Frame combine_eyes(Frame stacked, StereoLayout layout);
 
 }  // namespace cubecam

@@ -20,7 +20,7 @@ void check_placement(const Placement& placement) {
     if (placement.target) expect_finite(*placement.target, "target");
     const glm::dvec3 forward = forward_of(placement);
     const double distance = glm::length(forward);
-    // Beside a position so far out, a target so close is lost to rounding.
+    // Far from the origin, rounding loses the difference between the position and a near target.
     const double scale = std::max(1.0, glm::length(placement.position));
     if (!(distance > 1e-12 * scale)) {
         expect(false, "a target away from the position", "both at " + describe(placement.position));
@@ -75,7 +75,7 @@ void check_value(const Matrices& given) {
 
 glm::dmat4 projection_of(const PerspectiveLens& lens, double aspect) {
     glm::dmat4 projection = perspective(lens.fov, aspect, lens.near, lens.far);
-    // The frustum is sheared: what lies on the axis moves against the window.
+    // The frustum is sheared: points on the axis move relative to the window.
     projection[2][0] = 2.0 * lens.shift.x / aspect;
     projection[2][1] = 2.0 * lens.shift.y;
     return projection;

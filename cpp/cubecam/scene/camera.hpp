@@ -9,10 +9,10 @@
 
 namespace cubecam {
 
-/// Where a camera stands, what it looks at and which way is up.
+/// The position of a camera, its target and its up direction.
 struct Placement {
     glm::dvec3 position{0.0, 0.0, 0.0};
-    std::optional<glm::dvec3> target;  ///< none: straight ahead along -Z, wherever it stands
+    std::optional<glm::dvec3> target;  ///< none: the camera looks along -Z from any position
     glm::dvec3 up{0.0, 1.0, 0.0};
 
     bool operator==(const Placement&) const = default;
@@ -22,7 +22,7 @@ struct PerspectiveLens {
     double fov = 60.0;  ///< vertical, degrees
     double near = 0.1;
     double far = 1000.0;
-    /// How far the window that it looks through lies right of and above its axis, in heights of the
+    /// How far the window lies to the right of and above the camera's axis, in heights of the
     /// picture.
     glm::dvec2 shift{0.0};
 
@@ -37,7 +37,7 @@ struct OrthographicLens {
     bool operator==(const OrthographicLens&) const = default;
 };
 
-/// View and projection as the user computed them; the picture's shape does not change them.
+/// View and projection of a user; they do not depend on the shape of the picture.
 struct Matrices {
     glm::dmat4 view{1.0};
     glm::dmat4 projection{1.0};
@@ -55,11 +55,13 @@ struct Placed {
 
 using CameraValue = std::variant<Matrices, Placed<PerspectiveLens>, Placed<OrthographicLens>>;
 
-/// Throws std::invalid_argument: singular or not finite matrices, a target that is the position, up
-/// along the view, fov outside (0, 180), near >= far, near <= 0 for a perspective.
+/// Throws std::invalid_argument for matrices that are singular or not finite, a target at the
+/// position, an up direction along the line of sight, fov outside (0, 180), near >= far, and near
+/// <= 0 for a perspective.
 void check(const CameraValue& value);
 
-/// The matrices for a picture of `aspect` = width / height. GL's clip space: -1..1 in x, y and z.
+/// Returns the matrices for a picture of `aspect` = width / height. Clip space is GL's: -1..1 in x,
+/// y and z.
 Matrices matrices(const CameraValue& value, double aspect);
 
 class Camera {

@@ -12,7 +12,8 @@ namespace cubecam {
 
 namespace {
 
-/// Objects of one kind, each held once, and how many of the others here hold them.
+/// Objects of one kind, each with one reference from here, and the number of references from other
+/// objects of the search.
 template <class Object>
 struct Held {
     struct Entry {
@@ -22,7 +23,7 @@ struct Held {
     };
     std::map<const Object*, Entry> entries;
 
-    /// Whether it is new.
+    /// Adds an object; returns whether it is new.
     bool add(const std::shared_ptr<Object>& object) {
         return entries.try_emplace(object.get(), Entry{object}).second;
     }
@@ -30,12 +31,12 @@ struct Held {
         const auto found = entries.find(object);
         if (found != entries.end()) ++found->second.inside;
     }
-    /// Marks it; whether it was not marked yet.
+    /// Marks an object as reached; returns whether it is here and was not marked before.
     bool reach(const Object* object) {
         const auto found = entries.find(object);
         return found != entries.end() && !std::exchange(found->second.reached, true);
     }
-    /// Calls `visit` for each that something outside holds.
+    /// Calls `visit` for each object with a reference from outside the search.
     template <class Visit>
     void for_each_root(Visit&& visit) const {
         for (const auto& [object, entry] : entries) {
@@ -56,9 +57,9 @@ std::vector<std::shared_ptr<RenderTexture>> textures_of(const Material& material
     return textures;
 }
 
-/// What has more references than come from the others here is held from outside; so is all that it
-/// leads to. The rest is not (T. W. Christopher, "Reference Count Garbage Collection", Software:
-/// Practice and Experience 14(6), 1984).
+/// An object with more references than those from the other objects of the search is held from
+/// outside. Everything that it leads to is held, too; the rest is not (T. W. Christopher,
+/// "Reference Count Garbage Collection", Software: Practice and Experience 14(6), 1984).
 class Search {
 public:
     explicit Search(const std::vector<std::weak_ptr<RenderTexture>>& textures) {
@@ -76,7 +77,7 @@ public:
             scenes_.count(texture->value().scene.get());
         }
         for (const auto& [node, entry] : nodes_.entries) {
-            nodes_.count(node);  // by its scene
+            nodes_.count(node);  // the reference of its scene
             nodes_.count(node->parent().get());
             materials_.count(node->value().material.get());
         }

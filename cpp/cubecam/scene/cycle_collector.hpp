@@ -7,12 +7,12 @@ namespace cubecam {
 
 class RenderTexture;
 
-/// Scenes and render textures can keep each other alive: a monitor in the room that it shows. No
-/// count of references ever lets go of such a circle, so it is looked for.
+/// Scenes and render textures can keep each other alive, such as a monitor in the room that it
+/// shows. Reference counts never free such a circle, so this function searches for it.
 ///
-/// Of `textures`, those that nothing outside leads to any more let go of their scenes, and all of
-/// the circle is destroyed. Nobody may change scenes, or be given parts of them, meanwhile; under
-/// Python, its lock sees to that.
+/// Each of `textures` that nothing outside leads to releases its scene, and the whole circle is
+/// destroyed. During the call no thread may change scenes or get parts of them; in Python, the
+/// interpreter's lock ensures that.
 void collect_cycles(const std::vector<std::weak_ptr<RenderTexture>>& textures);
 
 }  // namespace cubecam

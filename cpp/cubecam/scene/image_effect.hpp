@@ -5,7 +5,7 @@
 
 namespace cubecam {
 
-/// A user's GLSL, `vec4 effect(vec2 uv)`, run for every pixel of a finished picture.
+/// A user's GLSL, `vec4 effect(vec2 uv)`, which runs for every pixel of a finished picture.
 struct EffectValue {
     UserSource fragment;
     ShaderInputs inputs;
@@ -13,11 +13,12 @@ struct EffectValue {
     bool operator==(const EffectValue&) const = default;
 };
 
-/// Throws std::invalid_argument for a source without the function, or a probe: a probe belongs to a
-/// scene, and an effect to none.
+/// Throws std::invalid_argument for a source without the function, or for a probe: a probe belongs
+/// to a scene, but an effect does not.
 void check(const EffectValue& value);
 
-/// A pass over a frame. Shared by any number of calls; setters are thread-safe and checked.
+/// A pass over a frame. Any number of calls may share an effect; setters are thread-safe and check
+/// their values.
 class ImageEffect {
 public:
     using State = Versioned<EffectValue>::State;

@@ -14,20 +14,20 @@ void check_parameters(PointParameters& p) {
     expect_not_negative(p.decay, "decay");
 }
 
-void normalise(glm::dvec3& direction) {
+void make_unit_length(glm::dvec3& direction) {
     expect_finite(direction, "direction");
     const double length = glm::length(direction);
     expect(length > 0.0, "a direction of some length", describe(direction));
-    // What is unit length already stays as it is to the last bit: setting the colour of a light
+    // A direction that already has unit length keeps all its bits: setting the colour of a light
     // must not turn it.
     if (std::abs(length - 1.0) > 1e-14) direction /= length;
 }
 
-void check_parameters(DirectionalParameters& p) { normalise(p.direction); }
+void check_parameters(DirectionalParameters& p) { make_unit_length(p.direction); }
 
 void check_parameters(SpotParameters& p) {
     expect_finite(p.position, "position");
-    normalise(p.direction);
+    make_unit_length(p.direction);
     expect(p.angle > 0.0 && p.angle < 90.0, "an angle above 0 and below 90 degrees",
            describe(p.angle));
     expect(p.penumbra >= 0.0 && p.penumbra <= 1.0, "a penumbra from 0 to 1", describe(p.penumbra));

@@ -13,13 +13,13 @@ namespace cubecam {
 
 struct PointParameters {
     glm::dvec3 position{0.0};
-    double decay = 0.0;  ///< light falls with distance^-decay; 0: not at all, 2: as physics has it
+    double decay = 0.0;  ///< light falls with distance^-decay; 0: constant, 2: as in physics
 
     bool operator==(const PointParameters&) const = default;
 };
 
 struct DirectionalParameters {
-    glm::dvec3 direction{0.0, -1.0, 0.0};  ///< the way the light travels, unit length
+    glm::dvec3 direction{0.0, -1.0, 0.0};  ///< the direction in which light travels, unit length
 
     bool operator==(const DirectionalParameters&) const = default;
 };
@@ -28,14 +28,14 @@ struct AmbientParameters {
     bool operator==(const AmbientParameters&) const = default;
 };
 
-/// A point light that shines into a cone (three.js, and glTF's KHR_lights_punctual with angles for
-/// its cosines).
+/// A point light that shines into a cone, as in three.js and glTF's KHR_lights_punctual, which
+/// gives cosines instead of angles.
 struct SpotParameters {
     glm::dvec3 position{0.0};
-    glm::dvec3 direction{0.0, -1.0, 0.0};  ///< of the cone's axis, the way the light travels
+    glm::dvec3 direction{0.0, -1.0, 0.0};  ///< of the cone's axis, in which light travels
     double angle = 30.0;                   ///< from the axis to the cone's edge, degrees
     double penumbra = 0.0;  ///< share of the angle, from the edge inwards, over which light fades
-    double decay = 0.0;     ///< as PointParameters::decay
+    double decay = 0.0;     ///< see PointParameters::decay
 
     bool operator==(const SpotParameters&) const = default;
 };
@@ -47,13 +47,13 @@ struct LightValue {
     LightParameters parameters;
     glm::vec3 color{1.0F};  ///< linear RGB
     float intensity = 1.0F;
-    std::optional<Shadow> shadow;  ///< none: it shines through everything
+    std::optional<Shadow> shadow;  ///< none: the light shines through everything
 
     bool operator==(const LightValue&) const = default;
 };
 
-/// Throws std::invalid_argument for a value that is not finite or out of its range, negative light,
-/// a direction of no length or an ambient light with a shadow; normalises the direction.
+/// Normalises the direction. Throws std::invalid_argument for a value that is not finite or out of
+/// its range, for negative light, a direction of length 0 or an ambient light with a shadow.
 void check(LightValue& value);
 
 class Light {
@@ -81,7 +81,7 @@ private:
     Versioned<LightValue> value_;
 };
 
-/// One class per kind, as for materials.
+/// Each kind has a class of its own, as materials do.
 template <class Parameters>
 class LightOf : public Light {
 public:

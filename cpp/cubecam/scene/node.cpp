@@ -18,7 +18,7 @@ void check_transform(Transform& transform) {
     expect_finite(transform.position, "position");
     expect_finite(transform.scale, "scale");
     const glm::dvec3& scale = transform.scale;
-    // What a message says is put together only where there is one: this runs for every move.
+    // The text of a message is composed only on failure: this check runs for every move.
     if (scale.x == 0.0 || scale.y == 0.0 || scale.z == 0.0) {
         expect(false, "a scale without 0, which would make the matrix singular", describe(scale));
     }
@@ -30,7 +30,7 @@ void check_transform(Transform& transform) {
                "(" + describe(q.w) + ", " + describe(q.x) + ", " + describe(q.y) + ", " +
                    describe(q.z) + ")");
     }
-    // What is unit length already stays as it is to the last bit: naming a node must not turn it.
+    // A rotation that already has unit length keeps all its bits: naming a node must not turn it.
     if (std::abs(length - 1.0) > 1e-14) q /= length;
 }
 
@@ -82,7 +82,7 @@ Transform transform_of(const Placing& placing) {
         scale[i] = glm::length(axes[i]);
         axes[i] /= scale[i];
     }
-    // Loose enough for matrices that were float32 once.
+    // The tolerance also suits matrices that were computed in float32.
     const double shear =
         std::max({std::abs(glm::dot(axes[0], axes[1])), std::abs(glm::dot(axes[1], axes[2])),
                   std::abs(glm::dot(axes[2], axes[0]))});
@@ -102,8 +102,8 @@ Node::Node(std::int32_t id, NodeValue value)
 }
 
 Node::~Node() {
-    // A chain of parents that hold each other alive would unwind on the stack, one frame for each:
-    // enough of them overflow it. So the first destructor takes the whole chain apart in a loop.
+    // In a chain of parents each destructor would call the next one, and a long chain would
+    // overflow the stack. Therefore the first destructor frees the whole chain in a loop.
     static thread_local std::vector<std::shared_ptr<Node>>* pending = nullptr;
     if (!parent_) return;
     if (pending) {
@@ -174,7 +174,7 @@ glm::dmat4 Node::locked_world_matrix() const {
     if (!parent_) return matrix_of(value_.placing);
     std::vector<const Node*> chain;
     for (const Node* node = this; node; node = node->parent_.get()) chain.push_back(node);
-    // From the root down, as the snapshot does: the same bits.
+    // From the root down, as in the snapshot, so that the bits are the same.
     glm::dmat4 world = matrix_of(chain.back()->value_.placing);
     for (auto node = chain.rbegin() + 1; node != chain.rend(); ++node) {
         world = world * matrix_of((*node)->value_.placing);
@@ -214,7 +214,7 @@ std::vector<std::shared_ptr<Node>> Node::subtree() {
 }
 
 void Node::set_parent(const std::shared_ptr<Node>& parent) {
-    std::shared_ptr<Node> old;  // these are let go of after the locks
+    std::shared_ptr<Node> old;  // these are released after the locks
     std::shared_ptr<SceneSnapshot> outdated[2];
     while (true) {
         const auto mine = graph();
@@ -230,7 +230,8 @@ void Node::set_parent(const std::shared_ptr<Node>& parent) {
 
         if (mine != theirs && (mine->of_scene || theirs->of_scene)) {
             throw std::invalid_argument("expected a parent in the same scene, got node " +
-                                        std::to_string(parent->id_) + " of another or of none");
+                                        std::to_string(parent->id_) +
+                                        ", which is in another scene or in none");
         }
         for (const Node* above = parent.get(); above; above = above->parent_.get()) {
             if (above != this) continue;

@@ -24,7 +24,7 @@ class Node;
 class Scene;
 struct SceneSnapshot;
 
-/// Scale, then rotation, then translation.
+/// A scale, then a rotation, then a translation.
 struct Transform {
     glm::dvec3 position{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< w, x, y, z; unit length
@@ -33,44 +33,45 @@ struct Transform {
     bool operator==(const Transform&) const = default;
 };
 
-/// Parts, or a matrix given whole.
+/// The parts of a transform, or a whole matrix.
 using Placing = std::variant<Transform, glm::dmat4>;
 
-/// Everything a node is but its place in the tree.
+/// All properties of a node except its parent and children.
 struct NodeValue {
     Placing placing;
     std::shared_ptr<Mesh> mesh;          ///< null: a group
-    std::shared_ptr<Material> material;  ///< set wherever there is a mesh
-    CubeSource environment;              ///< none: the scene's
+    std::shared_ptr<Material> material;  ///< not null if there is a mesh
+    CubeSource environment;              ///< none: the environment of the scene
     bool visible = true;
     bool in_captures = true;
     std::string name;
-    std::int32_t render_order = 0;  ///< lower is drawn first, before distance
-    bool cast_shadow = true;        ///< false: nor does anything below it
-    bool receive_shadow = true;     ///< of its own surface
+    std::int32_t render_order = 0;  ///< lower numbers are drawn first, whatever the distance
+    bool cast_shadow = true;        ///< false: nodes below it cast none either
+    bool receive_shadow = true;     ///< whether its own surface shows shadows
 
-    /// All but `placing`.
+    /// All members except `placing`.
     auto contents() const {
         return std::tie(mesh, material, environment, visible, in_captures, name, render_order,
                         cast_shadow, receive_shadow);
     }
 };
 
-/// Throws std::invalid_argument for a transform that is not finite or is singular; normalises the
-/// rotation.
+/// Normalises the rotation. Throws std::invalid_argument for a transform that is not finite or is
+/// singular.
 void check(Placing& placing);
 
-/// Position alone, which every matrix has.
+/// Sets the position alone, of parts or of a matrix.
 void set_position(Placing& placing, const glm::dvec3& position);
 
 glm::dmat4 matrix_of(const Placing& placing);
 
-/// Position, rotation and scale: those given, or those of the matrix.
-/// @throws std::invalid_argument where the matrix has a shear, which they cannot say.
+/// Returns position, rotation and scale: the parts, or those of the matrix.
+/// @throws std::invalid_argument for a matrix with a shear, which parts cannot express.
 Transform transform_of(const Placing& placing);
 
-/// What the nodes of one tree of trees share: those of one scene, or those that are in none
-/// together. The mutex makes a snapshot one moment; being in a scene is sharing the scene's graph.
+/// The data that nodes share: all nodes of one scene, or nodes outside any scene that belong
+/// together. A node is in a scene if it shares the scene's graph. Thanks to the mutex a snapshot
+/// shows one moment.
 struct NodeGraph {
     explicit NodeGraph(bool belongs_to_scene) : of_scene(belongs_to_scene) {}
 
@@ -78,56 +79,56 @@ struct NodeGraph {
     const bool of_scene;
     std::weak_ptr<Scene> scene;  ///< null for a Scene that no shared_ptr owns
 
-    // With the mutex locked:
+    // The following members need the mutex locked.
 
-    /// Whatever is in the scene changed. Gives the snapshot that was kept, to be let go of after
-    /// the lock.
+    /// Notes a change of the scene. Returns the kept snapshot, which the caller releases after the
+    /// lock.
     std::shared_ptr<SceneSnapshot> changed() {
         ++changes;
-        next_revision();  // whoever waits for any change sees one
+        next_revision();  // newest_revision() must change as well
         moved.clear();
         return std::exchange(snapshot, nullptr);
     }
-    /// A node was placed elsewhere, and nothing else changed: the snapshot that is kept can be
-    /// brought up to date.
+    /// Notes that a node was moved and nothing else changed: the kept snapshot can be brought up to
+    /// date.
     void node_moved(Node& node) {
         ++changes;
         next_revision();
         if (snapshot) moved.push_back(&node);
     }
 
-    std::uint64_t changes = 0;  ///< so many so far
-    /// The last one, while it can be used again; see Scene::snapshot.
+    std::uint64_t changes = 0;  ///< the number of changes so far
+    /// The last snapshot, while it can be used again; see Scene::snapshot.
     std::shared_ptr<SceneSnapshot> snapshot;
-    std::vector<Node*> moved;       ///< since `snapshot` was true; a node may come several times
-    std::uint64_t newest_seen = 0;  ///< newest_revision() when `snapshot` was found to be true
+    std::vector<Node*> moved;       ///< since `snapshot` was valid; a node may occur several times
+    std::uint64_t newest_seen = 0;  ///< newest_revision() when `snapshot` was last found valid
 };
 
-/// A thing in a scene: a mesh with a material somewhere, or a group that carries others.
+/// An object in a scene: a placed mesh with a material, or a group that other nodes belong to.
 ///
-/// Made by Scene::add. Every member function may be called from any thread.
+/// Scene::add makes nodes. Every member function may be called from any thread.
 class Node : public std::enable_shared_from_this<Node> {
 public:
-    /// A node in no scene.
+    /// Makes a node that is in no scene.
     Node(std::int32_t id, NodeValue value);
     ~Node();
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;
 
-    /// From 1 in order of Scene::add; never used again in that scene.
+    /// Ids count from 1 in the order of Scene::add; a scene never uses an id twice.
     std::int32_t id() const { return id_; }
 
     NodeValue value() const;
     std::shared_ptr<Node> parent() const;
-    std::vector<std::shared_ptr<Node>> children() const;  ///< in order of id
+    std::vector<std::shared_ptr<Node>> children() const;  ///< in the order of their ids
     glm::dmat4 world_matrix() const;
-    std::shared_ptr<Scene> scene() const;  ///< null: in none
+    std::shared_ptr<Scene> scene() const;  ///< null: in no scene
 
-    /// `change` gets a NodeValue, which is checked afterwards. The old value stays if anything
-    /// throws.
+    /// Calls `change` with a copy of the NodeValue, then checks the copy. The old value stays if
+    /// anything throws.
     template <class Change>
     void edit(Change&& change) {
-        NodeValue old;  // what these two let go of is destroyed after the lock
+        NodeValue old;  // these two are destroyed after the lock is released
         std::shared_ptr<SceneSnapshot> outdated;
         const Lock lock = this->lock();
         NodeValue next = value_;
@@ -144,7 +145,7 @@ public:
         old = std::exchange(value_, std::move(next));
     }
 
-    /// As edit, of the place alone: `change` gets a Placing.
+    /// Like edit, for the placing alone: `change` gets a Placing.
     template <class Change>
     void edit_placing(Change&& change) {
         const Lock lock = this->lock();
@@ -156,8 +157,9 @@ public:
         lock.graph->node_moved(*this);
     }
 
-    /// Null: no parent. Nodes that are in no scene come together, children and all.
-    /// @throws std::invalid_argument if that would make a cycle or join a scene with anything else.
+    /// Sets the parent; null: no parent. Outside scenes this joins two trees into one.
+    /// @throws std::invalid_argument if this would make a cycle or join a scene with nodes outside
+    /// it.
     void set_parent(const std::shared_ptr<Node>& parent);
 
 private:
@@ -175,7 +177,7 @@ private:
     std::shared_ptr<NodeGraph> graph() const;
     Lock lock() const;
 
-    // These are called with the graph locked.
+    // The following functions are called with the graph locked.
     void set_graph(std::shared_ptr<NodeGraph> graph);
     void attach(const std::shared_ptr<Node>& parent);
     void detach();
@@ -186,11 +188,11 @@ private:
     const std::int32_t id_;
     NodeValue value_;
     std::shared_ptr<Node> parent_;
-    std::set<std::weak_ptr<Node>, std::owner_less<>> children_;  ///< some may be gone
-    std::size_t children_swept_at_ = 16;  ///< so many, and those that are gone are taken out
+    std::set<std::weak_ptr<Node>, std::owner_less<>> children_;  ///< some may be destroyed
+    std::size_t children_swept_at_ = 16;  ///< at this size the destroyed children are removed
 
-    mutable std::mutex graph_guard_;    ///< for the pointer alone, held for no longer than a copy
-    std::shared_ptr<NodeGraph> graph_;  ///< changed only with both the old and the new one locked
+    mutable std::mutex graph_guard_;    ///< only for the pointer; held for the time of a copy
+    std::shared_ptr<NodeGraph> graph_;  ///< changes only while the old and the new one are locked
 };
 
 }  // namespace cubecam

@@ -14,11 +14,11 @@ namespace cubecam {
 
 class Node;
 
-/// When a probe draws itself again.
+/// When a probe is drawn again.
 enum class ProbeUpdate : std::uint8_t {
-    on_change,       ///< whenever a face would come out different: always true
+    on_change,       ///< whenever a face has changed: always up to date
     once,            ///< the first time it is needed
-    manual,          ///< only by Renderer::update
+    manual,          ///< only by Renderer::update_probes
     every_n_frames,  ///< on every n-th call that needs it
 };
 
@@ -33,22 +33,22 @@ struct ProbeValue {
     int samples = 1;
     ProbeUpdate update = ProbeUpdate::on_change;
     int every = 1;            ///< n of every_n_frames
-    int faces_per_frame = 6;  ///< at most so many faces are drawn in one call
+    int faces_per_frame = 6;  ///< the largest number of faces drawn in one call
     WeakNodes exclude;
     DepthFormat depth_format = DepthFormat::depth_component32f;
 
     bool operator==(const ProbeValue& other) const;
 };
 
-/// Throws std::invalid_argument: size < 1, near <= 0, near >= far, samples < 1, n < 1, faces
+/// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, or faces
 /// outside 1..6.
 void check(const ProbeValue& value);
 
-/// A cubemap that keeps itself true to the scene. It is only a description: each renderer holds
-/// contents of its own.
+/// A cubemap that follows the scene. A Probe is only a description: each renderer holds contents of
+/// its own.
 ///
-/// The nodes that use a probe are left out of it. Attached to a node, it follows that node's
-/// position; its axes stay the world's.
+/// A probe does not show the nodes that use it. If it is attached to a node, it follows the node's
+/// position; its axes remain the world's.
 class Probe {
 public:
     using State = Versioned<ProbeValue>::State;
@@ -60,7 +60,7 @@ public:
     State state() const { return value_.state(); }
     ProbeValue value() const { return value_.value(); }
     const Revision& revision() const { return value_.revision(); }
-    /// Tells this probe from every other one that ever was in this process.
+    /// A number that no other probe of this process has or had.
     std::uint64_t identity() const { return identity_; }
 
     template <class Change>

@@ -32,8 +32,8 @@ RenderTexture::RenderTexture(RenderTextureValue value)
 RenderTexture::~RenderTexture() { let_go(); }
 
 void RenderTexture::let_go() {
-    // A scene that shows a texture of a scene that shows a texture ...: as with nodes, the first
-    // one takes the chain apart in a loop, or a long one would overflow the stack.
+    // A scene may show a texture of a scene that shows a texture, and so on. As with nodes, the
+    // first call frees the chain in a loop, since a long one would overflow the stack.
     static thread_local std::vector<std::shared_ptr<Scene>>* pending = nullptr;
     std::shared_ptr<Scene> scene;
     value_.edit(

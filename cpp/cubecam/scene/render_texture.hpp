@@ -27,21 +27,21 @@ struct RenderTextureValue {
     std::int64_t samples = 1;
     bool mipmaps = false;
     Wrap wrap = Wrap::clamp;
-    WeakNodes exclude;  ///< nodes of `scene` that it does not show, with all below them
-    std::vector<std::shared_ptr<ImageEffect>> effects;  ///< run over it, in this order
+    WeakNodes exclude;  ///< nodes of `scene` that are not shown, with all nodes below them
+    std::vector<std::shared_ptr<ImageEffect>> effects;  ///< run over the picture, in this order
     std::string name;
 
     bool operator==(const RenderTextureValue& other) const;
 };
 
-/// Throws std::invalid_argument: no scene, no camera, a side < 1, samples < 1.
+/// Throws std::invalid_argument for a missing scene or camera, a side < 1, or samples < 1.
 void check(const RenderTextureValue& value);
 
-/// A scene drawn into a picture that materials show, in the same call and always true to its scene.
-/// It is only a description: each renderer holds contents of its own.
+/// A picture of a scene that materials show. It is drawn in the same call and is always up to date.
+/// A RenderTexture is only a description: each renderer holds contents of its own.
 ///
-/// The scene that shows it may be its own, if the nodes that show it are left out of it: a picture
-/// that shows itself has no end, and the renderer refuses it.
+/// The scene that shows the texture may be the scene in it, if the texture excludes the nodes that
+/// show it. The renderer refuses a picture that shows itself, which would have no end.
 class RenderTexture {
 public:
     using State = Versioned<RenderTextureValue>::State;
@@ -61,7 +61,7 @@ public:
         });
     }
 
-    /// Gives up its scene, to be destroyed next: for collect_cycles.
+    /// Releases the scene of a texture that is destroyed next; for collect_cycles.
     void let_go();
 
 private:

@@ -36,7 +36,7 @@ std::shared_ptr<CubeMap> Scene::environment() const {
 }
 
 void Scene::set_environment(std::shared_ptr<CubeMap> environment) {
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     if (environment == environment_) return;
     environment_.swap(environment);
@@ -50,7 +50,7 @@ Background Scene::background() const {
 
 void Scene::set_background(Background background) {
     background = checked_background(std::move(background));
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     if (background == background_) return;
     background_.swap(background);
@@ -67,7 +67,7 @@ std::shared_ptr<Node> Scene::insert(std::size_t place, std::int32_t id, NodeValu
     node->set_graph(graph_);
     if (graph_->scene.expired()) graph_->scene = weak_from_this();
     if (place < ids_.size() && ids_[place] == id) {
-        nodes_[place] = node;  // where one of that id was removed
+        nodes_[place] = node;  // the place of a removed node with this id
         --removed_;
     } else {
         const auto offset = static_cast<std::ptrdiff_t>(place);
@@ -79,11 +79,12 @@ std::shared_ptr<Node> Scene::insert(std::size_t place, std::int32_t id, NodeValu
 }
 
 std::shared_ptr<Node> Scene::add(NodeValue value, const std::shared_ptr<Node>& parent) {
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     if (parent && parent->graph() != graph_) {
         throw std::invalid_argument("expected a parent in this scene, got node " +
-                                    std::to_string(parent->id()) + " of another or of none");
+                                    std::to_string(parent->id()) +
+                                    ", which is in another scene or in none");
     }
     if (next_id_ > last_id) throw std::length_error("all 2,147,483,646 ids of the scene are used");
     outdated = graph_->changed();
@@ -94,7 +95,7 @@ std::shared_ptr<Node> Scene::add(NodeValue value, const std::shared_ptr<Node>& p
 
 void Scene::add(std::shared_ptr<Light> light) {
     if (!light) throw std::invalid_argument("expected a light, got none");
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     if (std::find(lights_.begin(), lights_.end(), light) != lights_.end()) {
         throw std::invalid_argument("expected a light that is not in the scene, got one that is");
@@ -104,13 +105,13 @@ void Scene::add(std::shared_ptr<Light> light) {
 }
 
 void Scene::remove(const std::shared_ptr<Node>& node) {
-    std::vector<std::shared_ptr<Node>> removed;  // these two are let go of after the lock
+    std::vector<std::shared_ptr<Node>> removed;  // these two are released after the lock
     std::shared_ptr<SceneSnapshot> outdated;
     const std::lock_guard lock(graph_->mutex);
     if (!node || node->graph() != graph_) {
         throw std::invalid_argument(
             "expected a node of this scene, got " +
-            (node ? "node " + std::to_string(node->id()) + " of another or of none"
+            (node ? "node " + std::to_string(node->id()) + ", which is in another scene or in none"
                   : std::string("none")));
     }
     outdated = graph_->changed();
@@ -130,7 +131,7 @@ void Scene::remove(const std::shared_ptr<Node>& node) {
 }
 
 void Scene::remove(const std::shared_ptr<Light>& light) {
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     const auto found = std::find(lights_.begin(), lights_.end(), light);
     if (found == lights_.end()) {
@@ -141,7 +142,7 @@ void Scene::remove(const std::shared_ptr<Light>& light) {
 }
 
 void Scene::clear() {
-    std::vector<std::shared_ptr<Node>> nodes;  // these are let go of after the lock
+    std::vector<std::shared_ptr<Node>> nodes;  // these are released after the lock
     std::vector<std::shared_ptr<Light>> lights;
     std::shared_ptr<SceneSnapshot> outdated;
     const std::lock_guard lock(graph_->mutex);
@@ -164,7 +165,8 @@ void Scene::place(std::span<const std::shared_ptr<Node>> nodes,
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (nodes[i]->graph() != graph_) {
             throw std::invalid_argument("expected nodes of this scene, got node " +
-                                        std::to_string(nodes[i]->id()) + " of another or of none");
+                                        std::to_string(nodes[i]->id()) +
+                                        ", which is in another scene or in none");
         }
         Placing& next = placings.emplace_back(nodes[i]->value_.placing);
         change(i, next);
@@ -209,7 +211,7 @@ void Scene::skip_ids(std::int32_t next) {
 
 std::shared_ptr<Node> Scene::restore(std::int32_t id) {
     expect(id >= 1 && id <= last_id, "a node's id of at least 1", std::to_string(id));
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     const std::size_t place = place_of(id);
     if (place < nodes_.size() && ids_[place] == id && nodes_[place]) return nodes_[place];

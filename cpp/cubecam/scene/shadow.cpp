@@ -18,7 +18,7 @@ int border_of(const Shadow& shadow) { return static_cast<int>(std::ceil(shadow.r
 void check(const Shadow& shadow) {
     expect(shadow.radius >= 0.0 && shadow.radius <= largest_radius, "a radius from 0 to 16 texels",
            describe(shadow.radius));
-    // Half of a map must be left within its borders.
+    // At least half of a map's side must lie within its borders.
     const int least = 4 * border_of(shadow);
     expect(shadow.size >= least,
            "a size of at least " + std::to_string(least) + " texels for a radius of " +

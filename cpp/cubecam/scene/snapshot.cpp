@@ -1,11 +1,11 @@
 #include "cubecam/scene/snapshot.hpp"
 
+#include "cubecam/scene/crowds.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
@@ -14,8 +14,8 @@ namespace cubecam {
 
 namespace {
 
-/// A render texture's alpha counts only where something else makes the surface translucent: what it
-/// will hold is not known yet.
+/// Whether a map makes a surface translucent. A render texture does not, since its contents are not
+/// known yet.
 bool shows_through(const MapSource& map) {
     const auto* image = std::get_if<std::shared_ptr<const Image>>(&map);
     return image && *image && (*image)->translucent();
@@ -41,6 +41,7 @@ bool shows_through(const MaterialValue& material, const MeshData& mesh) {
 void put(NodeSnapshot& node, const glm::dmat4& world) {
     node.world = world;
     node.world_bounds = transformed(node.bounds, world);
+    node.turned = glm::determinant(glm::dmat3(world)) < 0.0;
     const glm::dvec3 local = glm::max(glm::abs(node.bounds.low), glm::abs(node.bounds.high));
     node.reach = glm::dvec3(0.0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +49,8 @@ void put(NodeSnapshot& node, const glm::dmat4& world) {
     }
 }
 
-/// The node of an id, or null. Nodes stand in order of id, and mostly none is missing.
+/// Returns the node with an id, or null. Nodes are in the order of their ids, and usually no id is
+/// missing.
 const NodeSnapshot* find_node(const std::vector<NodeSnapshot>& nodes, std::int32_t id) {
     if (nodes.empty()) return nullptr;
     const auto guess = static_cast<std::size_t>(id - nodes.front().id);
@@ -59,90 +61,8 @@ const NodeSnapshot* find_node(const std::vector<NodeSnapshot>& nodes, std::int32
     return at != nodes.end() && at->id == id ? &*at : nullptr;
 }
 
-/// Fewer nodes that look the same make no crowd: near to far is the better order then.
-constexpr std::size_t least_crowd = 16;
-
-/// What is the same for all nodes of a crowd; see NodeSnapshot::crowd.
-using Look = std::vector<std::uintptr_t>;
-
-template <class Object>
-std::uintptr_t number_of(const std::shared_ptr<Object>& object) {
-    return reinterpret_cast<std::uintptr_t>(object.get());
-}
-
-void add_source(const CubeSourceSnapshot& source, Look& look) {
-    look.push_back(source.index());
-    if (const auto* cube = std::get_if<CubeSnapshot>(&source)) {
-        look.push_back(number_of(cube->object));
-    } else if (const auto* probe = std::get_if<std::size_t>(&source)) {
-        look.push_back(*probe);
-    }
-}
-
-void add_source(const MapSnapshot& source, Look& look) {
-    look.push_back(source.index());
-    if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
-        look.push_back(number_of(*image));
-    } else if (const auto* texture = std::get_if<std::size_t>(&source)) {
-        look.push_back(*texture);
-    }
-}
-
-/// Only opaque nodes whose order nobody can tell from the picture: those that test and write depth
-/// and every channel, and nothing else.
-bool may_join_crowd(const NodeSnapshot& node) {
-    const SurfaceOptions& surface = node.material.value.surface;
-    return node.blend == Blend::opaque && node.depth_write && surface.depth_test &&
-           !surface.stencil && glm::all(surface.color_write) &&
-           !node.material.value.traits().user_code;
-}
-
-Look look_of(const NodeSnapshot& node) {
-    const MaterialTraits& material = node.material.value.traits();
-    Look look{number_of(node.mesh),
-              reinterpret_cast<std::uintptr_t>(material.kind),
-              material.switches,
-              static_cast<std::uintptr_t>(material.vertex_colors),
-              std::uintptr_t{node.material.value.surface.double_sided},
-              std::uintptr_t{node.receive_shadow}};
-    add_source(node.environment, look);
-    for (const TextureSourceSnapshot& texture : node.textures) {
-        std::visit([&look](const auto& source) { add_source(source, look); }, texture);
-    }
-    return look;
-}
-
-/// Numbers the crowds in the order of their first node. Addresses tell looks apart, and decide
-/// nothing else.
-void find_crowds(std::vector<NodeSnapshot>& nodes) {
-    if (nodes.size() < least_crowd) return;
-    std::map<Look, std::vector<NodeSnapshot*>> looks;
-    Look last_look;
-    std::vector<NodeSnapshot*>* last = nullptr;
-    for (NodeSnapshot& node : nodes) {
-        if (!may_join_crowd(node)) continue;
-        Look look = look_of(node);
-        if (last == nullptr || look != last_look) {
-            last = &looks[look];
-            last_look = std::move(look);
-        }
-        last->push_back(&node);
-    }
-    std::vector<const std::vector<NodeSnapshot*>*> crowds;
-    for (const auto& [look, members] : looks) {
-        if (members.size() >= least_crowd) crowds.push_back(&members);
-    }
-    std::sort(crowds.begin(), crowds.end(),
-              [](const auto* a, const auto* b) { return a->front()->id < b->front()->id; });
-    std::uint32_t number = 0;
-    for (const auto* members : crowds) {
-        ++number;
-        for (NodeSnapshot* node : *members) node->crowd = number;
-    }
-}
-
-/// What the scenes of one snapshot share. Each object is read once, so that all that show it see it
-/// as it was at one moment; and kept alive, so that none takes another's address.
+/// The objects that the scenes of one snapshot share. Each object is read once, so that all its
+/// users see one moment, and is kept alive, so that no new object gets its address.
 class SharedReads {
 public:
     explicit SharedReads(const Scene* first) { numbers_.emplace(first, 0); }
@@ -196,7 +116,7 @@ public:
         if (!added) return found->second;
         const std::size_t index = found->second;
         textures.push_back(read(*texture));
-        // These may show further textures, so the list grows.
+        // The effects may show further textures, so the list grows.
         std::vector<EffectSnapshot> effects;
         for (const auto& effect : textures[index].value.effects)
             effects.push_back(snapshot_of(*effect));
@@ -204,7 +124,7 @@ public:
         return index;
     }
 
-    /// An effect belongs to no scene, and so shows no probe.
+    /// An effect belongs to no scene, so it shows no probe.
     EffectSnapshot snapshot_of(const ImageEffect& effect) {
         auto [value, revision] = effect.state();
         std::vector<TextureSourceSnapshot> frozen;
@@ -248,7 +168,7 @@ private:
     std::vector<SeenRevision> seen_;
 };
 
-/// Reads the nodes of one scene, whose graph is locked meanwhile.
+/// Reads the nodes of one scene; the scene's graph is locked.
 class SnapshotBuilder {
 public:
     SnapshotBuilder(const std::vector<std::shared_ptr<Node>>& nodes, const NodeGraph* graph,
@@ -284,7 +204,7 @@ private:
         bool known = false;
     };
 
-    /// Nodes are sorted by id, and mostly none is missing.
+    /// Nodes are sorted by id, and usually no id is missing.
     std::size_t index_of(const Node& node) const {
         const auto guess = static_cast<std::size_t>(node.id() - nodes_.front()->id());
         if (guess < nodes_.size() && nodes_[guess] == &node) return guess;
@@ -294,7 +214,7 @@ private:
         return static_cast<std::size_t>(at - nodes_.begin());
     }
 
-    /// Without recursion: a chain of parents may be longer than the stack is deep.
+    /// Computes a node's place without recursion: a long chain of parents would overflow the stack.
     const Place& resolve(std::size_t index) {
         std::size_t at = index;
         while (!places_[at].known) {
@@ -395,7 +315,7 @@ private:
         return frozen;
     }
 
-    /// A probe goes where its parent goes, and does not turn or grow with it.
+    /// A probe follows the position of its parent, but not its rotation or scale.
     void place_probe(std::size_t index) {
         ProbeSnapshot& probe = to_.probes[index];
         probe.position = probe.value.position;
@@ -413,7 +333,7 @@ private:
 
     bool is_here(const Node& node) const { return node.graph().get() == graph_; }
 
-    std::vector<const Node*> nodes_;  // in order of id
+    std::vector<const Node*> nodes_;  // in the order of their ids
     const NodeGraph* graph_;
     SharedReads& shared_;
     SceneSnapshot& to_;
@@ -434,7 +354,8 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
     for (const auto& effect : effects) {
         snapshot->effects.push_back(shared.snapshot_of(*effect));
     }
-    // Each under its own mutex alone: two scenes that show each other would wait for each other.
+    // Each scene is read under its own mutex alone: otherwise two scenes that show each other could
+    // wait for each other.
     for (std::size_t i = 0; i < shared.others.size(); ++i) {
         const std::shared_ptr<const Scene> next = shared.others[i];  // the vector may grow
         snapshot->others.push_back(next->snapshot_alone(shared));
@@ -442,7 +363,8 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
     snapshot->textures = std::move(shared.textures);
     snapshot->seen = shared.take_seen();
     snapshot->revision = next_revision();
-    // Render textures lead to scenes and back: what is kept here must not keep them alive.
+    // Render textures refer to scenes, and scenes to them: a kept snapshot must not keep them
+    // alive.
     if (effects.empty() && snapshot->textures.empty() && !snapshot->follows_others) {
         const std::lock_guard lock(graph_->mutex);
         if (graph_->changes == changes) {
@@ -454,7 +376,7 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
 }
 
 std::shared_ptr<const SceneSnapshot> Scene::kept_snapshot() const {
-    std::shared_ptr<SceneSnapshot> outdated;  // let go of after the lock
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
     const std::lock_guard lock(graph_->mutex);
     if (!graph_->snapshot) return nullptr;
     const std::uint64_t newest = newest_revision();
@@ -465,7 +387,7 @@ std::shared_ptr<const SceneSnapshot> Scene::kept_snapshot() const {
         return nullptr;
     }
     if (!graph_->moved.empty()) {
-        if (graph_->snapshot.use_count() > 1) {  // others go on with what they have
+        if (graph_->snapshot.use_count() > 1) {  // its other owners keep it unchanged
             outdated =
                 std::exchange(graph_->snapshot, std::make_shared<SceneSnapshot>(*graph_->snapshot));
         }
@@ -479,7 +401,7 @@ void Scene::follow_moves(SceneSnapshot& snapshot) const {
     std::vector<NodeSnapshot>& nodes = snapshot.nodes;
     const auto follow = [&nodes](const Node& node) {
         const NodeSnapshot* at = find_node(nodes, node.id());
-        if (at == nullptr) return;  // a group, or invisible
+        if (at == nullptr) return;  // a group or an invisible node
         NodeSnapshot& moved = nodes[static_cast<std::size_t>(at - nodes.data())];
         put(moved, node.locked_world_matrix());
         moved.revision = next_revision();
@@ -523,7 +445,8 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes)
             snapshot.lights.push_back({light, shared.value_of(*light)});
         }
     }
-    // Unlocked: two scenes whose probes follow each other's nodes would wait for each other.
+    // The lock is released here: otherwise two scenes whose probes follow each other's nodes could
+    // wait for each other.
     snapshot.follows_others = !elsewhere.empty();
     for (const auto& [index, parent] : elsewhere) {
         snapshot.probes[index].position += glm::dvec3(parent->world_matrix()[3]);

@@ -19,7 +19,7 @@
 
 namespace cubecam {
 
-/// A fixed cubemap as it was at the moment of the snapshot; `object` names the GPU's copy of it.
+/// A fixed cubemap at the moment of the snapshot; `object` identifies the GPU's copy of it.
 struct CubeSnapshot {
     std::shared_ptr<CubeMap> object;
     std::shared_ptr<const CubeMapData> data;
@@ -30,10 +30,10 @@ struct CubeSnapshot {
 using CubeSourceSnapshot = std::variant<std::monostate, CubeSnapshot, std::size_t>;
 
 /// A picture that a surface shows: none, a fixed one, or the index of a render texture in the
-/// `textures` of the scene that was asked for.
+/// `textures` of the first scene.
 using MapSnapshot = std::variant<std::monostate, std::shared_ptr<const Image>, std::size_t>;
 
-/// What one texture of a material or an effect shows.
+/// The contents of one texture of a material or an effect.
 using TextureSourceSnapshot = std::variant<MapSnapshot, CubeSourceSnapshot>;
 
 /// Whether the texture shows nothing.
@@ -43,41 +43,44 @@ inline bool is_none(const TextureSourceSnapshot& texture) {
 
 struct NodeSnapshot {
     std::int32_t id;
-    std::uint64_t revision;  ///< of all below: nodes of one revision are equal
+    std::uint64_t revision;  ///< of all members below: nodes with equal revisions are equal
     glm::dmat4 world;
-    Bounds bounds;  ///< of all that its vertices may reach, in the mesh's own space
+    Bounds bounds;  ///< of all possible positions of its vertices, in the mesh's space
     Bounds world_bounds;
-    /// How far a vertex can be from the node's origin along each axis of the world, every term of
-    /// the matrix product taken as positive: what rounding errors grow with.
+    /// The largest distance of a vertex from the node's origin along each axis of the world, if
+    /// every term of the matrix product were positive: rounding errors are proportional to it.
     glm::dvec3 reach;
-    std::shared_ptr<const MeshData> mesh;  ///< never null: groups are left out
+    std::shared_ptr<const MeshData> mesh;  ///< never null: groups are not in a snapshot
     Material::State material;
-    CubeSourceSnapshot environment;  ///< the node's own; none: the scene's
-    /// What the material's textures show, in their order (MaterialTraits::textures); empty if none
-    /// shows anything. A map is none as well if the mesh has no uvs to place it by.
+    CubeSourceSnapshot environment;  ///< the environment of the node; none: that of the scene
+    /// The contents of the material's textures, in the order of MaterialTraits::textures; empty if
+    /// no texture is set. A map is also none if it needs uvs and the mesh has none.
     std::vector<TextureSourceSnapshot> textures;
-    bool unbounded;    ///< its vertices may go anywhere: it is not culled
-    bool in_captures;  ///< of the node and all above it
-    bool translucent;  ///< blended over what is behind it
-    Blend blend;       ///< as it is drawn
+    bool unbounded;    ///< its vertices may be anywhere, so it is not culled
+    bool in_captures;  ///< of the node and all nodes above it
+    bool translucent;  ///< blended over the surfaces behind it
+    Blend blend;       ///< the mode by which it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
-    bool cast_shadow;                     ///< opaque, and so are it and all above it set
+    bool cast_shadow;                     ///< opaque, and set for it and all nodes above it
     bool receive_shadow;
     std::int32_t render_order = 0;
-    /// Opaque nodes of one crowd look the same to the renderer, their matrices and their materials'
-    /// numbers aside: they are drawn together. From 1 in order of the first id; 0: in none.
+    /// The number of the node's crowd, from 1 in the order of the first ids; 0: no crowd. Opaque
+    /// nodes of one crowd differ only in their matrices and the numbers of their materials, so they
+    /// are drawn together.
     std::uint32_t crowd = 0;
+    bool turned = false;  ///< its matrix turns the winding of its triangles
 
-    /// After the opaque nodes and the background, far to near. So is what is opaque and leaves no
-    /// depth: the background, and all that is farther, would be drawn over it.
-    /// Not so a mask that leaves no colour either: it is there for what is drawn after it.
+    /// Whether the node is drawn after the opaque nodes and the background, from far to near. This
+    /// includes opaque nodes that write no depth, since the background and farther nodes would be
+    /// drawn over them. It excludes nodes that write no colour either: they are masks for later
+    /// nodes.
     bool drawn_as_transparent() const {
         return translucent || (!depth_write && glm::any(material.value.surface.color_write));
     }
 };
 
-/// A light as it was at the moment of the snapshot; `object` names its shadow map.
+/// A light at the moment of the snapshot; `object` identifies its shadow map.
 struct LightSnapshot {
     std::shared_ptr<Light> object;
     LightValue value;
@@ -87,51 +90,51 @@ struct LightSnapshot {
 struct EffectSnapshot {
     EffectValue value;
     std::uint64_t revision;
-    std::vector<TextureSourceSnapshot> textures;  ///< in the order of its inputs
+    std::vector<TextureSourceSnapshot> textures;  ///< in the order of the effect's inputs
 };
 
 struct ProbeSnapshot {
     std::shared_ptr<Probe> object;
     ProbeValue value;
     glm::dvec3 position;                 ///< world
-    std::vector<std::int32_t> excluded;  ///< ids; whole subtrees
+    std::vector<std::int32_t> excluded;  ///< ids of nodes, each with its subtree
 };
 
 struct RenderTextureSnapshot {
     std::shared_ptr<RenderTexture> object;
     RenderTextureValue value;
     CameraValue camera;
-    std::size_t scene;                   ///< for SceneSnapshot::scene
-    std::vector<std::int32_t> excluded;  ///< ids; whole subtrees
+    std::size_t scene;                   ///< its number, for SceneSnapshot::scene
+    std::vector<std::int32_t> excluded;  ///< ids of nodes, each with its subtree
     std::vector<EffectSnapshot> effects;
 };
 
-/// What a call draws: values copied, meshes and images shared. Nothing in it changes any more while
-/// somebody holds it.
+/// The data that a call draws: copies of values, shared meshes and images. A snapshot does not
+/// change while it has an owner outside the scene.
 struct SceneSnapshot {
-    std::uint64_t revision = 0;  ///< two snapshots of one revision are equal
+    std::uint64_t revision = 0;  ///< snapshots with equal revisions are equal
     CubeSourceSnapshot environment;
     std::variant<glm::vec4, CubeSnapshot> background;
-    std::vector<NodeSnapshot> nodes;  ///< the visible ones, in order of id
+    std::vector<NodeSnapshot> nodes;  ///< the visible ones, in the order of their ids
     std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
 
-    // Of the scene that was asked for; the others have none of their own.
+    // Only the first scene has the following members; in `others` they are empty.
 
     std::vector<EffectSnapshot> effects;  ///< of the frame
 
     /// Render textures that any of the scenes shows, each once, in the order of their first user.
     std::vector<RenderTextureSnapshot> textures;
-    /// The other scenes that those are drawn from, each once and as it was at one moment.
+    /// The other scenes from which these textures are drawn; each occurs once and shows one moment.
     std::vector<SceneSnapshot> others;
 
-    /// The objects, nodes aside, that it was read from, as they were.
+    /// The objects from which the snapshot was read, except nodes, with their revisions.
     std::vector<SeenRevision> seen;
-    /// Whether a probe follows a node of another scene, of which nothing is seen here.
+    /// Whether a probe follows a node of another scene, whose changes `seen` does not contain.
     bool follows_others = false;
 
-    /// By number: 0 is this one, then the others.
+    /// Returns a scene by its number: 0 is this one, then the others follow.
     const SceneSnapshot& scene(std::size_t number) const {
         return number == 0 ? *this : others[number - 1];
     }

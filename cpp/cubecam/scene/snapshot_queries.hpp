@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-/// What follows from a snapshot's values alone: whom a node is seen by and what its material uses.
+/// Answers from a snapshot alone: which pictures see a node, and what its material uses.
 namespace cubecam {
 
 /// Whether a node, or one above it, is among `excluded`.
@@ -21,13 +21,13 @@ const CubeSourceSnapshot& environment_of(const SceneSnapshot& scene, const NodeS
 /// Whether a user's own source moves a node's vertices.
 bool moves_vertices(const NodeSnapshot& node);
 
-/// Whether shadows show on a node: its material uses the lights.
+/// Whether a node shows shadows: its material must use the lights.
 bool receive_shadow(const NodeSnapshot& node);
 
 /// Whether any light of a scene has a shadow.
 bool has_shadows(const SceneSnapshot& scene);
 
-/// The places, among a node's textures, of those that its vertices are moved by.
+/// The indices of a node's textures that its vertex function looks up.
 std::vector<std::size_t> vertex_textures(const NodeSnapshot& node);
 
 /// Whether a probe, or a render texture, of a node's scene sees the node.

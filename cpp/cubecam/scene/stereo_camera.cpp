@@ -15,7 +15,7 @@ namespace cubecam {
 
 namespace {
 
-// In the order of the enum.
+// The names are in the order of the enum.
 constexpr std::array<std::string_view, 3> stereo_layout_names = {"anaglyph", "side_by_side",
                                                                  "top_bottom"};
 
@@ -37,7 +37,7 @@ void refuse_convergence(const std::optional<double>& convergence) {
            describe(*convergence));
 }
 
-/// An eye that stands `x` to the right of the camera.
+/// An eye at distance `x` to the right of the camera.
 CameraValue shifted(const Placed<PerspectiveLens>& camera, double x,
                     std::optional<double> convergence) {
     Placed<PerspectiveLens> eye = camera;
@@ -65,7 +65,7 @@ CameraValue shifted(const Placed<OrthographicLens>& camera, double x,
 
 CameraValue shifted(const Matrices& camera, double x, std::optional<double> convergence) {
     if (is_parallel(camera.projection)) refuse_convergence(convergence);
-    // A view may hold a scale, too: a unit of the world is then another number of the camera's.
+    // A view may also contain a scale: world units and camera units then differ.
     const glm::dmat4 world = glm::inverse(camera.view);
     const double right = glm::length(glm::dvec3(world[0]));
     Matrices eye = camera;
@@ -90,7 +90,7 @@ CameraValue turned(const Placed<Lens>& camera, double degrees) {
     // The arm is at right angles to the axis.
     eye.placement.position =
         *placement.target + arm * std::cos(angle) + glm::cross(up, arm) * std::sin(angle);
-    eye.placement.up = up;  // turned with the rest, it stays
+    eye.placement.up = up;  // the axis of the turn, so it does not change
     return eye;
 }
 

@@ -26,16 +26,16 @@ struct Eyes {
     CameraValue right;
 };
 
-/// Eyes to both sides of a camera, half of `separation` along its own right axis, with parallel
-/// axes. With `convergence` their frusta are sheared so that what lies at that distance from the
-/// camera, along its axis, has the same place in both pictures (P. Bourke, "Calculating Stereo
-/// Pairs", 1999). All in world units.
-/// @throws std::invalid_argument for numbers out of their range, or a convergence of parallel rays,
-/// which have no frustum.
+/// Returns eyes at both sides of a camera, each half of `separation` away along the camera's right
+/// axis, with parallel axes. With `convergence` their frusta are sheared: a point at that distance
+/// from the camera, along its axis, has the same place in both pictures (P. Bourke, "Calculating
+/// Stereo Pairs", 1999). Lengths are in world units.
+/// @throws std::invalid_argument for numbers out of their range, or for a convergence of parallel
+/// rays, which have no frustum.
 Eyes off_axis_eyes(const CameraValue& camera, double separation, std::optional<double> convergence);
 
-/// Eyes on a circle round the camera's target, half of `degrees` to both sides, about the axis that
-/// is up in its picture.
+/// Returns eyes on a circle round the camera's target, each turned by half of `degrees` about the
+/// axis that is up in the camera's picture.
 /// @throws std::invalid_argument for a camera without a target, or an angle outside [0, 180).
 Eyes toe_in_eyes(const CameraValue& camera, double degrees);
 

@@ -8,10 +8,10 @@ namespace cubecam {
 
 class Node;
 
-/// Nodes that something names without keeping them alive.
+/// References to nodes that do not keep the nodes alive.
 using WeakNodes = std::vector<std::weak_ptr<Node>>;
 
-/// Whether both stand for one node, dead or alive.
+/// Whether both refer to the same node, even if it is destroyed.
 inline bool same_node(const std::weak_ptr<Node>& a, const std::weak_ptr<Node>& b) {
     return !a.owner_before(b) && !b.owner_before(a);
 }

@@ -9,7 +9,7 @@
 namespace cubecam {
 namespace {
 
-/// Many nodes often show the same picture, one after the other.
+/// Often many nodes in a row show the same picture.
 void add_picture(const PictureId& id, Dependencies& to) {
     if (to.empty() || to.back() != id) to.push_back(id);
 }

@@ -10,30 +10,31 @@
 /// The pictures that parts of a scene look up.
 namespace cubecam {
 
-/// A picture depends on each of these; one may come several times.
+/// The pictures that a picture depends on; the list may contain one several times.
 using Dependencies = std::vector<PictureId>;
 
-/// Adds the pictures that a node shows. `number` is that of its scene.
+/// Adds the pictures that a node shows. `number` is the number of its scene.
 void add_dependencies(const SceneSnapshot& scene, std::size_t number, const NodeSnapshot& node,
                       Dependencies& to);
 
-/// Adds those that effects show.
+/// Adds the pictures that effects show.
 void add_dependencies(const std::vector<EffectSnapshot>& effects, Dependencies& to);
 
 /// Adds the shadow maps of a scene.
 void add_shadows(const SceneSnapshot& scene, std::size_t number, Dependencies& to);
 
-/// Adds the pictures by which a scene's casters move their vertices, in view or not, and shown
-/// elsewhere or not: its shadow maps depend on them. None where no light has a shadow.
+/// Adds the pictures that a scene's casters look up to move their vertices, whether these casters
+/// are in view or not: the scene's shadow maps depend on these pictures. Adds none if no light has
+/// a shadow.
 void add_caster_dependencies(const SceneSnapshot& scene, std::size_t number, Dependencies& to);
 
-/// Each once, ascending.
+/// Returns the pictures sorted, each once.
 Dependencies unique(Dependencies pictures);
 
-/// What the pictures of one scene may show, whatever is in view and whatever is due.
+/// What the pictures of one scene may ever show, regardless of the view and of the update policies.
 class SceneContents {
 public:
-    /// `number` is the scene's in the call.
+    /// `number` is the number of the scene in the call.
     SceneContents(const SceneSnapshot& scene, std::size_t number);
 
     /// The pictures that the nodes for which `wanted` is true show, and the scene's shadow maps if

@@ -26,7 +26,7 @@ void add_light(Key& key, const LightValue& light) {
     key.add(light.shadow.has_value());
 }
 
-/// What a node that receives shadows depends on besides.
+/// The additional key of nodes that receive shadows.
 Key key_of(std::span<const ShadowUse> shadows) {
     Key key;
     for (const ShadowUse& use : shadows) {
@@ -92,7 +92,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
             PictureKey& picture = keys[visibility.view];
             key.bounds = visibility.bounds;
             key.first_texture = static_cast<std::uint32_t>(picture.textures.size());
-            picture.textures.push_back(found.environment.revision);
+            found.environment.add_to(picture.textures);
             for (const BoundTexture& texture : found.textures) {
                 picture.textures.push_back(texture.revision);
             }
@@ -115,7 +115,7 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::size_t v = (first + i) % views.size();
         if (!budget || count < budget->views) damaged[v] = damage(target.keys[v], keys[v], whole);
-        // llvmpipe (Mesa 22.3) lets samples beyond the scissor's edge through.
+        // llvmpipe (Mesa 22.3) also writes samples beyond the edge of the scissor.
         if (target.multisampled() && !damaged[v].empty()) damaged[v] = {whole};
         if (damaged[v].empty()) {
             ++stats.views_skipped;
@@ -130,13 +130,14 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     std::vector<Region> regions;
     for (std::size_t v = 0; v < views.size(); ++v) {
         for (const Rect& rect : damaged[v]) regions.push_back({v, rect});
-        // Until they are drawn, these layers hold nothing that can be trusted.
+        // Until they are drawn, the contents of these layers are not valid.
         if (!damaged[v].empty()) target.keys[v].reset();
     }
     const BoundTexture sky = lookup.background();
     const auto* color = std::get_if<glm::vec4>(&scene.background);
-    // Place by place: positions in the shaders count from where a view stands, so its picture is
-    // the same bit for bit whether others are drawn along or not.
+    // Views at one position are drawn together, one position after the other: positions in the
+    // shaders count from the view's position, so a picture has the same bits whether other views
+    // are drawn in the same call or not.
     while (!regions.empty()) {
         const View& here = views[regions.front().view];
         const auto elsewhere =

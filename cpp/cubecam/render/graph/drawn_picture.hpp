@@ -10,25 +10,26 @@
 
 namespace cubecam {
 
-/// How many views may be drawn in one call, and which comes first.
+/// The largest number of views to draw in one call, and the first of them.
 struct Budget {
     std::size_t views;
     std::size_t first;
 };
 
-/// Views of a scene as they are drawn. What they look up is up to date.
+/// Views of a scene that are to be drawn. The pictures that they look up are up to date.
 struct DrawnPicture {
     RendererState& gpu;
     const SceneSnapshot& scene;
     std::span<const View> views;  ///< view i goes to layer i
     const DrawPlan& plan;
     TextureLookup& lookup;
-    std::span<const ShadowUse> shadows;  ///< none if no node of the plan receives any
+    std::span<const ShadowUse> shadows;  ///< empty if no node of the plan receives shadows
     const PostProcess& post_process;
     Stats& stats;
 
-    /// Draws the views whose keys differ from what the target holds, at most as many as the budget
-    /// allows. Returns how many it drew; with a budget, how many it came past to the last of them.
+    /// Draws the views whose keys differ from those in the target, at most as many as the budget
+    /// allows. Returns how many it drew; with a budget, how many it examined up to the last one
+    /// that it drew.
     std::size_t draw_changed(Target& target, std::optional<Budget> budget = std::nullopt);
 
 private:

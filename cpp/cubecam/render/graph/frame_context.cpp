@@ -16,7 +16,7 @@ namespace cubecam {
 FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes)
     : gpu(its_gpu), scenes(its_scenes), pictures([this](const PictureId& id) { return make(id); }),
       contents_(its_scenes.others.size() + 1) {
-    std::map<const void*, std::size_t> users;  // scenes so far; never walked
+    std::map<const void*, std::size_t> users;  // how many scenes so far use an object; not iterated
     for (std::size_t s = 0; s < contents_.size(); ++s) {
         const SceneSnapshot& scene = scenes.scene(s);
         gpu.shadows.check(scene);
@@ -84,7 +84,7 @@ Buffer<float> FrameContext::shadow_map(std::size_t light) {
 }
 
 void FrameContext::update(const std::vector<PictureId>& roots) {
-    // Without render textures and moved casters no picture is strict, so nothing is refused.
+    // Without render textures and moved casters no picture is strict, so no circle is refused.
     if (!scenes.textures.empty() || !caster_dependencies_.empty()) {
         std::string advice = "; leave the nodes that show it out with exclude=";
         if (!caster_dependencies_.empty()) {
@@ -125,7 +125,7 @@ std::vector<ShadowUse> FrameContext::shadows(std::size_t scene) {
 
 ProbeState& FrameContext::probe_state(std::size_t scene, std::size_t probe) {
     const ProbeSnapshot& snapshot = scenes.scene(scene).probes[probe];
-    // A probe that is drawn by hand alone shows in every scene what it was last drawn from.
+    // A manual probe has one state: every scene sees what it last showed.
     const bool by_hand = snapshot.value.update == ProbeUpdate::manual;
     return gpu.probes.get(snapshot.object, [] { return StatesByScene<ProbeState>(); })
         .of(by_hand ? 0 : ranks_[scene].probes[probe]);

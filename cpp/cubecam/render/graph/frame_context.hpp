@@ -17,44 +17,45 @@ namespace cubecam {
 class ProbePicture;
 class TexturePicture;
 
-/// One call of a renderer: the scenes that take part, and the graph of the pictures that it draws.
+/// One call of a renderer: its scenes, and the graph of the pictures that it draws.
 class FrameContext {
 public:
-    /// @throws std::invalid_argument if the lights of a scene have more, or larger, shadows than
-    /// the driver can hold.
+    /// @throws std::invalid_argument if the lights of a scene have more or larger shadows than the
+    /// driver allows.
     FrameContext(RendererState& gpu, const SceneSnapshot& scenes);
     FrameContext(const FrameContext&) = delete;
     FrameContext& operator=(const FrameContext&) = delete;
 
-    // A call is one of these three.
+    // A call uses one of these three functions.
 
-    /// Draws `views` of the nodes that `wanted` lets through into `target`, and before that what
+    /// Draws `views` of the nodes for which `wanted` is true into `target`, after the pictures that
     /// they depend on.
     ///
-    /// `wanted_key` says which nodes that are.
+    /// `wanted_key` differs whenever `wanted` selects other nodes.
     void draw(std::vector<View> views, Target& target,
               std::function<bool(const NodeSnapshot&)> wanted, Key wanted_key,
               PostProcess post_process = {});
 
-    /// Draws these probes of the first scene, due or not, and before each what it depends on.
+    /// Draws these probes of the first scene, whether they are due or not, after the pictures that
+    /// they depend on.
     void update_probes(const std::vector<std::size_t>& probes);
 
-    /// The shadow map of a light of the first scene; see Renderer::shadow_map.
+    /// Returns the shadow map of a light of the first scene; see Renderer::shadow_map.
     Buffer<float> shadow_map(std::size_t light);
 
-    // For the pictures.
+    // The pictures use the following members.
 
     RendererState& gpu;
-    const SceneSnapshot& scenes;  ///< the first one, and by it the others
+    const SceneSnapshot& scenes;  ///< the first scene, which holds the others
     Stats stats;
     PictureGraph pictures;
 
     ProbePicture& probe(std::size_t scene, std::size_t place);
     TexturePicture& texture(std::size_t place);
-    /// The shadow maps of a scene's lights that have one, in their order; they are up to date.
+    /// The shadow maps of a scene, in the order of its lights; they are up to date.
     std::vector<ShadowUse> shadows(std::size_t scene);
 
-    /// What the renderer holds of a probe, or of a light's shadow map, for a scene of this call.
+    /// The renderer's state of a probe, or of a light's shadow map, for a scene of this call.
     ProbeState& probe_state(std::size_t scene, std::size_t probe);
     ShadowState& shadow_state(std::size_t scene, std::size_t light);
 
@@ -64,20 +65,20 @@ public:
 
 private:
     std::unique_ptr<Picture> make(const PictureId& id);
-    /// Whether the picture is a function of the scene and of what the renderer holds alone, and not
-    /// of how many calls there were.
+    /// Whether the picture depends only on the scene and the renderer's contents, and not on the
+    /// number of calls.
     bool counts_no_calls() const;
-    /// Refuses circles, then draws.
+    /// Refuses circles, then draws the pictures.
     void update(const std::vector<PictureId>& roots);
 
-    /// How many scenes before it use a scene's probes, and its lights, too.
+    /// For each probe and each light of a scene: how many earlier scenes of the call use it.
     struct Ranks {
         std::vector<std::size_t> probes, lights;
     };
 
-    std::vector<Ranks> ranks_;  // of each scene
+    std::vector<Ranks> ranks_;  // for each scene
     std::vector<std::optional<SceneContents>>
-        contents_;                      // the same, made when a picture wants them
+        contents_;                      // for each scene, made when a picture needs it
     Dependencies caster_dependencies_;  // of all scenes
 };
 

@@ -7,8 +7,8 @@
 
 namespace cubecam {
 
-/// What a call of a renderer gives back: a frame, both eyes of a stereo frame, or a capture.
-/// Nothing looks it up.
+/// The result of a renderer's call: a frame, both eyes of a stereo frame, or a capture. No other
+/// picture looks it up.
 class FramePicture final : public ScenePicture {
 public:
     FramePicture(FrameContext& context, std::vector<View> views, Target& target, Wanted wanted,

@@ -9,8 +9,8 @@
 namespace cubecam {
 namespace {
 
-/// The way from a picture back to itself, which stands at the front only, that leads through the
-/// fewest pictures with a name.
+/// The path from a picture back to itself that contains the fewest pictures with a name. It
+/// contains `start` once, at the front.
 std::vector<std::size_t> shortest_circle(const std::vector<std::vector<std::size_t>>& edges,
                                          const std::vector<std::string>& names, std::size_t start) {
     constexpr std::size_t not_reached = std::numeric_limits<std::size_t>::max();
@@ -30,7 +30,7 @@ std::vector<std::size_t> shortest_circle(const std::vector<std::vector<std::size
             if (from[shown] != not_reached) continue;
             from[shown] = next;
             if (names[shown].empty()) {
-                open.push_front(shown);  // no step of the chain that is named
+                open.push_front(shown);  // a picture without a name adds no step to the message
             } else {
                 open.push_back(shown);
             }

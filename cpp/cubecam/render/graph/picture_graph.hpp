@@ -12,40 +12,41 @@
 
 namespace cubecam {
 
-/// The pictures of one call of a renderer, found while they are planned, and how they depend on
-/// each other. It knows nothing of scenes or OpenGL: what a picture is, `Picture` says.
+/// The pictures of one call of a renderer, which are found while they are planned, and their
+/// dependencies. The graph does not use scenes or OpenGL; it works on the interface `Picture`.
 class PictureGraph {
 public:
-    /// Makes a picture the first time that something depends on it.
+    /// Makes a picture when something depends on it for the first time.
     using PictureSource = std::function<std::unique_ptr<Picture>(const PictureId&)>;
 
     explicit PictureGraph(PictureSource source) : source_(std::move(source)) {}
 
-    /// The picture that is meant, made if it was not there.
+    /// Returns the picture with this id, and makes it first if necessary.
     Picture& at(const PictureId& id);
 
     /// Adds a picture that the source does not make.
     void add(const PictureId& id, std::unique_ptr<Picture> picture);
 
-    /// Refuses strict pictures that show themselves, directly or by others, among those that
-    /// `roots` may ever lead to. `advice` ends the message: how to break such a circle.
-    /// @throws std::invalid_argument naming the chain.
+    /// Refuses strict pictures that show themselves, directly or through others, among all that
+    /// `roots` may ever depend on. `advice`, the end of the message, says how to break such a
+    /// circle.
+    /// @throws std::invalid_argument that names the chain.
     void refuse_circles(const std::vector<PictureId>& roots, const std::string& advice);
 
-    /// Brings `roots` up to date, and before each picture those that it depends on. Once in the
-    /// life of a graph.
+    /// Brings `roots` up to date, and before each picture those that it depends on. It may be
+    /// called once for each graph.
     void update(const std::vector<PictureId>& roots);
 
-    /// Whether `from` must not look at `to`; see PictureOrder. Never so if the update met one of
-    /// them not at all.
+    /// Whether `from` must not look at `to`; see PictureOrder. False if the update did not reach
+    /// one of them.
     bool is_edge_back(const PictureId& from, const PictureId& to) const;
 
-    /// What `update` draws, in this order.
+    /// The pictures that `update` draws, in this order.
     std::vector<PictureId> order() const;
 
 private:
-    /// Which of some pictures depends on which. A picture is known by its place in `ids`, which are
-    /// sorted, so that the same pictures have the same order wherever a walk began.
+    /// The dependencies between pictures. A picture is an index into `ids`, which are sorted, so
+    /// that the same pictures have the same order wherever the walk began.
     struct Edges {
         std::vector<PictureId> ids;
         std::vector<std::vector<std::size_t>> of;
@@ -56,7 +57,7 @@ private:
 
     using Question = std::vector<PictureId> (Picture::*)();
 
-    /// All pictures that `roots` lead to, by what the pictures answer.
+    /// Finds all pictures that `roots` depend on; `dependencies` is the function that reports them.
     Edges walk(const std::vector<PictureId>& roots, Question dependencies);
     std::string message(const Edges& edges, std::size_t start);
 

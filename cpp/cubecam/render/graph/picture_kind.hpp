@@ -4,15 +4,15 @@
 
 namespace cubecam {
 
-/// In the order in which messages look for one to blame. A kind that comes (a filtered cube, a
-/// planar mirror) takes the next number; FrameContext::make makes its pictures.
+/// The kinds of pictures, in the order in which messages search for the picture to name. A new kind
+/// (a filtered cube, a planar mirror) gets the next number; FrameContext::make makes its pictures.
 enum class PictureKind : std::uint8_t { probe, texture, shadow, frame };
 
 inline PictureId probe_id(std::size_t scene, std::size_t probe, std::size_t bounce = 0) {
     return {PictureKind::probe, scene, probe, bounce, nullptr};
 }
 
-/// Render textures are numbered in the scene of the call; `texture` is a place there.
+/// The scene of the call numbers the render textures of all its scenes; `texture` is such a number.
 inline PictureId texture_id(std::size_t texture) {
     return {PictureKind::texture, 0, texture, 0, nullptr};
 }

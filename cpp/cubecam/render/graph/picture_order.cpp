@@ -12,7 +12,7 @@ constexpr std::size_t unseen = std::numeric_limits<std::size_t>::max();
 
 using Edges = std::vector<std::vector<std::size_t>>;
 
-/// Tarjan's search with a stack of its own: a chain of pictures may be long.
+/// Tarjan's search, with its own stack instead of recursion: a chain of pictures may be long.
 class Components {
 public:
     explicit Components(const Edges& edges)
@@ -73,7 +73,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The pictures that `roots` lead to without edges back.
+/// The pictures that `roots` depend on without edges back.
 std::vector<std::size_t> drawn_from(const PictureOrder& order, const Edges& edges,
                                     const std::vector<std::size_t>& roots) {
     std::vector<bool> seen(edges.size(), false);
@@ -105,7 +105,7 @@ PictureOrder order_pictures(const Edges& edges, const std::vector<std::size_t>& 
     for (const std::size_t root : roots) components.visit(root);
     PictureOrder result{{}, std::move(components.of), std::move(components.sizes)};
 
-    // Without the edges back nothing goes in circles.
+    // Without the edges back there are no circles.
     const std::vector<std::size_t> drawn = drawn_from(result, edges, roots);
     std::vector<std::vector<std::size_t>> shown_by(edges.size());
     std::vector<std::size_t> waits_for(edges.size(), 0);

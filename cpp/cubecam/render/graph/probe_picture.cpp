@@ -16,6 +16,19 @@ BoundTexture ProbePicture::texture() const {
                                     : BoundTexture{state_.target->color().id(), state_.revision};
 }
 
+Environment ProbePicture::environment() const {
+    if (state_.target == nullptr) return {};
+    const TargetDescription& description = state_.target->description();
+    Environment made;
+    made.cube = texture();
+    if (description.mipmaps) {
+        made.levels = EnvironmentLevels::mipmaps;
+        made.level_count = gl::mip_levels(description.width, description.height);
+    }
+    made.position = state_.position;
+    return made;
+}
+
 bool ProbePicture::sees(const NodeSnapshot& node) const {
     return is_seen(scene_, node, id_.object);
 }
@@ -38,7 +51,7 @@ std::vector<PictureId> ProbePicture::possible_dependencies() {
 
 std::vector<PictureId> ProbePicture::dependencies() {
     due_ = count_and_decide();
-    if (!due_) return {};  // it shows what it holds, and depends on nothing
+    if (!due_) return {};  // it keeps its contents and depends on nothing
     return plan(cube_views(probe_.position, probe_.value.near, probe_.value.far), probe_.value.size,
                 probe_.value.size, probe_.value.depth_format,
                 [this](const NodeSnapshot& node) { return sees(node); });
@@ -62,10 +75,10 @@ void ProbePicture::update() {
     const TargetDescription description = describe();
     std::optional<Budget> budget;
     if (state_.target == nullptr || state_.target->description() != description) {
-        state_.target = nullptr;  // its memory first
+        state_.target = nullptr;  // frees the old memory first
         state_.target = std::make_unique<Target>(context_.gpu.context, description);
     } else if (!forced_ && probe_.value.faces_per_frame < 6) {
-        // The first time all six are drawn: a face that holds nothing yet would be garbage.
+        // The first time all six faces are drawn: an undrawn face would have undefined contents.
         budget = Budget{static_cast<std::size_t>(probe_.value.faces_per_frame), state_.next_face};
     }
     std::size_t drawn = 0;
@@ -76,6 +89,9 @@ void ProbePicture::update() {
         context_.gpu.contents = next_revision();
         throw;
     }
+    // A face that is left for a later call was drawn from elsewhere.
+    if (state_.position != probe_.position) context_.gpu.contents = next_revision();
+    state_.position = probe_.position;
     if (drawn == 0) return;
     if (budget) state_.next_face = (budget->first + drawn) % 6;
     if (description.mipmaps) {

@@ -8,22 +8,24 @@
 
 namespace cubecam {
 
-/// The cube of a probe, as one scene of the call shows it. Where probes depend on each other, the
-/// scene's environment stands in for those that come too late (docs/adr/0003-probe-cycles.md).
+/// The cube of a probe, as one scene of the call shows it. If probes depend on each other, the
+/// scene's environment replaces those that are not drawn yet (docs/adr/0003-probe-cycles.md).
 class ProbePicture final : public ScenePicture {
 public:
     ProbePicture(FrameContext& context, const PictureId& id);
 
-    /// Draws it whole in this call, whatever its policy says.
+    /// Makes this call draw the whole probe, whatever its policy is.
     void force() { forced_ = true; }
 
-    /// What it holds now; empty before it is drawn for the first time.
+    /// The current cube; empty before it is drawn for the first time.
     BoundTexture texture() const;
+    /// The same as what a surface reflects.
+    Environment environment() const;
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
     void update() override;
-    /// Nothing stands in for it where casters are moved by it.
+    /// Nothing can replace a probe that moves casters.
     bool strict() const override { return context_.moves_casters(id_); }
     std::string label(std::size_t place) const override;
 

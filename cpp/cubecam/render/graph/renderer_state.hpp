@@ -19,24 +19,25 @@
 
 namespace cubecam {
 
-/// What a renderer holds of a probe.
+/// A renderer's state of a probe.
 struct ProbeState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     std::uint64_t revision = 0;      ///< new whenever a face was drawn; 0: not drawn yet
-    std::int64_t calls = 0;          ///< that depended on it, for every_n_frames
-    std::size_t next_face = 0;       ///< where faces_per_frame goes on
+    std::int64_t calls = 0;          ///< calls that needed it, for every_n_frames
+    std::size_t next_face = 0;       ///< the next face to draw with faces_per_frame
+    glm::dvec3 position{0.0};        ///< the position of the last drawing, world
 };
 
-/// What a renderer holds of a light's shadow map.
+/// A renderer's state of a light's shadow map.
 struct ShadowState {
     ShadowMap map;
-    std::vector<std::optional<Key>> keys;  ///< of what each layer holds; none: not to be trusted
-    std::optional<Key> whole;  ///< of the lens and all casters: where it is equal, so are all keys
+    std::vector<std::optional<Key>> keys;  ///< of the contents of each layer; none: not valid
+    std::optional<Key> whole;    ///< of the lens and all casters: if it is equal, all keys are
     std::uint64_t revision = 0;  ///< new whenever a layer was drawn
 };
 
-/// What a renderer holds of an object for each of the scenes that use it in one call: they see
-/// other things. Where only one does, as mostly, that is the first.
+/// A renderer's states of one object, one for each scene that uses the object in a call, since each
+/// scene contains other things. Most objects have one user and one state.
 template <class State>
 class StatesByScene {
 public:
@@ -49,15 +50,15 @@ private:
     std::vector<std::unique_ptr<State>> states_;
 };
 
-/// What a renderer holds of a render texture.
+/// A renderer's state of a render texture.
 struct TextureState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     gl::Texture view;                ///< its colour, as materials look it up
     Wrap wrap = Wrap::clamp;         ///< of `view`
-    std::uint64_t revision = 0;      ///< new whenever lookups may give something else
+    std::uint64_t revision = 0;      ///< new whenever lookups may give another result
 };
 
-/// All of a renderer that lives and dies with its context.
+/// The parts of a renderer that live as long as its context.
 struct RendererState {
     RendererState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
@@ -71,11 +72,11 @@ struct RendererState {
     PostProcessPass post_process;
     ShadowPass shadows;
     TargetStore targets;
-    std::shared_ptr<ResultPool> results;  ///< shared: results that outlive the renderer look for it
+    std::shared_ptr<ResultPool> results;  ///< shared: results may outlive the renderer
     WeakCache<Probe, StatesByScene<ProbeState>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
-    /// New whenever a probe, shadow map or render texture may hold something else.
+    /// New whenever the contents of a probe, shadow map or render texture may have changed.
     std::uint64_t contents = 0;
 };
 

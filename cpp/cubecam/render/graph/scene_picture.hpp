@@ -12,7 +12,8 @@
 
 namespace cubecam {
 
-/// A picture that shows a scene in colour: what frames, captures, probes and render textures share.
+/// A picture that shows a scene in colour: the common part of frames, captures, probes and render
+/// textures.
 class ScenePicture : public Picture {
 protected:
     using Wanted = std::function<bool(const NodeSnapshot&)>;
@@ -20,11 +21,12 @@ protected:
     /// `scene` is the number of the scene that it shows.
     ScenePicture(FrameContext& context, PictureId id, std::size_t scene);
 
-    /// Plans the nodes that `wanted` lets through, and gives the pictures that those in view show.
+    /// Plans the nodes for which `wanted` is true, and returns the pictures that the nodes in view
+    /// show.
     Dependencies plan(std::vector<View> views, int width, int height, DepthFormat depth_format,
                       const Wanted& wanted);
 
-    /// As DrawnPicture's.
+    /// Calls DrawnPicture::draw_changed.
     std::size_t draw_changed(Target& target, const PostProcess& post_process = {},
                              std::optional<Budget> budget = std::nullopt);
 

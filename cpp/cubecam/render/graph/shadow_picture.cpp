@@ -16,13 +16,14 @@ void add_caster(Key& key, const NodeSnapshot& node, TextureLookup& lookup) {
     for (const BoundTexture& texture : lookup.find_for_vertices(node)) key.add(texture.revision);
 }
 
-/// Cheaper than the layers' keys, which want every caster culled against every view.
+/// A key of the whole map: it costs less than the layers' keys, which need every caster culled
+/// against every view.
 Key whole_key(const SceneSnapshot& scene, const ShadowView& view, TextureLookup& lookup) {
     Key key;
     key.add(view.views.front().view_projection);
     key.add(view.views.front().position);
     for (const NodeSnapshot& node : scene.nodes) {
-        // As in the layers' keys: what is drawn after the opaque nodes casts nothing.
+        // As in the layers' keys, nodes that are drawn after the opaque ones cast no shadow.
         if (node.cast_shadow && !node.drawn_as_transparent()) add_caster(key, node, lookup);
     }
     return key;
@@ -62,7 +63,7 @@ void ShadowPicture::update() {
     use_ = {shadow_view(light, scene_), *light.shadow, 0, 0};
     const std::size_t layers = use_.view.views.size();
     if (state_.map.size != size || state_.keys.size() != layers) {
-        state_ = {};  // its memory first
+        state_ = {};  // frees the old memory first
         state_.map = context_.gpu.shadows.make_map(size, static_cast<int>(layers));
         state_.keys.resize(layers);
     }

@@ -9,27 +9,27 @@
 
 namespace cubecam {
 
-/// The shadow map of a light in one scene: depth of all that casts shadows there, in view or not.
-/// It depends on the pictures by which casters move their vertices, and on no others.
+/// The shadow map of a light in one scene: the depth of all its casters, whether they are in view
+/// or not. It depends only on the pictures that casters look up to move their vertices.
 ///
-/// The same map serves frames, captures, probes and render textures. A layer is drawn again only
-/// when its key differs.
+/// Frames, captures, probes and render textures use the same map. A layer is drawn again only if
+/// its key has changed.
 class ShadowPicture final : public Picture {
 public:
     ShadowPicture(FrameContext& context, const PictureId& id);
 
-    /// The map, ready to be looked up, once it is up to date.
+    /// The map for lookups; valid after `update`.
     const ShadowUse& use() const { return use_; }
 
     std::vector<PictureId> possible_dependencies() override { return dependencies(); }
     std::vector<PictureId> dependencies() override;
     void update() override;
     bool strict() const override { return true; }
-    /// Empty: messages name what moves the casters instead.
+    /// Empty: messages name the pictures that move the casters instead.
     std::string label(std::size_t place) const override;
 
 private:
-    /// Draws the layers that differ.
+    /// Draws the layers whose keys have changed.
     void draw_changed(TextureLookup& lookup);
 
     FrameContext& context_;

@@ -13,23 +13,34 @@ TextureLookup::TextureLookup(FrameContext& context, const PictureId& viewer, std
       probes_(scene_.probes.size()) {}
 
 BoundTexture TextureLookup::find(const CubeSourceSnapshot& source) {
-    if (const auto* cube = std::get_if<CubeSnapshot>(&source)) {
-        return {context_.gpu.cache.cube(*cube).texture.id(), cube->data->revision};
-    }
-    const auto* probe = std::get_if<std::size_t>(&source);
-    if (probe == nullptr) return {};
-    std::optional<BoundTexture>& known = probes_[*probe];
-    if (!known) known = find_probe(*probe);
-    return *known;
+    return find_environment(source).cube;
 }
 
-BoundTexture TextureLookup::find_probe(std::size_t probe) {
-    const BoundTexture held = context_.probe(number_, probe).texture();
+Environment TextureLookup::find_environment(const CubeSourceSnapshot& source) {
+    if (const auto* cube = std::get_if<CubeSnapshot>(&source)) {
+        const CubeMapData& data = *cube->data;
+        Environment found;
+        found.cube = {context_.gpu.cache.cube(*cube).texture.id(), data.revision};
+        if (data.mipmaps) {
+            found.levels = EnvironmentLevels::mipmaps;
+            found.level_count = gl::mip_levels(data.size, data.size);
+        }
+        return found;
+    }
+    const auto* probe = std::get_if<std::size_t>(&source);
+    return probe == nullptr ? Environment{} : find_probe(*probe);
+}
+
+const Environment& TextureLookup::find_probe(std::size_t probe) {
+    std::optional<Environment>& known = probes_[probe];
+    if (known) return *known;
+    const Environment held = context_.probe(number_, probe).environment();
     const bool back = context_.pictures.is_edge_back(viewer_, probe_id(number_, probe));
-    if (!back && held.texture != 0) return held;
-    // A mirror in a circle of mirrors, or a manual probe before its first update.
-    return std::holds_alternative<CubeSnapshot>(scene_.environment) ? find(scene_.environment)
-                                                                    : BoundTexture{};
+    if (!back && held.cube.texture != 0) return known.emplace(held);
+    // Reached for a mirror in a circle of mirrors, or a manual probe before its first update.
+    return known.emplace(std::holds_alternative<CubeSnapshot>(scene_.environment)
+                             ? find_environment(scene_.environment)
+                             : Environment{});
 }
 
 BoundTexture TextureLookup::find(const MapSnapshot& map) {
@@ -45,7 +56,7 @@ BoundTexture TextureLookup::find(const TextureSourceSnapshot& texture) {
 }
 
 NodeTextures TextureLookup::find(const NodeSnapshot& node) {
-    NodeTextures found{find(environment_of(scene_, node)), {}};
+    NodeTextures found{find_environment(environment_of(scene_, node)), {}};
     for (const TextureSourceSnapshot& texture : node.textures) {
         found.textures.push_back(find(texture));
     }

@@ -3,6 +3,7 @@
 #include "cubecam/render/graph/picture.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/render/resources/environment.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
 #include <cstddef>
@@ -13,35 +14,36 @@ namespace cubecam {
 
 class FrameContext;
 
-/// The textures that one picture of a scene looks up. The pictures among them are up to date by
-/// then.
+/// The textures that one picture of a scene looks up. Those that are pictures are already up to
+/// date.
 class TextureLookup {
 public:
-    /// `viewer` is the picture that looks, `scene` the number of the scene that it shows.
+    /// `viewer` is the picture that looks them up, `scene` the number of the scene that it shows.
     TextureLookup(FrameContext& context, const PictureId& viewer, std::size_t scene);
 
     BoundTexture find(const CubeSourceSnapshot& source);
     BoundTexture find(const MapSnapshot& map);
     BoundTexture find(const TextureSourceSnapshot& texture);
+    Environment find_environment(const CubeSourceSnapshot& source);
 
-    /// Of all that a node's material looks up.
+    /// Finds all textures that a node's material looks up.
     NodeTextures find(const NodeSnapshot& node);
-    /// Of those by which a node's vertices are moved, in the order of its inputs; others stay
-    /// empty.
+    /// Finds the textures that a node looks up to move its vertices, in the order of its inputs;
+    /// the others stay empty.
     std::vector<BoundTexture> find_for_vertices(const NodeSnapshot& node);
-    /// Of each effect, in the order of its inputs.
+    /// Finds the textures of each effect, in the order of its inputs.
     std::vector<std::vector<BoundTexture>> find(const std::vector<EffectSnapshot>& effects);
     /// The cube behind everything; empty if the background is a colour.
     BoundTexture background();
 
 private:
-    BoundTexture find_probe(std::size_t probe);
+    const Environment& find_probe(std::size_t probe);
 
     FrameContext& context_;
     PictureId viewer_;
     std::size_t number_;
     const SceneSnapshot& scene_;
-    std::vector<std::optional<BoundTexture>> probes_;  // of the scene, as far as looked up
+    std::vector<std::optional<Environment>> probes_;  // of the scene; none: not yet found
 };
 
 }  // namespace cubecam

@@ -48,7 +48,7 @@ std::vector<PictureId> TexturePicture::dependencies() {
     return shown;
 }
 
-/// As describe_target, saying which texture is meant if it has a name.
+/// Like describe_target; if the texture has a name, error messages contain it.
 TargetDescription TexturePicture::describe() const {
     const RenderTextureValue& value = texture_.value;
     try {
@@ -71,7 +71,7 @@ TargetDescription TexturePicture::describe() const {
 void TexturePicture::prepare(const TargetDescription& description) {
     const GladGLContext& gl = context_.gpu.context.gl();
     if (state_.target == nullptr || state_.target->description() != description) {
-        state_ = TextureState{};  // its memory first
+        state_ = TextureState{};  // frees the old memory first
         state_.target = std::make_unique<Target>(context_.gpu.context, description);
         state_.view = gl::create_view_2d(
             gl, state_.target->picture(),

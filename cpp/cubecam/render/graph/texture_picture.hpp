@@ -8,12 +8,12 @@
 
 namespace cubecam {
 
-/// The picture of a render texture. It never shows itself (docs/adr/0007-render-textures.md).
+/// The picture of a render texture, which never shows itself (docs/adr/0007-render-textures.md).
 class TexturePicture final : public ScenePicture {
 public:
     TexturePicture(FrameContext& context, const PictureId& id);
 
-    /// What it holds now.
+    /// The current picture.
     BoundTexture texture() const { return {state_.view.id(), state_.revision}; }
 
     std::vector<PictureId> possible_dependencies() override;
@@ -25,7 +25,7 @@ public:
 private:
     bool sees(const NodeSnapshot& node) const;
     TargetDescription describe() const;
-    /// A target, and a view of it, of the size and format that the texture has now.
+    /// Makes the target and the view of it, if the texture's size, format or wrapping has changed.
     void prepare(const TargetDescription& description);
 
     const RenderTextureSnapshot& texture_;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr GLint no_stencil = 0;
 
-/// Calls `put(slot, type, numbers)` for colour and every output, with four numbers to clear to.
+/// Calls `put(slot, type, numbers)` for colour and every output; the four numbers are the clear
+/// value.
 template <class Put>
 void for_each_color(const Target& target, const ClearValues& values, Put&& put) {
     if (values.with_color && target.description().color) {

@@ -4,23 +4,24 @@
 
 namespace cubecam {
 
-/// What a pass starts from: the background where it is a colour, no depth, a stencil of 0, and each
-/// output's "nothing was hit".
+/// The contents that a pass starts with: the background if it is a colour, the farthest depth, a
+/// stencil of 0, and each output's value for "nothing was hit".
 struct ClearValues {
     glm::vec4 color;
-    bool with_color;    ///< clear the colour, too
-    bool with_outputs;  ///< and what the target has of outputs
+    bool with_color;    ///< whether the colour is cleared
+    bool with_outputs;  ///< whether the target's outputs are cleared
 };
 
-/// Clears the framebuffer that is bound, all of its layers, within the scissor.
+/// Clears all layers of the bound framebuffer, within the scissor.
 ///
-/// Not by glClearNamedFramebuffer, which binds and puts back: on llvmpipe each binding ends a
-/// scene, and the third waits until the first is drawn.
+/// It does not use glClearNamedFramebuffer, which binds the framebuffer and restores the old one:
+/// on llvmpipe each binding ends a scene, and the third binding waits until the first scene is
+/// drawn.
 void clear_bound(const GladGLContext& gl, const Target& target, const ClearValues& values);
 
-/// Clears a part of one layer of a cube without multisampling, by glClearTexSubImage: on llvmpipe
-/// in a sixth of glClear's time. It waits for what is being drawn there, so it comes before all
-/// drawing.
+/// Clears a part of one layer of a cube without multisampling by glClearTexSubImage, which on
+/// llvmpipe takes a sixth of glClear's time. The call waits for earlier drawing into the texture,
+/// so it is made before all drawing.
 void clear_layer(const GladGLContext& gl, const Target& target, int layer, const Rect& rect,
                  const ClearValues& values);
 

@@ -8,7 +8,7 @@
 namespace cubecam {
 namespace {
 
-/// What a planned node is sorted by.
+/// The key by which planned nodes are sorted.
 struct SortKey {
     std::int32_t order;
     std::uint32_t crowd;
@@ -21,7 +21,7 @@ double distance_to(const View& view, const glm::dvec3& point) {
                          : glm::distance(point, view.position);
 }
 
-/// Nodes stand in order of id: the index breaks ties.
+/// Nodes are in the order of their ids, so the index breaks ties.
 void sort_and_append(std::vector<SortKey>& keys, std::vector<PlannedNode>& to) {
     std::sort(keys.begin(), keys.end(), [](const SortKey& a, const SortKey& b) {
         return std::tie(a.order, a.crowd, a.distance, a.planned.node) <
@@ -31,7 +31,7 @@ void sort_and_append(std::vector<SortKey>& keys, std::vector<PlannedNode>& to) {
     for (const SortKey& key : keys) to.push_back(key.planned);
 }
 
-/// The views of one place, each with what culling needs of it.
+/// The views at one position, each with its data for culling.
 struct Place {
     std::vector<std::uint32_t> views;
     std::vector<Culling> culling;
@@ -63,7 +63,7 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
     plan.depth_mode = depth_mode;
     std::vector<SortKey> opaque;
     std::vector<SortKey> transparent;
-    // What a view draws must not depend on views that stand elsewhere.
+    // The picture of a view must not depend on views at other positions.
     for (const Place& place : places_of(views)) {
         const View& here = views[place.views.front()];
         opaque.clear();
@@ -93,7 +93,8 @@ DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int 
                 key.distance = -key.distance;
                 transparent.push_back(key);
             } else {
-                key.crowd = node.crowd;
+                // A draw call has one winding.
+                if (node.crowd != 0) key.crowd = 2 * node.crowd + (node.turned ? 1 : 0);
                 opaque.push_back(key);
             }
         }

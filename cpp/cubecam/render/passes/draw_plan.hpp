@@ -12,40 +12,39 @@
 
 namespace cubecam {
 
-/// Where a node may show.
+/// Where a node may be visible.
 struct Visibility {
-    std::uint32_t view;  ///< index into the views planned for
+    std::uint32_t view;  ///< index into the views of the plan
     Rect bounds;         ///< the pixels it can touch there
 };
 
-/// One node and the views that may see it.
+/// A node and the views that may see it.
 struct PlannedNode {
     std::uint32_t node;   ///< index into SceneSnapshot::nodes
     std::uint32_t first;  ///< index into DrawPlan::visibilities
     std::uint32_t count;
 };
 
-/// Whether a pass tests depth, or paints one node over the other.
+/// Whether a pass tests depth or draws each node over the ones before.
 enum class DepthMode { by_depth, by_order };
 
-/// What a target with such a buffer can do.
+/// The mode of a target with a depth buffer of this format.
 inline DepthMode depth_mode(DepthFormat format) {
     return has_depth(format) ? DepthMode::by_depth : DepthMode::by_order;
 }
 
-/// What is drawn, in order; of nodes that differ in Node's render_order, the lower first:
-///  - opaque nodes near to far, after them those of a crowd (NodeSnapshot::crowd), crowd by crowd
-///  and
-///    near to far in each: all of a crowd become one draw call;
-///  - those of NodeSnapshot::drawn_as_transparent, far to near.
+/// The nodes to draw, in order. Nodes with a lower Node::render_order come first; among equal ones:
+///  - opaque nodes from near to far, then those of crowds (NodeSnapshot::crowd), crowd by crowd and
+///    from near to far in each: one draw call draws a whole crowd;
+///  - the nodes for which NodeSnapshot::drawn_as_transparent holds, from far to near.
 ///
-/// Views that stand in one place share one sequence; others follow each other, sequence by
-/// sequence, so a node may come several times.
+/// Views at one position share one sequence. The sequences of different positions follow each
+/// other, so a node may occur several times.
 struct DrawPlan {
     DepthMode depth_mode = DepthMode::by_depth;
-    std::vector<PlannedNode> opaque;  ///< by_order: all, by render_order and id
+    std::vector<PlannedNode> opaque;  ///< by_order: all nodes, by render_order and id
     std::vector<PlannedNode> transparent;
-    std::vector<Visibility> visibilities;  ///< of each planned node, by view, ascending
+    std::vector<Visibility> visibilities;  ///< of each planned node, ascending by view
 
     std::span<const Visibility> visible_in(const PlannedNode& planned) const {
         return {visibilities.data() + planned.first, planned.count};
@@ -58,11 +57,12 @@ struct DrawPlan {
     }
 };
 
-/// Whether two views stand in one place, so that distances from them are equal bit for bit.
+/// Whether two views have the same position, so that distances from them are equal bit for bit.
 bool same_place(const View& a, const View& b);
 
-/// For pictures of `width` x `height`: culls every node that `wanted` lets through against every
-/// view and sorts what is left, ties by id: the order depends on the scene alone.
+/// Plans pictures of `width` x `height`: culls every node for which `wanted` is true against every
+/// view, and sorts the others. The id breaks ties, so the order depends only on the scene and the
+/// views.
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,
                    const std::function<bool(const NodeSnapshot&)>& wanted,
                    DepthMode depth_mode = DepthMode::by_depth);

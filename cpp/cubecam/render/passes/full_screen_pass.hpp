@@ -9,19 +9,19 @@
 
 namespace cubecam {
 
-/// The records of the views that a full-screen quad is drawn for (ViewRecord); none: one view, and
-/// a vertex shader that reads no record.
+/// The records (ViewRecord) of the views for which a full-screen quad is drawn; without a buffer,
+/// one view and a vertex shader that reads no record.
 struct FullScreenViews {
     GLuint buffer = 0;
     GLuint first = 0;
     std::int64_t count = 1;
 };
 
-/// The state of a pass that replaces every pixel: no depth, no culling, no blending.
+/// Sets the state of a pass that replaces every pixel: no depth test, no culling, no blending.
 void set_full_screen_state(const GladGLContext& gl);
 
-/// One quad over the whole picture into the bound framebuffer, by the program in use. Its corners
-/// come from gl_VertexID: passes/full_screen.vert, passes/skybox.vert.
+/// Draws one quad over the whole picture into the bound framebuffer, by the program in use. Its
+/// corners come from gl_VertexID: passes/full_screen.vert, passes/skybox.vert.
 void draw_full_screen(const GladGLContext& gl, const GpuCache& cache, const FullScreenViews& views,
                       Stats& stats);
 

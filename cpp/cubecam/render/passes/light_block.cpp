@@ -11,8 +11,8 @@
 namespace cubecam {
 namespace {
 
-/// How a spot light fades towards its edge, so that the shader has dot(cone.xyz, travel) + cone.w
-/// from 0 at the edge to 1 where the penumbra ends.
+/// Encodes how a spot light fades towards its edge: dot(cone.xyz, travel) + cone.w is 0 at the edge
+/// and 1 where the penumbra ends.
 glm::vec4 cone_of(const SpotParameters& spot) {
     const double edge = std::cos(radians(spot.angle));
     const double full = std::cos(radians(spot.angle * (1.0 - spot.penumbra)));
@@ -52,8 +52,8 @@ void add(ShaderLights& to, const LightValue& light, const glm::dvec3& origin) {
 
 ShaderLights make_shader_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin) {
     ShaderLights made;
-    // Those with a shadow first: so a shader knows which they are when it is compiled. The order
-    // must not depend on whether anything drawn receives one: sums of floats depend on it.
+    // Lights with a shadow come first, so that a shader knows them when it is compiled. The order
+    // must not depend on whether a drawn node receives shadows: sums of floats depend on the order.
     for (const LightSnapshot& light : lights) {
         if (light.value.shadow) add(made, light.value, origin);
     }

@@ -9,7 +9,7 @@
 
 namespace cubecam {
 
-/// Lights beyond this many are refused: they lie in a uniform block of guaranteed size.
+/// The largest number of lights: their uniform block fits into the size that OpenGL guarantees.
 inline constexpr std::size_t max_lights = 256;
 
 /// The uniform block `Lights` of shaders/include/lights.glsl, std140.
@@ -25,17 +25,17 @@ struct LightsBlock {
     Light lights[max_lights];
 };
 
-/// The lights of a scene as shaders get them, and what decides which variant of a shader serves.
+/// The lights of a scene as shaders get them, and the properties that select a variant of a shader.
 struct ShaderLights {
     LightsBlock block;
-    glm::vec3 ambient{0.0F};       ///< of all ambient lights
-    std::size_t count = 0;         ///< of the others
-    std::size_t shadow_count = 0;  ///< of these, which come first, with a shadow
+    glm::vec3 ambient{0.0F};       ///< the sum of all ambient lights
+    std::size_t count = 0;         ///< how many other lights
+    std::size_t shadow_count = 0;  ///< how many of these have a shadow; they come first
     bool decay = false;            ///< some light falls off
     bool cone = false;             ///< some light is a spot light
 };
 
-/// `origin` is where the shaders' positions count from.
+/// `origin` is the origin of the shaders' positions.
 /// @throws std::invalid_argument for more than max_lights.
 ShaderLights make_shader_lights(std::span<const LightSnapshot> lights, const glm::dvec3& origin);
 

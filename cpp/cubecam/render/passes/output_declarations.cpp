@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view taken_names[] = {"color"};
 
-/// One declaration at the outermost level of a source, from its first token to its semicolon.
+/// A declaration at the outermost level of a source, from its first token to its semicolon.
 struct Declaration {
     std::size_t begin;
     std::size_t end;
@@ -19,7 +19,8 @@ struct Declaration {
 
 bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// Comments and lines for the preprocessor, overwritten by spaces: places in the text stay.
+/// Overwrites comments and preprocessor lines by spaces, so that positions in the text stay the
+/// same.
 std::string without_comments(std::string text) {
     const auto erase = [&text](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < std::min(end, text.size()); ++i) {
@@ -105,7 +106,7 @@ std::vector<Declaration> find_declarations(const UserSource& source) {
     std::vector<Declaration> declarations;
     int braces = 0;
     int brackets = 0;
-    bool named = false;  // `out` stands in this statement, and is no function's parameter
+    bool named = false;  // the statement contains `out`, outside a parameter list
     std::size_t begin = 0;
     const auto restart = [&](std::size_t i) {
         named = false;
@@ -139,7 +140,7 @@ std::string declaration_text(std::size_t slot, std::string_view type, std::strin
     return "layout(location = " + std::to_string(slot) + ") out " + variable;
 }
 
-/// 0 where the output is not among those.
+/// Returns the slot of an output, or 0 if it is not among `outputs`.
 std::size_t slot_of(const std::vector<ShadedOutput>& outputs, std::string_view name) {
     for (const ShadedOutput& output : outputs) {
         if (output.name == name) return output.slot;

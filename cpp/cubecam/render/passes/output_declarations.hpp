@@ -9,17 +9,19 @@
 
 namespace cubecam {
 
-/// The outputs that a user's fragment source declares, `out vec4 heat;`, in their order.
-/// @throws std::invalid_argument for one of another form or type, or of a name that is taken.
+/// Returns the outputs that a user's fragment source declares, such as `out vec4 heat;`, in their
+/// order.
+/// @throws std::invalid_argument for a declaration of another form or type, or with the name of a
+/// built-in output.
 std::vector<NamedOutput> declared_outputs(const UserSource& fragment);
 
-/// A user's fragment source for a program that writes `outputs`: a declaration of one of those gets
-/// its location, every other one becomes a plain variable. Line numbers stay as they are.
-/// @throws as declared_outputs.
+/// Adapts a user's fragment source to a program that writes `outputs`: a declaration of one of
+/// these gets its location, every other one becomes a plain variable. Line numbers stay the same.
+/// @throws the exceptions of declared_outputs.
 UserSource place_outputs(const UserSource& fragment, const Outputs& outputs);
 
-/// What surface.frag is compiled with so that it writes `outputs`. `declared`: what the user's own
-/// source in it declares; the others that are named are written as 0.
+/// Returns the defines by which surface.frag writes `outputs`. `declared` are the outputs that the
+/// user's own source declares; the other named outputs are written as 0.
 std::vector<std::pair<std::string, std::string>>
 output_defines(const Outputs& outputs, const std::vector<NamedOutput>& declared = {});
 

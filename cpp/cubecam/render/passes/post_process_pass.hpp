@@ -11,8 +11,8 @@
 
 namespace cubecam {
 
-/// What becomes of a picture once its scene is drawn and resolved, in this order: effects, each in
-/// linear float over all pixels, then the tone curve, then the transfer function.
+/// The steps that follow when a scene is drawn and resolved, in this order: effects, each in linear
+/// float over all pixels, then the tone curve, then the transfer function.
 struct PostProcess {
     std::vector<EffectSnapshot> effects;
     Tonemap tonemap = Tonemap::none;
@@ -23,13 +23,13 @@ struct PostProcess {
     }
 };
 
-/// Full-screen passes from a post-processed target's colour to the picture that is read.
+/// The full-screen passes that turn a post-processed target's colour into the picture that is read.
 class PostProcessPass {
 public:
     PostProcessPass(const GladGLContext& gl, GpuCache& cache, Programs& programs)
         : gl_(&gl), cache_(&cache), programs_(&programs) {}
 
-    /// Of one layer. `textures`: what each effect looks up.
+    /// Processes one layer. `textures` are the textures that each effect looks up.
     void draw(const PostProcess& post_process,
               const std::vector<std::vector<BoundTexture>>& textures, Target& target, int layer,
               Stats& stats);

@@ -14,8 +14,8 @@
 namespace cubecam {
 namespace {
 
-/// How many lights reach the fragment shader as flat inputs (docs/adr/0004): as many as the driver
-/// has room for beside everything else in shaders/include/surface.glsl.
+/// How many lights are flat inputs of the fragment shader (docs/adr/0004): as many as the driver
+/// has room for in addition to the other inputs in shaders/include/surface.glsl.
 int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, int room) {
     if (variant.dense || variant.lights <= 0) return 0;
     int taken = 3;  // position, normal, eye
@@ -31,7 +31,7 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
     return std::clamp((room - taken) / each, 0, variant.lights);
 }
 
-/// The file that stands for the material's own in shaders/passes/surface.frag.
+/// The file that the material's own file replaces in shaders/passes/surface.frag.
 constexpr std::string_view material_include = "include/material.glsl";
 
 std::string upper(std::string_view name) {
@@ -42,15 +42,15 @@ std::string upper(std::string_view name) {
     return text;
 }
 
-/// The GLSL that includes a material's file.
+/// Returns GLSL that includes a material's file.
 UserSource include_of(const KindInfo& kind) {
     return {"#include \"" + std::string(kind.shader) + "\"\n", {}};
 }
 
-/// What the shader knows of the material's textures.
+/// Adds the defines for the material's textures.
 void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
                   const MaterialTraits& material) {
-    if (material.user_code) return;  // samplers are the user's own
+    if (material.user_code) return;  // the user declares the samplers
     bool uv = false;
     bool position = false;
     for (std::size_t i = 0; i < material.textures.size(); ++i) {

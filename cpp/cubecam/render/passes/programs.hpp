@@ -14,39 +14,39 @@
 
 namespace cubecam {
 
-/// Which variant of surface.vert/.frag a draw call needs.
+/// The variant of surface.vert and surface.frag that a draw call needs.
 struct SurfaceVariant {
     const KindInfo* kind = nullptr;
-    bool instanced = false;      ///< the instances are nodes, else they are views
+    bool instanced = false;      ///< whether the instances are nodes; otherwise views
     std::uint32_t switches = 0;  ///< MaterialTraits::switches
     std::uint32_t textures = 0;  ///< bit i: the material's texture i shows something
     bool vertex_colors = false;
     bool double_sided = false;
     Blend blend = Blend::opaque;
     bool dense = false;  ///< many small triangles: constants stay in their blocks
-    Outputs outputs;     ///< that it writes; without those read from depth and stencil buffers
-    int lights = 0;      ///< unrolled so many times; -1: a loop
+    Outputs outputs;     ///< that it writes, except those read from the depth and stencil buffer
+    int lights = 0;      ///< how many, in an unrolled loop; -1: a loop of any length
     bool decay = false;
-    bool moved = false;              ///< by a user's own vertex function
+    bool moved = false;              ///< whether a user's own function moves the vertices
     bool cone = false;               ///< some light is a spot light
-    int shadows = 0;                 ///< so many lights, the first ones, have shadows that it shows
-    std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each, two bits from the lowest on
+    int shadows = 0;                 ///< how many lights, the first ones, have a shadow on it
+    std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each: two bits, from the lowest on
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 
-/// The unit of a material's first texture: units below belong to the passes, those from 16 on to
+/// The unit of a material's first texture: lower units belong to the passes, units from 16 on to
 /// shadows.
 inline constexpr unsigned first_material_unit = 2;
 
-/// Compiled programs, made when first needed.
+/// Compiled programs; each is made when it is first needed.
 class Programs {
 public:
     Programs(const GladGLContext& gl, bool layered);
 
-    /// `material` is any of the variant's kind and switches.
+    /// `material` has the variant's kind and switches.
     const gl::Program& surface(const SurfaceVariant& variant, const MaterialTraits& material);
-    /// With a user's source in it. @throws ShaderError that names the user's own lines.
+    /// A variant with a user's source in it. @throws ShaderError that names the user's own lines.
     UserProgram& user_surface(const SurfaceVariant& variant, const MaterialTraits& material);
     UserProgram& effect(const UserSource& fragment);
     const gl::Program& skybox();
@@ -61,7 +61,7 @@ private:
 
     const GladGLContext* gl_;
     bool layered_;
-    GLint room_ = 15;  ///< vectors that a vertex shader may hand on
+    GLint room_ = 15;  ///< vectors that a vertex shader may pass to the fragment shader
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
     UserPrograms users_;

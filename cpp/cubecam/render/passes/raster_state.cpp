@@ -41,8 +41,8 @@ GLenum gl_equation(BlendEquation equation) {
     return GL_FUNC_ADD;
 }
 
-/// Each as Blend says it; the fragment shader multiplies by alpha where a mode's source is
-/// multiplied (surface.frag).
+/// Sets each mode as documented at Blend; if a mode multiplies its source by alpha, the fragment
+/// shader does it (surface.frag).
 void set_blending(const GladGLContext& gl, Blend blend, const BlendFactors& factors) {
     if (blend == Blend::opaque) {
         gl.Disablei(GL_BLEND, 0);
@@ -76,11 +76,12 @@ void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mi
                       const DepthState& depth) {
     const SurfaceOptions& surface = node.material.value.surface;
     set(gl, GL_CULL_FACE, !surface.double_sided);
-    // A node's matrix of negative determinant turns the winding, a mirrored view turns it again.
-    const bool turned = (glm::determinant(glm::dmat3(node.world)) < 0.0) != mirror;
+    // A node's matrix with a negative determinant reverses the winding, and a mirrored view
+    // reverses it again.
+    const bool turned = node.turned != mirror;
     gl.FrontFace(turned ? GL_CW : GL_CCW);
 
-    // Depth is only written while the test is on.
+    // OpenGL writes depth only while the test is enabled, so no test means GL_ALWAYS.
     gl.DepthFunc(surface.depth_test ? depth.closer : GLenum{GL_ALWAYS});
     gl.DepthMask(node.depth_write ? GL_TRUE : GL_FALSE);
     const glm::bvec4& write = surface.color_write;

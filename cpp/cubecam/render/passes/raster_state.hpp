@@ -7,13 +7,13 @@
 
 namespace cubecam {
 
-/// Sets what a node's material says of culling, depth, colour channels, blending and the stencil
-/// for the next draw call. `mirror`: the view shows the world mirrored.
+/// Sets culling, depth, colour channels, blending and the stencil of a node's material for the next
+/// draw call. `mirror`: whether the view shows the world mirrored.
 void set_raster_state(const GladGLContext& gl, const NodeSnapshot& node, bool mirror,
                       const DepthState& depth);
 
-/// What drawing starts from, and clears and full-screen passes count on: every channel and depth
-/// written, no blending, no stencil test.
+/// Sets the state that drawing starts with, and on which clears and full-screen passes depend: all
+/// channels and depth are written, without blending and stencil test.
 void reset_raster_state(const GladGLContext& gl, const DepthState& depth);
 
 }  // namespace cubecam

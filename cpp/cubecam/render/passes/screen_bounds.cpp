@@ -7,12 +7,12 @@
 namespace cubecam {
 namespace {
 
-/// A pixel is covered from its center or its samples, and rasterisers snap vertices to a fraction
-/// of it.
+/// In pixels: coverage depends on a pixel's center or its samples, and rasterisers snap vertices to
+/// a fraction of a pixel.
 constexpr double margin = 2.0;
 
-/// Rounding of matrices and of a product of four terms, with room to spare: in units of what the
-/// terms' sizes add up to (N. Higham, "Accuracy and Stability of Numerical Algorithms",
+/// An upper bound for the rounding of matrices and of a product of four terms, relative to the sum
+/// of the terms' absolute values (N. Higham, "Accuracy and Stability of Numerical Algorithms",
 /// section 3.1).
 constexpr double rounding = 8.0 / (1 << 24);
 
@@ -33,7 +33,8 @@ Culling::Culling(const View& view)
 }
 
 glm::dvec4 Culling::clip_error(const NodeSnapshot& node) const {
-    // As the shader works: local to the world seen from the view's position, then to clip space.
+    // As in the shader: from local space to the world relative to the view's position, then to clip
+    // space.
     const glm::dvec3 size = glm::abs(glm::dvec3(node.world[3]) - position_) + node.reach;
     return least_error_ + error_of_size_[0] * size[0] + error_of_size_[1] * size[1] +
            error_of_size_[2] * size[2];
@@ -60,7 +61,7 @@ Rect Culling::screen_bounds(const NodeSnapshot& node, int width, int height) con
         for (unsigned axis = 0; axis < 3; ++axis) {
             if ((corner >> axis & 1U) != 0) clip += edges[axis];
         }
-        // Beside or behind the eye a corner's projection bounds nothing.
+        // If a corner is beside or behind the eye, its projection gives no bound.
         const double size = std::max(std::abs(clip.x), std::abs(clip.y));
         const double w = clip.w - error.w;
         if (!(w > 1e-4 * size)) return {0, 0, width, height};

@@ -11,22 +11,22 @@
 
 namespace cubecam {
 
-/// Which nodes a view can see, and where. Float arithmetic on the GPU may put a vertex a little
-/// off: by how much at most is part of the answer. It is not small where large numbers cancel, as
-/// for a mesh modelled a million units from its own origin.
+/// Finds which nodes a view can see, and where. The results allow for the largest error of float
+/// arithmetic on the GPU, which is not small if large numbers cancel, as for a mesh that lies a
+/// million units from its own origin.
 class Culling {
 public:
     explicit Culling(const View& view);
 
-    /// Whether a node can show in the view's picture; see Frustum.
+    /// Whether a node can be visible in the view's picture; see Frustum.
     bool may_show(const NodeSnapshot& node) const;
 
-    /// A rectangle that holds every pixel of a picture of `width` x `height` that a node can touch.
-    /// GL's rows: y grows upwards.
+    /// Returns a rectangle that contains every pixel that a node can touch in a picture of `width`
+    /// x `height`. As in GL, y grows upwards.
     Rect screen_bounds(const NodeSnapshot& node, int width, int height) const;
 
 private:
-    /// How far off, at most, a vertex may be in clip space.
+    /// The largest error of a vertex in clip space.
     glm::dvec4 clip_error(const NodeSnapshot& node) const;
 
     glm::dmat4 view_projection_;

@@ -8,8 +8,8 @@ ShadowBlock make_shadow_block(const ShadowUse& use, const glm::dvec3& origin) {
     for (int row = 0; row < 3; ++row) {
         const glm::dvec3 axis(view.to_light[0][row], view.to_light[1][row], view.to_light[2][row]);
         const glm::dvec3& place = view.views.front().position;
-        // From the light's own place, not by way of the world's origin: nothing large cancels. A
-        // parallel view stands on the near plane, where z is 0, too.
+        // The position counts from the light, not from the world's origin, so that no large numbers
+        // cancel. A parallel view lies on the near plane, where z is also 0.
         block.rows[row] = glm::vec4(axis, glm::dot(axis, origin - place));
     }
     block.lens = glm::vec4(view.offset, view.scale, view.texels, use.shadow.size);

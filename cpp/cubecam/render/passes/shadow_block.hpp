@@ -10,13 +10,13 @@
 
 namespace cubecam {
 
-/// Lights with a shadow beyond this many are refused: each takes a texture unit.
+/// The largest number of lights with a shadow: each takes a texture unit.
 inline constexpr std::size_t max_shadows = 16;
 
 /// The unit of the first light's map; the others follow.
 inline constexpr GLuint shadow_unit = 16;
 
-/// A light's shadow map, ready to be looked up.
+/// A light's shadow map, ready for lookups.
 struct ShadowUse {
     ShadowView view;
     Shadow shadow;
@@ -31,7 +31,7 @@ struct ShadowBlock {
     glm::vec4 filter{};
 };
 
-/// `origin` is where the shaders' positions count from.
+/// `origin` is the origin of the shaders' positions.
 ShadowBlock make_shadow_block(const ShadowUse& use, const glm::dvec3& origin);
 
 }  // namespace cubecam

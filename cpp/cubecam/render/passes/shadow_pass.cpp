@@ -73,8 +73,8 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
 }
 
 void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& map, Stats& stats) {
-    // All nodes of one mesh in one call: of a caster nothing but its matrix counts. Meshes come in
-    // the order of their first node.
+    // One call draws all nodes of a mesh, since casters of one mesh differ only in their matrices.
+    // Meshes are in the order of their first node.
     std::vector<const MeshData*> meshes;
     std::vector<std::vector<ViewRecord>> nodes;
     std::map<const MeshData*, std::size_t> places;
@@ -113,7 +113,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     gl_->DepthFunc(depth_test.closer);
     gl_->DepthMask(GL_TRUE);
     gl_->Disable(GL_BLEND);
-    gl_->Disable(GL_CULL_FACE);  // a surface stops light from either side
+    gl_->Disable(GL_CULL_FACE);  // a surface stops light from both sides
     gl_->ClearBufferfv(GL_DEPTH, 0, &nothing);
     if (input.view.kind == ShadowView::Kind::parallel) {
         gl_->Scissor(1, 1, map.size - 2, map.size - 2);  // see shadow_view.cpp, empty_border

@@ -18,32 +18,32 @@
 
 namespace cubecam {
 
-/// The depths that a light sees: an array of one layer, or of six.
+/// The depths that a light sees: an array of one or six layers.
 struct ShadowMap {
     int size = 0;
     gl::Texture depth;
     std::optional<Layers> layers;
 };
 
-/// What casts shadows, as a light sees it.
+/// The casters of a light and its views.
 struct ShadowInput {
     const SceneSnapshot& scene;
     const ShadowView& view;
     const DrawPlan& plan;  ///< of the casters, for the view's layers
-    /// What a caster's own vertex function looks up.
+    /// Returns the textures that a caster's own vertex function looks up.
     std::function<std::vector<BoundTexture>(const NodeSnapshot&)> look_up;
 };
 
-/// Depth alone, of all that casts shadows, as a light sees it.
+/// Draws the depth of all casters as a light sees them.
 class ShadowPass {
 public:
     ShadowPass(const gl::Context& context, GpuCache& cache, Programs& programs);
 
-    /// Whether the lights' shadows are within the driver's limits.
-    /// @throws std::invalid_argument naming the limit.
+    /// Checks that the lights' shadows are within the driver's limits.
+    /// @throws std::invalid_argument that names the limit.
     void check(const SceneSnapshot& scene) const;
 
-    /// A map that holds nothing yet.
+    /// Makes a map with undefined contents.
     ShadowMap make_map(int size, int layers) const;
 
     /// Draws one layer of a map.
@@ -53,7 +53,7 @@ public:
     Buffer<float> read(const ShadowUse& use);
 
 private:
-    /// A caster whose vertices a user's source moves.
+    /// Draws a caster whose vertices a user's source moves.
     void draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
                     Stats& stats);
 

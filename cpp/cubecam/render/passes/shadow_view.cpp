@@ -11,11 +11,11 @@
 namespace cubecam {
 namespace {
 
-/// Of a directional light: the lookup reads the outermost texels in place of all that is beyond, so
+/// The border of a directional light's map: lookups beyond the map read its outermost texels, so
 /// nothing is drawn there.
 constexpr int empty_border = 1;
 
-/// Room round the casters, as a share of their size: what lies on the very border of the view must
+/// A margin round the casters, as a share of their size: surfaces on the border of the view must
 /// not be clipped.
 constexpr double room = 1e-3;
 
@@ -23,14 +23,15 @@ glm::dvec3 up_for(const glm::dvec3& forward) {
     return std::abs(forward.y) < 0.999 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(0.0, 0.0, -1.0);
 }
 
-/// From GL's camera, which looks along -z, to axes whose z goes away from the light.
+/// Converts GL's camera, which looks along -z, to axes whose z points away from the light.
 glm::dmat4 z_forward(glm::dmat4 view) {
     for (int column = 0; column < 4; ++column) view[column].z = -view[column].z;
     return view;
 }
 
-/// Camera to clip with `half` for the tangent of half the angle; without a far plane that is where
-/// the limit goes: depth, once it is reversed, is near / z, and as precise as a float is anywhere.
+/// Camera to clip; `half` is the tangent of half the angle. Without a far plane this is the limit
+/// for an infinite one: the reversed depth is near / z, with the full precision of a float at every
+/// distance.
 glm::dmat4 lens(double half, double near, const std::optional<double>& far) {
     glm::dmat4 m(0.0);
     m[0][0] = m[1][1] = 1.0 / half;
@@ -59,7 +60,7 @@ ShadowView view_of(const PointParameters& light, const Shadow& shadow, const Sce
         View view = camera_view(
             {look_along(light.position, glm::dvec3(face_forward(face)), glm::dvec3(face_up(face))),
              projection});
-        view.position = light.position;  // exactly, not by way of an inverse
+        view.position = light.position;  // exactly, not from an inverse matrix
         made.views.push_back(view);
     }
     made.to_light = glm::dmat4(1.0);
@@ -79,14 +80,14 @@ ShadowView view_of(const SpotParameters& light, const Shadow& shadow, const Scen
     return made;
 }
 
-/// The box round all that casts, in axes that `turn` takes the world's to.
+/// The box round all casters, in the axes to which `turn` converts the world's.
 Bounds casters_bounds(const SceneSnapshot& scene, const glm::dmat4& turn) {
     Bounds all{glm::dvec3(std::numeric_limits<double>::infinity()),
                glm::dvec3(-std::numeric_limits<double>::infinity())};
     bool any = false;
     for (const NodeSnapshot& node : scene.nodes) {
         if (!node.cast_shadow) continue;
-        // Tighter than the box round the node's box in the world.
+        // This box is tighter than one round the node's box in the world.
         const Bounds bounds = transformed(node.mesh->bounds(), turn * node.world);
         all.low = glm::min(all.low, bounds.low);
         all.high = glm::max(all.high, bounds.high);
@@ -101,13 +102,13 @@ ShadowView view_of(const DirectionalParameters& light, const Shadow& shadow,
         z_forward(look_along(glm::dvec3(0.0), light.direction, up_for(light.direction)));
     const Bounds bounds = casters_bounds(scene, turn);
     const glm::dvec3 extent = bounds.extent();
-    // A single flat caster, seen from its edge, has no extent at all.
+    // A single flat caster, seen from its edge, has an extent of 0.
     const double least = std::max({extent.x, extent.y, extent.z, 1e-30}) * room;
     double width = shadow.extent.value_or(std::max(extent.x, extent.y) + 2.0 * least);
     width *= shadow.size / (shadow.size - 2.0 * empty_border);
     const double depth = extent.z + 2.0 * least;
 
-    // In the middle of the near plane.
+    // The view's position is in the middle of the near plane.
     const glm::dvec3 center = bounds.center();
     const glm::dvec3 place(center.x, center.y, bounds.low.z - least);
     const glm::dvec3 position(glm::transpose(turn) * glm::dvec4(place, 0.0));

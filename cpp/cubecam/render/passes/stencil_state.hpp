@@ -7,8 +7,8 @@
 
 namespace cubecam {
 
-/// Sets the stencil test and operations of both faces; none: the test is off and nothing is
-/// written. Without a stencil buffer GL lets every pixel pass.
+/// Sets the stencil test and operations of both faces; none disables the test and all writes.
+/// Without a stencil buffer every pixel passes GL's test.
 void set_stencil(const GladGLContext& gl, const std::optional<Stencil>& stencil);
 
 }  // namespace cubecam

@@ -22,9 +22,9 @@ bool is_drawn_alone(const NodeSnapshot& node) {
     return node.material.value.traits().user_code.has_value();
 }
 
-/// Whether two nodes that follow each other may be one draw call.
+/// Whether one draw call may draw two nodes that follow each other.
 bool join(const SurfaceItem& a, const SurfaceItem& b) {
-    if (a.mesh != b.mesh || a.turned != b.turned) return false;
+    if (a.mesh != b.mesh || a.node->turned != b.node->turned) return false;
     const NodeSnapshot& left = *a.node;
     const NodeSnapshot& right = *b.node;
     const bool same_material = left.material.revision == right.material.revision;
@@ -32,7 +32,7 @@ bool join(const SurfaceItem& a, const SurfaceItem& b) {
         return same_material || has_flat_constants(left);
     }
     return same_material && !is_drawn_alone(left) && left.receive_shadow == right.receive_shadow &&
-           a.textures->environment.texture == b.textures->environment.texture;
+           a.textures->environment.cube.texture == b.textures->environment.cube.texture;
 }
 
 }  // namespace
@@ -71,8 +71,7 @@ SurfaceItems find_items(const SurfaceInput& input, GpuCache& cache) {
             last_mesh = node.mesh.get();
             last_gpu_mesh = &cache.mesh(*node.mesh);
         }
-        const bool turned = glm::determinant(glm::dmat3(node.world)) < 0.0;
-        to.push_back({&node, last_gpu_mesh, &input.textures[planned.node], turned, first, count});
+        to.push_back({&node, last_gpu_mesh, &input.textures[planned.node], first, count});
     };
     for (const PlannedNode& planned : input.plan.opaque) add(planned, items.opaque);
     for (const PlannedNode& planned : input.plan.transparent) add(planned, items.transparent);
@@ -118,11 +117,22 @@ std::optional<GLintptr> SurfaceCallBuilder::append_constants(const NodeSnapshot&
     return append(constants_.data(), constants_.size() * sizeof(glm::vec4));
 }
 
-/// The view records follow.
+/// The caller adds the view records.
 SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
     const NodeBlock block = make_node_block(*item.node, input_.origin());
-    return {&item, static_cast<GLuint>(view_records_.size()), 0, append(&block, sizeof(block)),
-            append_constants(*item.node)};
+    SurfaceCall call{&item,
+                     static_cast<GLuint>(view_records_.size()),
+                     0,
+                     append(&block, sizeof(block)),
+                     append_constants(*item.node),
+                     std::nullopt};
+    const MaterialTraits& material = item.node->material.value.traits();
+    if (material.user_code && material.uses_environment) {
+        const EnvironmentBlock environment =
+            make_environment_block(item.textures->environment, input_.origin());
+        call.environment = append(&environment, sizeof(environment));
+    }
+    return call;
 }
 
 void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to) {
@@ -133,7 +143,8 @@ void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<Surfa
         return;
     }
     to.push_back({&item, place, 1, std::nullopt,
-                  has_flat_constants(*item.node) ? std::nullopt : append_constants(*item.node)});
+                  has_flat_constants(*item.node) ? std::nullopt : append_constants(*item.node),
+                  std::nullopt});
 }
 
 void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to) {

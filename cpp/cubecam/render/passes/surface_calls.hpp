@@ -16,20 +16,19 @@ namespace cubecam {
 /// The uniform block `View` of shaders/include/view.glsl, std140.
 struct ViewBlock {
     ViewRecord view;
-    glm::vec4 origin;  ///< xyz: world position that positions in the shaders count from
+    glm::vec4 origin;  ///< xyz: world position of the origin of positions in the shaders
 };
 
-/// A planned node and the regions it shows in.
+/// A planned node and the regions in which it is visible.
 struct SurfaceItem {
     const NodeSnapshot* node;
     const GpuMesh* mesh;
     const NodeTextures* textures;
-    bool turned;                 ///< its matrix turns the winding of its triangles
     std::uint32_t first_region;  ///< index into SurfaceItems::regions
     std::uint32_t region_count;
 };
 
-/// All that shows in any region, in the order of drawing.
+/// All nodes that are visible in any region, in the order of drawing.
 struct SurfaceItems {
     std::vector<SurfaceItem> opaque;
     std::vector<SurfaceItem> transparent;
@@ -43,28 +42,29 @@ bool has_flat_constants(const NodeSnapshot& node);
 /// Whether a mesh has so many triangles that each is small: constants stay in their blocks.
 bool is_dense(const NodeSnapshot& node);
 
-/// How many draw calls draw the opaque items region by region.
+/// The number of draw calls for the opaque items if each region is drawn alone.
 std::size_t count_calls(const SurfaceItems& items, std::size_t regions);
 
-/// A draw call: one node for all the views that see it, or one view of any number of nodes.
+/// A draw call: one node for all views that see it, or any number of nodes for one view.
 struct SurfaceCall {
-    const SurfaceItem* item;  ///< of the nodes, the first
-    GLuint first;             ///< of the records that it reads
+    const SurfaceItem* item;  ///< the first of the nodes
+    GLuint first;             ///< the first record that it reads
     GLsizei count;
-    std::optional<GLintptr> node_block;  ///< none: the records are nodes, else they are views
-    std::optional<GLintptr> constants;   ///< the block of the material's constants
+    std::optional<GLintptr> node_block;   ///< none: the records are nodes; otherwise views
+    std::optional<GLintptr> constants;    ///< the block of the material's constants
+    std::optional<GLintptr> environment;  ///< the block of the environment, for a user's source
 };
 
-/// What is drawn into a region, or into all regions at once.
+/// The draw calls for one region, or for all regions at once.
 struct SurfaceCalls {
     std::vector<SurfaceCall> opaque;
     std::vector<SurfaceCall> transparent;
-    std::optional<GLintptr> view_block;  ///< of the one view; none: layered
+    std::optional<GLintptr> view_block;  ///< the block of the only view; none: layered
     GLuint first_sky = 0;                ///< the view records of the skybox
     GLsizei sky_count = 0;
 };
 
-/// Draw calls, and the bytes that they read on the GPU.
+/// Builds draw calls, and the bytes that they read on the GPU.
 class SurfaceCallBuilder {
 public:
     /// `ambient` is the light that falls on everything; offsets of uniform blocks are multiples of
@@ -72,10 +72,10 @@ public:
     SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items,
                        const glm::vec3& ambient, std::size_t alignment);
 
-    /// For all regions at once.
+    /// Makes the calls for all regions at once.
     SurfaceCalls layered();
-    /// For one region: nodes that follow each other and differ only in what a NodeRecord holds
-    /// become one call.
+    /// Makes the calls for one region: one call draws all nodes that follow each other and differ
+    /// only in the values of a NodeRecord.
     SurfaceCalls of_region(std::size_t region);
 
     const std::vector<ViewRecord>& view_records() const { return view_records_; }

@@ -3,6 +3,7 @@
 #include "cubecam/render/passes/draw_plan.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/render/resources/environment.hpp"
 #include "cubecam/render/resources/view.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
@@ -16,7 +17,7 @@
 
 namespace cubecam {
 
-/// What is behind everything: a colour, or a cube texture drawn as skybox.
+/// The background: a colour, or a cube texture that is drawn as a skybox.
 using BackgroundSource = std::variant<glm::vec4, GLuint>;
 
 /// A part of a view's picture that is drawn.
@@ -25,20 +26,22 @@ struct Region {
     Rect rect;
 };
 
-/// One set of pictures for SurfacePass to draw.
+/// The pictures that SurfacePass draws in one call.
 struct SurfaceInput {
     const SceneSnapshot& scene;
     std::span<const View> views;  ///< view i goes to layer i
     const DrawPlan& plan;
-    /// By view, ascending, of views that stand in one place; all other pixels stay as they are.
+    /// The parts to draw, ascending by view; all their views have the same position. All other
+    /// pixels stay as they are.
     std::vector<Region> regions;
     BackgroundSource background;
     std::span<const NodeTextures> textures;  ///< of each node of the scene
-    /// Of the lights that have one, in the scene's order; empty: no node of the plan receives any.
+    /// The shadow maps of the lights that have one, in the scene's order; empty if no node of the
+    /// plan receives shadows.
     std::span<const ShadowUse> shadows;
 
-    /// Where the views stand. The shaders' positions count from here: far from the world's origin a
-    /// float would have no digits left for what is near.
+    /// The position of the views, which is the origin of the shaders' positions: far from the
+    /// world's origin a float would be too coarse for near objects.
     const glm::dvec3& origin() const { return views[regions.front().view].position; }
 };
 

@@ -15,8 +15,8 @@ namespace {
 constexpr GLuint lights_binding = 1;
 constexpr GLuint shadows_binding = 2;
 constexpr GLuint cube_unit = 1;
-constexpr std::size_t unrolled_lights = 8;      // a loop of unknown length costs more a light
-constexpr std::size_t many_triangles = 10'000;  // of a call
+constexpr std::size_t unrolled_lights = 8;  // a loop of unknown length costs more for each light
+constexpr std::size_t many_triangles = 10'000;  // of one call
 
 /// Whether a view shows the world mirrored: GL's own projections have a negative determinant.
 bool mirrored(const View& view) { return glm::determinant(view.view_projection) > 0.0; }
@@ -76,14 +76,14 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
         for (std::size_t r = 0; r < input.regions.size(); ++r)
             calls.push_back(builder.of_region(r));
     }
-    // New buffers instead of rewriting the old: the GPU may still read those.
+    // New buffers replace the old ones, which the GPU may still read.
     view_records_ = gl::create_buffer(*gl_, std::span(builder.view_records()));
     node_records_ = gl::create_buffer(*gl_, std::span(builder.node_records()));
     blocks_ = gl::create_buffer(*gl_, std::span(builder.blocks()));
 
     gl_->Viewport(0, 0, description.width, description.height);
-    // Never off: how pixels come out may not depend on the rectangle, but may on the test itself
-    // (GL 4.6 appendix A.3, rule 2).
+    // The test is never disabled: the values of pixels may not depend on the rectangle, but they
+    // may depend on whether the test is enabled (GL 4.6 appendix A.3, rule 2).
     gl_->Enable(GL_SCISSOR_TEST);
     const bool shaded = description.outputs.shaded();
     draw_layers(input, calls, target, target.color_pass(), description.color,
@@ -91,7 +91,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
     if (description.outputs.any() && target.multisampled()) {
         draw_layers(input, calls, target, target.output_pass(), false, shaded, stats);
     }
-    set_scissor(whole);  // resolving and full-screen passes obey it, too
+    set_scissor(whole);  // resolving and full-screen passes also use the scissor
     gl::check_gl(*gl_, "drawing a scene");
 }
 
@@ -112,7 +112,8 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
         set_scissor(region.rect);
         if (!by_texture) clear_bound(*gl_, target, values);
     };
-    // Transparent nodes write no shaded outputs, but may write what is read of the buffers.
+    // Transparent nodes write no shaded outputs, but they may change the depth and stencil buffers,
+    // which other outputs read.
     Writes writes{color, outputs, color || description.outputs.buffered(), false};
     const auto look_through = [&](const Region& region) {
         writes.mirror = mirrored(input.views[region.view]);
@@ -141,9 +142,9 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
 bool SurfacePass::use_layers(const SurfaceInput& input, const SurfaceItems& items,
                              const Rect& whole) const {
     if (layering_ == Layering::never || input.regions.size() == 1) return false;
-    // One scissor serves all layers, and one winding: other pictures are drawn one by one. (A
-    // viewport for each region would do, but llvmpipe then transforms vertices by slower code that
-    // rounds otherwise.)
+    // All layers share one scissor and one winding; if the regions need different ones, they are
+    // drawn one by one. (Each region could have a viewport of its own, but llvmpipe then transforms
+    // vertices by slower code with other rounding.)
     const bool one_scissor =
         std::all_of(input.regions.begin(), input.regions.end(),
                     [&whole](const Region& region) { return region.rect == whole; });
@@ -154,12 +155,12 @@ bool SurfacePass::use_layers(const SurfaceInput& input, const SurfaceItems& item
         });
     if (!one_winding || !one_scissor) return false;
     if (layering_ == Layering::always) return true;
-    // Layered, every node is a call of its own.
+    // With layered drawing every node needs a call of its own.
     if (items.opaque.size() > count_calls(items, input.regions.size())) return false;
     if (!context_->software()) return true;
-    // llvmpipe sets all layers' triangles up before it fills the first pixel, on one thread. Layer
-    // by layer, it fills one while it sets the next up: from some ten thousand triangles on that
-    // wins (docs/adr/0002).
+    // llvmpipe sets up the triangles of all layers on one thread before it fills the first pixel.
+    // Layer by layer, it fills one layer while it sets up the next, which is faster from about ten
+    // thousand triangles on (docs/adr/0002).
     std::size_t triangles = 0;
     for (const SurfaceItem& item : items.opaque) {
         triangles += static_cast<std::size_t>(item.mesh->index_count / 3) * item.region_count;
@@ -196,8 +197,8 @@ void SurfacePass::write_outputs(bool write) {
 void SurfacePass::draw_background(const SurfaceInput& input, const SurfaceCalls& calls,
                                   Stats& stats) {
     const auto* cube = std::get_if<GLuint>(&input.background);
-    if (cube == nullptr) return;       // cleared to
-    gl_->DepthFunc(depth_.untouched);  // the quad lies where the buffer was cleared to
+    if (cube == nullptr) return;       // clearing has drawn it
+    gl_->DepthFunc(depth_.untouched);  // the quad lies at the depth of the clear
     gl_->DepthMask(GL_FALSE);
     gl_->Disable(GL_CULL_FACE);
     programs_.skybox().set("u_depth", depth_.clear);
@@ -219,7 +220,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool instanced,
         traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
     variant.double_sided = material.surface.double_sided;
     if (outputs) variant.outputs = outputs_;
-    // These want nothing else of the shader than "alpha" does.
+    // The shader treats these modes like "alpha".
     const bool as_alpha = node.blend == Blend::alpha_keep || node.blend == Blend::factors;
     variant.blend = as_alpha ? Blend::alpha : node.blend;
     variant.dense = is_dense(node);
@@ -254,7 +255,7 @@ const gl::Program& SurfacePass::program_of(const SurfaceItem& item, const Surfac
     return program.program();
 }
 
-/// Those that the shader looks up. A user's program binds its own.
+/// Binds the textures that the shader looks up; a user's program binds its own.
 void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& variant) {
     const std::vector<BoundTexture>& textures = item.textures->textures;
     for (std::size_t i = 0; i < textures.size(); ++i) {
@@ -265,7 +266,7 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
                              cube && texture == 0 ? black_.id() : texture);
     }
     if (!item.node->material.value.traits().uses_environment) return;
-    const GLuint environment = item.textures->environment.texture;
+    const GLuint environment = item.textures->environment.cube.texture;
     gl_->BindTextureUnit(cube_unit, environment != 0 ? environment : black_.id());
 }
 
@@ -282,7 +283,7 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         bound = &program;
 
         set_raster_state(*gl_, node, mirror, depth_);
-        // Of what leaves no depth nothing says that it is the nearest.
+        // A node that writes no depth need not be the nearest, so it writes no outputs.
         if (outputs) write_outputs(node.depth_write);
         if (call.node_block) {
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, node_binding, blocks_.id(), *call.node_block,
@@ -292,6 +293,10 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
             const std::size_t constants = node.material.value.traits().kind->constants;
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(), *call.constants,
                                  static_cast<GLsizeiptr>(constants * sizeof(glm::vec4)));
+        }
+        if (call.environment) {
+            gl_->BindBufferRange(GL_UNIFORM_BUFFER, environment_binding, blocks_.id(),
+                                 *call.environment, sizeof(EnvironmentBlock));
         }
         bind_textures(*call.item, variant);
         const GLuint array = instanced ? mesh.instanced.id() : mesh.array.id();

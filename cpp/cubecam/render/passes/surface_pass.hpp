@@ -15,13 +15,13 @@
 
 namespace cubecam {
 
-/// Whether all views of a mesh go into one draw call.
+/// Whether one draw call draws all views of a mesh.
 enum class Layering { never, where_faster, always };
 
-/// The one path that draws a scene, into one view or many: opaque nodes near to far, the
-/// background, transparent nodes far to near; without a depth buffer the background, then all
-/// nodes as planned. Layered, a node is drawn once for all the views that see it; else each view is
-/// drawn by itself, and nodes that look alike become one call.
+/// Draws a scene into one or more views; nothing else does. The order is: opaque nodes from near to
+/// far, the background, transparent nodes from far to near; without a depth buffer the background,
+/// then all nodes as planned. In layered drawing one call draws a node for all views that see it;
+/// otherwise each view is drawn alone, and one call draws all nodes that look alike.
 class SurfacePass {
 public:
     SurfacePass(const gl::Context& context, GpuCache& cache, Layering layering);
@@ -31,11 +31,11 @@ public:
     Programs& programs() { return programs_; }
 
 private:
-    /// What is drawn into the framebuffer that is bound.
+    /// The parts that are drawn into the bound framebuffer.
     struct Writes {
         bool color;
-        bool outputs;      ///< the shaded ones
-        bool transparent;  ///< transparent nodes, too
+        bool outputs;      ///< the shaded outputs
+        bool transparent;  ///< whether transparent nodes are drawn
         bool mirror;       ///< the view shows the world mirrored
     };
 
@@ -59,13 +59,13 @@ private:
     GpuCache* cache_;
     Programs programs_;
     Layering layering_;
-    gl::Texture black_;  ///< a cube of one texel: what is reflected where there is no environment
+    gl::Texture black_;  ///< a cube of one texel, reflected if there is no environment
     gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_;
     ShaderLights lights_;
     std::uint32_t shadow_kinds_ = 0;                       ///< see SurfaceVariant
-    Outputs outputs_;                                      ///< of the target, the shaded ones
-    std::size_t output_count_ = 0;                         ///< of outputs_
-    DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of that target
+    Outputs outputs_;                                      ///< the shaded outputs of the target
+    std::size_t output_count_ = 0;                         ///< the length of outputs_
+    DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of the target
 };
 
 }  // namespace cubecam

@@ -5,13 +5,13 @@
 
 namespace cubecam {
 
-/// How linear colour is brought into 0..1; `none` leaves it as it is.
+/// How linear colour is mapped into 0..1; `none` does not change it.
 enum class Tonemap : std::uint8_t { none, reinhard, aces, neutral };
 
-/// Transfer function applied last; `srgb` is IEC 61966-2-1.
+/// The transfer function, which is applied last; `srgb` is IEC 61966-2-1.
 enum class Encode : std::uint8_t { none, srgb };
 
-/// Both throw std::invalid_argument for a name they do not know, listing those they do.
+/// Both functions throw std::invalid_argument that lists the known names, for any other name.
 Tonemap parse_tonemap(std::string_view name);
 Encode parse_encode(std::string_view name);
 

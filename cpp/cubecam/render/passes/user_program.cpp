@@ -11,19 +11,19 @@ namespace {
 
 constexpr std::size_t most_programs = 64;
 
-/// Units below are the scene's own (shaders/README.md).
+/// Lower units belong to the scene (shaders/README.md).
 constexpr GLuint first_user_unit = 32;
 
-/// What shaders/ declares itself.
+/// Uniforms that shaders/ declares itself.
 constexpr std::array<std::string_view, 4> own_uniforms = {"u_cube", "u_frame", "u_layer",
                                                           "u_shadow_maps"};
 
-/// How a GLSL type is filled: `rows` x `columns` numbers, in GLSL's name.
+/// A GLSL type of `rows` x `columns` numbers.
 struct Shape {
     GLenum type;
     const char* name;
     int rows;     ///< components of a vector
-    int columns;  ///< 1 but for matrices
+    int columns;  ///< 1 except for matrices
     enum class Scalar { real, whole, natural, truth } scalar;
 };
 
@@ -49,14 +49,14 @@ constexpr Shape shapes[] = {
     {GL_BOOL_VEC4, "bvec4", 4, 1, Shape::Scalar::truth},
 };
 
-/// Null for what holds no numbers.
+/// Returns null for a type that holds no numbers.
 const Shape* find_shape(GLenum type) {
     const auto* found = std::find_if(std::begin(shapes), std::end(shapes),
                                      [type](const Shape& shape) { return shape.type == type; });
     return found == std::end(shapes) ? nullptr : found;
 }
 
-/// Of a type that holds numbers.
+/// Returns the shape of a type that holds numbers.
 const Shape& shape_of(GLenum type) {
     const Shape* shape = find_shape(type);
     return shape == nullptr ? shapes[0] : *shape;
@@ -81,8 +81,8 @@ std::string text_of(const std::vector<int>& shape) {
     return text + ")";
 }
 
-/// The value's numbers, if their shape is the declared type's: (), (rows,), (rows, columns), with
-/// the number of elements ahead for an array.
+/// Returns the value's numbers. Their shape must be that of the declared type: (), (rows,) or
+/// (rows, columns), for an array with the number of elements in front.
 std::vector<double> fitted(const std::string& name, const UniformValue& value, const Shape& shape,
                            bool array, int count) {
     std::vector<int> wanted;
@@ -158,7 +158,8 @@ void UserProgram::find_uniforms() {
     }
 }
 
-/// What `uniform float x = 2.0;` says, matrices row by row.
+/// Returns the initial value in the source, as in `uniform float x = 2.0;`; matrices are row by
+/// row.
 std::vector<double> UserProgram::initial_of(const Uniform& uniform) const {
     const GladGLContext& gl = program_.gl();
     const Shape& shape = shape_of(uniform.type);
@@ -171,7 +172,7 @@ std::vector<double> UserProgram::initial_of(const Uniform& uniform) const {
                 : uniform.location;
         std::array<double, 16> values{};
         if (location < 0) {
-            // Nothing was said of it.
+            // The element is not in use and stays 0.
         } else if (shape.scalar == Shape::Scalar::real) {
             std::array<float, 16> read{};
             gl.GetUniformfv(program_.id(), location, read.data());
@@ -195,7 +196,7 @@ std::vector<double> UserProgram::initial_of(const Uniform& uniform) const {
 }
 
 void UserProgram::check_known(const std::string& name) const {
-    // "lamps[2].color" is declared where "lamps" is.
+    // "lamps[2].color" is known if the source mentions "lamps".
     if (mentions(text_, name.substr(0, name.find_first_of(".[")))) return;
     std::string known;
     for (const Uniform& uniform : uniforms_) known += (known.empty() ? "" : ", ") + uniform.name;
@@ -300,7 +301,7 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
                                std::initializer_list<std::string_view> files,
                                const gl::ShaderOptions& options,
                                std::initializer_list<ShaderPart> parts) {
-    // All that the program is made of, compared in full.
+    // The key contains all parts of the program, so that no two programs share one.
     std::string key;
     const auto add = [&key](std::string_view text) { key.append(text).push_back('\0'); };
     for (const std::string_view file : files) add(file);

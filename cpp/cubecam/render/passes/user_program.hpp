@@ -15,26 +15,26 @@
 
 namespace cubecam {
 
-/// A program with a user's source in it, and what that source declares of uniforms.
+/// A program with a user's source in it, and the uniforms that the source declares.
 class UserProgram {
 public:
-    /// `text` is all that the user wrote: an input that is declared nowhere but named there was
-    /// optimised away, and is no mistake.
+    /// `text` is everything that the user wrote: an input that occurs in it but is not among the
+    /// uniforms was optimised away, which is no error.
     UserProgram(gl::Program program, std::string text);
 
     const gl::Program& program() const { return program_; }
 
-    /// Sets every uniform that the user declared, those without a value to what the source
-    /// says, and binds the textures, which come in the order of `inputs.textures`.
-    /// @throws std::invalid_argument for an input that the source does not know, of another shape
-    /// or kind, or for a texture that it wants and does not get.
+    /// Sets every uniform that the user declared, and binds the textures, which are in the order of
+    /// `inputs.textures`. Uniforms without a value get the initial value of the source.
+    /// @throws std::invalid_argument for an input that the source does not contain, for one of
+    /// another shape or kind, or for a missing texture.
     void use(const ShaderInputs& inputs, std::span<const BoundTexture> textures);
 
 private:
     struct Uniform {
-        std::string name;  ///< an array's without [0]
+        std::string name;  ///< without the [0] of an array
         GLenum type;
-        int count;  ///< of an array's elements in use
+        int count;  ///< elements of an array in use; otherwise 1
         bool array;
         GLint location;
         std::vector<double> initial;
@@ -48,22 +48,22 @@ private:
 
     gl::Program program_;
     std::string text_;
-    std::vector<Uniform> uniforms_;  // samplers, too
+    std::vector<Uniform> uniforms_;  // with the samplers
 };
 
-/// A text and the file of shaders/ that it stands for. `title` is what messages call a user's text
-/// that was read from no file; it is empty for a text that is not a user's.
+/// A text and the file of shaders/ that it replaces. `title` is the name in messages of a user's
+/// text that was not read from a file; it is empty for a text that is not a user's.
 struct ShaderPart {
     std::string_view file;
     std::string_view title;
     const UserSource* source;
 };
 
-/// The files of shaders/, those that parts stand for replaced by them.
+/// Returns the files of shaders/ with some of them replaced by the parts.
 std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> parts);
 
-/// The programs of users' sources, the least recently used given up: sources that are edited while
-/// they are drawn leave many behind.
+/// A cache of the programs of users' sources, which drops the least recently used one: a source
+/// that is edited while it is drawn leaves many old programs.
 class UserPrograms {
 public:
     UserProgram& get(const GladGLContext& gl, std::initializer_list<std::string_view> files,

@@ -3,7 +3,6 @@
 #include <glad/gl.h>
 
 #include <cstdint>
-#include <vector>
 
 namespace cubecam {
 
@@ -11,12 +10,6 @@ namespace cubecam {
 struct BoundTexture {
     GLuint texture = 0;          ///< 0: none
     std::uint64_t revision = 0;  ///< of its contents; 0: none
-};
-
-/// All that a node looks up.
-struct NodeTextures {
-    BoundTexture environment;            ///< what a mirror reflects
-    std::vector<BoundTexture> textures;  ///< of the material, in the order of its own
 };
 
 }  // namespace cubecam

@@ -10,14 +10,14 @@ namespace cubecam {
 /// Which of the surfaces along a ray a picture shows.
 enum class DepthOrder : std::uint8_t { nearest, farthest };
 
-/// @throws std::invalid_argument for any other name than "nearest" and "farthest".
+/// @throws std::invalid_argument for every name except "nearest" and "farthest".
 DepthOrder parse_depth_order(std::string_view name);
 
-/// What an order means to OpenGL. The depth buffer is reversed (docs/adr/0001): it holds 1 at the
-/// near plane and 0 at the far plane.
+/// An order as OpenGL state. The depth buffer is reversed (docs/adr/0001): it is 1 at the near
+/// plane and 0 at the far plane.
 struct DepthState {
-    GLenum closer;     ///< the test that a surface passes if it replaces the one before
-    GLenum untouched;  ///< the test that a quad at the depth `clear` passes where nothing was drawn
+    GLenum closer;     ///< the test for a surface that replaces the one before
+    GLenum untouched;  ///< the test that a quad at depth `clear` passes where nothing was drawn
     GLfloat clear;     ///< behind every surface in this order
 };
 

@@ -60,7 +60,7 @@ void set_filters(const GladGLContext& gl, GLuint texture, bool mipmaps, GLenum w
     gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
 }
 
-/// One channel is grey, as everywhere in this library.
+/// One channel means grey, as everywhere in this library.
 void set_swizzle(const GladGLContext& gl, GLuint texture, int channels) {
     if (channels != 1) return;
     const GLint grey[] = {GL_RED, GL_RED, GL_RED, GL_ONE};
@@ -106,7 +106,7 @@ void set_node_attributes(const GladGLContext& gl, GLuint array) {
     gl.VertexArrayBindingDivisor(array, vertex_buffer::records, 1);
 }
 
-/// Where a stream of vertices is bound: one vertex buffer for each attribute.
+/// The binding of a stream of vertices: each attribute has a vertex buffer of its own.
 struct StreamPlace {
     GLuint attribute;
     GLuint buffer;
@@ -129,7 +129,7 @@ void upload_stream(const GladGLContext& gl, std::array<GLuint, 2> arrays, Stream
         gl.NamedBufferSubData(to.buffer.id(), 0, static_cast<GLsizeiptr>(bytes), values.data());
         return;
     }
-    // What is set anew once will be so again.
+    // A stream that was updated once will probably be updated again.
     to.writable = !first;
     to.bytes = bytes;
     to.buffer = gl::create_buffer(gl, bytes, values.data(),
@@ -152,7 +152,7 @@ void upload_streams(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh
     mesh.revision = data.revision();
 }
 
-/// 16 bits wherever they can name every vertex.
+/// Uploads indices of 16 bits if these are enough for all vertices.
 void upload_indices(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh) {
     const std::vector<glm::uvec3>& triangles = *data.triangles();
     mesh.index_count = static_cast<GLsizei>(triangles.size() * 3);
@@ -179,8 +179,7 @@ GpuMesh upload_mesh(const GladGLContext& gl, const MeshData& data) {
     return mesh;
 }
 
-/// GL's texel (0, 0) is a picture's bottom-left: rows go up in the reverse of their order in
-/// memory.
+/// Reverses the rows, since GL's texel (0, 0) is the bottom-left corner of a picture.
 std::vector<std::byte> bottom_row_first(const Image& image) {
     const std::size_t row = static_cast<std::size_t>(image.width()) *
                             static_cast<std::size_t>(image.channels()) * dtype_size(image.dtype());
@@ -211,7 +210,7 @@ GpuTexture upload_image(const GladGLContext& gl, const Image& image) {
 GpuCache::GpuCache(const gl::Context& context)
     : context_(&context), gl_(&context.gl()), views_only_(gl::create_vertex_array(context.gl())) {
     set_view_attributes(*gl_, views_only_.id());
-    // Every row is uploaded as numpy holds it, without padding.
+    // Rows are uploaded as numpy stores them, without padding.
     gl_->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
@@ -248,7 +247,8 @@ const GpuTexture& GpuCache::cube(const CubeSnapshot& cube) {
                                format.format, format.type, pixels);
     };
     const bool changed = entry.face_revisions != data.face_revisions;
-    // The CPU's levels, so that CubeMap::sample and a shader see the same numbers.
+    // The levels are computed on the CPU, so that CubeMap::sample and a shader see the same
+    // numbers.
     const CubeMap::MipChain chain =
         data.mipmaps && changed ? make_mip_chain(data) : CubeMap::MipChain{};
     for (std::size_t face = 0; face < all_faces.size(); ++face) {

@@ -14,9 +14,9 @@
 
 namespace cubecam {
 
-/// Vertex attribute numbers, `layout(location =)` in the shaders. Those of a view advance once an
-/// instance: on llvmpipe that costs a fraction of a lookup in a storage buffer by gl_InstanceID
-/// (docs/adr/0002).
+/// Vertex attribute numbers, `layout(location =)` in the shaders. The attributes of a view advance
+/// once for each instance: on llvmpipe this costs a fraction of a lookup by gl_InstanceID in a
+/// storage buffer (docs/adr/0002).
 namespace attribute {
 inline constexpr GLuint position = 0;
 inline constexpr GLuint normal = 1;
@@ -26,17 +26,17 @@ inline constexpr GLuint view_matrix = 4;  ///< four columns
 inline constexpr GLuint view_eye = 8;
 inline constexpr GLuint view_position = 9;
 inline constexpr GLuint view_forward = 10;
-// Where nodes are drawn together, these stand in the same places.
+// If the instances are nodes, these attributes have the numbers of a view's.
 inline constexpr GLuint model = 4;          ///< four columns
 inline constexpr GLuint normal_matrix = 8;  ///< three columns
-inline constexpr GLuint material = 11;      ///< two
+inline constexpr GLuint material = 11;      ///< two vectors
 inline constexpr GLuint node_id = 13;
 }  // namespace attribute
 
 /// Binding points of vertex buffers in every vertex array.
 namespace vertex_buffer {
 inline constexpr GLuint positions = 0;
-inline constexpr GLuint records = 1;  ///< of views or of nodes, one an instance
+inline constexpr GLuint records = 1;  ///< of views or of nodes, one for each instance
 inline constexpr GLuint normals = 2;
 inline constexpr GLuint uvs = 3;
 inline constexpr GLuint colors = 4;
@@ -46,8 +46,8 @@ inline constexpr GLuint colors = 4;
 struct GpuStream {
     gl::Buffer buffer;
     std::size_t bytes = 0;
-    std::uint64_t revision = 0;  ///< of the values it holds
-    bool writable = false;       ///< from the first update on
+    std::uint64_t revision = 0;  ///< of its values
+    bool writable = false;       ///< since the first update
 };
 
 struct GpuMesh {
@@ -56,8 +56,9 @@ struct GpuMesh {
     gl::Buffer indices;
     GLenum index_type = GL_UNSIGNED_SHORT;
     GLsizei index_count = 0;
-    std::uint64_t revision = 0;  ///< of the data it holds
-    // One buffer for each, so that what is set anew is uploaded alone and as it lies in memory.
+    std::uint64_t revision = 0;  ///< of its data
+    // Each stream has a buffer of its own, so that an update uploads only this stream, without
+    // repacking.
     GpuStream positions;
     GpuStream normals;
     GpuStream uvs;
@@ -69,21 +70,22 @@ struct GpuTexture {
     bool mipmaps = false;
 };
 
-/// Copies on the GPU of the meshes, images and cubemaps that were drawn.
+/// The GPU's copies of the meshes, images and cubemaps that were drawn.
 class GpuCache {
 public:
     explicit GpuCache(const gl::Context& context);
 
-    /// Uploads only what was set anew since the last time. A call sees a mesh at one moment: with
-    /// other data of the same mesh, what was given before is no longer what is drawn.
+    /// Uploads only the streams that changed since the last time. Within one call of the renderer a
+    /// mesh must have one state: other data of the same mesh overwrite the copy that was returned
+    /// before.
     const GpuMesh& mesh(const MeshData& mesh);
-    /// @throws std::invalid_argument for a picture beyond the driver's limit, naming it; so does
-    /// cube().
+    /// @throws std::invalid_argument that names the driver's limit, for a larger picture; cube()
+    /// does the same.
     const GpuTexture& image(const std::shared_ptr<const Image>& image);
     /// Uploads only the faces that changed since the last time.
     const GpuTexture& cube(const CubeSnapshot& cube);
 
-    /// A vertex array that has only the attributes of a view: for a skybox.
+    /// A vertex array with only the attributes of a view, for a skybox.
     const gl::VertexArray& views_only() const { return views_only_; }
 
     void sweep();

@@ -9,13 +9,13 @@
 
 namespace cubecam {
 
-/// Everything a picture is a function of, written one after the other. Two pictures with equal keys
-/// are equal, so the second is not drawn. Compared byte by byte and never by a hash: a collision
-/// would be a wrong picture.
+/// All values on which a picture depends, one after the other. Two pictures with equal keys are
+/// equal, so the second is not drawn. Keys are compared byte by byte and never by a hash: a
+/// collision would give a wrong picture.
 class Key {
 public:
-    /// Numbers, enums and GLM's vectors and matrices: types without padding, whose bytes are their
-    /// value.
+    /// Adds a number, an enum, or a vector or matrix of GLM: these types have no padding, so equal
+    /// values have equal bytes.
     template <class Value>
     void add(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value> && !std::is_pointer_v<Value>);

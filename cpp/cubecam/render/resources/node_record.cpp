@@ -7,9 +7,9 @@
 namespace cubecam {
 namespace {
 
-/// The inverse transpose, so that normals stay normal to a surface that is scaled unevenly; scaled
-/// to numbers near one, since only its direction counts and a float has no room for the inverse of
-/// a very small scale.
+/// The inverse transpose, so that normals stay perpendicular to a surface with an uneven scale. It
+/// is scaled to numbers near one, since only directions matter and a float cannot hold the inverse
+/// of a very small scale.
 glm::mat3 normal_matrix(const glm::dmat4& world) {
     const glm::dmat3 inverse_transpose = glm::transpose(glm::inverse(glm::dmat3(world)));
     double largest = 0.0;

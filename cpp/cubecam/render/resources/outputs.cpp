@@ -47,7 +47,7 @@ std::string_view glsl_type(int channels, OutputType type) {
 RequestedOutputs parse_outputs(const std::vector<std::string>& names) {
     RequestedOutputs requested;
     for (const std::string& name : names) {
-        if (name == "color") continue;  // it is always there; naming it is no mistake
+        if (name == "color") continue;  // it is always there, and naming it is allowed
         const auto* row = std::find_if(output_table.begin(), output_table.end(),
                                        [&name](const OutputRow& r) { return r.name == name; });
         if (row == output_table.end()) {

@@ -7,14 +7,14 @@
 namespace cubecam {
 namespace {
 
-/// Beyond this share of the picture, drawing all of it costs no more.
+/// If the damage is more than this share, drawing the whole picture costs no more.
 constexpr double most_of_it = 0.7;
 
-/// merge() weighs all pairs again and again: of many rectangles it gets so many at a time.
+/// merge() compares all pairs in each step, so it gets at most this many rectangles at a time.
 constexpr std::size_t at_once = 32;
 
-/// Unites rectangles until none overlap and no more than max_damage are left, always the two whose
-/// union wastes least.
+/// Unites rectangles until none overlap and at most max_damage are left. Each step unites the two
+/// rectangles whose union wastes the least area.
 void merge(std::vector<Rect>& rects) {
     while (rects.size() > 1) {
         std::int64_t least = std::numeric_limits<std::int64_t>::max();
@@ -38,7 +38,7 @@ void merge(std::vector<Rect>& rects) {
     }
 }
 
-/// Rectangles that do not overlap, gathered one by one.
+/// Collects rectangles one by one; the result has none that overlap.
 class Damage {
 public:
     explicit Damage(const Rect& whole) : whole_(whole) {}
@@ -76,7 +76,7 @@ private:
     bool all_ = false;
 };
 
-/// Two pictures whose common parts are equal.
+/// Compares nodes of two pictures whose common parts are equal.
 struct Comparison {
     const PictureKey& before;
     const PictureKey& now;
@@ -96,15 +96,15 @@ struct Comparison {
     }
 };
 
-/// Finds the nodes of a list by their ids. A node comes several times where views stand in several
-/// places: then the first of equal ids that was not taken yet is found.
+/// Finds the nodes of a list by their ids. A node occurs several times if views have several
+/// positions: the result is then the first of equal ids that was not taken yet.
 class NodesById {
 public:
     explicit NodesById(std::span<const NodeKey> nodes) : next_(nodes.size(), none) {
         std::int32_t last = 0;
         for (const NodeKey& node : nodes) last = std::max(last, node.id);
-        // Ids are mostly dense: a table needs no sorting. Few nodes of a scene that lost many may
-        // have large ones.
+        // Ids are usually dense, and a table needs no sorting. But when many nodes were removed,
+        // the few remaining ones may have large ids.
         dense_ = static_cast<std::size_t>(last) < 8 * nodes.size() + 1024;
         if (dense_) first_.assign(static_cast<std::size_t>(last) + 1, none);
         for (std::size_t i = nodes.size(); i-- > 0;) {
@@ -114,7 +114,7 @@ public:
         }
     }
 
-    /// The place of a node, which is then taken; `none`: there is no such node.
+    /// Returns the index of a node and marks it as taken; `none` if there is no such node.
     std::uint32_t take(std::int32_t id) {
         if (dense_ && static_cast<std::size_t>(id) >= first_.size()) return none;
         std::uint32_t& first = entry(id);
@@ -137,12 +137,12 @@ private:
     std::vector<std::uint32_t> next_;  // place of the next node of the same id
 };
 
-/// Adds the damage of nodes that do not stand in the same order in both lists.
+/// Adds the damage of nodes whose order differs between the two lists.
 void compare_unordered(const Comparison& keys, std::span<const NodeKey> before,
                        std::span<const NodeKey> now, Damage& to) {
     NodesById known(before);
     std::vector<bool> found(before.size(), false);
-    // What did not change must also be drawn in the order it was.
+    // Unchanged nodes must also be drawn in the same order as before.
     std::uint32_t last_same = 0;
     for (const NodeKey& node : now) {
         if (to.is_all()) return;
@@ -184,8 +184,8 @@ std::vector<Rect> damage(const std::optional<PictureKey>& before, const PictureK
     std::span<const NodeKey> old_nodes = before->nodes;
     std::span<const NodeKey> new_nodes = now.nodes;
     Damage found(whole);
-    // Mostly the order is the same, but for a few: what stands alike from both ends is compared in
-    // place.
+    // Usually only a few nodes change their order: the equal parts at both ends of the lists are
+    // compared in place.
     const auto compare = [&](const NodeKey& a, const NodeKey& b) {
         if (keys.same(a, b)) return;
         found.add(a.bounds);

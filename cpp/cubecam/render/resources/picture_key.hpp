@@ -14,13 +14,13 @@
 
 namespace cubecam {
 
-/// All that a node adds to a picture, and the pixels it can touch. What it looks up stands in the
-/// picture's list of textures.
+/// The values by which a node contributes to a picture, and the pixels that it can touch. The
+/// textures that it looks up are in the picture's list.
 struct NodeKey {
     std::int32_t id;
     bool receive_shadow;
     Rect bounds;
-    std::uint64_t revision;  ///< NodeSnapshot::revision; equal ones need no further look
+    std::uint64_t revision;  ///< NodeSnapshot::revision; equal revisions need no further comparison
     glm::dmat4 world;
     std::uint64_t mesh;  ///< revisions
     std::uint64_t material;
@@ -28,28 +28,28 @@ struct NodeKey {
     std::uint32_t texture_count;
 };
 
-/// Adds all that a picture depends on of the view it is taken with.
+/// Adds the properties of a view on which its picture depends.
 void add_view(Key& key, const View& view);
 
-/// Everything a view's picture is a function of: what concerns every pixel, and each node drawn, in
-/// the order of drawing.
+/// All values on which a view's picture depends: those that concern every pixel, and each drawn
+/// node, in the order of drawing.
 struct PictureKey {
     Key common;
-    Key shadows;  ///< what the pixels of nodes that receive shadows depend on besides
+    Key shadows;  ///< the additional key of nodes that receive shadows
     std::vector<NodeKey> nodes;
-    std::vector<std::uint64_t> textures;  ///< revisions of what the nodes look up
+    std::vector<std::uint64_t> textures;  ///< revisions of the textures that the nodes look up
 
     std::span<const std::uint64_t> textures_of(const NodeKey& node) const {
         return {textures.data() + node.first_texture, node.texture_count};
     }
 };
 
-/// Rectangles, at most `max_damage`, that hold every pixel in which the picture of `now` differs
-/// from that of `before`; they do not overlap. `whole` if anything differs that concerns every
-/// pixel, or if nothing is held yet; none if no pixel differs.
+/// Returns at most `max_damage` rectangles that do not overlap and contain every pixel in which the
+/// picture of `now` differs from that of `before`. The result is `whole` if a common value differs
+/// or there is no picture yet, and empty if no pixel differs.
 ///
-/// Outside them the picture is the old one, bit for bit: a pixel depends on the nodes that cover
-/// it, and no node that changed covers it in either picture.
+/// Outside the rectangles the two pictures are equal bit for bit: a pixel depends on the nodes that
+/// cover it, and no changed node covers it in either picture.
 std::vector<Rect> damage(const std::optional<PictureKey>& before, const PictureKey& now,
                          const Rect& whole);
 

@@ -7,7 +7,7 @@
 namespace cubecam {
 namespace {
 
-/// Smaller blocks come from memory that the allocator keeps anyway.
+/// The allocator keeps the memory of smaller blocks itself.
 constexpr std::size_t least_bytes = std::size_t{64} << 10;
 
 }  // namespace
@@ -34,8 +34,8 @@ std::shared_ptr<PixelBuffer> ResultPool::take(std::size_t bytes) {
 }
 
 void ResultPool::give_back(std::unique_ptr<PixelBuffer> memory) noexcept {
-    std::list<Held> freed;  // after the lock
-    // Only tried: in a forked process the thread that holds the lock may not exist.
+    std::list<Held> freed;  // freed after the lock
+    // The lock is only tried: in a forked process the thread that holds it may not exist.
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock || memory->size() > capacity_) return;
     try {
@@ -43,7 +43,7 @@ void ResultPool::give_back(std::unique_ptr<PixelBuffer> memory) noexcept {
         held_.push_front({std::move(memory), call_});
         bytes_ += bytes;
     } catch (...) {
-        return;  // no memory for the list: freed
+        return;  // no memory for the list: the block is freed
     }
     while (bytes_ > capacity_) {
         bytes_ -= held_.back().memory->size();

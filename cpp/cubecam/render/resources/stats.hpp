@@ -4,18 +4,18 @@
 
 namespace cubecam {
 
-/// What the last call did.
+/// The work of the last call.
 struct Stats {
     std::int64_t views_drawn =
         0;  ///< pictures drawn: frames, faces of captures and probes, textures
-    std::int64_t views_skipped = 0;  ///< pictures that were still true
+    std::int64_t views_skipped = 0;  ///< pictures that were still valid
     std::int64_t draw_calls = 0;
-    std::int64_t triangles = 0;           ///< sent to the GPU, each view counted
+    std::int64_t triangles = 0;           ///< sent to the GPU, counted for each view
     std::int64_t probes_updated = 0;      ///< probes of which at least one face was drawn
     std::int64_t textures_updated = 0;    ///< render textures that were drawn
-    std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps, of which a point light has six
-    std::int64_t pictures_not_kept = 0;   ///< too large for the cache: drawn again by every call
-    double milliseconds = 0.0;            ///< the whole call, reading back included
+    std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps; a point light has six
+    std::int64_t pictures_not_kept = 0;   ///< too large for the cache, so every call draws them
+    double milliseconds = 0.0;            ///< of the whole call with reading back
 };
 
 }  // namespace cubecam

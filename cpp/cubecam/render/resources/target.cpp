@@ -9,7 +9,7 @@
 namespace cubecam {
 namespace {
 
-/// Three channels are stored as four: GL need not render to three.
+/// Three channels are stored as four: GL does not guarantee rendering to three.
 GLenum gl_format(int channels, OutputType type) {
     if (type == OutputType::int32) return GL_R32I;
     return channels == 1 ? GL_R32F : channels == 2 ? GL_RG32F : GL_RGBA32F;
@@ -53,7 +53,7 @@ bool is_color(GLenum point) { return point >= GL_COLOR_ATTACHMENT0 && point < GL
 /// A driver may offer fewer samples for one format than for others.
 void check_samples(const gl::Context& context, GLenum format, std::string_view name,
                    std::int64_t samples) {
-    GLint most = 0;  // the first of a descending list
+    GLint most = 0;  // GL gives the first of a descending list
     context.gl().GetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE_ARRAY, format, GL_SAMPLES, 1, &most);
     if (samples <= std::max(most, 1)) return;
     throw std::invalid_argument("samples: expected 1 to " + std::to_string(std::max(most, 1)) +
@@ -116,7 +116,7 @@ TargetDescription describe_target(const gl::Context& context, const TargetReques
     description.color = request.color;
     description.depth_format = depth_format;
     description.depth_order = request.depth_order;
-    // A software driver takes its textures from main memory.
+    // A software driver keeps its textures in main memory.
     if (context.software()) check_memory(static_cast<double>(description.bytes()), got + " pixels");
     return description;
 }
@@ -258,8 +258,8 @@ void Target::check_complete() {
 }
 
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
-    // Every attachment of a layered framebuffer must be of one kind (GL 4.6 section 9.4.2). A flat
-    // target is an array of one layer: full-screen passes then look all targets up in one way.
+    // All attachments of a layered framebuffer must have one kind (GL 4.6 section 9.4.2). A flat
+    // target is an array of one layer, so that full-screen passes look up all targets in one way.
     const int width = description_.width;
     const int count = description_.shape.count;
     gl::Texture texture;
@@ -276,7 +276,7 @@ gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int 
                                                   count, levels);
             break;
     }
-    // Probes and effects look them up.
+    // Probes and effects look up these textures.
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -17,7 +17,7 @@
 
 namespace cubecam {
 
-/// Two targets of one description can stand for each other.
+/// The properties of a target; one of two targets with equal descriptions can replace the other.
 struct TargetDescription {
     TargetShape shape;
     int width = 0;
@@ -27,20 +27,20 @@ struct TargetDescription {
     Outputs outputs;
     bool mipmaps = false;
     bool post_processed =
-        false;          ///< colour is drawn in float, then brought into `format` by PostProcessPass
-    int effects = 0;    ///< passes before that, 2 standing for more
+        false;          ///< colour is drawn in float, then PostProcessPass converts it to `format`
+    int effects = 0;    ///< passes before that; 2 means 2 or more
     bool color = true;  ///< false: no colour buffer
     DepthFormat depth_format = DepthFormat::depth_component32f;
     DepthOrder depth_order = DepthOrder::nearest;
 
     int layers() const { return shape.layers(); }
-    /// GPU memory it takes, padding and driver overhead left out.
+    /// The GPU memory of a target, without padding and the driver's overhead.
     std::size_t bytes() const;
     auto operator<=>(const TargetDescription&) const = default;
 };
 
-/// What describe_target makes a description of. Sizes come as the caller gave them, so that the
-/// message of an error can name them.
+/// The arguments of describe_target. The sizes are those of the caller, so that error messages can
+/// name them.
 struct TargetRequest {
     TargetShape shape;
     std::int64_t width = 0;
@@ -53,20 +53,20 @@ struct TargetRequest {
     DepthOrder depth_order = DepthOrder::nearest;
 };
 
-/// A description of pictures of this size. @throws std::invalid_argument beyond the driver's limits
-/// or the machine's memory, naming the limit.
+/// Makes the description of a target. @throws std::invalid_argument that names the limit, if the
+/// request exceeds the driver's limits or the machine's memory.
 TargetDescription describe_target(const gl::Context& context, const TargetRequest& request);
 
-/// Says that a picture is worked on by PostProcessPass: by effects, by a tone curve or encoding, or
-/// not.
+/// Sets whether PostProcessPass processes the picture, and by how many effects. `post_processed`:
+/// whether there is a tone curve or encoding.
 void set_post_process(TargetDescription& description, std::size_t effects, bool post_processed);
 
-/// The attachment of a colour or output by its slot.
+/// The attachment point of colour or an output, by its slot.
 constexpr GLenum attachment(std::size_t slot) {
     return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(slot);
 }
 
-/// Framebuffers over the same textures: all layers at once, and each layer alone.
+/// Framebuffers with the same textures: one for all layers, and one for each layer.
 class Layers {
 public:
     struct Attachment {
@@ -77,7 +77,7 @@ public:
 
     Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers);
 
-    GLuint all();  ///< for layered drawing and whole clears
+    GLuint all();  ///< for layered drawing and clears of all layers
     GLuint one(int layer);
 
 private:
@@ -89,57 +89,57 @@ private:
     std::vector<gl::Framebuffer> one_;
 };
 
-/// A call that found its picture, and all that the picture depends on, as they were left. While all
-/// of this stays the same, so does the picture.
+/// Identifies a call that changed neither its picture nor any picture on which it depends. While
+/// these members stay the same, the picture stays valid.
 struct UnchangedCall {
     std::uint64_t scene;     ///< SceneSnapshot::revision
     std::uint64_t contents;  ///< RendererState::contents
-    Key request;             ///< the views, the nodes left out, what is done to the picture
-    std::int64_t views;      ///< pictures that were still true
+    Key request;             ///< the views, the excluded nodes, the post-processing
+    std::int64_t views;      ///< pictures that were still valid
 };
 
-/// Textures that pictures are drawn into, and for each layer the key of the picture it holds.
+/// The textures into which pictures are drawn, and for each layer the key of its picture.
 ///
-/// With one sample a single pass writes colour and outputs. With more, colour is drawn multisampled
-/// and resolved, and the outputs are drawn in a pass of their own without multisampling: an average
-/// of ids would mean nothing. Without a colour there is nothing to multisample.
+/// With one sample a single pass writes colour and outputs. With more samples colour is drawn
+/// multisampled and resolved, and a second pass without multisampling draws the outputs: an average
+/// of ids has no meaning. A target without colour is never multisampled.
 class Target {
 public:
-    /// @throws GlError when memory is short; std::invalid_argument, naming the formats, if the
-    /// driver cannot draw into them together.
+    /// @throws GlError if there is not enough memory; std::invalid_argument that names the formats,
+    /// if the driver cannot draw into them together.
     Target(const gl::Context& context, const TargetDescription& description);
 
     const TargetDescription& description() const { return description_; }
     bool multisampled() const { return description_.samples > 1; }
 
-    /// Colour as materials write it, resolved.
+    /// The colour that materials write, resolved.
     const gl::Texture& color() const { return color_; }
-    /// What the picture is read from: color(), or what became of it in PostProcessPass.
+    /// The texture of the finished picture: color(), or the result of PostProcessPass.
     const gl::Texture& picture() const {
         return description_.post_processed ? post_processed_ : color_;
     }
     const gl::Texture& depth() const { return depth_; }
-    /// By ShadedOutput::slot.
+    /// The texture of an output, by ShadedOutput::slot.
     const gl::Texture& output(std::size_t slot) const { return outputs_[slot - 1]; }
 
-    /// What the colour pass draws into: outputs are attached as well unless the target is
+    /// The framebuffers of the colour pass; outputs are attached, too, unless the target is
     /// multisampled.
     Layers& color_pass() { return *color_pass_; }
-    /// Outputs alone; only for a multisampled target that has some.
+    /// The framebuffers of the outputs alone; only for a multisampled target with outputs.
     Layers& output_pass() { return *output_pass_; }
     Layers& resolved() { return *resolved_; }
     Layers& post_processed_pass() { return *post_processed_pass_; }
-    /// What the outputs can be read from.
+    /// The framebuffers from which outputs are read.
     Layers& outputs() { return multisampled() ? *output_pass_ : *color_pass_; }
 
-    /// Where effects draw to, by turns.
+    /// The two textures into which effects draw in turn.
     const gl::Texture& scratch(std::size_t turn) const { return scratch_[turn]; }
     Layers& scratch_pass(std::size_t turn) { return *scratch_pass_[turn]; }
 
     /// Averages the samples of one layer into color().
     void resolve(int layer);
 
-    /// The key of what each layer holds; nothing: not to be trusted.
+    /// The key of each layer's picture; none: the contents are not valid.
     std::vector<std::optional<PictureKey>> keys;
     /// The last call, if it drew nothing.
     std::optional<UnchangedCall> unchanged;
@@ -151,7 +151,7 @@ private:
     const GladGLContext* gl_;
     TargetDescription description_;
     gl::Texture color_, depth_, post_processed_, sample_color_, sample_depth_;
-    std::vector<gl::Texture> outputs_;  // by slot, the first being 1
+    std::vector<gl::Texture> outputs_;  // by slot; the first slot is 1
     gl::Texture scratch_[2];
     std::optional<Layers> scratch_pass_[2];
     std::optional<Layers> color_pass_, output_pass_, resolved_, post_processed_pass_;

@@ -5,7 +5,7 @@
 
 namespace cubecam {
 
-/// How the layers of a target lie in its textures.
+/// The arrangement of a target's layers in its textures.
 struct TargetShape {
     enum class Kind : std::uint8_t {
         flat,        ///< one picture

@@ -10,9 +10,9 @@
 
 namespace cubecam {
 
-/// One target for each description of a frame or capture, the least recently used given up when
-/// they fill more than `capacity` bytes. The picture in a target stays, so the same frame need not
-/// be drawn again.
+/// Holds one target for each description of a frame or capture, and drops the least recently used
+/// ones if they take more than `capacity` bytes. A target keeps its picture, so the same frame need
+/// not be drawn again.
 class TargetStore {
 public:
     explicit TargetStore(std::size_t capacity) : capacity_(capacity) {}
@@ -23,14 +23,13 @@ public:
             targets_.splice(targets_.begin(), targets_, it);
             return *targets_.front();
         }
-        // Room is made first, so that memory never holds both.
+        // Old targets are dropped first, so that memory never holds the old and the new one.
         trim(capacity_ > description.bytes() ? capacity_ - description.bytes() : 0);
         targets_.push_front(std::make_unique<Target>(context, description));
         return *targets_.front();
     }
 
-    /// After a call: a target larger than the whole store is not kept. Returns how many were given
-    /// up that the store alone could not hold.
+    /// Drops targets after a call. Returns how many of them were larger than the whole store.
     std::int64_t trim() {
         const auto too_large = [this](const std::unique_ptr<Target>& target) {
             return target->description().bytes() > capacity_;

@@ -20,7 +20,7 @@ View make_view(const Matrices& matrices) {
     view.forward = -glm::normalize(glm::dvec3(world[2]));
     view.parallel = is_parallel(matrices.projection);
     if (view.parallel) {
-        // The near plane is where clip z is -w: p22 z + p32 = -p33, and the camera looks along -z.
+        // On the near plane clip z is -w: p22 z + p32 = -p33; the camera looks along -z.
         const glm::dmat4& p = matrices.projection;
         view.near = (p[3][3] + p[3][2]) / p[2][2];
     }
@@ -39,7 +39,7 @@ std::vector<View> cube_views(glm::dvec3 position, double near, double far,
         View view = make_view(
             {look_along(position, glm::dvec3(face_forward(face)), glm::dvec3(face_up(face))),
              perspective(90.0, 1.0, near, far)});
-        view.position = position;  // exactly, not by way of an inverse
+        view.position = position;  // exactly, not from an inverse matrix
         view.eye = eye.value_or(position);
         views.push_back(view);
     }

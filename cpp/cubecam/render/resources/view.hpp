@@ -9,24 +9,24 @@
 
 namespace cubecam {
 
-/// What one picture is taken with; it goes to one layer of a target. A camera is one view, a
-/// cubemap six.
+/// The viewpoint and the matrices of one picture, which is drawn into one layer of a target. A
+/// camera has one view, a cubemap has six.
 struct View {
     glm::dmat4 view;             ///< world to camera
     glm::dmat4 view_projection;  ///< world to GL's clip space
-    glm::dmat4 far_to_world;     ///< clip space to world, translation left out: what a skybox needs
-    glm::dvec3 position;         ///< where distances count from and nodes are sorted by
-    glm::dvec3 eye;              ///< where highlights and mirrors are seen from
+    glm::dmat4 far_to_world;     ///< clip space to world without translation, for a skybox
+    glm::dvec3 position;         ///< distances count from here; nodes are sorted by them
+    glm::dvec3 eye;              ///< highlights and reflections are seen from here
     glm::dvec3 forward;          ///< unit vector along the camera's axis
-    bool parallel = false;       ///< orthographic: every ray goes along `forward`
-    double near = 0.0;  ///< parallel views only: where distance counts from, along the axis
+    bool parallel = false;       ///< orthographic: all rays have the direction `forward`
+    double near = 0.0;           ///< parallel views only: distance along the axis counts from here
 };
 
 View camera_view(const Matrices& matrices);
 
-/// The six views of a cube in the order of its faces, 90 degrees each: GL's face table
-/// (math/cube_face.hpp), so that a lookup by world direction needs no sign flip and row 0 of a face
-/// is t = 0.
+/// Returns the six views of a cube in the order of its faces, 90 degrees each. They follow GL's
+/// face table (math/cube_face.hpp), so that a lookup by world direction needs no sign flip and row
+/// 0 of a face is t = 0.
 std::vector<View> cube_views(glm::dvec3 position, double near, double far,
                              std::optional<glm::dvec3> eye = std::nullopt);
 

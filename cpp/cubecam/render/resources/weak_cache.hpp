@@ -6,8 +6,9 @@
 
 namespace cubecam {
 
-/// GPU copies of scene objects. They hold their object weakly and go, at the next sweep, when it
-/// has gone: a scene knows no renderer, so it cannot tell one.
+/// A cache of GPU copies of scene objects. An entry does not keep its object alive; the next sweep
+/// drops the entries of destroyed objects, since a scene does not know its renderers and cannot
+/// notify them.
 template <class Object, class Entry>
 class WeakCache {
 public:
@@ -15,7 +16,7 @@ public:
     template <class Make>
     Entry& get(const std::shared_ptr<Object>& object, Make&& make) {
         const auto found = entries_.find(object.get());
-        // An entry whose object has died may stand at the address of a new one.
+        // The object of an entry may be destroyed, and a new object may have its address.
         if (found != entries_.end() && !found->second.object.expired()) return found->second.entry;
         return entries_.insert_or_assign(object.get(), Held{object, make()}).first->second.entry;
     }
@@ -35,7 +36,7 @@ private:
         std::weak_ptr<Object> object;
         Entry entry;
     };
-    std::map<const Object*, Held> entries_;  // never walked in this order: addresses decide nothing
+    std::map<const Object*, Held> entries_;  // no result depends on the order of addresses
 };
 
 }  // namespace cubecam
