@@ -1328,7 +1328,7 @@ class CubeMap:
     @property
     def depth(self) -> typing.Any:
         """
-        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at the far plane and in the background.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
         """
     @property
     def distance(self) -> typing.Any:
@@ -1350,7 +1350,7 @@ class CubeMap:
     @property
     def id(self) -> typing.Any:
         """
-        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of the visible node; 0 background.
+        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of what is seen; 0 background.
         """
     @property
     def mipmaps(self) -> bool:
@@ -1384,7 +1384,7 @@ class CubeMap:
     @property
     def stencil(self) -> typing.Any:
         """
-        ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: the stencil buffer after all drawing; 0 background.
+        ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: what the stencil buffer holds in the end; 0 background.
         """
     @property
     def z(self) -> typing.Any:
@@ -4123,7 +4123,7 @@ class Frame:
     @property
     def depth(self) -> typing.Any:
         """
-        ndarray (H, W) float32: OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at the far plane and in the background.
+        ndarray (H, W) float32: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
         """
     @property
     def distance(self) -> typing.Any:
@@ -4133,7 +4133,7 @@ class Frame:
     @property
     def id(self) -> typing.Any:
         """
-        ndarray (H, W) int32: ``Node.id`` of the visible node; 0 background.
+        ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.
         """
     @property
     def normal(self) -> typing.Any:
@@ -4162,7 +4162,7 @@ class Frame:
     @property
     def stencil(self) -> typing.Any:
         """
-        ndarray (H, W) uint8: the stencil buffer after all drawing; 0 background.
+        ndarray (H, W) uint8: what the stencil buffer holds in the end; 0 background.
         """
     @property
     def z(self) -> typing.Any:
