@@ -42,6 +42,7 @@ NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
 RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 CROWDS = ("tests/gl/test_crowds.py",)
+KEPT = ("tests/gl/test_kept_snapshots.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -971,7 +972,7 @@ MUTATIONS = [
         "snapshot.cpp",
         "for (const auto& below : moved->subtree()) follow(*below);",
         "",
-        INCREMENTAL,
+        KEPT,
     ),
     Mutation(
         "snapshot: probes of moved nodes stay",
@@ -985,14 +986,7 @@ MUTATIONS = [
         "frame_context.cpp",
         "if (last && last->scene == scenes.revision && last->contents == gpu.contents &&",
         "if (last && last->scene == scenes.revision &&",
-        (*PROBES, *STATS, *INCREMENTAL),
-    ),
-    Mutation(
-        "environment: where it was captured is no part of the key",
-        "environment.cpp",
-        "key.push_back(std::bit_cast<std::uint64_t>((*position)[axis]));",
-        "",
-        ("tests/gl/test_environments.py",),
+        KEPT,
     ),
     Mutation(
         "damage: a change of order goes unseen",
