@@ -1,4 +1,4 @@
-"""A scene without render textures keeps its snapshot: whatever is edited between two calls, the next picture is right."""
+"""A scene without render textures keeps its snapshot, and the next picture is right whatever is edited."""
 
 import copy
 from types import SimpleNamespace
