@@ -1328,7 +1328,7 @@ class CubeMap:
     @property
     def depth(self) -> typing.Any:
         """
-        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
+        ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at the far plane and in the background.
         """
     @property
     def distance(self) -> typing.Any:
@@ -1350,7 +1350,7 @@ class CubeMap:
     @property
     def id(self) -> typing.Any:
         """
-        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of what is seen; 0 background.
+        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of the visible node; 0 background.
         """
     @property
     def mipmaps(self) -> bool:
@@ -1384,7 +1384,7 @@ class CubeMap:
     @property
     def stencil(self) -> typing.Any:
         """
-        ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: what the stencil buffer holds in the end; 0 background.
+        ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: the stencil buffer after all drawing; 0 background.
         """
     @property
     def z(self) -> typing.Any:
@@ -2583,6 +2583,9 @@ class ShaderMaterial(Material):
 
     ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
     seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps.
+    ``int environment_levels()``: how many levels the environment has, 1 without mipmaps and 0 where there is no environment;
+    ``bool environment_is_local()``: whether a probe captured it; ``vec3 environment_position()``: where in the world the probe
+    did.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
     the light) and ``radiance``; ``vec3 ambient_light()``, the sum of the
     ambient lights.
@@ -4123,7 +4126,7 @@ class Frame:
     @property
     def depth(self) -> typing.Any:
         """
-        ndarray (H, W) float32: OpenGL's window-space z, 0 at the near plane, 1 at the far plane and where nothing is, as fine as ``depth_format`` keeps it.
+        ndarray (H, W) float32: OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at the far plane and in the background.
         """
     @property
     def distance(self) -> typing.Any:
@@ -4133,7 +4136,7 @@ class Frame:
     @property
     def id(self) -> typing.Any:
         """
-        ndarray (H, W) int32: ``Node.id`` of what is seen; 0 background.
+        ndarray (H, W) int32: ``Node.id`` of the visible node; 0 background.
         """
     @property
     def normal(self) -> typing.Any:
@@ -4162,7 +4165,7 @@ class Frame:
     @property
     def stencil(self) -> typing.Any:
         """
-        ndarray (H, W) uint8: what the stencil buffer holds in the end; 0 background.
+        ndarray (H, W) uint8: the stencil buffer after all drawing; 0 background.
         """
     @property
     def z(self) -> typing.Any:
