@@ -1,8 +1,8 @@
 """Build the compiled module of another version of this repository, to compare it with the present one.
 
-    python scripts/build_version.py f890032 /tmp/before     the module then lies in /tmp/before/python/cubecam
+    python scripts/build_version.py f890032 before     the module then lies in before/python/cubecam
 
-A program uses that version with ``PYTHONPATH=/tmp/before/python``. The interpreter that runs this script must
+A program uses that version with ``PYTHONPATH=before/python``. The interpreter that runs this script must
 have the packages that building needs (``scripts/packages.py build run``).
 """
 
