@@ -17,7 +17,7 @@ from tests.gl.full_world import full_world, pictures
 from tests.gl.world import OUTPUTS
 from tests.helpers import DEVICE
 
-SEEDS = (0, *(pytest.param(seed, marks=pytest.mark.slow) for seed in (1, 2)))
+SEEDS = range(3)
 
 
 def same(got, want, what):
@@ -55,6 +55,7 @@ def test_the_world_has_something_to_set_each_property_of():
         assert world.things(getattr(cc, name.split(".")[0])), name
 
 
+@pytest.mark.slow  # it compiles some hundred programs; test_kept_snapshots.py is the quick one
 @pytest.mark.parametrize("seed", SEEDS)
 def test_random_edits(new_renderer, seed):
     """Every edit once, in random order; now and then one is undone.
