@@ -11,7 +11,8 @@ from tests.reference.stencil import FUNCS, OPS, Stencil
 
 STEPS = 12
 
-#: Options of a picture: formats and depth formats, then those without a color buffer or of few bits.
+#: COMBINATIONS and COLORLESS hold options of pictures: the first has formats and depth formats,
+#: the second has pictures without a color buffer and a picture of few bits.
 COMBINATIONS = {
     "565": {"format": "rgb565"},
     "565 samples": {"format": "rgb565", "samples": 4},
@@ -92,7 +93,7 @@ def masked_crowd(rng):
 
 
 def small_edit(scene, rng):
-    """What an animation does: one thing, a little."""
+    """Change one random node a little, as an animation does."""
     node = scene.nodes[rng.integers(1, len(scene.nodes))]
     kind = rng.integers(5)
     if kind == 0:

@@ -1,8 +1,8 @@
-"""Random edits of a FullWorld: one for every property that the stubs say can be set, and some of methods.
+"""Random edits of a FullWorld: one for every property with a setter in the stubs, and some method calls.
 
 `VALUES` has for each property ("Class.name", the class being the one that declares it) a function of the world, a
-random generator and the object to change, which gives a new value. A property without one fails
-test_incremental.py, so that none can be forgotten.
+random generator and the object to change, which gives a new value. If a property has
+no such function, test_incremental.py fails, so that no property can be forgotten.
 """
 
 import ast
@@ -123,12 +123,12 @@ def cube_of(world, rng, thing):
 
 
 def scene_of(world, rng, thing):
-    """Monitors go on showing their own room: other scenes would not have what they leave out."""
+    """A texture that shows the main scene keeps it: the other scenes do not have the nodes that it excludes."""
     return world.scene if thing.scene is world.scene else one(rng, world.inner, world.spare)
 
 
 def excluded(world, rng, thing):
-    """A monitor leaves itself out, and something else."""
+    """A render texture excludes the screen in its scene and one more node; other objects exclude random nodes."""
     if isinstance(thing, cc.RenderTexture):
         screens = [node for node in thing.scene.nodes if node.name == "screen"][-1:]
         return [*screens, random_node(world, rng, thing.scene)]
@@ -262,12 +262,13 @@ VALUES = {
     "StereoCamera.right": lambda world, rng, thing: random_camera(rng),
 }
 
-#: Values of these make probes late on purpose: afterwards they must catch up.
+#: Edits of these properties can leave probes out of date on purpose. The values here, which are
+#: set afterwards, make the probes catch up.
 LATE = {"Probe.update": "on_change", "Probe.faces_per_frame": 6}
 
 
 def edit_property(name, world, rng, draw):
-    """Set a property of a random object that has it. Gives what was changed, and how to undo that."""
+    """Set a property of a random object that has it. Returns the change in words, and a function to undo it."""
     class_name, attribute = name.split(".")
     thing = one(rng, *world.things(getattr(cc, class_name)))
     old = getattr(thing, attribute)

@@ -1,4 +1,4 @@
-"""Flat scenes whose picture is known texel by texel, and quads that show one."""
+"""Flat scenes whose picture is known texel by texel, and quads that show a texture."""
 
 import numpy as np
 
@@ -8,12 +8,12 @@ CORNERS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], float)
 
 
 def random_picture(seed, height=6, width=9):
-    """RGB in steps of 1/255, other in each pixel: no flip or swap goes unseen."""
+    """Random RGB values in steps of 1/255, different in each pixel, so that every flip or swap is noticed."""
     return np.random.default_rng(seed).integers(0, 256, (height, width, 3)) / 255
 
 
 def tiles(picture):
-    """A mesh of one unlit square a pixel: in x 0..W and y 0..H, row 0 of the picture on top."""
+    """A mesh with one square for each pixel, in x 0..W and y 0..H; row 0 of the picture is at the top."""
     height, width = picture.shape[:2]
     positions, colors, indices = [], [], []
     for row in range(height):
@@ -26,7 +26,7 @@ def tiles(picture):
 
 
 def flat_camera(width, height):
-    """Sees x 0..W, y 0..H in a picture of that shape."""
+    """A camera that sees x 0..W, y 0..H in a picture of that shape."""
     middle = (width / 2, height / 2)
     return cc.OrthographicCamera(height=height, position=(*middle, 5), target=(*middle, 0))
 
@@ -50,13 +50,13 @@ def flat_texture(picture, **options):
 
 
 def quad(width=1.0, height=1.0, uvs=CORNERS):
-    """In x 0..W, y 0..H, facing +Z."""
+    """A rectangle in x 0..W, y 0..H that faces +Z."""
     positions = [[0, 0, 0], [width, 0, 0], [width, height, 0], [0, height, 0]]
     return cc.Mesh(positions, [[0, 1, 2], [0, 2, 3]], uvs=uvs)
 
 
 def screen_scene(texture, size=None):
-    """(scene, node): shows a texture texel by pixel through flat_camera."""
+    """(scene, node): through flat_camera, each pixel of the scene shows one texel of the texture."""
     width, height = size or texture.size
     scene = cc.Scene()
     node = scene.add(quad(width, height), cc.BasicMaterial(map=texture), name="screen")

@@ -65,7 +65,7 @@ def colored_box():
 
 @dataclass
 class FullWorld:
-    """`scene` is what is drawn; `inner` and `spare` are what render textures show."""
+    """`scene` is the main scene that is drawn; render textures can show `inner` and `spare`."""
 
     scene: cc.Scene
     inner: cc.Scene
@@ -93,7 +93,7 @@ class FullWorld:
         materials = [node.material for node in nodes if node.material is not None]
         every = [*nodes, *self.scenes, *lights, *materials, *cameras, self.stereo, *effects]
         every += [*self.textures, *self.probes, *self.cubes, *self.images, *self.meshes]
-        if kind is cc.Camera:  # the others make their matrices themselves
+        if kind is cc.Camera:  # its subclasses compute their matrices
             return [thing for thing in every if type(thing) is cc.Camera]
         return [thing for thing in every if isinstance(thing, kind)]
 
@@ -192,7 +192,7 @@ def refused(call):
 
 
 def pictures(renderer, world):
-    """Every picture of a world by name: arrays, or the words of a refusal."""
+    """Every picture of a world by name: an array, or the error message if the call is refused."""
     scene, found = world.scene, {}
     camera, flat, matrices = world.cameras
 
@@ -222,14 +222,14 @@ def pictures(renderer, world):
     else:
         found["farthest"], found["farthest id"] = behind.faces, behind.id
     heat = refused(lambda: renderer.render(scene, camera, SIZE, outputs=("heat",)))
-    if not isinstance(heat, str):  # some node has a material that declares it
+    if not isinstance(heat, str):  # a node's material declares this output
         found["heat"] = heat.outputs["heat"]
     for index, light in enumerate(scene.lights):
         if getattr(light, "shadow", None) is not None:
             shadow = refused(lambda lamp=light: renderer.shadow_map(scene, lamp))
             found[f"shadow of light {index}"] = shadow
     if not any(isinstance(picture, str) for picture in found.values()):
-        # After a refusal these hold what was drawn before it.
+        # After a refused call, probes and textures still hold what was drawn before that call.
         for index, probe in enumerate(world.probes):
             got = refused(lambda held=probe: renderer.read_probe(held).faces)
             found[f"probe {index}"] = got

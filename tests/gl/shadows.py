@@ -50,7 +50,7 @@ def stage():
 
 @dataclass
 class Lamp:
-    """A light of the product, its counterpart, and how wide a texel of its map is (a unit away); None: it has none."""
+    """A light of cubecam, its reference light, and the width of a shadow map texel one unit away (None: no map)."""
 
     ours: object
     theirs: object
@@ -59,7 +59,7 @@ class Lamp:
 
 
 def lamps(size=256, radius=1.0, **more):
-    """One of each kind, over the stage. Texels are widest where the map is: bounds from the scene's size."""
+    """One lamp of each kind, above the stage. The texel widths are upper bounds; they follow from the scene's size."""
     shadow = cc.Shadow(size=size, radius=radius, **more)
     wide = size - 2 * (np.ceil(radius) + 2)
     return {
@@ -85,9 +85,9 @@ def lamps(size=256, radius=1.0, **more):
 
 
 def around(hits, lamp, radius=1.0):
-    """(share of the light, whether it is the same around, whether the surface clearly faces it).
+    """(share of the light, whether that share is the same around the point, cosine of the angle to the light).
 
-    Around: on the surface's plane, where the map's texels are that the filter reaches, and one more.
+    "Around" means points on the surface's plane, as far as the texels that the filter reaches, and one texel more.
     """
 
     def cast(points, start):
@@ -97,13 +97,13 @@ def around(hits, lamp, radius=1.0):
     share, same = np.ones(hits.id.shape), np.ones(hits.id.shape, bool)
     to_light, distance = shading.way_to(lamp.theirs, hits.position)
     cosine = shading.dot(hits.normal, to_light)[..., 0]
-    rows = hits.hit & (cosine > 0)  # the others are dark whatever stands in the way
+    rows = hits.hit & (cosine > 0)  # other pixels are dark anyway
     points, normal, to_light = hits.position[rows], hits.normal[rows], to_light[rows]
     texel = lamp.texel * (1 if lamp.far else distance[rows])
     share[rows] = cast(points, 1e-4)
     right = normalised(np.cross(to_light, [0.3, 0.5, -0.8]))
     up = np.cross(right, to_light)
-    # Diagonals of square texels, and the bias of about a texel.
+    # `widest` covers the diagonals of square texels, and the bias of about one texel.
     widest = np.sqrt(2) * (radius + 0.5) + 1.5
     for reach, angle in (
         (1, 0),
@@ -139,8 +139,8 @@ def lit(hits, eye, all_lamps, radius=1.0, background=(0, 0, 0)):
         share, same, cosine = around(hits, lamp, radius)
         shares.append(share)
         good &= same | (cosine < 0)
-        # The ball's facets and its shading normals do not agree on where night begins; elsewhere light
-        # that grazes a surface takes long steps from texel to texel.
+        # The ball's facets and its shading normals do not agree on where its dark side begins. On
+        # other surfaces, grazing light takes long steps from texel to texel.
         good &= (cosine < -0.3) | (cosine > np.where(hits.id == 5, 0.3, 0.05))
     want = shading.phong(
         hits.position, hits.normal, eye, color, [lamp.theirs for lamp in all_lamps],
@@ -151,6 +151,6 @@ def lit(hits, eye, all_lamps, radius=1.0, background=(0, 0, 0)):
 
 
 def with_shapes(hits, shapes):
-    """The hits, remembering what may stand in the light's way."""
+    """The hits, with the shapes that can block the light stored in them."""
     hits.shapes = shapes
     return hits

@@ -1,4 +1,4 @@
-"""Translucent things: sorting, blending with a separate alpha, agreement of the faces, what they write."""
+"""Translucent nodes: sorting, blending with a separate alpha, agreement of the faces, the outputs they write."""
 
 import itertools
 
@@ -45,7 +45,7 @@ def test_an_opaque_wall_hides_what_is_behind_it_only(renderer, depth):
     ids=["fourth number", "opacity", "both", "map", "phong"],
 )
 def test_every_source_of_alpha(renderer, make):
-    """Phong without a light is ka * color = .2 * 5."""
+    """The color of a Phong material without a light is ka * color = 0.2 * 5."""
     scene = cc.Scene(background=(0, 0, 1, 1))
     scene.add(cc.Mesh.plane(20, 20), make(), position=(0, 0, -2), rotation=UPRIGHT)
     color = front(scene)(renderer).color
@@ -94,7 +94,7 @@ def test_only_opaque_nodes_write_the_other_outputs(renderer):
 
 
 def test_ties_are_drawn_in_order_of_ids(renderer):
-    """Two panes at one place: depth writes are off, so the later id is drawn over the earlier."""
+    """Two panes are at one place: depth writes are off, so the pane with the higher id is drawn over the other."""
     for first, second in (((1, 0, 0), (0, 1, 0)), ((0, 1, 0), (1, 0, 0))):
         scene = cc.Scene(background=(0, 0, 0, 1))
         pane(scene, first, 0.5, -2)
@@ -105,9 +105,9 @@ def test_ties_are_drawn_in_order_of_ids(renderer):
 
 
 def test_sorting_goes_by_the_distance_of_the_centers_not_by_depth(renderer):
-    """The six faces agree: distance from the eye, not along each face's axis.
+    """The six faces agree, because nodes are sorted by distance from the eye, not by depth along each face's axis.
 
-    Two long panes cross the edge between two faces; by z of each face their order would differ."""
+    Two long panes cross the edge between two faces; sorted by the z of each face, their order would differ."""
     scene = cc.Scene(background=(0, 0, 0, 1))
     near = scene.add(
         cc.Mesh.box((8, 1, 0.01)),
@@ -121,7 +121,7 @@ def test_sorting_goes_by_the_distance_of_the_centers_not_by_depth(renderer):
     )
     assert np.linalg.norm(near.position) < np.linalg.norm(far.position)
     cube = renderer.capture(scene, size=33)
-    # Straight ahead each box shows two walls, near over far as whole nodes.
+    # Straight ahead each box shows two walls; the near box is drawn over the far box as a whole.
     want = composite((0, 0, 0, 1), (0, 1, 0, 0.5), (0, 1, 0, 0.5), (1, 0, 0, 0.5), (1, 0, 0, 0.5))
     assert_close(cube.faces[5, 16, 16], want, "blend")
     assert cube.faces[0, 16].any()
@@ -129,7 +129,7 @@ def test_sorting_goes_by_the_distance_of_the_centers_not_by_depth(renderer):
 
 @pytest.mark.parametrize("opacity", [0.0, 0.5])
 def test_capture_equals_frame(any_path, opacity):
-    """The -Z face and a camera that looks along it, mirrored as faces are."""
+    """The -Z face equals the frame of a camera that looks along -Z, except that faces are mirrored."""
     scene = cc.Scene(background=(0.1, 0.2, 0.3, 1))
     for color, alpha, z in LAYERS:
         scene.add(

@@ -37,7 +37,7 @@ def test_each_mode_is_its_formula(any_path, mode, ground, alpha):
 
 @pytest.mark.parametrize("mode", BLENDS)
 def test_the_four_sources_of_alpha_count_alike(renderer, mode):
-    """Map, colour, opacity: premultiplied colours come multiplied by the map's alpha, the others do not."""
+    """Alpha comes from map, colour and opacity. Only premultiplied map colours already contain the map's alpha."""
     ground, texel = (0.3, 0.6, 0.9, 1), np.array([0.3, 0.2, 0.1, 0.5], np.float32)
     scene = cc.Scene(background=ground)
     material = cc.BasicMaterial(
@@ -77,7 +77,7 @@ EQUATIONS = {
 
 
 def blended(factors, source, ground, clamp):
-    """OpenGL 4.5, section 17.3.6; `clamp`: a format that holds 0 to 1 alone."""
+    """The formula of OpenGL 4.5, section 17.3.6. `clamp` is for formats that can hold only values from 0 to 1."""
     s, d = np.array(source, float), np.array(ground, float)
     if clamp:
         s = np.clip(s, 0, 1)
@@ -135,7 +135,7 @@ def test_every_equation_with_factors_of_their_own_for_alpha(any_path, pixels, eq
 
 
 def test_a_blend_is_drawn_as_what_is_blended_and_leaves_the_next_as_it_is(any_path):
-    """The nearest, drawn last, by a mode: the equation of the one before does not stay."""
+    """The nearest pane is drawn last and uses a named mode: the equation of the pane before does not affect it."""
     scene = cc.Scene(background=(0.5, 0.5, 0.5, 1))
     least = cc.BasicMaterial(color=(0.25, 1, 1), blend=cc.Blend("one", "one", equation="min"))
     pane(scene, least, -3)
@@ -231,11 +231,11 @@ def test_opaque_ignores_alpha(renderer):
 
 
 def test_depth_write_hides_what_is_farther(any_path):
-    """A pane of additive light in front, drawn last anyway: depth matters for what is drawn after it at its side."""
+    """Two additive panes cross: when the one drawn first writes depth, it hides the other where it is nearer."""
     scene = cc.Scene(background=(0, 0, 0, 1))
     glow = cc.BasicMaterial(color=(1, 0, 0), blend="additive", double_sided=True)
     other = cc.BasicMaterial(color=(0, 1, 0), blend="additive", double_sided=True)
-    # Two panes that cross: centres at equal distances, so the one of lower id comes first.
+    # Two panes cross. Their centres are equally far, so the pane with the lower id is drawn first.
     for material, turn in ((glow, 60), (other, -60)):
         quad = cc.Mesh([(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)], [(0, 1, 2), (0, 2, 3)])
         scene.add(quad, material, position=(0, 0, -6), rotation=cc.axis_angle((0, 1, 0), turn))
@@ -244,7 +244,7 @@ def test_depth_write_hides_what_is_farther(any_path):
     glow.depth_write = True
     got = draw(any_path, scene, 16).color
     green = got[8, :, 1]
-    # Where the first pane is nearer it hides the second, on one side of the crossing only.
+    # Where the first pane is nearer, it hides the second: on one side of the crossing only.
     assert sorted({tuple(green[4:7]), tuple(green[9:12])}) == [(0, 0, 0), (1, 1, 1)]
 
 
@@ -299,7 +299,7 @@ def test_a_mask_does_not_leak_to_the_next_node_or_frame(any_path):
 
 
 def test_a_holdout_hides_in_captures(any_path):
-    """Colour masked, depth written: the background shows where something stands before a wall."""
+    """A holdout writes depth but no colour: the background shows where it stands in front of a wall."""
     scene = cc.Scene(background=(0.25, 0.5, 0.75, 1))
     scene.add(cc.Mesh.box(0.5), cc.BasicMaterial(color_write=False), position=(0, 0, -1))
     scene.add(cc.Mesh.box((6, 6, 0.1)), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, -2))

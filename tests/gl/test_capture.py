@@ -16,7 +16,7 @@ POSITIONS = {"origin": (0, 0, 0), "off": (0.31, -0.23, 0.17)}
 
 @pytest.fixture(scope="module", params=POSITIONS.values(), ids=POSITIONS)
 def seen(request, shared_renderers):
-    """(captured, hits, world) of the room from a position."""
+    """(captured cube, hits of the ray caster, world): the room seen from one position."""
     world = room()
     renderer = shared_renderers(None)
     cube = renderer.capture(world.scene, position=request.param, size=SIZE, outputs=OUTPUTS)
@@ -40,7 +40,7 @@ def test_color(seen):
 
 
 def test_silhouettes_are_where_they_should_be(seen):
-    """Also where the mask hides them: at most a few pixels in a hundred may fall to the other side."""
+    """Also at the silhouettes, which other tests mask, only a few pixels in a thousand may have another id."""
     cube, hits, _ = seen
     assert (cube.id != hits.id).mean() < 0.002
 
@@ -156,7 +156,7 @@ def test_sizes_that_are_no_powers_of_two(renderer, size):
 
 
 def test_a_fine_sphere_is_a_sphere(renderer):
-    """The true sphere, not its triangles: within what 64 x 32 of them leave out."""
+    """The capture is compared with a true sphere: the tolerances allow for the sphere's 64 x 32 facets."""
     world = World()
     world.add(cc.Mesh.sphere(0.8), Sphere(0, radius=0.8), (1, 0, 0), position=(0.3, 0.4, -2))
     hits = capture_hits(world, size=64)
@@ -202,7 +202,7 @@ def test_exclude_covers_subtrees(renderer):
 
 
 def test_order_of_adding_does_not_change_what_is_in_front(renderer):
-    """Near to far or far to near: depth decides."""
+    """Nodes are added from near to far or from far to near: depth decides what is in front."""
     for order in (1, -1):
         scene = cc.Scene()
         for z, color in [(-1, (1, 0, 0)), (-2, (0, 1, 0)), (-3, (0, 0, 1))][::order]:

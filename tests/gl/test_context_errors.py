@@ -1,4 +1,4 @@
-"""No EGL library, no device, an unknown device: errors that say what was tried and what would help."""
+"""No EGL library, no device, an unknown device: the errors say what was tried and what would help."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Many nodes that look alike: drawn in few calls, with the pixels of nodes that are drawn one by one."""
+"""Many nodes that look alike: they are drawn in few calls, with the same pixels as if they were drawn one by one."""
 
 import numpy as np
 import pytest
@@ -67,7 +67,7 @@ def test_a_crowd_has_the_pixels_of_its_nodes(any_path, rng, kind):
 
 
 def test_calls_do_not_grow_with_materials(renderer, rng):
-    """Numbers of a material are numbers of the record: a thousand materials are one call."""
+    """The numbers of a material are part of each node's record, so a thousand materials need only one call."""
     scene = cc.Scene()
     mesh = cc.Mesh.box(0.2)
     for position in rng.uniform(-3, 3, (1000, 3)):
@@ -94,7 +94,7 @@ def test_what_differs_parts_a_crowd(renderer, rng):
 
 
 def test_a_dense_mesh_keeps_the_numbers_of_each_material(renderer):
-    """Constants of dense meshes stand in a block: a crowd of them changes it between calls."""
+    """Constants of dense meshes are stored in a block, and a crowd of such meshes changes it between calls."""
     scene = cc.Scene()
     ball = cc.Mesh.icosphere(0.4, subdivisions=4)  # 5,120 triangles
     places = [(x, y, 0) for x in np.linspace(-4, 4, 5) for y in np.linspace(-4, 4, 5)]
@@ -109,7 +109,7 @@ def test_a_dense_mesh_keeps_the_numbers_of_each_material(renderer):
 
 
 def test_transparent_nodes_are_blended_in_their_order(any_path, rng):
-    """Far to near, as a compositor in numpy has it, although they are one call."""
+    """Nodes are blended from far to near, as a compositor in numpy does it, although they are drawn in one call."""
     scene = cc.Scene(background=(0, 0, 0, 1))
     pane = cc.Mesh.plane(8, 8)
     material = cc.BasicMaterial(color=(1, 0.5, 0.25), opacity=0.3)
@@ -126,7 +126,7 @@ def test_transparent_nodes_are_blended_in_their_order(any_path, rng):
 
 
 def test_a_growing_crowd_is_incremental(fresh_renderer, new_renderer, rng):
-    """The sixteenth node makes a crowd and changes the order; the picture is that of a new renderer."""
+    """The sixteenth node makes a crowd and changes the order; the picture equals that of a new renderer."""
     scene, nodes = scene_of(rng, 12, phong)
     for step in range(10):
         matrix = np.eye(4)

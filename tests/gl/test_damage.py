@@ -8,7 +8,7 @@ from tests.compare import assert_identical
 
 @pytest.fixture
 def both(new_renderer):
-    """One that keeps pictures, one that keeps none."""
+    """Two renderers: the first keeps pictures, the second keeps none."""
     return new_renderer(), new_renderer(cache_bytes=0)
 
 
@@ -23,7 +23,7 @@ def test_what_leaves_the_picture_leaves_no_trace(both):
 
 
 def test_translucent_things_that_change_places(both):
-    """One pane passes through two that stay: their order changes only for the one that moves."""
+    """One pane passes through two that stay: the order changes only for the pane that moves."""
     scene = cc.Scene(background=(0, 0, 0, 1))
     panes = [
         scene.add(
@@ -41,7 +41,7 @@ def test_translucent_things_that_change_places(both):
 
 
 def test_less_is_drawn_than_all(renderer):
-    """The point of it: a small thing that moves before many others costs few draw calls."""
+    """A small node that moves in front of many others needs few draw calls: this is the purpose of the rectangles."""
     scene = cc.Scene()
     for x in range(10):
         for y in range(10):

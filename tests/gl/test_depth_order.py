@@ -1,4 +1,4 @@
-"""Captures of the farthest surface, against the ray caster that passes every nearer one."""
+"""Captures of the farthest surface, against the ray caster, which goes through every nearer surface."""
 
 import numpy as np
 import pytest
@@ -14,7 +14,7 @@ SPHERES = (6, 8)
 
 
 def hall():
-    """The room, and behind its things others that the nearest order hides, some seen from inside."""
+    """The room with more nodes behind its nodes: the nearest order hides them. Some nodes are seen from inside."""
     world = room()
     world.box((5, 5, 0.2), (0.6, 0.1, 0.4), position=(0.3, 0.2, -4))
     world.sphere(1.6, (0.3, 0.8, 0.8), position=(-0.8, 0.3, 4.5))

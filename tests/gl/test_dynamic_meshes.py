@@ -32,7 +32,7 @@ def sheet(rng, colors=True):
 
 
 class Stage:
-    """A scene whose sheets share a mesh: one shows its colours, one its texture, one the bare numbers."""
+    """A scene whose sheets share a mesh: one shows the colours, one the texture, one the raw values."""
 
     def __init__(self, mesh, picture):
         self.mesh = mesh
@@ -57,7 +57,7 @@ class Stage:
 
 
 def again(mesh):
-    """Another mesh of the same arrays, by its constructor."""
+    """A new mesh that its constructor makes from the same arrays."""
     arrays = {name: getattr(mesh, name) for name in NAMES}
     return cc.Mesh(indices=mesh.indices, **arrays)
 
@@ -86,7 +86,7 @@ def picture(rng):
 def test_an_update_is_drawn_as_a_new_mesh_is(renderer, rng, picture, names):
     stage = Stage(sheet(rng), picture)
     before = stage.pictures(renderer)
-    for _ in range(3):  # the first replaces the GPU's buffers, later ones write into them
+    for _ in range(3):  # the first update replaces the GPU's buffers, later ones write into them
         stage.mesh.update(**{name: new_values(name, rng) for name in names})
         after = stage.pictures(renderer)
         for got, wanted in zip(after, from_scratch(stage, picture), strict=True):
@@ -112,7 +112,7 @@ def test_arrays_go_and_come_back(renderer, rng, picture, name):
     without = stage.pictures(renderer)
     for got, wanted in zip(without, from_scratch(stage, picture), strict=True):
         assert_identical(got, wanted)
-    if name != "normals":  # which were smooth before, too
+    if name != "normals":  # computed normals are smooth, as before
         assert not np.array_equal(first[0], without[0])
     setattr(stage.mesh, name, kept)
     for got, wanted in zip(stage.pictures(renderer), first, strict=True):
@@ -153,11 +153,11 @@ def test_only_an_update_draws_again(renderer):
     assert views_drawn() == 1
     assert views_drawn() == 0
     beside.update(positions=beside.positions * 2)
-    assert views_drawn() == 0  # it stands behind the camera, now as before
+    assert views_drawn() == 0  # `beside` is still behind the camera
 
 
 def test_what_an_update_leaves_is_drawn_over(renderer):
-    """The rectangle that is drawn again covers where the mesh was, and where it is."""
+    """The rectangle that is drawn again covers the place where the mesh was and the place where it is now."""
     scene = cc.Scene(background=(0, 0, 0, 1))
     mesh = cc.Mesh.box(0.5)
     scene.add(mesh, cc.BasicMaterial())
@@ -186,7 +186,7 @@ def test_colors_make_a_surface_translucent(renderer):
 
 @pytest.mark.parametrize("vertices", [65_535, 65_536, 65_537, 65_538])
 def test_the_last_vertex_is_drawn_where_16_bits_end(renderer, vertices):
-    """All vertices but three, of which one is the last, lie elsewhere; a wrong index would show."""
+    """Only three vertices, one of them the last, are in view; a wrong index would change the picture."""
     positions = np.zeros((vertices, 3))
     positions[:, 2] = 100
     positions[[1, vertices - 2, vertices - 1]] = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)]
@@ -232,7 +232,7 @@ def test_a_picture_shows_one_moment_of_a_mesh(renderer):
             assert red.any() != green.any()
             assert not red[:, 16:].any()
             assert not green[:, :16].any()
-            assert (red | green)[:12].any()  # both boxes are of the same moment
+            assert (red | green)[:12].any()  # both boxes show the same moment
             assert (red | green)[16:].any()
             seen.add(bool(red.any()))
     finally:

@@ -10,7 +10,7 @@ from tests.reference.sampling import pad_faces
 
 
 def edge_steps(faces):
-    """Largest step over any edge, and between neighbours inside faces, of (6, N, N, C)."""
+    """The largest step over any edge, and the largest between neighbours inside faces, for an array (6, N, N, C)."""
     padded = pad_faces(faces)
     over = max(
         np.abs(padded[:, 1:-1, 0] - padded[:, 1:-1, 1]).max(),
@@ -23,7 +23,7 @@ def edge_steps(faces):
 
 
 def smooth_scene():
-    """Inside a big lit sphere: nothing but slopes."""
+    """The inside of a big lit sphere: its picture has only smooth slopes."""
     scene = cc.Scene()
     scene.add(cc.Mesh.sphere(5), cc.PhongMaterial(color=(0.7, 0.5, 0.3), double_sided=True))
     for light in phong_lights()[0]:
@@ -66,7 +66,7 @@ def test_translucent_and_mirrored_things_are_continuous(renderer):
 
 
 def test_a_thin_line_over_an_edge_goes_on(renderer):
-    """A rod that crosses the edge between +X and -Z, seen on both sides at the same height."""
+    """A rod crosses the edge between +X and -Z: both faces show it at the same height."""
     scene = cc.Scene()
     scene.add(
         cc.Mesh.box((6, 0.12, 0.12)),

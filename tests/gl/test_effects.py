@@ -1,4 +1,4 @@
-"""Passes over a frame: against numpy, in order, before tone mapping, redrawn when anything they use changes."""
+"""Effects of a frame: compared with numpy, in order, before tone mapping, redrawn when anything they use changes."""
 
 import copy
 import pickle
@@ -94,7 +94,7 @@ def test_uv_and_pixels_count_from_the_bottom_left(renderer):
 
 
 def test_frame_is_bilinear_and_clamps(renderer):
-    """Half a pixel to the right of a centre is the mean of two; beyond the border it is the border."""
+    """Half a pixel to the right of a centre is the mean of two; beyond the border the border pixel is read."""
     shift = cc.ImageEffect(
         "uniform vec2 by; vec4 effect(vec2 uv) { return frame(uv + by / vec2(frame_size())); }"
     )

@@ -1,4 +1,4 @@
-"""What a user's source can learn of its environment: levels, and where a probe captured it."""
+"""What a user's shader source can read about its environment: its levels, and where a probe captured it."""
 
 import numpy as np
 import pytest
@@ -48,7 +48,7 @@ def test_a_probe_says_where_it_is_and_follows(any_path):
 
 
 def test_a_probe_that_is_not_drawn_again_stays_where_it_was(fresh_renderer):
-    """Its contents were captured there."""
+    """The reported position stays the place where the probe's contents were captured."""
     scene = cc.Scene(background=(0, 0, 0))
     probe = cc.Probe(position=(1, 0, 0), size=8, update="once")
     scene.add(cc.Mesh.sphere(1), cc.ShaderMaterial(SAY), environment=probe)
@@ -60,7 +60,7 @@ def test_a_probe_that_is_not_drawn_again_stays_where_it_was(fresh_renderer):
 
 
 def test_a_box_corrects_parallax(renderer):
-    """A mirror that meets the room's walls where they are: the walls' own positions come out."""
+    """A mirror looks up the point where the reflected ray meets a wall: the picture shows the walls' positions."""
     room = cc.Scene()
     walls = cc.ShaderMaterial("vec3 shade(Surface s) { return s.position; }", double_sided=True)
     room.add(cc.Mesh.box(8), walls)
@@ -85,4 +85,4 @@ def test_a_box_corrects_parallax(renderer):
     expected = point + way * ((np.sign(way) * 4 - point) / way).min(1, keepdims=True)
     off = np.abs(frame.color[ball][:, :3] - expected).max(1)
     assert np.quantile(off, 0.9) < 0.02  # texels are 3 cm wide
-    assert off.max() < 0.3  # where they lie aslant
+    assert off.max() < 0.3  # where texels are seen at a slant

@@ -1,4 +1,4 @@
-"""Another library's EGL context, current on this thread, is left as it was found: also on error."""
+"""Another library's EGL context, current on this thread, is left as it was found, also after an error."""
 
 import pytest
 
@@ -102,7 +102,7 @@ for step in work():
 
 
 def test_their_context_can_be_destroyed_and_ours_goes_on():
-    """And the display that both may share is not terminated by us."""
+    """A closed renderer does not terminate the display that both contexts may share."""
     run_python(
         EGL
         + """

@@ -65,7 +65,7 @@ def test_closing_and_collecting_in_the_child_touch_nothing():
 
 
 def test_the_end_of_the_child_is_quiet():
-    """sys.exit in the child runs destructors of everything: it must end, and well."""
+    """sys.exit in the child runs all destructors: the child must end without an error."""
     script = FORK.replace("        {child}\n", "        sys.exit(0)\n").replace("{parent}", "")
     script = script.replace(
         "    except BaseException as error:", "    except ZeroDivisionError as error:"

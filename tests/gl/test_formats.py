@@ -76,7 +76,7 @@ def test_unknown_formats_are_refused_naming_those_there_are(renderer, fmt):
 def test_unknown_outputs_are_refused(renderer, outputs):
     if (
         outputs == "distance"
-    ):  # one string is a sequence of letters; taking it as one name is as good as refusing
+    ):  # a string is a sequence of letters; cubecam may also take it as one name
         return
     with pytest.raises((ValueError, TypeError), match=r"distance|outputs"):
         renderer.capture(cc.Scene(), size=4, outputs=outputs)
@@ -84,7 +84,7 @@ def test_unknown_outputs_are_refused(renderer, outputs):
 
 @pytest.fixture(scope="module")
 def bright():
-    """From black to 40, saturated and grey."""
+    """A scene whose background goes from black to 40, with saturated and grey colours."""
     faces = np.random.default_rng(2).random((6, 16, 16, 3)).astype(np.float32)
     faces *= np.float32(10.0) ** np.linspace(-3, 1.6, 16, dtype=np.float32)[:, None]
     faces[2] = faces[2, ..., :1]
@@ -112,7 +112,7 @@ def test_tone_curves(renderer, bright, raw, curve, encode):
 
 
 def test_srgb_alone(renderer, bright, raw):
-    """The standard ends at 1; how a float picture goes on beyond is not its business."""
+    """The sRGB standard ends at 1; it does not define the values of a float picture above 1."""
     view, linear = raw
     got = renderer.render(bright, view.camera, view.size, format="rgba32f", encode="srgb").color
     low = (linear[..., :3] <= 1).all(-1)
@@ -144,11 +144,11 @@ def test_unknown_curves_are_refused(renderer, option):
         renderer.render(cc.Scene(), camera, (2, 2), **option)
 
 
-# Five, six and five bits.
+# The format rgb565 has five, six and five bits.
 
 
 def as_565(color):
-    """What a linear colour is kept and read as."""
+    """The bytes that are read back for a linear colour in rgb565."""
     bits = np.array([5, 6, 5])
     whole = np.round(np.clip(color, 0, 1)[..., :3] * (2**bits - 1))
     rgb = np.round(whole * 255 / (2**bits - 1))
@@ -156,10 +156,10 @@ def as_565(color):
 
 
 def test_rgb565_values_are_the_quantised_ones(any_path):
-    """Every level of each channel, cleared to and shaded."""
+    """The test uses every level of each channel, as the background and as a shaded colour."""
     for level in range(64):
         color = np.array([level // 2 / 31, level / 63, 1 - level // 2 / 31])
-        off = color + 0.3 / 63 * (-1) ** level  # not on a level, and on this side of the boundary
+        off = color + 0.3 / 63 * (-1) ** level  # between two levels, rounded to this one
         scene = cc.Scene(background=np.clip(off, 0, 1))
         box = scene.add(cc.Mesh.box(1), cc.BasicMaterial(color=color), position=(0.2, 0.1, -2))
         cube = any_path.capture(scene, size=8, format="rgb565", outputs=("id",))
@@ -216,7 +216,7 @@ def test_rgb565_probe_is_looked_up(renderer):
     assert (renderer.read_probe(ball.environment).faces == as_565(np.array([0.4, 0.5, 0.6]))).all()
 
 
-# Depth.
+# The next tests are about depth formats.
 
 DEPTHS = (
     "depth_component32f",
@@ -271,7 +271,7 @@ def test_depth_of_a_capture(any_path, depth_format):
     [("depth_component16", 16), ("depth_component24", 24), ("depth24_stencil8", 24)],
 )
 def test_fixed_point_depth_is_what_the_buffer_holds(renderer, depth_format, bits):
-    """Whole steps: the nearest to the float depth, or the one beside it on a rounding boundary."""
+    """Depth is in whole steps: the step nearest to the float depth, or its neighbour at a rounding boundary."""
     world, view = room(), perspective(*PLACE, near=0.2, far=20)
     fixed, full = (
         renderer.render(
@@ -281,7 +281,7 @@ def test_fixed_point_depth_is_what_the_buffer_holds(renderer, depth_format, bits
     )
     most = 2**bits - 1
     steps = np.round(fixed * most)
-    # float32 has 24 bits: near 1 a step of 2^-24 is kept as the nearest float.
+    # float32 has 24 bits: near 1 a step of 2^-24 is rounded to the nearest float.
     np.testing.assert_array_equal((steps / most).astype(np.float32), fixed.astype(np.float32))
     assert np.abs(steps - ref.quantised(full, bits)).max() <= 1
     assert len(np.unique(steps)) > 100
@@ -301,7 +301,7 @@ def test_a_stencil_beside_it_does_not_change_depth(renderer):
 
 @depth_formats
 def test_other_outputs_do_not_hang_on_the_depth_format(renderer, depth_format):
-    """Away from where two surfaces meet."""
+    """The outputs are compared only away from the lines where two surfaces meet."""
     world, view = room(), perspective(*PLACE, near=0.2, far=20)
     a, b = (
         renderer.render(world.scene, view.camera, view.size, depth_format=name, outputs=OUTPUTS)
@@ -313,7 +313,7 @@ def test_other_outputs_do_not_hang_on_the_depth_format(renderer, depth_format):
 
 
 def test_sixteen_bits_cannot_tell_far_things_apart(renderer):
-    """Two walls a hundredth of a unit apart, 50 units away: a step there is far more."""
+    """Two walls 50 units away are 0.01 units apart: a step of 16-bit depth is much larger there."""
     scene = cc.Scene()
     far = scene.add(
         cc.Mesh.box((99, 99, 1)), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, -51)
@@ -337,7 +337,7 @@ def test_depth_of_an_empty_picture(renderer):
         assert frame.stencil is None or not frame.stencil.any()
 
 
-# No colour.
+# The next tests draw pictures without a colour buffer.
 
 
 @depth_formats
@@ -422,11 +422,11 @@ def test_faces_need_a_format(renderer):
         cc.Probe(format=None)
 
 
-# The painter: no depth buffer.
+# The next tests draw without a depth buffer, as a painter paints: later nodes cover earlier ones.
 
 
 def overlapping():
-    """Boxes across each other, near ones added first, some translucent, and the order they are painted in."""
+    """A world of overlapping nodes, some of them translucent, and the order in which they are painted."""
     world = room()
     for index in range(0, len(world.shapes), 3):
         world.scene.nodes[index].material.opacity = 0.5
@@ -453,7 +453,7 @@ def test_without_depth_nodes_are_painted_in_order(any_path, depth_format):
         color = (*world.colors[node.id][:3], node.material.opacity)
         want = np.where(hits.hit[..., None], over(color, want), want)
         mask &= inner(hits) | (node.id == 6)
-    mask &= interior(view.hits([shapes[6]]).id)  # its facets are no creases
+    mask &= interior(view.hits([shapes[6]]).id)  # the edges of the sphere's facets are not masked
     assert_close(got, want, "float32_maths", mask=mask)
 
 
@@ -484,7 +484,7 @@ def test_the_sky_is_behind_the_painter(renderer):
     assert_identical(a, b)
 
 
-# What all of them promise.
+# The next tests check what all combinations of formats must fulfil.
 
 
 @pytest.mark.parametrize("options", COMBINATIONS.values(), ids=COMBINATIONS)
@@ -583,7 +583,7 @@ def test_effects_need_a_color(renderer):
 
 @pytest.mark.parametrize("options", COMBINATIONS.values(), ids=COMBINATIONS)
 def test_render_textures_have_them_too(renderer, options):
-    """A texture equals a frame with the same options."""
+    """A render texture equals a frame with the same options."""
     options = {name: value for name, value in options.items() if name != "outputs"}
     scene = crowd(np.random.default_rng(34))
     for index, node in enumerate(scene.nodes):

@@ -13,7 +13,7 @@ EYE, TARGET = (1.2, 0.9, -0.2), (-0.6, -0.1, 1.5)
 
 
 def by_matrices(position, target, size=(48, 36)):
-    """An oblique projection, which no lens of ours makes."""
+    """A camera with an oblique projection, which no camera class of cubecam makes."""
     view = ref.look_at(position, target, (0.2, 1, 0))
     projection = ref.perspective(55, size[0] / size[1], 0.1, 100)
     projection[0, 2], projection[1, 2] = 0.2, -0.1
@@ -72,7 +72,7 @@ def test_z_is_along_the_cameras_axis(seen):
 
 
 def test_distance(seen):
-    """The length of the ray; an orthographic ray starts on the near plane."""
+    """Distance is the length of the ray; an orthographic ray starts on the near plane."""
     frame, hits, _, view = seen
     want = hits.t - view.near if view.projection[3, 3] == 1 else hits.distance
     assert_close(frame.distance, want, "distance", mask=interior(hits.id))
@@ -115,7 +115,7 @@ def test_near_and_far_of_a_camera(renderer):
 
 
 def test_a_moved_camera_draws_anew(renderer):
-    """The same camera object, moved: the key holds its matrices, not its identity."""
+    """The same camera object is moved: the cache key holds its matrices, not its identity."""
     world = room()
     camera = cc.PerspectiveCamera(fov=60, position=EYE, target=TARGET)
     first = renderer.render(world.scene, camera, (24, 24)).color

@@ -21,7 +21,7 @@ SEEDS = range(3)
 
 
 def same(got, want, what):
-    """Compare all pictures; what the other renderer has not drawn is not there to compare."""
+    """Compare all pictures; a picture that the other renderer has not drawn is skipped."""
     assert got.keys() >= want.keys(), what
     for name, picture in want.items():
         if isinstance(picture, str) and "renderer has drawn" in picture:
@@ -55,13 +55,13 @@ def test_the_world_has_something_to_set_each_property_of():
         assert world.things(getattr(cc, name.split(".")[0])), name
 
 
-@pytest.mark.slow  # it compiles some hundred programs; test_kept_snapshots.py is the quick one
+@pytest.mark.slow  # it compiles about 100 programs; test_kept_snapshots.py is quicker
 @pytest.mark.parametrize("seed", SEEDS)
 def test_random_edits(new_renderer, seed):
-    """Every edit once, in random order; now and then one is undone.
+    """Each edit is done once, in random order; now and then an edit is undone.
 
-    The expected picture is drawn from a deep copy: a renderer that has never drawn these objects holds nothing of
-    them, and only its programs are not compiled anew.
+    The expected picture is drawn from a deep copy: a renderer that has never drawn these objects keeps nothing of
+    them. Only its programs are not compiled again.
     """
     rng = np.random.default_rng(seed)
     world = full_world(rng)
@@ -93,7 +93,7 @@ def test_random_edits(new_renderer, seed):
 
 
 def test_unused_frames_between_do_not_matter(new_renderer):
-    """One renderer sees every step, the other only the last."""
+    """One renderer draws every step, the other only the last."""
     rng = np.random.default_rng(12)
     world = full_world(rng)
     busy, lazy = new_renderer(), new_renderer()
@@ -124,7 +124,8 @@ def test_a_copy_draws_the_same(new_renderer):
     same(pictures(new_renderer(), world), pictures(new_renderer(), other), "copy")
 
 
-# A crowd under small edits, whose pictures are drawn again in rectangles: cameras, formats, samples, targets.
+# The next tests make small edits in a crowd, whose pictures are drawn again in rectangles, with
+# different cameras, formats, samples and targets.
 
 CAMERAS = {
     "in the crowd": lambda: cc.PerspectiveCamera(
@@ -161,12 +162,12 @@ def usual_camera(offset=(0, 0, 0)):
 
 @pytest.fixture
 def both(new_renderer):
-    """One that keeps pictures, one that keeps none."""
+    """Two renderers: the first keeps pictures, the second keeps none."""
     return new_renderer(), new_renderer(cache_bytes=0)
 
 
 def names_of(options):
-    """What a frame of these options has."""
+    """The names of the arrays that a frame with these options has."""
     colors = () if options.get("format", "rgba8") is None else ("color",)
     return (*colors, *options.get("outputs", ()))
 
@@ -191,7 +192,7 @@ def test_cameras(both, make):
 
 @pytest.mark.parametrize("distance", [1e3, 1e5, 1e6, 4e6])
 def test_far_from_the_origin(both, distance):
-    """Maps count in metres from afar: single precision moves vertices by several pixels there."""
+    """Far from the origin, as on maps in metres, single precision would move vertices by several pixels."""
     rng = np.random.default_rng(12)
     offset = np.array([distance, 0.3 * distance, -0.7 * distance])
     scene, camera = crowd(rng, offset), usual_camera(offset)
@@ -218,7 +219,7 @@ def test_captures(new_renderer, layered, samples):
 @pytest.mark.parametrize("depth_format", STENCILS)
 @pytest.mark.parametrize("samples", [1, 4])
 def test_stencils(both, depth_format, samples):
-    """A stencil couples nodes where they overlap, so rectangles stay right."""
+    """With a stencil, nodes affect each other only where they overlap, so rectangles stay correct."""
     rng = np.random.default_rng(21)
     scene, camera = masked_crowd(rng), usual_camera()
     outputs = ("stencil",) if depth_format == "stencil_index8" else ("stencil", "depth", "id")

@@ -102,7 +102,7 @@ def test_the_next_picture_is_right_whatever_was_edited(fresh_renderer, seed):
         for name in [*rng.permutation(list(EDITS)), *rng.permutation(list(EDITS))]:
             EDITS[name](world, rng)
             got = pictures(fresh_renderer, world)
-            if rng.random() < 0.3:  # a call that finds nothing changed
+            if rng.random() < 0.3:  # a second call, with nothing changed
                 assert_identical(pictures(fresh_renderer, world)["color"], got["color"], name)
                 assert fresh_renderer.stats.views_drawn == 0, name
             want = pictures(scratch, copy.deepcopy(world))
@@ -114,7 +114,7 @@ def test_the_next_picture_is_right_whatever_was_edited(fresh_renderer, seed):
 
 
 def test_a_probe_drawn_by_hand_shows_in_the_next_frame(fresh_renderer):
-    """Nothing in the scene changes: only what the renderer holds of the probe does."""
+    """The scene does not change: only the contents that the renderer keeps for the probe change."""
     scene = cc.Scene(background=(0, 0, 0))
     scene.add(cc.Mesh.box(20), cc.BasicMaterial(color=(1, 0, 0), double_sided=True))
     probe = cc.Probe(size=8, update="manual")
@@ -128,7 +128,7 @@ def test_a_probe_drawn_by_hand_shows_in_the_next_frame(fresh_renderer):
 
 
 def test_a_snapshot_that_another_thread_draws_is_left_alone(new_renderer):
-    """Moves between two calls do not reach a call that is under way."""
+    """Nodes that move while a picture is drawn do not change that picture."""
     import threading
 
     scene = cc.Scene(background=(0, 0, 0))
@@ -151,7 +151,7 @@ def test_a_snapshot_that_another_thread_draws_is_left_alone(new_renderer):
         thread.start()
     flip = 0
     while any(thread.is_alive() for thread in threads):
-        flip = 1 - flip  # all at one place or all out of view: never some of both
+        flip = 1 - flip  # all nodes are in view, or all are out of view
         scene.set_positions(nodes, np.tile([0, 100.0 * flip, 0], (50, 1)))
     for thread in threads:
         thread.join()

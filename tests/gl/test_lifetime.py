@@ -1,4 +1,4 @@
-"""Closing, garbage, threads that end, two hundred contexts, memory."""
+"""Lifetime of renderers: closing, garbage collection, threads that end, two hundred contexts, memory."""
 
 import gc
 import pickle
@@ -71,7 +71,7 @@ def test_a_refused_call_leaves_the_renderer_usable(fresh_renderer):
 
 
 def test_garbage_on_another_thread():
-    """The last reference goes on a thread that never drew; others go on drawing."""
+    """The last reference is dropped on a thread that never drew; other renderers can still draw."""
     other = cc.Renderer()
     scene = room().scene
     want = other.capture(scene, size=8).faces
@@ -101,7 +101,7 @@ def test_a_reference_cycle_is_collected():
 
 @pytest.mark.slow
 def test_two_hundred_contexts_leave_nothing():
-    """Made, used and closed, or left to the garbage: no file descriptor, no thread, no memory."""
+    """Contexts are closed or left to the garbage collector: they leave no file descriptor, thread or memory."""
     done = run_python(
         """
         import gc, psutil, numpy as np, cubecam as cc
@@ -128,12 +128,12 @@ def test_two_hundred_contexts_leave_nothing():
     fds, threads, rss, fds_after, threads_after, rss_after = map(float, done.stdout.split())
     assert fds_after <= fds
     assert threads_after <= threads
-    # One leaked target alone (6 x 32 x 32 x 16 bytes and its depth) would be 25 MB in 200.
+    # If each of 200 leaked one target (6 x 32 x 32 x 16 bytes and its depth), this would be 25 MB.
     assert rss_after - rss < 12, f"{rss:.0f} MB before, {rss_after:.0f} MB after"
 
 
 def test_gpu_copies_go_with_their_objects(new_renderer):
-    """Entries hold weak references, swept at each call: a stream of scenes does not fill the memory."""
+    """Cache entries hold weak references and are swept at each call: many scenes in a row do not fill the memory."""
     renderer = new_renderer()
     me = psutil.Process()
 
@@ -150,12 +150,12 @@ def test_gpu_copies_go_with_their_objects(new_renderer):
     for index in range(50):
         one(index)
     grown = me.memory_info().rss / 2**20 - before
-    # Each cube is 4.7 MB on each side: fifty kept would be 470 MB.
+    # Each cube takes 4.7 MB on the CPU and on the GPU: if fifty were kept, that would be 470 MB.
     assert grown < 100, f"{grown:.0f} MB more after fifty scenes"
 
 
 def test_the_end_of_the_process_is_quiet():
-    """Renderers alive at exit, in globals and in cycles: no crash, nothing on stderr."""
+    """Renderers that are alive at exit, in globals and in cycles, cause no crash and print nothing to stderr."""
     done = run_python(
         """
         import cubecam as cc
@@ -175,7 +175,7 @@ def test_a_renderer_does_not_pickle_and_says_so(renderer):
 
 
 def test_scenes_know_no_renderer(new_renderer):
-    """A scene drawn by a renderer that is gone is drawn by the next."""
+    """A scene that a closed renderer has drawn can be drawn by the next renderer."""
     scene = room().scene
     first = new_renderer()
     want = first.capture(scene, size=8).faces

@@ -1,4 +1,4 @@
-"""Sizes against GL's limits, cameras and scenes of the wrong kind, singular places."""
+"""Sizes beyond GL's limits, arguments that are no camera or scene, singular placements."""
 
 import numpy as np
 import pytest
@@ -91,7 +91,7 @@ def test_bad_renderer_options(layered):
 
 
 def test_extreme_but_valid_scenes_draw(renderer):
-    """Very large, very small and very far things: finite numbers come back."""
+    """Very large, very small and very far nodes give finite numbers."""
     scene = cc.Scene()
     scene.add(cc.Mesh.sphere(1), cc.PhongMaterial(), scale=1e6, position=(0, 0, -2e6))
     scene.add(cc.Mesh.box(1), cc.PhongMaterial(), scale=1e-6)
@@ -106,12 +106,12 @@ def test_empty_scenes_draw(renderer):
     assert not renderer.capture(cc.Scene(), size=4, outputs=("id",)).id.any()
     scene = cc.Scene()
     scene.add()
-    scene.add(cc.Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]]))  # no area
+    scene.add(cc.Mesh([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]]))  # a triangle without area
     assert not renderer.capture(scene, size=4, outputs=("id",)).id.any()
 
 
 def test_too_large_for_the_memory_is_an_error_not_a_crash():
-    """With an address space of 6 GB, targets of some 20 GB: an exception of Python, and life goes on."""
+    """With 6 GB of address space, targets of about 20 GB raise a Python exception, and the renderer still works."""
     run_python(
         """
         import resource, cubecam as cc
