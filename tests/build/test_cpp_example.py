@@ -1,4 +1,4 @@
-"""The core alone, without Python: configured, built and run, and its faces compared with Python's."""
+"""The C++ example is built and run without Python, and its faces are compared with those of Python."""
 
 import os
 import re
@@ -17,7 +17,7 @@ pytestmark = pytest.mark.build
 
 
 def read_pfm(path):
-    """(H, W, 3) float32, row 0 on top: the format stores rows from the bottom."""
+    """Read a (H, W, 3) float32 picture with row 0 on top; the file stores the rows from the bottom."""
     data = path.read_bytes()
     header = re.match(rb"(PF|Pf)\n(\d+) (\d+)\n(-?[\d.]+)\n", data)
     assert header, f"{path.name}: no PFM header in {data[:20]!r}"
@@ -80,7 +80,8 @@ def test_its_faces_are_those_of_python(program, tmp_path, renderer):
     faces = np.stack([read_pfm(tmp_path / "out" / f"face_{face}.pfm") for face in range(6)])
     assert len(np.unique(faces.reshape(-1, 3), axis=0)) > 100
     want = renderer.capture(scene_of_the_example(), size=faces.shape[1]).faces[..., :3]
-    # -O0 and -O3 may fold float operations differently: the last bits of matrices, and so single edge pixels.
+    # -O0 and -O3 may round differently, so matrices may differ in their last bits, and pictures in
+    # single pixels at edges.
     same = np.abs(faces - want).max(-1) < 1e-4
     assert same.mean() > 0.999
     assert_close(faces, np.where(same[..., None], want, faces), "float32_maths")

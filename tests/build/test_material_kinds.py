@@ -12,7 +12,8 @@ from tests.build.tools import ROOT, run, tool
 
 pytestmark = pytest.mark.build
 
-#: The parts of a complete kind, by what the compiler must name when one is left out.
+#: The parts of a complete kind. The key is the name that the compiler must report if the part is
+#: left out.
 PARTS = {
     "name": 'static constexpr const char* name = "ToyMaterial";',
     "shader": 'static constexpr const char* shader = "materials/toy.glsl";',
@@ -72,7 +73,7 @@ std::shared_ptr<Material> make() {{ return std::make_shared<MaterialOf<Toy>>(); 
 
 @pytest.fixture(scope="module")
 def compiler(tmp_path_factory):
-    """The command that CMake compiles a source of the core with, which reads a source from a file."""
+    """A function that compiles a source text with the options that CMake gives to a source of the core."""
     folder = tmp_path_factory.mktemp("compiler")
     run(
         tool("cmake"), "-S", ROOT, "-B", folder, "-G", "Ninja",

@@ -1,4 +1,4 @@
-"""CONTRIBUTING's recipe for a material, followed to the letter: four new files, and no file changes."""
+"""The test follows CONTRIBUTING's recipe for a material exactly: it adds four files and changes no other file."""
 
 import hashlib
 import os
@@ -32,7 +32,7 @@ def blocks():
 
 
 def digests(tree):
-    """Every file of a tree but what building and running leave behind."""
+    """The hash of every file of a tree, except the files that a build or a run has made."""
     return {
         str(path.relative_to(tree)): hashlib.sha256(path.read_bytes()).hexdigest()
         for path in tree.rglob("*")
@@ -44,7 +44,7 @@ def digests(tree):
 
 
 def left_out(folder, names):
-    """What shutil.copytree leaves behind: builds and caches at the top, but not tests/build."""
+    """The names that shutil.copytree does not copy: caches, and build folders at the top, but not tests/build."""
     return {
         name
         for name in names
@@ -53,7 +53,7 @@ def left_out(folder, names):
 
 
 def build(tree):
-    """Compile what changed and put the module beside its package."""
+    """Compile the changed sources and copy the module into its package."""
     built = subprocess.run(
         [tool("cmake"), "--build", tree / "build", "--target", "_core"],
         capture_output=True,
@@ -67,7 +67,7 @@ def build(tree):
 
 @pytest.fixture(scope="module")
 def tree(tmp_path_factory):
-    """A copy of the sources with the recipe's files, built."""
+    """A copy of the sources that has the recipe's files and is built."""
     import pybind11
 
     folder = tmp_path_factory.mktemp("recipe")
@@ -158,7 +158,7 @@ def test_four_files_are_new_and_none_has_changed(tree):
 
 
 def test_a_kind_of_many_numbers_reads_them_from_its_block(tree):
-    """More than two vec4 are no flat inputs any more (docs/adr/0004)."""
+    """Constants of more than two vec4 are no longer flat inputs of the shader (docs/adr/0004)."""
     made, _ = tree
     many = {
         "cpp/cubecam/materials/mix.hpp": [

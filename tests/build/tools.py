@@ -1,4 +1,4 @@
-"""What tests that compile C++ share: the tools, and a way to run them."""
+"""Helpers of the tests that compile C++: they find the tools and run them."""
 
 import shutil
 import subprocess
@@ -9,7 +9,7 @@ ROOT = Path(__file__).parents[2]
 
 
 def tool(name):
-    """cmake or ninja, of this environment or of the system."""
+    """The path of cmake or ninja, from this environment if it is there, else from the system."""
     beside = Path(sysconfig.get_path("scripts")) / name
     found = str(beside) if beside.exists() else shutil.which(name)
     assert found, f"expected {name} in {beside.parent} or on PATH"

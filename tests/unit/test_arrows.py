@@ -1,6 +1,6 @@
-"""Arrows between folders go one way: C++ includes and Python imports, read from the sources.
+"""Folders depend on each other in one direction only: the tests read the C++ includes and the Python imports.
 
-The two tables below are the one place that states who may know whom; docs/architecture.md draws them.
+Only the two tables below state which part may depend on which; docs/architecture.md draws them.
 """
 
 import ast
@@ -25,10 +25,10 @@ CPP_ORDER = (
     "render",
     "bindings",
 )
-#: Folders that may know less than the order says.
+#: Folders that may include from fewer folders than the order allows.
 CPP_KNOWS = {"gl": {"core"}, "math": {"core"}}
 
-#: The parts of python/cubecam, a part being a folder or a module, in the same way.
+#: The parts of python/cubecam in the same kind of order; a part is a folder or a module.
 PYTHON_ORDER = (
     "_core",
     "data",  # the packaged files and their list
@@ -62,7 +62,7 @@ def cpp_folder(path):
 
 
 def cpp_arrows():
-    """(file, folder, folder that it includes, what it includes) of all C++ sources."""
+    """Yield (file, its folder, the folder it includes from, the header) for each include of the C++ sources."""
     for path in sorted((ROOT / "cpp").rglob("*.[ch]pp")):
         inside = path.relative_to(ROOT / "cpp")
         folder = cpp_folder(inside.as_posix())
@@ -75,13 +75,13 @@ def cpp_arrows():
 
 
 def python_part(module):
-    """The part of the table that a module's dotted name below cubecam belongs to."""
+    """The part of the table to which a module belongs; the name is dotted and starts below cubecam."""
     first = module.split(".")[0]
     return first or "cubecam"
 
 
 def python_arrows():
-    """(file, part, part that it imports), imports inside functions as well; those of types are left out."""
+    """Yield (file, its part, the part it imports), also for imports in functions; imports for types are left out."""
     package = ROOT / "python" / "cubecam"
     for path in sorted(package.rglob("*.py")):
         parts = path.relative_to(package).with_suffix("").parts
@@ -102,7 +102,7 @@ def python_arrows():
 
 
 def imported(node, here):
-    """Dotted names below cubecam that a statement imports."""
+    """The modules of cubecam that a statement imports, as dotted names that start below cubecam."""
     if isinstance(node, ast.Import):
         names = [name.name for name in node.names]
         return [

@@ -1,4 +1,4 @@
-"""Arrays are checked for shape, dtype, finiteness and range before anything else sees them."""
+"""Arrays are checked for shape, dtype, finite numbers and range before they are used."""
 
 import numpy as np
 import pytest

@@ -201,7 +201,7 @@ def test_capture_to_a_panorama_with_an_environment(tmp_path):
 
 
 def test_demo_writes_what_it_promises(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)  # short names, which a narrow table does not wrap
+    monkeypatch.chdir(tmp_path)  # the file names stay short, so a narrow table does not wrap them
     result = cubecam("demo", "--out", "out", "--frames", 2, "--size", 64)
     assert result.exit_code == 0, result.output
     names = {path.suffix for path in (tmp_path / "out").iterdir()}

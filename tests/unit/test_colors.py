@@ -1,4 +1,4 @@
-"""Colours by name: CSS's table and curve, wherever a colour is taken."""
+"""Colours by name: every colour property accepts CSS's names, and decodes them by the curve of sRGB."""
 
 import numpy as np
 import pytest
@@ -160,7 +160,7 @@ NAMED = dict(line.split() for line in CSS.split("\n") if line)
 
 
 def decoded(*bytes_):
-    """IEC 61966-2-1, section 5.2."""
+    """Linear numbers from sRGB bytes, by IEC 61966-2-1, section 5.2."""
     encoded = np.array(bytes_) / 255
     return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
 
@@ -196,7 +196,7 @@ def test_transparent():
     ],
 )
 def test_numbers_of_sixteen(text, bytes_, alpha):
-    """Alpha is a share, not a brightness: it is not decoded."""
+    """Alpha is a share, not a brightness, so the sRGB curve is not applied to it."""
     got = cc.Scene(background=text).background
     np.testing.assert_allclose(got, [*decoded(*bytes_), alpha / 255], rtol=1e-6)
 
@@ -211,7 +211,7 @@ def test_tuples_stay_as_they_are():
     assert cc.Scene(background=(0.5, 2, 0.25)).background.tolist() == [0.5, 2, 0.25, 1]
 
 
-#: Every property called color or tint, and the background.
+#: Every property that is called color or tint, and the background of a scene.
 OWNERS = {
     "background": (lambda **c: cc.Scene(**c), "background"),
     "basic": (lambda **c: cc.BasicMaterial(**c), "color"),

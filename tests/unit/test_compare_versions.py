@@ -1,4 +1,4 @@
-"""scripts/compare_versions.py: what it calls equal, a tie, a difference; and a run against a changed copy."""
+"""scripts/compare_versions.py: what the script calls equal, a tie or a difference; a run against a changed copy."""
 
 import importlib.util
 import shutil

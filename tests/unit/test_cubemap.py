@@ -1,4 +1,4 @@
-"""The value type: what it takes, what it hands out, what it refuses."""
+"""CubeMap as a value: what the class accepts, what it returns and what it refuses."""
 
 import copy
 import gc
@@ -50,7 +50,7 @@ def test_views_are_read_only_and_outlive_their_owner(rng):
     pixels = random_faces(rng, 32)
     view = cc.CubeMap(pixels).faces
     gc.collect()
-    noise = [np.full((6, 32, 32, 4), 9, np.float32) for _ in range(20)]  # would reuse freed memory
+    noise = [np.full((6, 32, 32, 4), 9, np.float32) for _ in range(20)]  # may reuse freed memory
     assert_identical(view, pixels)
     assert noise
     with pytest.raises(ValueError, match="read-only"):
@@ -171,7 +171,7 @@ def test_pickle_keeps_no_revision():
 
 
 def test_the_picture_of_a_cube_is_unmirrored_seen_from_within():
-    """Right of -Z in the middle is +X, above it +Y; each pixel shows what lies in its direction."""
+    """-Z is in the middle, +X right of it and +Y above it; each pixel shows what lies in its direction."""
     from cubecam.pictures import cube_picture
 
     size = 4

@@ -1,4 +1,4 @@
-"""Conventions and layouts: the asymmetric pattern through every conversion, exactly."""
+"""Conventions and layouts: every conversion keeps an asymmetric pattern exactly."""
 
 import itertools
 
@@ -74,7 +74,7 @@ def test_equirect_is_recognised_from_its_shape():
 
 
 def test_one_axis_marked_in_every_convention():
-    """A light straight ahead (-Z) and a little to the right (+X) and up: where each file shows it."""
+    """Each convention shows in its own place a light that is ahead (-Z), a little to the right (+X) and up."""
     cube = np.zeros((6, 9, 9, 1), np.uint8)
     directions = texel_directions(9)
     nearest = (
@@ -83,11 +83,11 @@ def test_one_axis_marked_in_every_convention():
     cube.reshape(-1)[nearest] = 255
     held = cc.CubeMap(cube)
     inside = np.argwhere(held.to_convention("inside"))[0]
-    assert inside[0] == 5  # the face of world -Z ...
-    assert inside[1] < 4 < inside[2]  # ... above and to the right of its middle, as one sees it
+    assert inside[0] == 5  # the light is on the face of world -Z ...
+    assert inside[1] < 4 < inside[2]  # ... above and right of its middle, as seen from inside
     gl = np.argwhere(held.to_convention("gl"))[0]
     assert gl[0] == 5
-    assert gl[2] < 4  # mirrored
+    assert gl[2] < 4  # this convention mirrors the face
     three = np.argwhere(held.to_convention("three"))[0]
     assert three[0] == 5
     assert three[2] > 4

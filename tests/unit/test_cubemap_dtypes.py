@@ -13,7 +13,7 @@ channels = pytest.mark.parametrize("channels", CHANNELS)
 
 
 def numbers(shape, dtype, seed=1):
-    """Numbers that the type holds: for floats some below 0 and above 1."""
+    """Random numbers of a type; of the floats, some are below 0 and some above 1."""
     random = np.random.default_rng(seed)
     if dtype == "uint8":
         return random.integers(0, 256, shape, dtype=np.uint8)
@@ -26,7 +26,7 @@ def as_floats(pixels):
 
 
 def as_dtype(floats, dtype):
-    """What a type makes of float32 numbers: uint8 is clamped to 0..1 and rounded to nearest, float16 to nearest."""
+    """Convert float32 numbers to a type: uint8 clamps them to 0..1 and rounds to nearest, float16 rounds to nearest."""
     if dtype == "uint8":
         return np.floor(np.clip(floats, 0, 1) * np.float32(255) + np.float32(0.5)).astype(np.uint8)
     return floats.astype(dtype)
@@ -37,8 +37,8 @@ def same(got, want, name=""):
     np.testing.assert_array_equal(got, want, err_msg=name)
 
 
-#: Every conversion, as a function of an array (its own kind of picture) and the options; what it takes; what the same
-#: gives in float32 from float32, which other tests compare with numpy.
+#: Every conversion: a function of an array and the options, and the shape of the array. What a
+#: conversion gives in float32 from float32 is compared with numpy by other tests.
 CONVERSIONS = {
     "from_equirect": (lambda a, **o: cc.CubeMap.from_equirect(a, size=8, **o).faces, (16, 32)),
     "from_equirect enlarged": (
@@ -84,7 +84,7 @@ def test_every_dtype_and_channel_count(name, given, wanted, channels):
 
 
 def test_large_pictures_go_through_many_tiles():
-    """Tiles of 64, mirrored ones among them, and what lies over the poles."""
+    """The pictures need several tiles of 64 pixels; some tiles are mirrored, and some lie over the poles."""
     pixels = numbers((256, 512, 3), "float32")
     exact = cc.CubeMap.from_equirect(pixels, size=150)
     for dtype in DTYPES:
@@ -99,7 +99,7 @@ def test_large_pictures_go_through_many_tiles():
 
 @both
 def test_a_constant_stays_that_constant(given):
-    """Bit for bit, all 256 bytes and some halves."""
+    """All 256 bytes, and forty numbers of a float type, stay the same bit for bit."""
     values = np.arange(256) if given == "uint8" else np.linspace(-3, 60000, 40)
     for value in values.astype(given):
         cube = cc.CubeMap.from_equirect(np.full((8, 16, 1), value, given), size=5)
@@ -109,7 +109,7 @@ def test_a_constant_stays_that_constant(given):
 
 
 def test_uint8_is_rounded_to_nearest():
-    """Two texels to one: the mean of v and v + 1 lies half-way, of v and v + 3 beyond it."""
+    """Two texels become one: the result is the byte nearest to their mean, which may lie half-way between bytes."""
     for low, high, want in ((10, 11, 11), (10, 13, 12), (0, 255, 128), (7, 7, 7)):
         faces = np.empty((6, 2, 2, 1), np.uint8)
         faces[:, :, 0], faces[:, :, 1] = low, high

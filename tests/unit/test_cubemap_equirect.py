@@ -47,7 +47,7 @@ def test_to_equirect_equals_the_oracle_where_pixels_are_small(center, rng):
 
 @centers
 def test_from_equirect_equals_the_oracle_where_texels_are_small(center, rng):
-    """Away from the poles, where a row's pixels are narrower than any texel."""
+    """The comparison leaves out the poles, where the pixels of a row are narrower than any texel."""
     image = rng.random((16, 32, 3)).astype(np.float32)
     got = cc.CubeMap.from_equirect(image, size=64, center=center)
     _, v = direction_to_equirect_uv(texel_directions(64), center)
@@ -66,7 +66,7 @@ def test_uint8_counts_as_value_by_255():
 def test_default_sizes():
     cube = cc.CubeMap(direction_pattern(16))
     assert cube.to_equirect().shape == (32, 64, 3)
-    # the next power of two >= width / pi: 512 / pi = 163
+    # The size is the next power of two >= width / pi: 512 / pi = 163.
     assert cc.CubeMap.from_equirect(np.zeros((256, 512, 3), np.float32)).size == 256
     assert cc.CubeMap.from_equirect(np.zeros((32, 64, 1), np.float32)).channels == 1
 
@@ -84,7 +84,7 @@ def test_round_trip_of_a_smooth_picture(center):
 
 
 def test_no_seam_at_the_back():
-    """The columns left and right of the wrap are as alike as any two neighbours."""
+    """The first and the last column differ no more than any two neighbours do."""
     image = cc.CubeMap(direction_pattern(64)).to_equirect(width=256)
     steps = np.abs(np.diff(image, axis=1)).max()
     assert np.abs(image[:, 0] - image[:, -1]).max() <= steps * 1.05
@@ -151,7 +151,7 @@ def test_bad_widths_are_refused(width, error):
 
 
 def sample_over_the_poles(image, directions):
-    """Bilinear; beyond a pole the rows come back half a turn away."""
+    """Sample bilinearly; beyond a pole, the rows continue on the other side, half a turn away."""
     height, width = image.shape[:2]
     u, v = direction_to_equirect_uv(directions)
     x, y = u * width - 0.5, v * height - 0.5
@@ -169,19 +169,19 @@ def sample_over_the_poles(image, directions):
 
 
 def test_rows_go_on_beyond_the_poles_of_a_small_picture(rng):
-    """Texels next to the pole itself are wider than what lies round it in a row."""
+    """The mask leaves out the texels at a pole, because they are wider than the pixels of a row there."""
     image = rng.random((8, 16, 3)).astype(np.float32)
     cube = cc.CubeMap.from_equirect(image, size=64)
     directions = unit_texel_directions(64)
     polar = np.degrees(np.arccos(np.abs(directions[..., 1])))
-    mask = (polar > 5) & (polar < 180 / 16)  # less than half a row from the pole: it ends there
+    mask = (polar > 5) & (polar < 180 / 16)  # half a row is 180 / 16 degrees
     want = sample_over_the_poles(image, directions)
     assert_close(cube.faces[2:4], want[2:4], "resample", mask=mask[2:4], least=0.02)
 
 
 @pytest.mark.parametrize("width", [18, 20, 28, 32, 36])
 def test_every_width_equals_the_oracle(width, rng):
-    """Only where an eighth of a turn is a whole number of pixels do the side faces look alike."""
+    """The side faces look alike only if an eighth of a turn is a whole number of pixels."""
     pixels = random_faces(rng, 1)
     smooth = cc.CubeMap(pixels).resize(2).faces
     got = cc.CubeMap(smooth).to_equirect(width=width)

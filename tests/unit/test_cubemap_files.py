@@ -73,7 +73,7 @@ def test_panorama_equals_to_equirect(tmp_path, rng):
 
 
 def openexr_directions(size):
-    """OpenEXR's cube (ImfEnvmap.h): faces as seen from inside, samples on the borders: pos / (size - 1)."""
+    """Directions of OpenEXR's cube (ImfEnvmap.h): faces seen from inside, samples at pos / (size - 1)."""
     border = np.arange(size) / (size - 1)
     t, s = np.meshgrid(border, border, indexing="ij")
     sides = dict.fromkeys((0, 1, 4, 5), (1 - s, t))
@@ -82,7 +82,7 @@ def openexr_directions(size):
 
 
 def test_openexr_layout_samples_the_borders(tmp_path):
-    """The first sample lies on the edge, not half a texel inside: each stores its direction."""
+    """Each sample stores its direction: the first one lies on the edge, not half a texel inside."""
     cc.CubeMap(direction_pattern(64)).save(tmp_path / "a.exr", layout="openexr")
     stored = cc.load_image(tmp_path / "a.exr")
     assert stored.shape == (6 * 64, 64, 3)
@@ -101,7 +101,7 @@ def test_openexr_file_says_so_to_others(tmp_path):
 
 
 def test_openexr_cube_is_recognised_by_its_attribute_and_resampled(tmp_path):
-    """Directions written on the borders come back at the texel centres."""
+    """Directions that were stored for samples on the borders are read back for the texel centres."""
     cc.CubeMap(direction_pattern(64)).save(tmp_path / "a.exr", layout="openexr")
     got = cc.load_cubemap(tmp_path / "a.exr")
     assert got.size == 64
@@ -130,7 +130,7 @@ def test_a_foreign_openexr_cube_is_read(tmp_path):
 
 
 def test_a_foreign_openexr_panorama_is_read_from_its_borders(tmp_path):
-    """Latitude +90 to -90 and longitude +180 to -180 on the first and last samples; longitude 0 is +Z, 90 is +X."""
+    """First to last sample: latitude +90 to -90 and longitude +180 to -180; longitude 0 is +Z and 90 is +X."""
     width, height = 129, 65
     longitude = np.pi - np.arange(width) / (width - 1) * 2 * np.pi
     latitude = np.pi / 2 - np.arange(height) / (height - 1) * np.pi
@@ -158,7 +158,7 @@ def test_environment_of_a_panorama_has_the_default_size():
     cube = cc.load_environment(cc.sample_data("studio.exr"))
     assert cube.size == 256
     assert cube.channels == 3
-    assert cube.faces.max() > 100  # lamps are not clipped
+    assert cube.faces.max() > 100  # the bright lamps are not clipped
 
 
 def test_environment_center_turns_the_picture():

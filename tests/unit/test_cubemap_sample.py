@@ -29,7 +29,7 @@ def test_texel_centers_give_the_texels(size, rng):
 
 @faces
 def test_along_the_edges(face, rng):
-    """Within a hair of all four edges, corners included, where the neighbours' texels take part."""
+    """Lookups very near all four edges and the corners also use the texels of neighbouring faces."""
     pixels = random_faces(rng, 6)
     along = np.linspace(0, 1, 101)
     for offset in (1e-4, 0.02, 0.08):
@@ -37,7 +37,7 @@ def test_along_the_edges(face, rng):
             directions = face_uv_to_direction(face, *np.broadcast_arrays(s, t))
             inner = (
                 np.abs(along - 0.5) < 0.4999
-            )  # on the very edge the face is the driver's to choose
+            )  # exactly on an edge, a driver may choose either face
             assert_close(
                 cc.CubeMap(pixels).sample(directions)[inner],
                 sample_faces(pixels, directions)[inner],

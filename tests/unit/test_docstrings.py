@@ -1,4 +1,4 @@
-"""Every public object is documented, and the examples in docstrings run and give what they say."""
+"""Every public object is documented, and the examples in docstrings run and print what they show."""
 
 import doctest
 import importlib
@@ -19,7 +19,7 @@ def modules():
 
 
 def documented():
-    """(name, object) of modules, public classes and functions, and their public members."""
+    """Yield (name, object) for the modules, the public classes and functions, and their public members."""
     found = {}
     for module in modules():
         found[module.__name__] = module

@@ -61,7 +61,7 @@ def test_every_program_draws_a_still_and_an_animation(name, tmp_path):
     result = example(name, "--frames", 3, "--size", 32, "--start", 9, "--out", moving, "--fps", 10)
     assert result.exit_code == 0, result.output
     with Image.open(moving) as picture:
-        assert picture.n_frames in (1, 2, 3)  # equal frames in a row are stored as one
+        assert picture.n_frames in (1, 2, 3)  # the file stores equal frames in a row as one frame
         width, height = examples.load(name).SIZE
         assert picture.size == (32, 32 * height // width)
 
@@ -87,7 +87,7 @@ def test_programs_are_in_order():
 
 @names
 def test_a_frame_depends_on_its_number_alone(name, renderer, new_renderer):
-    """Drawn in any order, by a renderer that knows others or none: the same bytes."""
+    """A frame has the same bytes in any order, from a new renderer or from one that has drawn other frames."""
     module = examples.load(name)
     program, other = module.build(), module.build()
     size = (24, 24 * module.SIZE[1] // module.SIZE[0])
@@ -182,8 +182,8 @@ def test_the_sheet_shows_all(tmp_path):
     assert sheet.shape == (12 + rows * 242, 12 + 4 * 220, 3)
     for index in range(len(examples.NAMES)):
         top, left = 12 + index // 4 * 242, 12 + index % 4 * 220
-        assert np.ptp(sheet[top : top + 208, left : left + 208]) > 50  # a picture
-        assert sheet[top + 210 : top + 230, left : left + 208].min() < 120  # and its name
+        assert np.ptp(sheet[top : top + 208, left : left + 208]) > 50  # the cell shows a picture
+        assert sheet[top + 210 : top + 230, left : left + 208].min() < 120  # and its name below
 
 
 def test_a_sheet_keeps_shapes_and_order():
@@ -224,7 +224,7 @@ def test_mp4_is_piped_to_ffmpeg(ffmpeg, tmp_path, renderer):
         module.draw(program, renderer, k, size=(17, 17), samples=samples)[..., :3] for k in (0, 1)
     ]
     assert path.read_bytes() == b"".join(picture.tobytes() for picture in want)
-    assert not list(tmp_path.glob(".*"))  # no temporary file stays
+    assert not list(tmp_path.glob(".*"))  # no temporary file is left
 
 
 @pytest.mark.parametrize("when", ["at once", "at the end"])

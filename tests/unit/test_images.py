@@ -21,7 +21,7 @@ def test_png_of_8_bits_is_exact(channels, tmp_path, rng):
 
 
 def test_color_under_alpha_0_survives_a_png(tmp_path):
-    """oiio:UnassociatedAlpha: else colour comes back multiplied by alpha."""
+    """Without oiio:UnassociatedAlpha, the colour would be read back multiplied by alpha."""
     pixels = np.full((2, 2, 4), (200, 100, 50, 0), np.uint8)
     pixels[0, 0, 3] = 7
     cc.save_image(tmp_path / "a.png", pixels)
@@ -57,7 +57,7 @@ def test_exr_half_on_request(tmp_path, rng):
 
 
 def test_hdr_keeps_what_rgbe_keeps(tmp_path, rng):
-    """A shared exponent and 8 bits a channel: 1 of 128 of the largest channel."""
+    """RGBE has one exponent for a pixel and 8 bits a channel: the error is up to 1/128 of the largest channel."""
     pixels = (rng.random((9, 17, 3)) * 10.0 ** rng.integers(-3, 4, (9, 17, 1))).astype(np.float32)
     cc.save_image(tmp_path / "a.hdr", pixels)
     got = cc.load_image(tmp_path / "a.hdr")
@@ -77,7 +77,7 @@ def test_jpeg_is_near(tmp_path):
 
 
 def test_row_0_is_on_top(tmp_path):
-    """By another library: Pillow counts rows from the top too."""
+    """Another library checks it: Pillow counts rows from the top too."""
     from PIL import Image as Picture
 
     pixels = np.zeros((4, 6, 3), np.uint8)

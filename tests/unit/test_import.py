@@ -1,4 +1,4 @@
-"""What importing costs and what the module is made of."""
+"""What an import of cubecam loads, and what the module contains."""
 
 import pathlib
 import subprocess
@@ -27,7 +27,7 @@ def test_import_opens_nothing_and_loads_nothing_heavy():
 
 
 def test_cpu_work_needs_no_context():
-    """CubeMaps, meshes and scenes do without EGL altogether."""
+    """CubeMaps, meshes and scenes do not need EGL at all."""
     run_python(
         """
         import numpy as np, cubecam as cc
@@ -63,7 +63,7 @@ def test_the_extension_links_no_gl_egl_or_x11():
 
 
 def test_no_symbols_leak():
-    """Hidden visibility: nothing but the module's entry, so that other GL libraries live beside it."""
+    """The module exports only its entry function, so that it works beside other GL libraries."""
     from cubecam import _core
 
     symbols = subprocess.run(
@@ -138,7 +138,7 @@ def test_typed():
 
 
 def test_there_are_no_subclasses_of_bound_classes():
-    """Python-only methods are attached to the bound classes: what a capture gives is a cc.CubeMap."""
+    """Methods that exist only in Python are attached to the bound classes, so that a capture returns a cc.CubeMap."""
     for name in ("CubeMap", "Frame", "Scene", "Renderer", "Mesh", "Image"):
         assert getattr(cc, name).__subclasses__() == []
     assert callable(cc.CubeMap.save)

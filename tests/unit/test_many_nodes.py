@@ -1,4 +1,4 @@
-"""Nodes by the thousand: placed together, removed one by one."""
+"""Thousands of nodes: they are placed together and removed one by one."""
 
 import numpy as np
 import pytest

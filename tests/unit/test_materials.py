@@ -1,4 +1,4 @@
-"""Materials, lights and probes: defaults as design.md section 1 lists them, and what they refuse."""
+"""Materials, lights and probes: their defaults are those of design.md section 1; what they refuse."""
 
 import numpy as np
 import pytest

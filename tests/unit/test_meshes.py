@@ -1,4 +1,4 @@
-"""Primitives are closed, face outward, carry uvs; smooth normals; files."""
+"""Meshes: primitives are closed, face outward and have uvs; smooth normals; mesh files."""
 
 import threading
 
@@ -68,7 +68,7 @@ def test_normals_are_unit_and_on_the_side_of_the_winding(make):
 
 @every
 def test_uvs_fill_the_unit_square_and_jump_nowhere(make):
-    """Seams have vertices of their own: no triangle runs back through the whole picture."""
+    """Seams have their own vertices, so no triangle covers the whole width of the picture backwards."""
     mesh = make()
     assert mesh.uvs.min() >= -1e-6
     assert (
@@ -113,7 +113,7 @@ def test_plane_faces_up_with_uv_0_0_where_a_picture_reads_upright():
 
 
 def angle_weighted(positions, triangles):
-    """Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998."""
+    """Normals by Thuermer and Wuethrich, "Computing Vertex Normals from Polygonal Facets", 1998."""
     total = np.zeros_like(positions)
     for triangle in triangles:
         p = positions[triangle]

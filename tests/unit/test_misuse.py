@@ -1,4 +1,4 @@
-"""Mistakes that a C++ extension must answer with an exception: the interpreter goes on."""
+"""Mistakes in the use of the C++ extension raise an exception, and the interpreter does not crash."""
 
 import pickle
 
@@ -26,7 +26,7 @@ def test_an_object_without_its_init_raises(kind):
             getattr(raw, name)
         except REFUSALS:
             refused += 1
-    assert refused > 0  # and nothing crashed
+    assert refused > 0  # the interpreter has not crashed either
 
 
 def test_a_subclass_that_touches_itself_too_early_is_told():

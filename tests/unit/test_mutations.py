@@ -1,4 +1,4 @@
-"""The list of tests/mutation.py stays in step with the sources; breaking them in earnest is `make mutants`."""
+"""The list of tests/mutation.py fits the sources; `make mutants` applies the changes and runs the tests."""
 
 import dataclasses
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Moving a camera: rotation matrices written out in numpy, signs, poles, what stays, what is refused."""
+"""Camera movements against rotation matrices in numpy; signs, poles, what stays the same, what is refused."""
 
 import math
 
@@ -99,7 +99,7 @@ def test_pitch_stops_a_degree_before_the_poles_and_comes_back(make, sign):
         camera.pitch(sign * 70)
     assert elevation(camera.target - camera.position, UP) == pytest.approx(sign * 89)
     assert navigation.POLE_MARGIN == 1
-    close(camera.view[0, :3], right)  # never over the pole: right stays right
+    close(camera.view[0, :3], right)  # the camera never passes the pole, so right stays right
     close(np.linalg.norm(camera.target - camera.position), np.linalg.norm(np.subtract(TARGET, EYE)))
     camera.pitch(-sign * 10)
     assert elevation(camera.target - camera.position, UP) == pytest.approx(sign * 79)
@@ -147,20 +147,20 @@ def test_orbit(make, turn, rise):
     camera = make()
     camera.orbit(yaw=turn, pitch=rise)
     outward = about(UP, -turn) @ np.subtract(EYE, TARGET)
-    # Seen from the target, right is the other way round.
+    # The axis points to the left of the camera, as `outward` points from the target to it.
     outward = about(np.cross(outward, UP), rise) @ outward
     same(camera, TARGET + outward, TARGET)
 
 
 def test_orbit_turns_the_scene_with_the_drag():
-    """To the right: what is nearest goes right in the picture; downwards: it goes down."""
+    """After a drag to the right, the nearest point moves right in the picture; after a drag down, it moves down."""
     for drag, axis in (({"yaw": 10}, 0), ({"pitch": 10}, 1)):
         camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
         camera.orbit(**drag)
-        seen = camera.view @ np.array([0, 0, 1, 1.0])  # the point of a unit ball that was nearest
+        seen = camera.view @ np.array([0, 0, 1, 1.0])  # the nearest point of a unit ball
         sign = 1 if axis == 0 else -1
         assert sign * seen[axis] > 0.1
-    assert camera.position[1] > 0  # and the camera rose
+    assert camera.position[1] > 0  # the camera has moved up
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -183,7 +183,7 @@ def test_look(make):
 
 @cameras
 def test_without_a_target(make):
-    """The view is along -Z: yaw, pitch and look set a target at distance 1, walking sets none."""
+    """The view is along -Z; yaw, pitch and look set a target at distance 1, but walk and strafe set none."""
     camera = make(target=None, up=(0, 1, 0))
     camera.walk(2)
     camera.strafe(0.5)
@@ -206,7 +206,7 @@ def test_without_a_target(make):
 
 
 def test_the_document_s_drags_and_keys():
-    """Ex10-2: direction = Rx(angleY) Ry(angleX) d, both about the world's axes; w and s step 0.1 along it."""
+    """Ex10-2: direction = Rx(angleY) Ry(angleX) d, about the world's axes; the keys w and s move 0.1 along it."""
     camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 0), target=(0, 0, 1), near=1, far=15)
     angle_x = angle_y = 0.0
     where, first = np.zeros(3), np.array([0.0, 0, 1])
@@ -235,7 +235,7 @@ def test_the_document_s_drags_and_keys():
         direction = rx(angle_y) @ ry(angle_x) @ first
         close(camera.position, where)
         close(camera.view, look_at(where, where + direction))
-    # These turns do not commute: Ry Rx would have led elsewhere.
+    # The order of these turns matters: Ry Rx would give another direction.
     assert np.abs(direction - ry(angle_x) @ rx(angle_y) @ first).max() > 0.1
 
 
@@ -252,7 +252,7 @@ def test_functions_are_methods_and_give_nothing(verb):
 
 @pytest.mark.parametrize("verb", ["yaw", "pitch", "walk", "strafe", "orbit"])
 def test_nothing_for_nothing(verb):
-    """0 changes no bit, so that no picture is drawn again."""
+    """A movement by 0 changes no bit of the camera, so that no picture is drawn again."""
     camera = CAMERAS["perspective"]()
     given = ((), {"yaw": 0, "pitch": 0}) if verb == "orbit" else ((0,), {})
     getattr(camera, verb)(*given[0], **given[1])
@@ -321,7 +321,7 @@ def test_what_is_refused_changes_nothing(call, error, text):
 
 @cameras
 def test_sizes_of_all_kinds(make):
-    """Tiny and great up vectors and distances: directions do not depend on their length."""
+    """Up vectors and distances may be tiny or huge: the directions do not depend on their length."""
     for scale in (1e-12, 1e-3, 1e12):
         camera = make(up=np.array(UP) * scale)
         want = make()

@@ -1,4 +1,4 @@
-"""The names of 0.1 are gone; each answers in one line with its new name."""
+"""The names of 0.1 no longer exist; the error for each one gives its new name in one line."""
 
 import pathlib
 import subprocess
@@ -16,7 +16,7 @@ MAKE = {
     "GlassMaterial": cc.GlassMaterial,
     "MirrorMaterial": cc.MirrorMaterial,
 }
-#: Those that another name has replaced.
+#: Old attributes that another name has replaced.
 ATTRIBUTES = [
     (owner, old, new)
     for owner, names in OLD_NAMES.items()
@@ -73,7 +73,7 @@ def test_names_that_never_were_answer_as_python_does():
 
 
 def test_new_names_are_not_covered():
-    """An attribute that a class has is left alone."""
+    """An attribute that a class already has is not replaced."""
     before = vars(cc.Node)["in_captures"]
     answer_old_names()
     assert vars(cc.Node)["in_captures"] is before
@@ -81,7 +81,7 @@ def test_new_names_are_not_covered():
 
 
 def test_the_tree_is_free_of_them():
-    """Except the table, its tests and the changelog."""
+    """Only the table, its tests, the changelog and the decision records contain old names."""
     words = r"in_probes|casts_shadows|receives_shadows|[Rr]enderer\.(update|cubemap|texture)\b"
     allowed = ("CHANGELOG.md", "python/cubecam/_old_names.py", "tests/unit/test_old_names.py")
     found = subprocess.run(

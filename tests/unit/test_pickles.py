@@ -1,4 +1,4 @@
-"""Pickles say what they are: those of 0.1 and of later versions are refused with a sentence."""
+"""Pickles state their format: pickles of 0.1 and of later versions are refused with a clear message."""
 
 import base64
 import copy
@@ -11,7 +11,7 @@ import pytest
 import cubecam as cc
 from cubecam import _core
 
-#: Written by cubecam 0.1: protocol 4, zlib, base64.
+#: Pickles that cubecam 0.1 wrote, with protocol 4; compressed by zlib and encoded in base64.
 OLD_PICKLES = {
     "CubeMap": (
         "eNprYJm6mwECetiTS5NSkxNzp/SwOwNZvokFUyZP0WycotEjlleaW1CpF5+cX5Sql1uaU5KZWFSUWDmlhye+KDU5"
@@ -215,7 +215,7 @@ MAKE = {
 
 
 def state(thing):
-    """What repr and the public attributes say."""
+    """The values of the public attributes of an object, as lists or as their repr."""
     names = [name for name in dir(thing) if not name.startswith("_")]
     values = {name: getattr(thing, name) for name in names}
     return {
@@ -266,9 +266,9 @@ def test_copies_are_made_the_same_way(name):
 
 @pytest.mark.parametrize("name", MAKE)
 def test_those_of_a_later_version_are_refused(name):
-    """The format is first in the arguments and in the state; here one of the two is 3."""
+    """The format number comes first in the arguments and in the state; the test sets the first one found to 3."""
     data = pickle.dumps(MAKE[name](), 2)
-    mark = b"K\x02"  # BININT1 2, the format
+    mark = b"K\x02"  # BININT1 2: the number of the format
     at = data.find(mark)
     assert at >= 0
     later = data[:at] + b"K\x03" + data[at + 2 :]

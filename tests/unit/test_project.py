@@ -10,7 +10,7 @@ ASSERTING = {"raises", "fail"}
 
 
 def asserts(function):
-    """Whether a test checks a result: by assert, or by a helper whose name says so."""
+    """Whether a function checks a result: with assert, or with a helper that is known to check."""
     for node in ast.walk(function):
         if isinstance(node, ast.Assert):
             return True
@@ -26,7 +26,7 @@ def functions(tree):
 
 
 def asserting_helpers(trees):
-    """Names of functions, other than tests, that assert, directly or by each other."""
+    """Names of the helpers (not tests) that check a result, directly or through each other."""
     found = set()
     while True:
         LOCAL.clear()

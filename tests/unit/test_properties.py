@@ -1,4 +1,4 @@
-"""Laws that hold for any cube, any direction and any place, tried on what hypothesis thinks of."""
+"""Laws that hold for any cube, any direction and any position; hypothesis chooses the examples."""
 
 import numpy as np
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""RenderTexture as a value: defaults, what it refuses, pickling, who keeps whom."""
+"""RenderTexture as a value: defaults, what it refuses, pickling, which objects keep which alive."""
 
 import copy
 import gc
@@ -132,7 +132,7 @@ def test_materials_take_it_as_a_map(kind):
 
 
 def room():
-    """A monitor that shows its own room, and the room's node that it leaves out."""
+    """A scene with a monitor that shows this scene; the node `stand`, which the monitor leaves out; the monitor."""
     scene = cc.Scene(background=(0.1, 0.2, 0.3))
     stand = scene.add(name="stand")
     made = cc.RenderTexture(
@@ -225,9 +225,9 @@ def test_it_keeps_its_scene_and_not_what_it_leaves_out():
 
 @pytest.mark.slow
 def test_a_monitor_in_its_room_keeps_neither_for_ever():
-    """Room and monitor hold each other. The room's cubemap is 6 MB: a hundred kept would be 600.
+    """A room and its monitor refer to each other. A room's cubemap has 6 MB: a hundred kept rooms would need 600 MB.
 
-    In a process of its own: what else a process has made decides when it looks for such circles next.
+    The test runs in its own process, because other objects of a process change when the next search for cycles runs.
     """
     done = run_python(
         """
@@ -253,7 +253,7 @@ def test_a_monitor_in_its_room_keeps_neither_for_ever():
 
 @pytest.mark.parametrize("kept", ["scene", "texture", "node", "material", "another scene"])
 def test_what_leads_to_a_monitor_keeps_its_room(kept):
-    """Whichever part of the circle is held from outside, all of it stays."""
+    """If any part of the cycle is referred to from outside, the whole cycle stays."""
     scene, _, made = room()
     node = scene.nodes[1]
     other = cc.Scene()
@@ -266,7 +266,7 @@ def test_what_leads_to_a_monitor_keeps_its_room(kept):
         "another scene": other,
     }[kept]
     del scene, node, made, other
-    for _ in range(80):  # enough new ones for a search
+    for _ in range(80):  # enough new rooms to start a search for cycles
         room()
     gc.collect()
     made = {

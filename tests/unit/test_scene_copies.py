@@ -1,4 +1,4 @@
-"""Pickling and deepcopy: object by object, identities kept, new revisions."""
+"""Pickle and deepcopy copy each object once, keep shared objects shared, and give new revisions."""
 
 import copy
 import pickle
@@ -12,7 +12,7 @@ from tests.reference.pattern import face_pattern
 
 
 def furnished():
-    """A scene with one of everything."""
+    """A scene that contains one object of each kind."""
     scene = cc.Scene(environment=cc.CubeMap(face_pattern(4)), background=(0.1, 0.2, 0.3, 1))
     scene.add(cc.PointLight(position=(1, 2, 3), color=(1, 0.5, 0.25), intensity=2, decay=1))
     scene.add(cc.DirectionalLight(direction=(0, -1, 0)))
@@ -91,7 +91,7 @@ def test_shared_objects_stay_shared(make_copy):
 
 @copies
 def test_a_cycle_of_probes_and_nodes(make_copy):
-    """A probe attached to the node that shows it, and two mirrors with a probe on each other."""
+    """Each of two mirrors shows a probe that is attached to the other mirror."""
     scene = cc.Scene()
     a, b = (
         scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial(), position=(x, 0, 0)) for x in (-1, 1)

@@ -1,4 +1,4 @@
-"""Shadow, the lights that have one, SpotLight, and the nodes' flags, as values."""
+"""The values of Shadow, of the lights that have a shadow, of SpotLight and of the flags of nodes."""
 
 import numpy as np
 import pytest
@@ -121,7 +121,7 @@ def test_a_lights_copy_keeps_its_shadow(make_copy, light):
     assert make_copy(light()).shadow is None
 
 
-# SpotLight
+# The tests of SpotLight.
 
 
 def test_spot_defaults():
@@ -190,7 +190,7 @@ def test_bad_spots(options, message):
     np.testing.assert_array_equal(getattr(light, name), before)
 
 
-# Nodes
+# The tests of the flags of nodes.
 
 
 def test_flags_of_nodes():

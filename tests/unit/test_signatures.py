@@ -1,7 +1,7 @@
-"""Which arguments may be given by position. All others have names, so that options can be added in any order.
+"""Which arguments may be given by position. All others need their name, so that options can be added in any order.
 
-The table is what the redesign says, and what follows from it: one or two things without which a call has no meaning.
-The stubs are walked, and what `cubecam` exports, so that a new function cannot be forgotten.
+The table lists what the redesign decided, and what follows from it: the one or two arguments that a call needs.
+The tests read the stubs and the exports of `cubecam`, so that a new function cannot be forgotten.
 """
 
 import ast
@@ -16,9 +16,10 @@ from cubecam.io import cubemap_save, cubemaps, images, meshes
 
 STUB = pathlib.Path(cc.__file__).with_name("_core.pyi")
 
-#: Callable: what may be given by position, self left out. Not listed: nothing may.
+#: Callable: its arguments that may be given by position, without self. A callable that is not
+#: listed has none.
 BY_POSITION = {
-    # The table of the redesign.
+    # The redesign lists these callables.
     "Renderer.render": ["scene", "camera", "size"],
     "Renderer.capture": ["scene", "position", "size"],
     "Scene.add": ["mesh", "material"],
@@ -46,7 +47,7 @@ BY_POSITION = {
     "PointLight": ["position"],
     "SpotLight": ["position", "direction"],
     "DirectionalLight": ["direction"],
-    # What has no meaning without them.
+    # These callables have no meaning without the arguments listed.
     "Image": ["pixels"],
     "CubeMap.from_layout": ["image"],
     "CubeMap.to_layout": ["layout"],
@@ -80,7 +81,7 @@ BY_POSITION = {
             "look": "direction",
         }.items()
     },
-    # Functions of modules.
+    # These functions belong to modules.
     "navigation.yaw": ["camera", "degrees"],
     "navigation.pitch": ["camera", "degrees"],
     "navigation.walk": ["camera", "distance"],
@@ -99,7 +100,7 @@ BY_POSITION = {
     "cubemap_save.arrange": ["values", "layout", "convention"],
 }
 
-#: A signature of its own for one more thing that may be given.
+#: Callables with one signature for each kind of thing that may be given.
 OVERLOADS = {"Scene.add": [["light"], ["mesh", "material"]]}
 
 
@@ -108,7 +109,7 @@ def positional(arguments):
 
 
 def of_the_stub():
-    """Name and positional parameters of each public callable that the stub declares."""
+    """Yield the name and the positional parameters of each public callable in the stub."""
     for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
             yield node.name, positional(node.args)
@@ -128,7 +129,7 @@ def of_the_stub():
 
 
 def of_python():
-    """The same of functions that are written in Python: what cubecam exports, and what its modules define."""
+    """Yield the same for functions written in Python: those that cubecam exports and those that its modules define."""
     functions = {name: thing for name, thing in vars(cc).items() if inspect.isfunction(thing)}
     for module in (navigation, pictures, demo, images, cubemaps, meshes, cubemap_save):
         short = module.__name__.rpartition(".")[2]
@@ -251,7 +252,7 @@ def test_one_line_tells_what_is_wrong(call, message):
 
 
 def test_errors_of_the_call_itself_stay():
-    """Only what fits no signature is put in other words."""
+    """Only errors about calls that fit no signature are reworded."""
     with pytest.raises(TypeError, match=r"^exclude: expected Nodes, got int$"):
         cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), exclude=[3])
 

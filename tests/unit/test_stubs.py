@@ -1,4 +1,4 @@
-"""python/cubecam/_core.pyi is what the generator makes of the built module."""
+"""The file python/cubecam/_core.pyi is equal to what the generator makes from the built module."""
 
 import subprocess
 import sys
