@@ -41,7 +41,7 @@ def ball(material):
 
 
 def drawn(renderer, world, view):
-    """(colour, hits, incident directions, normals) where the ball is seen well."""
+    """Return colours, view directions and normals at the pixels well inside the ball."""
     frame = renderer.render(world.scene, view.camera, view.size, format="rgba32f")
     hits = view.hits(world.shapes)
     mask = inner_smooth(hits) & hits.hit

@@ -237,7 +237,7 @@ def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
     assert_identical(color, look(new_renderer(), room))
     background = np.float32([0.2, 0, 0])
     assert (renderer.read_texture(right)[..., :3] == background).all(-1).sum() == 54 - 4
-    # The right monitor hides none of the green but shows it small.
+    # The left picture shows the green itself and, smaller, the green on the right monitor.
     assert (renderer.read_texture(left)[..., :3] != background).any(-1).sum() > 4
 
 
@@ -340,7 +340,7 @@ def from_aside(renderer, scene):
 
 
 def test_by_the_shadow_of_what_it_moves(any_path):
-    """An excluded node still casts a shadow in the texture, unless its shadow is off or nothing receives it."""
+    """An excluded node still casts a shadow, so this is a circle unless nothing casts or receives shadows."""
     scene, floor, above = lamp_and_floor()
     box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, vertex=MOVED, textures={"t": above}))
     above.exclude = [box]

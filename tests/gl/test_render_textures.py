@@ -78,7 +78,7 @@ def test_perspective_camera_takes_its_aspect_from_the_size(renderer):
     texture = cc.RenderTexture(inner_scene, camera, size=(40, 10))
     look(renderer, screen_scene(texture)[0])
     held = renderer.read_texture(texture)[..., 3] > 0
-    # 3 wide of the 2 tan(30) * 4 = 4.5 (at z .05 a little more) that the picture spans
+    # The box is 3 wide; the picture spans 2 tan(30) * 1.95 * 4 = 4.5 at the box's front.
     assert held.any(axis=0).sum() == pytest.approx(
         40 * 3 / (2 * np.tan(np.pi / 6) * 1.95 * 4), abs=1
     )

@@ -202,7 +202,7 @@ def test_ambient_light_is_the_sum_of_the_scenes_ambient_lights(renderer):
         return renderer.render(scene, camera, (3, 3), format="rgba32f").color[1, 1, :3]
 
     assert shown("ambient_light()").tolist() == [0.25, 0.625, 1]
-    # The call phong() adds an ambient light of 1 of its own.
+    # The function phong() adds an ambient light of 1 itself.
     phong = shown("phong(surface, vec3(1.0, 0.5, 1.0), 0.5, 0.0, 0.0, 1.0)")
     assert_close(phong, 0.5 * np.array([1, 0.5, 1]) * (1 + np.array([0.25, 0.625, 1])), "phong")
 

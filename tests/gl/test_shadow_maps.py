@@ -117,7 +117,7 @@ def test_what_receives(renderer):
 
 
 def test_shadows_belong_to_the_scene_and_not_to_the_picture(renderer):
-    """A node that a capture, all probes, or its own probe leave out still casts shadows there."""
+    """A node left out of a capture, of all probes or of its own probe still casts shadows there."""
     scene, _, box, light = hovering()
     light.shadow = cc.Shadow(size=256)
     where = {"position": (-1.7, 1.2, 0), "size": 32}

@@ -354,7 +354,7 @@ def test_the_filter_widens_the_edge_and_keeps_its_place(renderer, kind):
 def test_shares_are_continuous(renderer):
     """No step between two pixels is larger than the ramp's slope allows, in a picture of a few texels."""
     share = profile(renderer, cc.Shadow(size=32, radius=1))
-    # There are 120 pixels over 2 units and a texel is about 0.2 wide: twelve pixels a texel, and the
+    # There are 120 pixels over 2 units and a texel is about 0.2 wide: twelve pixels a texel. The
     # ramp is three texels long.
     assert np.abs(np.diff(share, axis=1)).max() < 2.5 / 36
     assert np.abs(np.diff(share, axis=0)).max() < 2.5 / 36

@@ -78,7 +78,7 @@ def test_a_mirrored_parent_flips_too_and_two_flips_cancel(renderer):
 
 
 def test_double_sided_turns_the_normal_to_the_viewer(renderer):
-    """Inside a lit shell: Phong with the inward normal, on both drawing sides."""
+    """Inside a lit shell Phong's model uses the normal that points inwards."""
     world = World()
     material = cc.PhongMaterial(color=(0.5, 0.7, 0.9), double_sided=True)
     world.sphere(2, material=material, subdivisions=2)
@@ -110,7 +110,7 @@ def test_a_double_sided_mirror_seen_from_behind(renderer):
 
 
 def test_winding_of_each_face_is_that_of_the_others(any_path):
-    """Capture cameras are mirrored; culling must not be: an icosphere seen by all six faces from around it."""
+    """A capture's cameras are mirrored, but culling must not be: each face sees an icosphere from outside."""
     for axis in range(6):
         world = World()
         place = np.zeros(3)

@@ -249,7 +249,7 @@ def test_what_no_view_sees_is_not_drawn(renderer):
 
 @pytest.mark.parametrize("scale", [1, 50, (0.01, 80, 0.01)])
 def test_culling_leaves_nothing_out(renderer, scale):
-    """Large and thin things that reach into a view from far away are not culled."""
+    """Culling keeps large and thin things that reach into a view from far away."""
     scene = cc.Scene()
     scene.add(
         cc.Mesh.sphere(1, segments=12, rings=6),

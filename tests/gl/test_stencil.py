@@ -168,7 +168,7 @@ def test_a_disc_masks_a_plane(any_path, func):
 
 
 def test_the_order_of_drawing_decides(renderer):
-    """Drawn after the wall, near to far, the disc masks nothing."""
+    """The disc masks nothing when it is drawn after the wall, from near to far."""
     world, view = disc_and_plane("equal", 1), perspective((0.4, 0.3, 4), (0, 0, 0))
     frame = renderer.render(
         world.scene, view.camera, view.size, depth_format="depth24_stencil8", outputs=("id",)
