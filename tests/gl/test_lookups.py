@@ -41,7 +41,7 @@ def ball(material):
 
 
 def drawn(renderer, world, view):
-    """(colour, hits, incident directions, normals) where the ball is seen well."""
+    """Return colours, view directions and normals at the pixels well inside the ball."""
     frame = renderer.render(world.scene, view.camera, view.size, format="rgba32f")
     hits = view.hits(world.shapes)
     mask = inner_smooth(hits) & hits.hit
@@ -86,8 +86,8 @@ def test_glass(renderer, make_view, eta, fresnel):
     back = sample_faces(ENVIRONMENT, shading.reflect(incident, normal))
     f = shading.fresnel_dielectric(-shading.dot(incident, normal), eta)
     want = f * back + (1 - f) * through if fresnel else through
-    # At the critical angle Fresnel's curve is vertical; there, and where a plain refraction has nothing to show,
-    # a rounding decides.
+    # At the critical angle Fresnel's curve is vertical. There, and where a plain refraction has
+    # nothing to show, rounding decides the result.
     k = 1 - eta**2 * (1 - shading.dot(incident, normal)[:, 0] ** 2)
     keep = np.abs(k) > 0.03
     if not fresnel:
@@ -109,7 +109,7 @@ def test_total_reflection_shows_the_mirror_image(renderer):
 
 
 def test_a_flat_mirror_shows_the_environment_mirrored(renderer):
-    """Exact geometry, no interpolation of normals: the tolerance of a lookup."""
+    """The geometry is exact and no normals are interpolated, so the tolerance is that of a lookup."""
     world = World(cc.Scene(environment=cc.CubeMap(ENVIRONMENT), background=(0, 0, 0, 0)))
     world.plane(4, 4, material=cc.MirrorMaterial(), axis=(1, 0, 1), degrees=30)
     view = perspective((0.5, 2, 2.5), (0, 0, 0))
@@ -173,7 +173,7 @@ def test_a_box_textured_by_object_space_position(any_path, mipmaps):
     if not mipmaps:
         assert_close(frame.color[mask][:, :3], want[mask], "mirror", least=0)
         return
-    # A texel covers several pixels, so level 0 is looked up, but where a side is seen at a slant.
+    # A texel covers several pixels, so level 0 is looked up, except on sides seen at a slant.
     difference = np.abs(frame.color[mask][:, :3] - want[mask])
     assert np.quantile(difference, 0.95) < 4e-3
     assert difference.max() < 0.2

@@ -10,7 +10,7 @@ from tests.reference.raycast import interior
 
 
 def half_plane():
-    """White to one side of a slanted edge that crosses the -Z face."""
+    """A scene that is white on one side of a slanted edge, which crosses the -Z face."""
     scene = cc.Scene()
     scene.add(
         cc.Mesh.box((4, 4, 0.1)),
@@ -61,7 +61,7 @@ def test_other_outputs_equal_those_of_one_sample(any_path, samples):
 
 
 def test_resolved_in_linear_before_tone_mapping(renderer):
-    """An edge against 100: the average of the two, tone mapped; not the average of two tone-mapped numbers."""
+    """An edge next to a value of 100 shows the tone-mapped average, not the average of tone-mapped values."""
     scene = half_plane()
     scene.nodes[0].material = cc.BasicMaterial(color=(100, 100, 100))
     camera = cc.PerspectiveCamera(fov=90, position=(0, 0, 0), target=(0, 0, -1))

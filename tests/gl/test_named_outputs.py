@@ -44,7 +44,7 @@ def world():
 
 
 def expected(hits):
-    """What the two sources say, 0 where the node that is seen does not write it."""
+    """The values that the two sources write, and 0 where the visible node does not write an output."""
     heat = np.zeros((*hits.id.shape, 4))
     heat[..., :3] = hits.position
     heat[..., 3] = 2
@@ -209,7 +209,7 @@ def test_more_than_the_driver_has_buffers_for_are_refused(renderer):
     )
     with pytest.raises(ValueError, match=r"outputs: expected at most \d+ .*DRAW_BUFFERS.*got 20"):
         renderer.capture(scene, size=4, outputs=names)
-    # Without a request they are plain variables.
+    # Outputs that are not requested are plain variables.
     renderer.capture(scene, size=4, outputs=names[:3])
 
 

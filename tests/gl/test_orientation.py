@@ -53,7 +53,7 @@ def test_a_skybox_seen_along_each_axis(any_path, face):
 
 
 def test_a_skybox_seen_along_minus_z_is_the_natural_picture(renderer):
-    """The pattern's white corner is top left in the file that "inside" calls natural: so it is on the screen."""
+    """The pattern's white corner is top left in a file of convention "inside", and so it is on the screen."""
     cube = cc.CubeMap(PATTERN, convention="inside")
     camera = cc.PerspectiveCamera(fov=90, position=(0, 0, 0), target=(0, 0, -1))
     frame = renderer.render(cc.Scene(background=cube), camera, (N, N))
@@ -85,7 +85,7 @@ def test_set_face_uploads_that_face(renderer, face):
 
 
 def test_faces_of_one_color_are_replaced_as_pictures_arrive(renderer):
-    """P5: usable at once, before, between and after arrival; mipmapped, seen from near enough for level 0."""
+    """P5: the cube is usable before, while and after pictures arrive; it has mipmaps, but level 0 is seen."""
     want = np.full((6, N, N, 3), 128, np.uint8)
     cube = cc.CubeMap(want, mipmaps=True)
     scene = cc.Scene(background=cube)
@@ -105,7 +105,7 @@ def test_a_capture_of_a_capture_is_the_same(renderer):
 
 
 def test_a_frame_shows_a_pictures_top_on_top(renderer):
-    """A square with a picture, looked at from the front: the same picture."""
+    """A square with a picture on it, seen from the front, shows the same picture."""
     picture = PATTERN[0]
     scene = cc.Scene()
     scene.add(

@@ -56,7 +56,7 @@ def test_layered_true_is_the_same_as_auto(new_renderer, both, scene):
 
 
 def test_one_pass_draws_a_mesh_once_per_view_layered_once_in_all(both):
-    """One instanced draw for all the views that see it."""
+    """The layered path draws a mesh with one instanced draw for all the views that see it."""
     scene = cc.Scene()
     scene.add(cc.Mesh.box(5), cc.BasicMaterial(double_sided=True))
     calls = []
@@ -68,7 +68,7 @@ def test_one_pass_draws_a_mesh_once_per_view_layered_once_in_all(both):
 
 
 def test_same_input_same_bytes(new_renderer, scene):
-    """Renderer by renderer, run by run."""
+    """Every renderer and every run gives the same bytes."""
     assert_identical(
         new_renderer().capture(scene, size=16).faces, new_renderer().capture(scene, size=16).faces
     )

@@ -57,7 +57,7 @@ def expected(hits, eye, lights, **options):
 
 
 def good(hits):
-    """Away from silhouettes; boxes have creases, the sphere has not."""
+    """The pixels away from silhouettes and from the creases of boxes; the sphere has no creases."""
     return np.where(hits.id == 3, inner(hits), inner_smooth(hits)) & hits.hit
 
 

@@ -28,7 +28,7 @@ def frame(renderer, scene):
 
 
 def truth(renderer, scene, ball, **options):
-    """What the probe should hold: a capture that leaves its users out."""
+    """What the probe should hold: a capture without the nodes that use the probe."""
     return renderer.capture(scene, **{"size": 16, "exclude": [ball], **options}).faces
 
 
@@ -226,7 +226,7 @@ def test_what_a_probe_depends_on_is_drawn_first(renderer):
 
 
 def test_in_a_cycle_the_edge_back_shows_the_environment(new_renderer):
-    """Two mirrors that see each other: never old contents, so every order and number of frames gives the same."""
+    """Two mirrors that see each other never show old contents: any order and number of frames gives the same."""
     scene = cc.Scene(environment=cc.CubeMap(np.full((6, 2, 2, 3), (0, 0, 1), np.float32)))
     balls = [
         scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial(), position=(x, 0, 0)) for x in (-0.8, 0.8)
@@ -250,7 +250,7 @@ def test_update_and_cubemap_without_a_frame(renderer):
 
 
 def test_contents_live_in_the_renderer(new_renderer):
-    """Two renderers, one probe: each holds its own; scenes know no renderer."""
+    """Two renderers draw one probe: each has contents of its own, and scenes know no renderer."""
     scene, box, ball = stage(update="once")
     a, b = new_renderer(), new_renderer()
     frame(a, scene)
@@ -277,7 +277,7 @@ def test_a_probe_that_was_never_drawn_is_refused(renderer):
 
 
 def test_a_probe_on_a_cubemap_material_shows_by_object_space(renderer):
-    """P13's cube: what is shown is the probe, looked up by position in the cube's own space."""
+    """P13's cube shows the probe, looked up by the position in the cube's own space."""
     scene, _, ball = stage()
     probe = ball.environment
     scene.remove(ball)
@@ -294,7 +294,7 @@ def test_a_probe_on_a_cubemap_material_shows_by_object_space(renderer):
 
 
 def test_reflections_use_the_probe_per_pixel(renderer):
-    """Straight ahead the ball shows what is behind the eye; at its rim what lies beside."""
+    """The ball's middle shows what is behind the eye, and its rim shows what lies beside the eye."""
     scene, box, ball = stage(size=64)
     box.position, box.scale = (0, 0, 3), 1.5
     camera = cc.PerspectiveCamera(fov=20, position=(0, 0, 2), target=(0, 0, 0))
@@ -302,7 +302,7 @@ def test_reflections_use_the_probe_per_pixel(renderer):
     np.testing.assert_allclose(color[16, 16], [1, 0, 0, 1], atol=1e-6)
     held = renderer.read_probe(ball.environment)
     incident = normalised([0.16, 0, -1.0])
-    # where that ray meets the ball
+    # The point where that ray meets the ball.
     b = 2 * -incident[2]
     t = b - np.sqrt(b * b - (4 - 0.25))
     point = np.array([0, 0, 2]) + t * incident

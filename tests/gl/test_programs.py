@@ -51,7 +51,7 @@ def hall(ceiling):
 
 
 def lit(world, hits, eye):
-    """Phong of document 000 for every pixel, over the grey."""
+    """The Phong model of document 000 for every pixel, over the grey background."""
     color = world.paint(hits, GREY)
     hit = hits.hit
     shaded = shading.phong(hits.position[hit], hits.normal[hit], eye, color[hit][:, :3], [LIGHT])
@@ -102,7 +102,7 @@ class TestP13:
         )
         want[..., 3] = 1
         assert hits.hit.sum() > 50
-        # a texel of the cube is about a pixel wide: a tenth of a texel of slip shows
+        # A texel of the cube is about a pixel wide, so a shift by a tenth of a texel is visible.
         difference = np.abs(frame.color - want)[mask]
         assert difference.mean() < 2e-3
         assert np.quantile(difference, 0.98) < 0.02
@@ -135,7 +135,7 @@ class TestP14:
 
     @pytest.mark.parametrize("step", [0, 17])
     def test_frame(self, meshes, shared_renderers, step):
-        """On both paths; the rays, which take the time, are cast once."""
+        """Both paths draw the frame; the rays, which take the time, are cast only once."""
         world, ball = self.stage(meshes, step)
         view = perspective((0, 1, 5), (0, 0, 0), fov=70, size=(80, 80), near=1, far=100)
         seen = capture_hits(world, size=SIZE, near=NEAR, far=FAR, shapes=world.without(ball))
@@ -148,7 +148,7 @@ class TestP14:
             self.check(frame.color, held, hits, world, view, ball)
 
     def check(self, color, held, hits, world, view, ball):
-        """The ball against a lookup of the contents of its probe, the rest against Phong."""
+        """Compare the ball with a lookup in the contents of its probe, and the rest with Phong."""
         want = lit(world, hits, view.eye)
         on_ball = hits.id == ball.id
         reflected = shading.reflect(view.directions()[on_ball], hits.normal[on_ball])
@@ -157,13 +157,14 @@ class TestP14:
         mask = inner_smooth(hits)
         assert (mask & on_ball).sum() > 40
         assert_close(color, want, "phong", mask=mask & ~on_ball)
-        # The ball magnifies an error of N; the faces have edges: most pixels are near, all are on the whole.
+        # The ball magnifies an error of N, and the faces have edges: most pixels are close, and the
+        # mean difference is small.
         difference = np.abs(color - want)[mask & on_ball]
         assert difference.mean() < 4e-3
         assert np.quantile(difference, 0.9) < 0.02
 
     def test_it_follows(self, meshes, renderer):
-        """One scene whose actors move, not a new one for each frame: the same pictures."""
+        """One scene whose actors move gives the same pictures as a new scene for each frame."""
         world, _ = self.stage(meshes, 0)
         camera = cc.PerspectiveCamera(fov=70, position=(0, 1, 5), target=(0, 0, 0), near=1, far=100)
         for step in (0, 1, 2):
@@ -176,7 +177,7 @@ class TestP14:
             np.testing.assert_array_equal(got, want)
 
     def test_refraction(self, meshes, renderer):
-        """P17: the same with glass."""
+        """P17: a glass ball instead of the mirror ball."""
         world, ball = self.stage(meshes, 3)
         ball.material = cc.GlassMaterial(fresnel=False)
         view = perspective((0, 1, 5), (0, 0, 0), fov=30, size=(64, 64), near=1, far=100)

@@ -30,7 +30,7 @@ def test_translucent_panes(any_path, orders):
 
 
 def test_distance_decides_within_one_order(renderer):
-    """The middle pane goes last; the other two, in one order, far to near."""
+    """The middle pane is drawn last; the other two have one order and are drawn from far to near."""
     scene = cc.Scene(background=(0.3, 0.6, 0.9, 1))
     for layer in LAYERS:
         pane(scene, *layer)
@@ -43,7 +43,7 @@ def test_distance_decides_within_one_order(renderer):
 
 @pytest.mark.parametrize("orders", list(itertools.permutations((-(2**31), 0, 2**31 - 1))))
 def test_opaque_things_at_one_depth(any_path, orders):
-    """The first drawn stays."""
+    """The thing that is drawn first stays visible."""
     scene = cc.Scene()
     colors = np.eye(3)
     for color in colors:
@@ -93,7 +93,7 @@ def test_an_order_that_changes_nothing_draws_nothing(renderer):
     draw = front(scene)
     draw(renderer)
     for node, order in zip(scene.nodes, (4, -2, -(2**31)), strict=True):
-        node.render_order = order  # as they are drawn: far to near
+        node.render_order = order  # they are drawn so already: far to near
     draw(renderer)
     assert renderer.stats.views_drawn == 0
 

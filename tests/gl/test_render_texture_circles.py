@@ -26,7 +26,7 @@ def show(texture, scene, **place):
 
 
 def refused(renderer, text, draw):
-    """The message is `text`, and the renderer draws other scenes as before."""
+    """Check that the message is `text` and that the renderer draws other scenes as before."""
     with pytest.raises(ValueError, match="shows itself") as error:
         draw()
     assert str(error.value) == text + OUT
@@ -54,7 +54,7 @@ def test_without_a_name(renderer):
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
 def test_by_way_of_others(renderer, order):
-    """The chain starts with the one that is shown first."""
+    """The chain in the message starts with the texture that is shown first."""
     textures = [empty("a"), empty(), empty("c")]
     for index in order:
         show(textures[(index + 1) % 3], textures[index].scene)
@@ -131,7 +131,7 @@ def test_by_way_of_a_probe(renderer):
 
 @pytest.mark.parametrize("update", ["on_change", "once", "manual", 3])
 def test_whatever_the_probe_is_due(renderer, update):
-    """An error must not come and go with the count of frames."""
+    """The error must not depend on the number of frames drawn."""
     a, _, ball, text = by_probe()
     ball.environment.update = update
     for _ in range(2):
@@ -183,19 +183,19 @@ def test_captures_refuse_what_they_see(renderer):
 
 def test_turning_the_camera_makes_no_error_appear_or_go(renderer):
     a = empty("a")
-    node = show(a, a.scene, position=(0, 0, 50))  # behind every camera
+    node = show(a, a.scene, position=(0, 0, 50))  # the node is behind every camera
     text = 'RenderTexture "a" shows itself: "a" -> "a"'
     refused(renderer, text, lambda: look(renderer, a.scene))
     node.position = (0, 0, 0)
     a.camera.position = (4.5, 3, -5)
-    a.camera.target = (4.5, 3, -6)  # the texture's own looks away
+    a.camera.target = (4.5, 3, -6)  # the texture's own camera looks away
     refused(renderer, text, lambda: look(renderer, a.scene))
     node.visible = False
     look(renderer, a.scene)
 
 
 def test_what_no_picture_of_the_call_may_lead_to_is_no_error(renderer):
-    """The circle is in a scene that only a left out node shows."""
+    """The circle is in a scene that only an excluded node shows."""
     a, b = empty("a"), empty("b")
     show(b, b.scene)
     a.exclude = [show(b, a.scene)]
@@ -214,7 +214,7 @@ def test_long_chains_are_cut(renderer):
 
 
 def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
-    """Two monitors: the left shows the room with the right one, the right the room alone."""
+    """Of two monitors the left one shows the room with the right one; the right one shows the room alone."""
     room = cc.Scene(background=(0.2, 0, 0))
     left, right = (
         cc.RenderTexture(room, flat_camera(9, 6), size=(9, 6), format="rgba32f", name=name)
@@ -237,12 +237,12 @@ def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
     assert_identical(color, look(new_renderer(), room))
     background = np.float32([0.2, 0, 0])
     assert (renderer.read_texture(right)[..., :3] == background).all(-1).sum() == 54 - 4
-    # The right monitor hides none of the green but shows it small.
+    # The left picture shows the green itself and, smaller, the green on the right monitor.
     assert (renderer.read_texture(left)[..., :3] != background).any(-1).sum() > 4
 
 
 def test_two_scenes_that_show_each_other_on_two_threads(new_renderer):
-    """Edited, drawn and refused at once, and no thread waits for the other for ever."""
+    """The scenes are edited, drawn and refused at the same time, and no thread waits for ever."""
     a, b = empty("a"), empty("b")
     show(b, a.scene)
     node = show(a, b.scene)
@@ -340,7 +340,7 @@ def from_aside(renderer, scene):
 
 
 def test_by_the_shadow_of_what_it_moves(any_path):
-    """Left out of the texture it still casts there; not so without its shadow, or where none is received."""
+    """An excluded node still casts a shadow, so this is a circle unless nothing casts or receives shadows."""
     scene, floor, above = lamp_and_floor()
     box = scene.add(cc.Mesh.box(0.8), cc.ShaderMaterial(SHADE, vertex=MOVED, textures={"t": above}))
     above.exclude = [box]

@@ -51,7 +51,7 @@ def test_texture_gives_what_it_holds_row_0_on_top(renderer):
             assert_identical(held[..., :3], np.round(PICTURE * 255).astype(np.uint8))
         else:
             assert_close(held[..., :3], PICTURE, "half" if fmt == "rgba16f" else "float32_maths")
-        held[:] = 0  # the caller's own
+        held[:] = 0  # the array belongs to the caller
         assert renderer.read_texture(texture).any()
 
 
@@ -78,7 +78,7 @@ def test_perspective_camera_takes_its_aspect_from_the_size(renderer):
     texture = cc.RenderTexture(inner_scene, camera, size=(40, 10))
     look(renderer, screen_scene(texture)[0])
     held = renderer.read_texture(texture)[..., 3] > 0
-    # 3 wide of the 2 tan(30) * 4 = 4.5 (at z .05 a little more) that the picture spans
+    # The box is 3 wide; the picture spans 2 tan(30) * 1.95 * 4 = 4.5 at the box's front.
     assert held.any(axis=0).sum() == pytest.approx(
         40 * 3 / (2 * np.tan(np.pi / 6) * 1.95 * 4), abs=1
     )
@@ -123,7 +123,7 @@ def test_mipmaps_average_far_away(renderer):
 
 
 def test_mipmaps_are_those_of_a_box_filter(renderer):
-    """Half the size: a lookup between level 0 and 1 at level 1 exactly is the mean of 2 x 2."""
+    """Drawn at half the size, a texture is looked up exactly at level 1: the mean of 2 x 2 texels."""
     picture = random_picture(3, 8, 16)
     scene = cc.Scene()
     scene.add(quad(8, 4), cc.BasicMaterial(map=flat_texture(picture, mipmaps=True)))
@@ -189,11 +189,11 @@ def test_it_multiplies_colors_and_phong_takes_it_too(renderer):
     assert_close(look(renderer, scene)[..., :3], np.full((6, 9, 3), 0.6), "lookup")
 
 
-# This frame's picture, never the last one.
+# Every frame shows this frame's picture, never that of the frame before.
 
 
 def test_every_frame_shows_this_frames_picture(any_path):
-    """P10. One texel is lit, and goes on by one each frame."""
+    """P10: one texel is lit, and in each frame it is the next one."""
     inner_scene = cc.Scene(background=(0, 0, 0, 1))
     dot = inner_scene.add(quad(), cc.BasicMaterial(color=(1, 0.5, 0.25)), position=(0, 5, 0))
     texture = cc.RenderTexture(inner_scene, flat_camera(9, 6), size=(9, 6), format="rgba32f")
@@ -259,7 +259,7 @@ def test_only_the_pixels_that_show_it_are_drawn_again(renderer):
     look(renderer, scene, 40, 6)
     texture.scene.background = (0, 1, 0)
     look(renderer, scene, 40, 6)
-    assert renderer.stats.draw_calls == 2  # the tiles, the screen
+    assert renderer.stats.draw_calls == 2  # one for the tiles, one for the screen
     assert far.visible
 
 
@@ -294,7 +294,7 @@ def test_exclude_covers_subtrees_and_forgets_the_dead(renderer):
     inner_scene.add(quad(9, 3), cc.BasicMaterial(color=(1, 0, 0)), parent=cover)
     other = inner_scene.add(quad(9, 1), cc.BasicMaterial(color=(0, 1, 0)), position=(0, 5, 1))
     scene, _ = screen_scene(texture)
-    texture.exclude = [cover, scene.nodes[0]]  # a node of another scene is none of its own
+    texture.exclude = [cover, scene.nodes[0]]  # the second node belongs to another scene
     want = PICTURE.copy()
     want[0] = (0, 1, 0)
     assert_close(look(renderer, scene)[..., :3], want, "lookup")
@@ -345,7 +345,7 @@ def test_nested_textures_are_drawn_inside_out_whatever_the_order_of_add(new_rend
 
 
 def test_a_texture_needed_twice_is_drawn_once(renderer):
-    """By two others and by the frame."""
+    """Two other textures and the frame need one texture."""
     picture = flat_texture(PICTURE)
     left, right = (
         cc.RenderTexture(screen_scene(picture)[0], flat_camera(9, 6), size=(9, 6), format="rgba32f")
@@ -361,7 +361,7 @@ def test_a_texture_needed_twice_is_drawn_once(renderer):
 
 @pytest.mark.slow
 def test_deep_chains_neither_overflow_nor_hang():
-    """A thousand textures one in the other, drawn and let go; and thirty thousand let go undrawn."""
+    """A chain of 1000 textures is drawn and freed; a chain of 30000 is freed without being drawn."""
     run_python(
         """
         import numpy as np, cubecam as cc
@@ -386,7 +386,7 @@ def test_deep_chains_neither_overflow_nor_hang():
     )
 
 
-# In captures, probes and mirrors.
+# Render textures in captures, probes and mirrors.
 
 
 def wall(texture):
@@ -404,7 +404,7 @@ def test_captures_show_textures(any_path):
     scene, _ = wall(texture)
     cube = any_path.capture(scene, size=8)
     assert any_path.stats.textures_updated == 1
-    # What someone standing inside sees, unmirrored.
+    # Someone who stands inside sees the picture unmirrored.
     assert_close(cube.to_convention("inside")[5][..., :3], SQUARE, "lookup")
     texture.scene.nodes[0].mesh = tiles(SQUARE[::-1])
     cube = any_path.capture(scene, size=8)
@@ -426,7 +426,7 @@ def test_probes_and_mirrors_show_this_frames_texture(any_path):
         assert_close(held.to_convention("inside")[5][..., :3], picture, "lookup")
     assert (seen[0] != seen[1]).any()
     assert (seen[1] != seen[2]).any()
-    # The mirror is looked at from the wall: its middle shows the wall's.
+    # The mirror is seen from the wall, so its middle shows the middle of the wall.
     assert seen[2][12, 12, :3] == pytest.approx(
         sample_image(SQUARE[:, ::-1], np.array([[0.5, 0.5]]))[0], abs=0.35
     )
@@ -452,7 +452,7 @@ def test_a_textures_scene_may_hold_mirrors_with_probes(any_path, new_renderer):
         assert_close(color, want, "lookup")
 
 
-# Shared.
+# Textures and probes shared by scenes and renderers.
 
 
 def test_two_scenes_show_one_texture(renderer):
@@ -519,7 +519,7 @@ def test_one_probe_in_two_scenes_of_a_call_is_true_to_each(renderer, new_rendere
     assert_identical(new_renderer().render(scene, camera, (24, 24), format="rgba32f").color, color)
 
 
-# A monitor in the room that it shows.
+# A monitor may stand in the room that it shows.
 
 
 def monitor_room():
@@ -586,7 +586,7 @@ def test_tonemapping_is_the_frames_alone(renderer):
     assert (renderer.read_texture(texture)[..., :3] == 3).all()
 
 
-# Every property, alone, on a live renderer.
+# Each property is edited alone, on a renderer that has drawn the scene before.
 
 EDITS = {
     "scene": lambda t: setattr(t, "scene", flat_scene(OTHER)[0]),
@@ -617,7 +617,7 @@ def test_each_edit_equals_a_drawing_from_scratch(new_renderer, edit):
     assert_identical(live.read_texture(texture), scratch.read_texture(texture))
 
 
-# Memory.
+# Memory and limits.
 
 
 def test_contents_go_with_their_texture(new_renderer):

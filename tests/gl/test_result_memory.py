@@ -1,4 +1,4 @@
-"""Memory of results: it comes back when it is let go, is the caller's alone until then, and has a bound."""
+"""Memory of results is reused once the caller drops it, belongs to the caller until then, and is bounded."""
 
 import gc
 import os
@@ -104,7 +104,7 @@ def test_what_calls_have_no_use_for_is_freed(new_renderer):
     for _ in range(2):
         renderer.capture(scene, size=1024, format="rgba8", outputs=("position",))
     held = resident()
-    block = 6 * 1024 * 1024 * 12  # of positions
+    block = 6 * 1024 * 1024 * 12  # bytes of one output of positions
     for _ in range(10):
         renderer.render(scene, CAMERA, (4, 4))
     assert held - resident() > 0.8 * block, (before, held, resident())
@@ -118,7 +118,7 @@ def test_no_more_than_cache_bytes_is_kept(new_renderer, mebibytes, freed):
     held = resident()
     del cubes
     gc.collect()
-    assert held - resident() > (48 * freed - 8) << 20  # of 3 x 48 MiB
+    assert held - resident() > (48 * freed - 8) << 20  # 3 results of 48 MiB each
 
 
 def test_a_forked_process_may_let_results_go():

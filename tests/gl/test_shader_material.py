@@ -20,14 +20,14 @@ FRONT = cc.PerspectiveCamera(fov=20, target=(0, 0, -1))
 
 
 def flat(renderer, material, size=4, **more):
-    """A wall that fills the picture, so that every pixel is the material's."""
+    """Draw a wall that fills the picture, so that every pixel shows the material."""
     scene = cc.Scene()
     scene.add(cc.Mesh.plane(20, 20), material, position=(0, 0, -2), rotation=UPRIGHT)
     return renderer.render(scene, FRONT, (size, size), format="rgba32f", **more).color
 
 
 def constant(renderer, expression, declarations="", **inputs):
-    """The colour that an expression gives, the same for all pixels."""
+    """Return the colour that an expression gives, which is the same for all pixels."""
     source = f"{declarations}\nvec3 shade(Surface surface) {{ return vec3({expression}); }}"
     color = flat(renderer, cc.ShaderMaterial(source, **inputs))
     assert_identical(color, np.broadcast_to(color[0, 0], color.shape))
@@ -202,7 +202,7 @@ def test_ambient_light_is_the_sum_of_the_scenes_ambient_lights(renderer):
         return renderer.render(scene, camera, (3, 3), format="rgba32f").color[1, 1, :3]
 
     assert shown("ambient_light()").tolist() == [0.25, 0.625, 1]
-    # Phong's model has an ambient light of 1 of its own.
+    # The function phong() adds an ambient light of 1 itself.
     phong = shown("phong(surface, vec3(1.0, 0.5, 1.0), 0.5, 0.0, 0.0, 1.0)")
     assert_close(phong, 0.5 * np.array([1, 0.5, 1]) * (1 + np.array([0.25, 0.625, 1])), "phong")
 
@@ -211,7 +211,7 @@ def test_ambient_light_is_the_sum_of_the_scenes_ambient_lights(renderer):
 def test_a_level_of_the_environment_is_looked_up_in_its_direction(
     any_path, rng, level, row, column
 ):
-    """In the middle of a texel that level shows the texel alone, the average of its block of the finest."""
+    """A lookup in the middle of a level's texel gives that texel alone: the mean of its block in level 0."""
     faces = rng.random((6, 8, 8, 3)).astype(np.float32)
     size = 8 >> level
     want = faces.reshape(6, size, 8 // size, size, 8 // size, 3).mean((2, 4))[:, row, column]
@@ -375,7 +375,7 @@ def test_vertices_move_and_hand_on_what_they_like(any_path):
     )
     hit = frame.id == 1
     assert hit.sum() > 100
-    # Upright: the mesh's (x, y, z) is (x, -z, y) in the world.
+    # The mesh stands upright: its (x, y, z) is (x, -z, y) in the world.
     x, y = frame.position[hit][:, 0], frame.position[hit][:, 1]
     assert_close(frame.position[hit][:, 2], 0.5 * x, "position")
     assert_close(frame.color[hit][:, :3], np.stack([x, 0 * x, -y], axis=-1), "position")
@@ -778,7 +778,7 @@ def test_inputs_are_mappings():
 
 
 def test_sides(renderer):
-    """Double-sided surfaces have the normal towards the viewer, as other materials."""
+    """On double-sided surfaces the normal points to the viewer, as with other materials."""
     source = "vec3 shade(Surface s) { return s.normal; }"
     scene = cc.Scene()
     down = cc.axis_angle((1, 0, 0), -90)

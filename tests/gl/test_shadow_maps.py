@@ -15,7 +15,7 @@ from tests.reference.cube_faces import texel_directions
 
 kinds = pytest.mark.parametrize("kind", ["directional", "spot", "point"])
 LAYERS = {"directional": 1, "spot": 1, "point": 6}
-#: Of the floor, where the shadow falls, and nothing else.
+#: This view shows only the part of the floor where the shadow falls.
 VIEW = perspective((-2.5, 1, 0.1), (-1, 0, 0), fov=25, size=(32, 24))
 
 
@@ -39,11 +39,11 @@ def picture(renderer, scene, view=VIEW, **options):
 
 
 def dark(renderer, scene, view=VIEW):
-    """The share of the picture that lies in shadow: ambient light alone."""
+    """The share of the picture that lies in shadow, where only ambient light arrives."""
     return (picture(renderer, scene, view)[..., 0] < 0.21).mean()
 
 
-# What casts, and on what.
+# Which nodes cast shadows, and on which nodes.
 
 
 @kinds
@@ -86,7 +86,7 @@ CASTING = {
 @kinds
 @pytest.mark.parametrize(("change", "casts"), CASTING.values(), ids=CASTING)
 def test_what_casts(renderer, fresh_renderer, kind, change, casts):
-    """Every visible opaque node, from either side; and a renderer that held another map sees the change."""
+    """Every visible opaque node casts, from either side; a renderer that holds an older map sees the change."""
     scene, _, box, _ = hovering(kind)
     before = picture(renderer, scene)
     change(scene, box)
@@ -107,7 +107,7 @@ def test_what_receives(renderer):
     np.testing.assert_allclose(picture(renderer, scene), plain, atol=1e-6)
     floor.receive_shadow = True
     assert dark(renderer, scene) > 0.1
-    floor.material.opacity = 0.999  # translucent things cast none, but show them
+    floor.material.opacity = 0.999  # translucent things cast no shadows, but show them
     assert dark(renderer, scene) > 0.1
     # receive_shadow is not inherited: the child of a node without it receives shadows.
     floor.parent = box.parent = scene.add(receive_shadow=False)
@@ -117,7 +117,7 @@ def test_what_receives(renderer):
 
 
 def test_shadows_belong_to_the_scene_and_not_to_the_picture(renderer):
-    """Left out of a capture, of all probes, or of its own probe: a node still casts there."""
+    """A node left out of a capture, of all probes or of its own probe still casts shadows there."""
     scene, _, box, light = hovering()
     light.shadow = cc.Shadow(size=256)
     where = {"position": (-1.7, 1.2, 0), "size": 32}
@@ -135,7 +135,7 @@ def test_shadows_belong_to_the_scene_and_not_to_the_picture(renderer):
 
 @kinds
 def test_a_caster_that_moves_out_of_view_moves_its_shadow(renderer, fresh_renderer, kind):
-    """And what does not change draws nothing, neither map nor picture."""
+    """The shadow moves with the caster; without a change neither map nor picture is drawn again."""
     scene, _, box, _ = hovering(kind)
     first = picture(renderer, scene)
     assert renderer.stats.shadow_views_drawn == LAYERS[kind]
@@ -170,7 +170,7 @@ def test_only_the_layers_that_see_a_change_are_drawn(renderer):
 
 @kinds
 def test_what_a_map_does_not_hang_on(renderer, kind):
-    """Camera, captures, colours, background: no map is drawn again."""
+    """No map is drawn again when a camera, a capture, a colour or the background changes."""
     scene, floor, _, light = hovering(kind)
     picture(renderer, scene)
     for change in (
@@ -241,7 +241,7 @@ def test_every_change_of_the_light_is_seen(renderer, fresh_renderer, kind, name,
 
 
 def test_a_light_in_two_scenes(renderer, fresh_renderer):
-    """Each sees its own scene, in turns."""
+    """A light in two scenes has a map of each scene, also when they are drawn in turns."""
     scene, _, _, light = hovering("point")
     other = cc.Scene()
     other.add(cc.Mesh.plane(8, 6), cc.PhongMaterial(ks=0))
@@ -275,7 +275,7 @@ def test_all_kinds_of_light_layered_and_one_by_one(new_renderer):
 
 
 def test_a_spot_lights_map(renderer):
-    """Distances along the axis, as a camera at the light sees them; row 0 on top."""
+    """The map holds distances along the axis, as a camera at the light sees them, with row 0 on top."""
     world, size = stage(), 64
     lamp = lamps(size)["spot"].ours
     world.scene.add(lamp)
@@ -300,7 +300,7 @@ def compare_map(got, world, origins, directions, axis, start=0.0):
 
 
 def test_a_point_lights_map(renderer):
-    """Six views in the order and the layout of a capture's faces."""
+    """The map holds six views, in the order and the layout of a capture's faces."""
     world, size = stage(), 64
     lamp = lamps(size)["point"].ours
     world.scene.add(lamp)
@@ -315,8 +315,10 @@ def test_a_point_lights_map(renderer):
 
 
 def test_a_directional_lights_map(renderer):
-    """An extent of 5 around the middle of the casters, the outermost texels left empty; distances from where the
-    casters begin."""
+    """The map covers an extent of 5 around the middle of the casters; its outermost texels are empty.
+
+    Distances are measured from where the casters begin.
+    """
     world, size = World(), 66
     solid = cc.PhongMaterial(double_sided=True)
     world.plane(6, 4, material=solid, position=(0.5, 0, 0.25))
@@ -328,7 +330,7 @@ def test_a_directional_lights_map(renderer):
     edge = np.ones((size, size), bool)
     edge[1:-1, 1:-1] = False
     assert np.isinf(got[0][edge]).all()
-    # From above: -Z is up in the picture, +X to the right; the middle is the floor's.
+    # The light looks down: -Z is up in the map, +X to the right, the floor's middle in the middle.
     step = (np.arange(64) + 0.5) / 64 * 5 - 2.5
     x, z = np.meshgrid(0.5 + step, 0.25 + step)
     origins = np.stack([x, np.full_like(x, 3.5), z], axis=-1)
@@ -343,7 +345,7 @@ def test_a_directional_lights_map(renderer):
 
 
 def test_a_directional_map_holds_all_casters(renderer):
-    """For any place and size of the casters and any view of the camera, also for one flat caster."""
+    """The map holds every caster for any place and size of casters and any camera, also one flat caster."""
     for direction in ((-1, -2, 0.5), (0, 1, 0), (1, 0, 0), (0.3, -0.1, 5)):
         scene = cc.Scene()
         light = scene.add(cc.DirectionalLight(direction, shadow=cc.Shadow(size=64)))
@@ -388,7 +390,7 @@ def test_shadow_map_refuses_what_has_none(renderer):
 
 
 def test_a_map_shows_casters_where_a_render_texture_moves_them(renderer):
-    """The texture is brought up to date first, also when the map alone is read."""
+    """The texture is updated before the map, also when only the map is read."""
     moved = """uniform sampler2D t;
     void vertex(inout Vertex v) { v.position.x += textureLod(t, vec2(0.5), 0.0).r; }"""
     red = cc.Scene(background=(0.25, 0, 0, 1))
@@ -472,7 +474,7 @@ def test_the_smallest_map_and_the_widest_filter(renderer, kind):
 
 
 def test_lights_in_odd_places(renderer):
-    """On a surface, in a corner of a mesh, far away, on the camera: finite, and no crash."""
+    """Lights on a surface, in a mesh's corner, far away or at the camera give finite values and no crash."""
     scene, _, _, _ = hovering()
     for light in (
         cc.PointLight((0, 0, 0), shadow=cc.Shadow(size=32)),

@@ -42,14 +42,15 @@ def test_an_orthographic_frame_and_multisampling(renderer, kind):
     far_eye = view.eye - view.directions()[0, 0] * 1e7
     want, good, _ = lit(hits, far_eye, [lamp])
     assert_close(picture(renderer, world.scene, view), want, "phong", mask=good, least=0.6)
-    # Where two facets share a pixel each is shaded at its centre, beyond the one or the other.
+    # Where two facets share a pixel, both are shaded at the pixel's centre, which lies outside one
+    # of them.
     got = picture(renderer, world.scene, view, samples=4)
     assert_close(got, want, "phong", mask=good & (hits.id != 5), least=0.5)
 
 
 @pytest.mark.slow
 def test_all_six_faces_of_a_capture(any_path):
-    """With all kinds of light at once, and one without a shadow before them."""
+    """The capture has all kinds of light at once, and before them a light without a shadow."""
     world, position = stage(), (-0.2, 1, 1.9)
     plain = Lamp(
         cc.PointLight((3, 1, -3), intensity=0.4), shading.Point((3, 1, -3), intensity=0.4), None
@@ -93,7 +94,7 @@ def test_in_a_probe_and_in_the_mirror_that_shows_it(renderer):
 
 @pytest.mark.parametrize("dense", [False, True])
 def test_more_lights_than_the_vertex_stage_carries(renderer, dense):
-    """Beyond four the shader loops; a dense mesh reads its lights from their block."""
+    """With more than four lights the shader loops; a dense mesh reads its lights from their block."""
     world, view = stage(), perspective(*VIEWS["left"], size=(48, 36))
     every = list(lamps(512).values())
     for index in range(3):
@@ -115,7 +116,7 @@ def test_more_lights_than_the_vertex_stage_carries(renderer, dense):
 
 
 def many(mesh, times):
-    """Each triangle in four, so many times."""
+    """Split each triangle into four, `times` times."""
     positions, triangles = np.asarray(mesh.positions, float), np.asarray(mesh.indices)
     for _ in range(times):
         a, b, c = (positions[triangles[:, i]] for i in range(3))
@@ -133,7 +134,7 @@ HEIGHTS = (90, 60, 30, 10, 3)
 
 
 def sun_at(height, kind, shadow):
-    """A light that meets the floor's middle so many degrees above the horizon."""
+    """A light that shines on the floor's middle from `height` degrees above the horizon."""
     angle = np.radians(height)
     way = np.array([np.cos(angle) * 0.8, np.sin(angle), np.cos(angle) * 0.6])
     if kind == "directional":
@@ -148,7 +149,7 @@ def sun_at(height, kind, shadow):
 @pytest.mark.parametrize("size", [32, 256, 2048])
 @pytest.mark.parametrize("radius", [0, 1, 3])
 def test_a_plane_does_not_shadow_itself(renderer, kind, size, radius):
-    """At any angle of light, to the last bit of light."""
+    """At any angle of the light a plane gets exactly the light that it gets without shadows."""
     scene = cc.Scene()
     floor = scene.add(
         cc.Mesh.plane(9, 7), cc.PhongMaterial(), rotation=cc.axis_angle((1, 2, 3), 25)
@@ -179,7 +180,7 @@ SMOOTH = {
 @pytest.mark.parametrize("mesh", SMOOTH.values(), ids=SMOOTH)
 @pytest.mark.parametrize("size", [256, 2048])
 def test_a_ball_has_no_stripes(renderer, kind, mesh, size):
-    """Not even along the terminator, where its facets look away from a light that its normals still see."""
+    """There are none even where the facets face away from a light that their normals still face."""
     scene = cc.Scene()
     scene.add(
         mesh(), cc.PhongMaterial(), scale=(1, 1.3, 0.8), rotation=cc.axis_angle((1, 2, 3), 40)
@@ -193,7 +194,7 @@ def test_a_ball_has_no_stripes(renderer, kind, mesh, size):
 
 @kinds
 def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
-    """As leaves and grass have them: where light comes from behind, they are lit as their normals say."""
+    """Leaves and grass have such normals: light from behind lights them as their normals say."""
     corners = np.array([(-1, 0, 0), (1, 0, 0), (1, 2, 0), (-1, 2, 0)], float)
     card = cc.Mesh(corners, [(0, 1, 2), (0, 2, 3)], normals=np.tile([0, 1.0, 0.2], (4, 1)))
     scene = cc.Scene()
@@ -215,14 +216,14 @@ def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
     np.testing.assert_allclose(got, plain, atol=1e-5)
 
 
-# A shadow begins where its caster stands.
+# A shadow begins at the foot of its caster.
 
 
 @kinds
 @pytest.mark.parametrize("size", [256, 1024])
 @pytest.mark.parametrize("thing", ["box", "thin box", "plane"])
 def test_contact(renderer, kind, size, thing):
-    """Looked at from above: behind what stands on the floor, dark begins within a texel."""
+    """Seen from above, the shadow behind a thing on the floor begins within one texel."""
     scene = cc.Scene()
     matte = {"color": (1, 1, 1), "ka": 0, "ks": 0, "kd": 1}
     scene.add(cc.Mesh.plane(6, 6), cc.PhongMaterial(**matte))
@@ -255,12 +256,12 @@ def test_contact(renderer, kind, size, thing):
         100:300, 2:
     ]
     first = (share > 0.5).sum(axis=1) * 0.8 / 400  # x grows to the right, from the foot
-    # On a floor that light meets at 45 degrees a texel is as long as its diagonal.
+    # Light meets the floor at 45 degrees, so a texel on the floor is as long as its diagonal.
     assert first.max() < np.sqrt(2) * texel
     assert (share[:, -50:] == 0).all()
 
 
-# A point light's six views are one.
+# No seams are visible between a point light's six views.
 
 EDGES = [(x, y, 0) for x in (1, -1) for y in (1, -1)]
 EDGES += [(x, 0, y) for x, y, _ in EDGES] + [(0, x, y) for x, y, _ in EDGES]
@@ -302,7 +303,7 @@ def test_no_seam_at_an_edge_of_a_point_lights_cube(cage, edge):
     first, second = (np.abs(way[..., axis]) for axis in range(3) if edge[axis])
     for side in (first > second, second > first):
         assert (good & here & side & (share == 0)).any()
-    # Within a texel or two of the edge itself:
+    # These pixels are within a texel or two of the edge itself.
     close = here & (np.abs(first - second) < 0.03)
     assert (close & good).sum() > 3
     assert_close(got, want, "phong", mask=here & good, least=0.001)
@@ -313,7 +314,7 @@ def test_no_seam_at_an_edge_of_a_point_lights_cube(cage, edge):
 
 
 def profile(renderer, shadow, kind="directional"):
-    """The share of light over a floor with the shadow of a large board, whose edge runs askew over it."""
+    """The share of light on a floor under the shadow of a large board, whose edge crosses it at a slant."""
     scene = cc.Scene()
     scene.add(cc.Mesh.plane(6, 6), cc.PhongMaterial(color=(1, 1, 1), ka=0, ks=0, kd=1))
     board = scene.add(
@@ -346,14 +347,15 @@ def test_the_filter_widens_the_edge_and_keeps_its_place(renderer, kind):
         assert (share == 0).any()
         assert (share == 1).any()
         assert abs(share.mean() - shares[0].mean()) < 0.01
-    # A wide box makes an even ramp of what a texel grid makes steps of.
+    # The grid of texels alone would give steps; a wide filter makes an even ramp of them.
     assert (np.diff(shares[2], axis=1) > -1e-3).all()
 
 
 def test_shares_are_continuous(renderer):
-    """No step from pixel to pixel larger than the ramp's slope allows, in a picture of a few texels."""
+    """No step between two pixels is larger than the ramp's slope allows, in a picture of a few texels."""
     share = profile(renderer, cc.Shadow(size=32, radius=1))
-    # 120 pixels over 2 units, texels of about 0.2: twelve pixels a texel, and a ramp of three texels.
+    # There are 120 pixels over 2 units and a texel is about 0.2 wide: twelve pixels a texel. The
+    # ramp is three texels long.
     assert np.abs(np.diff(share, axis=1)).max() < 2.5 / 36
     assert np.abs(np.diff(share, axis=0)).max() < 2.5 / 36
 
@@ -380,7 +382,7 @@ def test_bias_hides_what_is_near(renderer):
 
 
 def test_extent_is_what_a_directional_map_covers(renderer):
-    """Beyond it all is lit; within, shadows are as sharp as its texels."""
+    """Outside the extent everything is lit; inside it shadows are as sharp as its texels."""
     scene = cc.Scene()
     floor = scene.add(cc.Mesh.plane(40, 40), cc.PhongMaterial())
     boxes = [scene.add(cc.Mesh.box(0.5), cc.PhongMaterial(), position=(x, 0.5, 0)) for x in (0, 6)]
@@ -427,7 +429,7 @@ def test_near_and_far_cut_off_what_casts(renderer, kind):
 @pytest.mark.parametrize("offset", [(0, 0, 0), (1e5, -2e4, 3e4)], ids=["here", "far away"])
 @pytest.mark.parametrize("scale", [1e-6, 1, 1e4])
 def test_size_and_place_of_the_world_do_not_matter(renderer, kind, offset, scale):
-    """The same scene, moved and scaled with its lamp and its camera, is the same picture."""
+    """A scene that is moved and scaled with its lamp and its camera gives the same picture."""
     offset = np.array(offset)
 
     def drawn(offset, scale):

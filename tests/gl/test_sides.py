@@ -40,7 +40,7 @@ def test_a_plane_is_seen_from_above_only(renderer):
 @pytest.mark.parametrize("scale", MIRRORED.values(), ids=MIRRORED)
 @pytest.mark.parametrize("double_sided", [False, True])
 def test_mirroring_matrices(any_path, scale, double_sided):
-    """Outside stays outside: the same silhouettes, distances and normals as the oracle's."""
+    """The outside stays outside: silhouettes, distances and normals equal the oracle's."""
     world = World()
     material = cc.BasicMaterial(color=(1, 0, 0), double_sided=double_sided)
     scale = np.array(scale) * (1, 1.4, 0.7)
@@ -78,7 +78,7 @@ def test_a_mirrored_parent_flips_too_and_two_flips_cancel(renderer):
 
 
 def test_double_sided_turns_the_normal_to_the_viewer(renderer):
-    """Inside a lit shell: Phong with the inward normal, on both drawing sides."""
+    """Inside a lit shell Phong's model uses the normal that points inwards."""
     world = World()
     material = cc.PhongMaterial(color=(0.5, 0.7, 0.9), double_sided=True)
     world.sphere(2, material=material, subdivisions=2)
@@ -98,7 +98,7 @@ def test_double_sided_turns_the_normal_to_the_viewer(renderer):
 
 
 def test_a_double_sided_mirror_seen_from_behind(renderer):
-    """Seen from below and from above, a horizontal mirror shows up the sky and down the ground."""
+    """A horizontal mirror shows the ground when it is seen from below, and the sky when seen from above."""
     faces = np.zeros((6, 4, 4, 3), np.float32)
     faces[2], faces[3] = (0, 0, 1), (0, 1, 0)
     scene = cc.Scene(environment=cc.CubeMap(faces), background=(0, 0, 0, 0))
@@ -110,7 +110,7 @@ def test_a_double_sided_mirror_seen_from_behind(renderer):
 
 
 def test_winding_of_each_face_is_that_of_the_others(any_path):
-    """Capture cameras are mirrored; culling must not be: an icosphere seen by all six faces from around it."""
+    """A capture's cameras are mirrored, but culling must not be: each face sees an icosphere from outside."""
     for axis in range(6):
         world = World()
         place = np.zeros(3)
@@ -123,7 +123,7 @@ def test_winding_of_each_face_is_that_of_the_others(any_path):
 
 
 def test_a_mirrored_projection_shows_the_mirrored_picture(renderer):
-    """As for planar mirrors: what faced the camera still does."""
+    """Planar mirrors use such projections: what faces the camera still faces it."""
     world = World()
     world.sphere(1, (1, 0, 0))
     world.box(0.8, (0, 1, 0), position=(1.5, 0.3, 0), axis=(1, 1, 1), degrees=40)

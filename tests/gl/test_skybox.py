@@ -34,7 +34,7 @@ def test_position_of_a_capture_does_not_change_a_texel(renderer, sky):
 
 @pytest.mark.parametrize(("near", "far"), [(1e-4, 1e4), (0.1, 1000), (5, 6), (1e-3, 1e8), (1, 1e8)])
 def test_near_and_far_do_not_matter(renderer, sky, near, far):
-    """far / near of 1e8 loses w of float32: the direction must not be divided by it."""
+    """With far / near of 1e8, w is lost in float32, so the direction must not be divided by w."""
     view = perspective((3, 2, 1), (2, 2.3, 0.2), near=near, far=far)
     frame = renderer.render(sky, view.camera, view.size, format="rgba32f")
     assert_close(frame.color[..., :3], sample_faces(ENVIRONMENT, view.directions()), "shaded")
@@ -59,7 +59,7 @@ def test_an_oblique_projection(renderer, sky):
 
 
 def test_it_is_behind_everything(renderer, sky):
-    """A plane just before far hides it, one beyond far is not there."""
+    """A plane just before far hides the skybox; a plane beyond far is not drawn."""
     quad = cc.Mesh.plane(1e4, 1e4)
     node = sky.add(
         quad,

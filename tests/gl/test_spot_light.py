@@ -34,7 +34,7 @@ def want(hits, eye, lights):
 
 
 def away_from_the_edge(hits, light):
-    """A sharp edge may fall on the one or the other side of a pixel's centre."""
+    """The pixels away from the cone's edge, which may fall on either side of a pixel's centre."""
     to_light, _ = shading.way_to(light, hits.position)
     cosine = shading.dot(-to_light, normalised(light.travels))[..., 0]
     return np.abs(cosine - np.cos(np.radians(light.angle))) > 1e-3
@@ -56,7 +56,7 @@ def test_a_frame(renderer, options):
 
 @pytest.mark.parametrize("count", [2, 6])
 def test_beside_other_lights_in_a_capture(any_path, count):
-    """The others know no cone; six lights come from their block."""
+    """Other kinds of light have no cone; with six lights the shader reads them from their block."""
     world = room()
     ours = [
         cc.SpotLight(PLACE, WAY, angle=35, penumbra=0.6, color=(1, 0.5, 0.2), intensity=0.8),

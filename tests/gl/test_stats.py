@@ -54,7 +54,7 @@ def test_only_the_face_that_sees_a_change_is_drawn(any_path, face):
     node.material.color = (0, 1, 0)
     assert drawn(any_path) == (1, 5)
     any_path.capture(scene, size=16)
-    # one material for each box: only this one is green
+    # Each box has a material of its own, so only this box is green.
     assert drawn(any_path) == (1, 5)
     assert changed.faces[face].any()
 
@@ -115,7 +115,7 @@ CHANGES = {
 
 @pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
 def test_every_change_is_seen(renderer, fresh_renderer, change):
-    """The key lacks no input: the picture equals that of a renderer that never drew the old one."""
+    """The key has every input: the picture equals that of a renderer that never drew the old picture."""
     scene = ring()
     before = renderer.capture(scene, size=48).faces
     change(scene)
@@ -202,7 +202,7 @@ def test_two_scenes_do_not_mix(renderer):
 
 
 def test_the_store_is_bounded_and_least_recently_used(new_renderer):
-    """With room for one target only, the second pushes the first out; with none, all is drawn each time."""
+    """With room for one target the second pushes the first out; with no room all is drawn each time."""
     scene = ring()
     none = new_renderer(cache_bytes=0)
     first = none.capture(scene, size=16).faces
@@ -236,7 +236,7 @@ def test_triangles_and_time_are_counted(renderer):
 
 
 def test_what_no_view_sees_is_not_drawn(renderer):
-    """Culling: a thousand boxes behind the camera cost no draw call."""
+    """A thousand boxes behind the camera are culled and cost no draw call."""
     scene = cc.Scene()
     mesh, material = cc.Mesh.box(0.5), cc.BasicMaterial()
     for index in range(1000):
@@ -249,7 +249,7 @@ def test_what_no_view_sees_is_not_drawn(renderer):
 
 @pytest.mark.parametrize("scale", [1, 50, (0.01, 80, 0.01)])
 def test_culling_leaves_nothing_out(renderer, scale):
-    """Large and thin things that reach into a view from afar."""
+    """Culling keeps large and thin things that reach into a view from far away."""
     scene = cc.Scene()
     scene.add(
         cc.Mesh.sphere(1, segments=12, rings=6),

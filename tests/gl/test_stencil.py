@@ -1,4 +1,4 @@
-"""Stencils of materials against the numpy painter, and what shows where a mask let it."""
+"""Stencils of materials against the numpy painter, and what a mask lets through."""
 
 import dataclasses
 import itertools
@@ -47,14 +47,14 @@ def covered(rect):
 
 
 def random_cards(rng, count, depth):
-    """The product's scene and the oracle's canvas."""
+    """Return the same random cards as the product's scene and as the oracle's canvas."""
     scene = cc.Scene(background=(0.25, 0.5, 0.75))
     canvas = Canvas(SIZE[::-1], (0.25, 0.5, 0.75, 1), depth)
     for index in range(count):
         x0, y0 = rng.integers(0, SIZE[0] - 3), rng.integers(0, SIZE[1] - 3)
         x1, y1 = rng.integers(x0 + 3, SIZE[0] + 1), rng.integers(y0 + 3, SIZE[1] + 1)
         z, color, stencil = float(rng.permutation(15)[0]), rng.random(3), random_stencil(rng)
-        z = z / 2 + index / 1000  # no two at one depth
+        z = z / 2 + index / 1000  # no two cards have one depth
         card(scene, (x0, y0, x1, y1), z, color, ours(stencil), index)
         canvas.draw(covered((x0, y0, x1, y1)), -z, (*color, 1), stencil)
     return scene, canvas
@@ -75,7 +75,7 @@ def test_random_cards_against_the_painter(any_path, depth_format, seed):
 
 @pytest.mark.parametrize(("func", "read_mask"), list(itertools.product(FUNCS, (255, 3, 0x82))))
 def test_every_comparison(renderer, func, read_mask):
-    """Bars of 0, 1, 2, 3, 254 and 255, then a sheet over all of them that compares with 2."""
+    """Bars write 0, 1, 2, 3, 254 and 255; then a sheet over all bars compares with 2."""
     scene = cc.Scene()
     values = (0, 1, 2, 3, 254, 255)
     for index, value in enumerate(values):
@@ -145,7 +145,7 @@ def disc_and_plane(func, depth_first=-1):
 
 @pytest.mark.parametrize("func", ["equal", "notequal"])
 def test_a_disc_masks_a_plane(any_path, func):
-    """And the mask with its sign turned: against the ray caster, each shape alone."""
+    """The disc masks the plane inside or outside it; the ray caster meets each shape alone."""
     world, view = disc_and_plane(func), perspective((0.4, 0.3, 4), (0, 0, 0), size=(60, 45))
     frame = any_path.render(
         world.scene,
@@ -168,7 +168,7 @@ def test_a_disc_masks_a_plane(any_path, func):
 
 
 def test_the_order_of_drawing_decides(renderer):
-    """Drawn after the wall, near to far, the disc masks nothing."""
+    """The disc masks nothing when it is drawn after the wall, from near to far."""
     world, view = disc_and_plane("equal", 1), perspective((0.4, 0.3, 4), (0, 0, 0))
     frame = renderer.render(
         world.scene, view.camera, view.size, depth_format="depth24_stencil8", outputs=("id",)
@@ -178,7 +178,7 @@ def test_the_order_of_drawing_decides(renderer):
 
 @pytest.mark.parametrize("samples", [1, 4])
 def test_a_window_leaves_nothing_of_itself(any_path, samples):
-    """A mask without colour and depth before a wall: the wall through it, and no id of the mask's own."""
+    """A mask without colour and depth before a wall shows the wall through it, and no id of its own."""
     world, view = World(), perspective((0.4, 0.3, 4), (0, 0, 0), size=(60, 45))
     world.scene.background = (0.5, 0.5, 0.5, 1)
     hole = cc.BasicMaterial(
@@ -308,7 +308,7 @@ def test_a_probe_with_a_stencil(renderer):
     assert_identical(renderer.read_probe(probe).faces, plain)
 
 
-# The value object, and the property.
+# The class Stencil, and the materials' property of that name.
 
 SHADER = "vec3 shade(Surface surface) { return vec3(1.0); }"
 
@@ -367,7 +367,7 @@ def test_every_material_has_one(kind):
     assert kind().stencil is None
     material = kind(stencil=cc.Stencil(reference=1))
     assert material.stencil == cc.Stencil(reference=1)
-    if not isinstance(material, cc.ShaderMaterial):  # which prints its source and inputs alone
+    if not isinstance(material, cc.ShaderMaterial):  # its repr shows only source and inputs
         assert "stencil=Stencil(reference=1)" in repr(material)
     material.stencil = None
     assert "stencil" not in repr(material)

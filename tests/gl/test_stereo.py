@@ -45,7 +45,7 @@ def whole(layout, size=SIZE):
 
 
 def split(array, layout):
-    """The left and the right eye's part."""
+    """Return the left and the right eye's part."""
     axis = {"side_by_side": 1, "top_bottom": 0}[layout]
     return np.split(array, 2, axis=axis)
 
@@ -59,7 +59,7 @@ def scene():
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
 @pytest.mark.parametrize("make", PAIRS.values(), ids=PAIRS)
 def test_an_anaglyph_is_both_eyes_own_frames(any_path, scene, make, options):
-    """Red of the left, green and blue of the right, bit for bit; alpha the greater."""
+    """Red is the left eye's, green and blue are the right eye's, bit for bit; alpha is the greater one."""
     eyes = make(lens())
     got = any_path.render(scene, eyes, SIZE, **options).color
     left = any_path.render(scene, eyes.left, SIZE, **options).color
@@ -73,7 +73,7 @@ def test_an_anaglyph_is_both_eyes_own_frames(any_path, scene, make, options):
 @pytest.mark.parametrize("options", [{}, {"samples": 4}, {"format": None}])
 @pytest.mark.parametrize("layout", ["side_by_side", "top_bottom"])
 def test_halves_are_both_eyes_own_frames(any_path, scene, layout, options):
-    """Outputs alike."""
+    """The other outputs are halves of the eyes' own frames as well."""
     eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0, layout=layout)
     options = {
         "outputs": (*OUTPUTS, "depth", "stencil"), "depth_format": "depth24_stencil8", **options
@@ -102,7 +102,7 @@ vec4 effect(vec2 uv) {
 @pytest.mark.parametrize("options", [{}, {"tonemap": "aces", "samples": 4}])
 @pytest.mark.parametrize("count", [1, 3])
 def test_effects_run_over_each_eye(any_path, scene, options, count):
-    """Which know of their neighbours, and must not see the other eye's."""
+    """An effect that reads neighbouring pixels must not see those of the other eye."""
     eyes = cc.StereoCamera.off_axis(lens(), separation=0.3, convergence=4.0)
     effects = [cc.ImageEffect(EFFECT) for _ in range(count)]
     left, right = (
@@ -124,7 +124,7 @@ def test_effects_run_over_each_eye(any_path, scene, options, count):
 
 
 def test_alpha_is_the_greater(renderer):
-    """Only the left eye looks at an opaque wall, only the right one at a pane."""
+    """Only the left eye looks at an opaque wall, and only the right eye at a pane."""
     scene = cc.Scene(background=(0, 0, 0, 0.25))
     scene.add(cc.Mesh.box((4, 4, 0.1)), cc.BasicMaterial(), position=(-2.5, 0, -3))
     scene.add(cc.Mesh.box((4, 4, 0.1)), cc.BasicMaterial(opacity=0.5), position=(2.5, 0, -3))
@@ -167,7 +167,7 @@ def test_only_the_eye_that_changed_is_drawn(any_path):
     eyes.right.position = np.array(eyes.right.position) + 0.01
     any_path.render(scene, eyes, SIZE)
     assert counts(any_path) == (1, 1)
-    eyes.layout = "side_by_side"  # other halves of the same two pictures
+    eyes.layout = "side_by_side"  # the same two pictures in other halves
     any_path.render(scene, eyes, whole("side_by_side"))
     assert counts(any_path) == (0, 2)
     scene.nodes[0].material.color = (1, 1, 1)
@@ -205,7 +205,7 @@ def test_layered_equals_one_pass(new_renderer, layout):
 
 
 def test_one_picture_is_in_it_once(fresh_renderer, scene):
-    """Two cameras in one place are one group of views: layered, a mesh is one draw call for both."""
+    """Two cameras in one place are one group of views: the layered path draws a mesh once for both."""
     turned = lens(target=(-0.4, -0.1, 0.5))
     for eyes in (cc.StereoCamera(lens(), turned), cc.StereoCamera(lens(), lens(fov=30))):
         got = fresh_renderer.render(scene, eyes, SIZE).color
@@ -226,7 +226,7 @@ def test_far_from_the_origin_each_eye_counts_from_itself(fresh_renderer, rendere
     assert_identical(got[..., 1:3], own[..., 1:3])
 
 
-# The geometry, against numpy.
+# The geometry is compared with numpy.
 
 
 def ndc(camera, points, aspect):
@@ -258,10 +258,10 @@ CAMERAS = {
 @pytest.mark.parametrize("make", CAMERAS.values(), ids=CAMERAS)
 @pytest.mark.parametrize("aspect", [1.5, 0.7])
 def test_parallax_is_that_of_sheared_frusta(make, aspect, rng):
-    """None at the convergence distance; separation * (1 / c - 1 / z) * f beyond and before, and none upwards."""
+    """Parallax is 0 at the convergence distance, else separation * (1 / c - 1 / z) * f, and 0 upwards."""
     camera, separation, convergence = make(), 0.25, 3.0
     view = np.asarray(camera.view)
-    scale = np.linalg.norm(view[0, :3])  # units of the camera's space for one of the world's
+    scale = np.linalg.norm(view[0, :3])  # units of the camera's space for one world unit
     points, z = points_before(camera, scale * np.array([0.8, 2, 3, 5, 40]), rng)
     z = z / scale
     f = np.asarray(camera.projection(aspect))[0, 0]
@@ -301,7 +301,7 @@ def test_the_camera_given_is_left_alone():
 
 
 def test_orthographic_eyes():
-    """Parallel rays: the eyes' pictures differ by one step, and no distance is special."""
+    """The rays are parallel: the eyes' pictures differ by one shift, the same at every distance."""
     camera = cc.OrthographicCamera(height=4, position=(0, 0, 5), target=(0, 0, 0))
     eyes = cc.StereoCamera.off_axis(camera, separation=0.5)
     np.testing.assert_allclose(eyes.left.position, (-0.25, 0, 5), atol=1e-12)
@@ -319,7 +319,7 @@ def test_orthographic_eyes():
 )  # fmt: skip
 @pytest.mark.parametrize("degrees", [0.0, 4.0, 75.0])
 def test_toe_in_turns_the_view_about_the_target(make, degrees):
-    """Of a turn by +-degrees / 2 about the camera's up axis; the left eye stands to the left."""
+    """Each eye is turned by +-degrees / 2 about the camera's up axis; the left eye stands to the left."""
     camera = make()
     view, target = np.asarray(camera.view), np.asarray(camera.target)
     up = view[1, :3]
@@ -335,7 +335,7 @@ def test_toe_in_turns_the_view_about_the_target(make, degrees):
 
 
 def test_parallax_in_pixels(renderer):
-    """A thin bar at each distance: its columns in both eyes' pictures."""
+    """A thin bar stands at each distance; its columns in both eyes' pictures are compared."""
     camera = cc.PerspectiveCamera(fov=60)
     for z in (2.0, 4.0, 8.0):
         scene = cc.Scene()
@@ -345,13 +345,13 @@ def test_parallax_in_pixels(renderer):
         )
         color = renderer.render(scene, eyes, (400, 100)).color[50, :, 0]
         left, right = (np.flatnonzero(part).mean() for part in np.split(color, 2))
-        f = 1 / np.tan(np.radians(30)) / 2  # of aspect 2
+        f = 1 / np.tan(np.radians(30)) / 2  # the aspect is 2
         assert right - left == pytest.approx(0.4 * (1 / 4 - 1 / z) * f / 2 * 200, abs=1)
         assert np.sign(round(right - left)) == np.sign(z - 4)
 
 
 def test_a_shifted_lens_sees_another_part_of_the_same_picture(renderer):
-    """Half a picture up and a quarter to the right, in pixels."""
+    """The lens is shifted by half a picture up and a quarter to the right, in whole pixels."""
     world, view = room(), perspective((1.2, 0.9, -3.2), (-0.2, -0.1, 0.5), size=(48, 48))
     big = perspective((1.2, 0.9, -3.2), (-0.2, -0.1, 0.5), size=(96, 96))
     big.camera.fov = np.degrees(2 * np.arctan(2 * np.tan(np.radians(30))))
@@ -365,7 +365,7 @@ def test_a_shifted_lens_sees_another_part_of_the_same_picture(renderer):
     assert len(np.unique(part.id)) > 3
 
 
-# Parts, errors, pickles.
+# Properties, errors, pickles.
 
 
 def test_properties():
@@ -496,7 +496,7 @@ def test_captures_take_no_stereo(renderer):
 
 
 def test_probes_serve_both_eyes(fresh_renderer):
-    """A mirror's probe is drawn once for both."""
+    """A mirror's probe is drawn once for both eyes."""
     scene = room().scene
     ball = scene.add(cc.Mesh.sphere(0.4), cc.MirrorMaterial(), position=(0, 0.2, 0))
     ball.environment = cc.Probe(position=(0, 0.2, 0), size=8)

@@ -64,7 +64,7 @@ def test_color_times_map(renderer):
 
 
 def test_perspective_correct(renderer):
-    """A square seen at a slant: uvs go by the surface, not by the screen."""
+    """On a square seen at a slant uvs are interpolated over the surface, not over the screen."""
     view = perspective((0.2, 0.1, 2.2), (0, 0, 0), size=(48, 48))
     got, hits, mask = seen(
         renderer, quad(CORNERS), cc.BasicMaterial(map=PICTURE), view, axis=(1, 1, 0), degrees=55
@@ -87,7 +87,7 @@ def test_vertex_colors_are_off_by_default(renderer):
 
 
 def test_a_map_without_uvs_is_refused_or_one_texel(renderer):
-    """Either is clear; a crash or garbage is not."""
+    """An error and one texel are both allowed; a crash or random pixels are not."""
     scene = cc.Scene()
     try:
         scene.add(quad(), cc.BasicMaterial(map=PICTURE))
@@ -112,7 +112,7 @@ def test_mipmaps_average_far_away(renderer):
 
 
 def test_maps_are_linear_numbers(renderer):
-    """No hidden sRGB decoding: 128 is 128/255."""
+    """There is no hidden sRGB decoding: 128 is 128/255."""
     got, *_ = seen(renderer, quad(CORNERS), cc.BasicMaterial(map=np.full((2, 2, 3), 128, np.uint8)))
     np.testing.assert_allclose(got[..., :3], 128 / 255, atol=1e-6)
 

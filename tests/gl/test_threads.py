@@ -155,7 +155,7 @@ def test_the_gil_is_released_while_drawing(new_renderer):
 
 
 def test_cpu_work_runs_in_threads_too():
-    """CubeMap methods on one cube from four threads."""
+    """Four threads call methods of one CubeMap."""
     cube = cc.CubeMap(smooth_environment(32))
     want = cube.to_equirect(width=128)
     with ThreadPoolExecutor(4) as pool:

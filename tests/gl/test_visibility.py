@@ -10,7 +10,7 @@ CAMERA = {"fov": 70, "position": (0, 0, 6), "target": (0, 0, 0)}
 
 @pytest.fixture
 def tree():
-    """root > child > grandchild, each with a box of its own, and one beside them."""
+    """The nodes root > child > grandchild, each with a box of its own, and one node beside them."""
     scene = cc.Scene()
     nodes = {}
     parent = None

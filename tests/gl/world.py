@@ -52,12 +52,12 @@ class World:
         return self.add(mesh, triangles_of(mesh), color, **more)
 
     def without(self, *nodes):
-        """The oracle's shapes but those of some nodes."""
+        """The oracle's shapes without those of some nodes."""
         ids = {node.id for node in nodes}
         return [shape for shape in self.shapes if shape.id not in ids]
 
     def paint(self, hits, background=(0, 0, 0, 0)):
-        """Unlit colours of what was hit."""
+        """Return the unlit colours of the shapes that were hit."""
         color = np.broadcast_to(np.asarray(background, float), (*hits.id.shape, 4)).copy()
         for id_, value in self.colors.items():
             color[hits.id == id_] = value
@@ -80,12 +80,12 @@ def triangles_of(mesh):
 
 
 def inner(hits):
-    """Where silhouettes and creases are at least a pixel away."""
+    """The pixels that are at least a pixel away from silhouettes and creases."""
     return interior(hits.id, hits.part)
 
 
 def inner_smooth(hits):
-    """Where silhouettes are at least a pixel away: for smooth shapes, whose facets are not creases."""
+    """The pixels at least a pixel away from silhouettes: for smooth shapes, whose facets are no creases."""
     return interior(hits.id) & (~hits.hit | (np.abs(hits.facing) > 0.1))
 
 
@@ -167,7 +167,7 @@ def orthographic(position, target, height=4.0, size=(48, 36), near=0.1, far=100.
 
 
 def smooth_environment(size=64):
-    """A cubemap without edges to fall on: wide waves of the direction, other in each channel."""
+    """A cubemap without sharp edges: wide waves of the direction, different in each channel."""
     from tests.reference.cube_faces import unit_texel_directions
 
     d = unit_texel_directions(size)
@@ -183,7 +183,7 @@ def smooth_environment(size=64):
 
 
 def phong_lights():
-    """One of each kind, for the product and for the oracle."""
+    """One light of each kind, for the product and for the oracle."""
     ours = [
         cc.PointLight(position=(3, 4, 2), color=(1, 0.9, 0.8)),
         cc.PointLight(position=(-2, 1, 3), color=(0.2, 0.3, 0.4), intensity=2, decay=1),
@@ -200,7 +200,7 @@ def phong_lights():
 
 
 def everything():
-    """Every material, light, blending and texture at once."""
+    """A scene with every kind of material, light, blending and texture at once."""
     world = room()
     scene = world.scene
     scene.environment = cc.CubeMap(smooth_environment(16), mipmaps=True)
