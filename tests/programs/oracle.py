@@ -133,7 +133,7 @@ def photographs(size=64):
 
 
 def stage(program, frame):
-    """The ground and the actors, which move 0.1 radian a frame, counter-clockwise, on a circle of radius 2.5 round +Y."""
+    """The ground and the actors, which move counter-clockwise round +Y, 0.1 radian a frame, at radius 2.5."""
     ground = program.scene.nodes[0]
     shapes = [quad(ground, 10, moved(0, -2, 0))]
     colors = {ground.id: (0.4, 0.4, 1)}

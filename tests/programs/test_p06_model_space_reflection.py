@@ -1,7 +1,4 @@
-"""P6: the shape of one image gives its layout; the document's reflection in model space is compared with numpy
-
-and with reflection in world space.
-"""
+"""P6: the shape of one image gives its layout; reflection in model space is compared with numpy and world space."""
 
 import numpy as np
 import pytest
