@@ -39,7 +39,7 @@ def _picture() -> np.ndarray:
 
 
 def _times(calls: dict[str, Callable[[], object]], rounds: int) -> dict[str, list[float]]:
-    """Milliseconds of each call; the calls take turns in each round, and the first round is not counted."""
+    """Milliseconds of each call in each round; the calls take turns, and an additional first round warms up."""
     times: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(rounds + 1):
         for name, call in calls.items():

@@ -3,7 +3,7 @@
 moderngl attaches no cube face to a framebuffer. Its users make the framebuffer with a 2D texture and put
 the cube's face in its place by one raw GL call, once (moderngl issue #570), outside of the measured frames.
 With `layered=True` the whole cube is attached and one instanced draw writes the six faces (gl_Layer from
-the vertex shader). A user can reach no higher speed with only four raw GL calls beside moderngl.
+the vertex shader). It is the fastest way for a user who adds four raw GL calls to moderngl.
 """
 
 from __future__ import annotations
