@@ -13,8 +13,8 @@ from .results import Row, Section
 WIDTH, HEIGHT, FACE = 2048, 1024, 512
 MARK = 1 / 20
 # py360convert samples at borders, cubecam at texel centres, so their samples lie up to half a texel
-# apart. The colours of this picture change by less than 3 for each radian, so that the difference is
-# below 0.01. A face that is swapped or flipped differs by more than 0.5.
+# apart. The colours of this picture change by less than 3 for each radian, so that the difference
+# is below 0.01. A face that is swapped or flipped differs by more than 0.5.
 TOLERANCE = 0.01
 MARGIN = 8
 # py360convert's faces are the natural views of a picture whose centre is -Z.

@@ -33,7 +33,7 @@ def describe() -> dict[str, str | int]:
     found: dict[str, str | int] = {
         "cpu": _cpu(),
         "cores": len(os.sched_getaffinity(0)),
-        "load": f"{os.getloadavg()[0]:.1f}",  # if much above 0 before the start, other programs are running
+        "load": f"{os.getloadavg()[0]:.1f}",  # much above 0 if other programs are running
         "gl": _gl(),
         "python": platform.python_version(),
     }

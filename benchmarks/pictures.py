@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Two rasterisers of one scene may round a colour or a vertex differently. That gives a difference of
-# one step of 255 each for shading, reflected face and frame. Where a pixel's neighbourhood spans more
-# than EDGE, such rounding can move a silhouette by a pixel; those pixels are counted, not compared.
+# Two rasterisers of one scene may round a colour or a vertex differently. That gives a difference
+# of one step of 255 each for shading, reflected face and frame. Where a pixel's neighbourhood spans
+# more than EDGE, such rounding can move a silhouette by a pixel; those pixels are counted, not
+# compared.
 STEPS = 3
 EDGE = 16
 EDGE_SHARE = 0.08

@@ -68,7 +68,7 @@ class _Boxes:
         positions, normals, triangles = boxes.box_arrays()
         self.vertices = self.frame.ctx.buffer(np.hstack([positions, normals]).tobytes())
         self.triangles = self.frame.ctx.buffer(triangles.astype(np.uint16).tobytes())
-        # The matrices are stored as in GL, columns first, so the last row of each holds the position.
+        # Matrices are stored as in GL, columns first, so the last row of each is the position.
         self.models = np.zeros((count, 4, 4), np.float32)
         self.models[:, :3, :3] = np.swapaxes(self.boxes.rotations(), 1, 2)
         self.models[:, 3, 3] = 1
