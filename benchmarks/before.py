@@ -1,4 +1,4 @@
-"""The version before, built from git: what the marks of speed are held against."""
+"""The previous version, built from git, with which the marks of speed compare the present one."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FOLDER = ROOT / "build" / f"before-{COMMIT}"
 
 
 class BeforeError(Exception):
-    """The version before cannot be built; says why."""
+    """The previous version cannot be built; the message says why."""
 
 
 def _tool(name: str) -> str:
@@ -37,9 +37,9 @@ def _run(*command: object) -> bytes:
 
 
 def tree(given: Path | None = None) -> Path:
-    """The folder of the version before, with its module in python/cubecam.
+    """The folder of the previous version, with its module in python/cubecam.
 
-    It is built once and kept under build/. `given`: a ready one.
+    It is built once and kept under build/. `given` is a folder that holds a built version already.
     """
     folder = given.resolve() if given else FOLDER
     package = folder / "python" / "cubecam"

@@ -15,7 +15,7 @@ CLEAR = (0.4, 0.4, 0.4, 1.0)
 
 
 class Boxes:
-    """Where `count` boxes stand and how they are turned and coloured: the same ones at each call."""
+    """The positions, rotations and colours of `count` boxes; they are the same at each call."""
 
     def __init__(self, count: int, colors: int) -> None:
         random = np.random.default_rng(8)
@@ -28,7 +28,7 @@ class Boxes:
         self.material = np.arange(count) % colors
 
     def positions(self, frame: int) -> np.ndarray:
-        """(count, 3) float64: every box swings round its place."""
+        """(count, 3) float64 positions; every box swings round its place."""
         return self.start + 0.2 * np.sin(self.phase + 0.3 * frame)
 
     def rotations(self) -> np.ndarray:

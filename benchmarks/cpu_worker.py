@@ -2,12 +2,12 @@
 
     python benchmarks/cpu_worker.py TREE MODULE:CLASS OPTIONS
 
-TREE is the folder whose `benchmarks` package holds the program: this one's, or that of the version before. OPTIONS
-are the class's keyword arguments as JSON; "mesh" names a file of arrays. It answers one JSON line for each that it
-reads. The CPU time counts the rasteriser's threads, and other work on the machine moves it less than wall time.
+TREE is the folder whose `benchmarks` package holds the program: this tree, or that of the previous version. OPTIONS
+are the class's keyword arguments as JSON; "mesh" names a file of arrays. The process answers one JSON line for each
+that it reads. The CPU time counts the rasteriser's threads; other work on the machine changes it less than wall time.
 
 A program has `draw(index)`, which gives a picture or None; where it has them, `prepare(index)` makes the frame's
-input before the clock starts, and `move(index)` is timed apart. A program with `frame(index)` alone is drawn by that.
+input before the clock starts, and `move(index)` is timed separately. If it has only `frame(index)`, that is called.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def _nothing(index: int) -> None:
 
 
 class _Steps:
-    """The steps of a frame, whichever of them a program has."""
+    """Those steps of a frame that a program has."""
 
     def __init__(self, program: Any) -> None:
         self.prepare = getattr(program, "prepare", _nothing)
@@ -40,7 +40,7 @@ class _Steps:
         return self.draw(index)
 
     def time(self, index: int) -> tuple[float, float]:
-        """CPU milliseconds of moving, and of drawing with the picture read."""
+        """CPU milliseconds of moving, and of drawing, which includes reading the picture."""
         self.prepare(index)
         start = time.process_time()
         self.move(index)

@@ -12,9 +12,9 @@ from .results import Row, Section
 
 WIDTH, HEIGHT, FACE = 2048, 1024, 512
 MARK = 1 / 20
-# py360convert samples borders, cubecam texel centres: up to half a texel apart, which on this
-# picture, whose colours change by less than 3 for each radian, is below 0.01. A face that is swapped
-# or flipped is off by more than 0.5.
+# py360convert samples at borders, cubecam at texel centres, so their samples lie up to half a texel
+# apart. The colours of this picture change by less than 3 for each radian, so that the difference
+# is below 0.01. A face that is swapped or flipped differs by more than 0.5.
 TOLERANCE = 0.01
 MARGIN = 8
 # py360convert's faces are the natural views of a picture whose centre is -Z.
@@ -22,7 +22,7 @@ PY360_ORDER = (1, 3, 4, 5, 2, 0)  # +X -X +Y -Y +Z -Z among its F R B L U D
 
 
 def _pattern(direction: np.ndarray) -> np.ndarray:
-    """(..., 3) smooth colours of directions, different on every side and with no symmetry."""
+    """(..., 3) smooth colours of directions, which differ on every side and have no symmetry."""
     x, y, z = np.moveaxis(direction, -1, 0)
     colors = [0.5 + 0.3 * x + 0.1 * y * z, 0.5 + 0.3 * y + 0.1 * z * x, 0.5 + 0.3 * z + 0.1 * x * y]
     return np.stack(colors, axis=-1).astype(np.float32)
@@ -39,7 +39,7 @@ def _picture() -> np.ndarray:
 
 
 def _times(calls: dict[str, Callable[[], object]], rounds: int) -> dict[str, list[float]]:
-    """Milliseconds of each call, one after the other in each round; the first round is apart."""
+    """Milliseconds of each call in each round; the calls take turns, and an additional first round warms up."""
     times: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(rounds + 1):
         for name, call in calls.items():
@@ -74,7 +74,7 @@ def _refused(section: Section, largest: float) -> Section:
 
 
 def run(quick: bool) -> list[Section]:
-    """Compare the pictures away from the faces' edges, then time both ways in turns."""
+    """Compare the pictures, except near the faces' edges, then time both directions in turns."""
     titles = {
         "e2c": "equirect 2048x1024 to cube 512, float32",
         "c2e": "cube 512 to equirect 2048x1024, float32",

@@ -1,4 +1,4 @@
-"""One line about what the numbers were measured on."""
+"""One line about the machine on which the numbers were measured."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _gl() -> str:
 
         with cc.Renderer() as renderer:
             return f"{renderer.info.renderer}, {renderer.info.version}"
-    except Exception as error:  # the line is for people: any reason will do
+    except Exception as error:  # the line is for people, so any error may appear in it
         return f"no renderer ({error})"
 
 
@@ -33,7 +33,7 @@ def describe() -> dict[str, str | int]:
     found: dict[str, str | int] = {
         "cpu": _cpu(),
         "cores": len(os.sched_getaffinity(0)),
-        "load": f"{os.getloadavg()[0]:.1f}",  # much above 0 before the start: others work here too
+        "load": f"{os.getloadavg()[0]:.1f}",  # much above 0 if other programs are running
         "gl": _gl(),
         "python": platform.python_version(),
     }

@@ -1,7 +1,7 @@
-"""The marks of speed: each work's CPU time of all threads, alone or over a peer's, next to what it may be.
+"""The marks of speed: the CPU time of each work in all threads, or its ratio to a peer's time, next to its limit.
 
-The two sides of a ratio run in two processes that take turns, a block of frames each, and the ratio is the median of
-the rounds'. Where both draw the same, their pictures are compared first.
+The two sides of a ratio run in two processes that take turns, a block of frames each, and the ratio is the median
+over the rounds. Where both draw the same, their pictures are compared first.
 """
 
 from __future__ import annotations
@@ -22,12 +22,13 @@ from .results import Mark, Section
 
 COUNT = 10_000
 SMALL = (64, 64)
-BLOCK = 4  # frames in a row; the first, with another process's data in the caches, is not timed
+BLOCK = 4  # frames in a row; the first is not timed, since caches hold another process's data
 COMPARED_FRAMES = (1, 6)
-# Rasterisers round a corner to 1/256 of a pixel: two orders of the same sums can move a silhouette by a pixel.
+# Rasterisers round a vertex to 1/256 of a pixel, so that another order of the same sums can move a
+# silhouette by a pixel.
 STEPS, OUTLIERS = 1, 0.0005
 
-Times = dict[str, list[list[float]]]  # of each step: a list a round
+Times = dict[str, list[list[float]]]  # for each step a list of rounds, each a list of times
 
 
 class _Pair:
@@ -39,7 +40,7 @@ class _Pair:
             stack.callback(program.close)
 
     def difference(self, limit: float = OUTLIERS, steps: int = STEPS) -> str | None:
-        """None if the pictures of the first two are the same, else how much they differ."""
+        """None if the pictures of the first two programs are the same, else a text that says how much they differ."""
         with tempfile.TemporaryDirectory() as folder:
             for frame in COMPARED_FRAMES:
                 shots = []
@@ -55,7 +56,7 @@ class _Pair:
         return None
 
     def times(self, rounds: int, block: int = BLOCK) -> list[Times]:
-        """CPU milliseconds of every program: {"move": [...], "draw": [...]}, a list a round."""
+        """CPU milliseconds of every program: {"move": [...], "draw": [...]}, with one list for each round."""
         found: list[Times] = [{"move": [], "draw": []} for _ in self.programs]
         for index in range(rounds + 1):
             for program, times in zip(self.programs, found, strict=True):
@@ -67,7 +68,7 @@ class _Pair:
 
 
 def _whole(times: Times) -> list[float]:
-    """The median of moving and drawing together, of each round."""
+    """The median time of moving and drawing together, for each round."""
     return [
         statistics.median(np.add(move, draw).tolist())
         for move, draw in zip(times["move"], times["draw"], strict=True)
@@ -246,7 +247,7 @@ PARTS = tuple(_PARTS)
 
 
 def run(part: str, *, quick: bool, old: Path | None = None) -> list[Section]:
-    """The marks of one part; `old` is a ready tree of the version before."""
+    """The marks of one part; `old` is a built tree of the previous version."""
     section = Section(part, part)
     measure = partial(_p14, old=old) if part == "marks-p14" else _PARTS[part]
     with ExitStack() as stack:

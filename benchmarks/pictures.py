@@ -1,4 +1,4 @@
-"""Whether two pictures show the same."""
+"""A comparison of two pictures that should show the same."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-# Two rasterisers of one scene may round a colour or a vertex differently: one step of 255 for each
-# of shading and reflected face, one for the frame. Where a pixel's neighbourhood jumps by more than
-# EDGE, the same rounding moves a silhouette by a pixel; those pixels are counted, not compared.
+# Two rasterisers of one scene may round a colour or a vertex differently. That gives a difference
+# of one step of 255 each for shading, reflected face and frame. Where a pixel's neighbourhood spans
+# more than EDGE, such rounding can move a silhouette by a pixel; those pixels are counted, not
+# compared.
 STEPS = 3
 EDGE = 16
 EDGE_SHARE = 0.08
@@ -17,7 +18,7 @@ OUTLIERS = 1e-4
 
 @dataclass(frozen=True)
 class Difference:
-    """How far a picture is from another, in steps of 255, away from silhouettes."""
+    """How much a picture differs from another, in steps of 255, away from silhouettes."""
 
     largest: int
     mean: float
@@ -36,7 +37,7 @@ class Difference:
 
 
 def _edges(picture: np.ndarray) -> np.ndarray:
-    """(H, W) bool: a pixel's 3 x 3 neighbourhood spans more than EDGE in some channel."""
+    """(H, W) bool: True where a pixel's 3 x 3 neighbourhood spans more than EDGE in some channel."""
     high = low = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
     for axis in (0, 1):
         count = high.shape[axis] - 2

@@ -14,11 +14,11 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 class WorkerError(Exception):
-    """A worker ended, with the last line it wrote."""
+    """A worker has ended; the message is the last line that it wrote."""
 
 
 class Process:
-    """A running program that answers one JSON line for each that it is sent."""
+    """A running program that answers one JSON line for each JSON line that it reads."""
 
     def __init__(self, name: str, arguments: list[str], env: dict[str, str] | None = None) -> None:
         self.name = name
@@ -81,7 +81,7 @@ class Worker(Process):
 class CpuWorker(Process):
     """A running `benchmarks/cpu_worker.py`: `program` is MODULE:CLASS in `tree`'s benchmarks.
 
-    The package `cubecam` of another tree than this one is found in that tree's folder python.
+    If `tree` is not this one, the package `cubecam` is imported from the folder python of `tree`.
     """
 
     def __init__(self, program: str, tree: Path = ROOT, **options: Any) -> None:
@@ -93,7 +93,7 @@ class CpuWorker(Process):
 
 
 def run_python(code: str, env: dict[str, str]) -> dict[str, Any]:
-    """What a fresh interpreter prints as JSON in its last line."""
+    """The JSON that a new interpreter prints in its last line."""
     done = subprocess.run(
         [sys.executable, "-c", code], cwd=ROOT, env=env, capture_output=True, text=True
     )

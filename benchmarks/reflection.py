@@ -25,7 +25,7 @@ DEFAULT = (
 VARIANTS = ("moderngl, culled by hand", "ZenGL, culled by hand")
 MARKS = {"moderngl": 1 / 2, "ZenGL": 2 / 3}
 COMPARED_FRAMES = (0, 7, 23, 40)
-BLOCK = 6  # frames in a row; the first, with another process's data in the caches, is not timed
+BLOCK = 6  # frames in a row; the first is not timed, since caches hold another process's data
 
 
 def _start(names: tuple[str, ...], mesh: Path, stack: ExitStack, section: Section) -> list[Worker]:
@@ -43,7 +43,7 @@ def _start(names: tuple[str, ...], mesh: Path, stack: ExitStack, section: Sectio
 
 
 def _compare(workers: list[Worker], folder: Path, section: Section) -> bool:
-    """Whether all draw the same pictures; notes by how much they differ."""
+    """Whether all workers draw the same pictures; the section's notes say how much they differ."""
     shots: dict[str, list[np.ndarray]] = {}
     for worker in workers:
         for frame in COMPARED_FRAMES:
@@ -108,7 +108,7 @@ def run(size: str, teapot: Path, *, quick: bool, variants: bool) -> list[Section
 
 
 def _mark(section: Section) -> None:
-    """Each peer's mark goes to its fastest way to draw every face."""
+    """Give each peer's mark to the row of its fastest way to draw every face."""
     for peer, mark in MARKS.items():
         rows = [r for r in section.rows if r.name.startswith(peer) and r.name not in VARIANTS]
         if rows:

@@ -1,4 +1,4 @@
-"""What a benchmark found, as rows of a table and as JSON."""
+"""The results of a benchmark, as rows of a table and as JSON."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rich.table import Table
 
 @dataclass
 class Row:
-    """One implementation's time, and cubecam's as a share of it."""
+    """The time of one implementation, and cubecam's time as a share of it."""
 
     name: str
     ms: float
@@ -28,10 +28,10 @@ class Row:
 
 @dataclass
 class Mark:
-    """A work, its figure and what it may be at most; without a limit it only informs."""
+    """A work, its figure and the limit of the figure; a mark without a limit only informs."""
 
     work: str
-    figure: float | None  # None: not measured, the note says why
+    figure: float | None  # None if it was not measured; the note then says why
     limit: float | None
     unit: str = "x"  # "ms" for a time, "ms more" for a difference, "x" for a ratio
     note: str = ""

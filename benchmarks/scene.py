@@ -1,7 +1,7 @@
 """The numbers of program P14 (dynamic reflection), as plain arrays that every implementation draws.
 
 Two actors circle a mirror ball over a ground; the ball reflects a cubemap that is captured anew for
-each frame. Matrices act on column vectors and are written in reading order; GL wants them transposed.
+each frame. Matrices act on column vectors and are written in reading order; GL needs them transposed.
 """
 
 from __future__ import annotations
@@ -26,14 +26,14 @@ ACTOR_COLORS = ((0.4, 1.0, 0.4), (1.0, 0.4, 0.4))
 ORBIT_RADIUS, ORBIT_HEIGHT, ORBIT_STEP = 2.5, -0.5, 0.1
 BALL_RADIUS, BALL_COLOR, ENV_WEIGHT, COLOR_WEIGHT = 0.5, (0.95, 0.85, 0.4), 0.78, 0.3
 
-# Capture cameras of the OpenGL cube map table: +X -X +Y -Y +Z -Z.
+# The capture cameras of the OpenGL cube map table, in the order +X -X +Y -Y +Z -Z.
 FACE_FORWARD = ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
 FACE_UP = ((0, -1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (0, -1, 0), (0, -1, 0))
 
 
 @dataclass(frozen=True)
 class MeshArrays:
-    """What a mesh is to every implementation: (V, 3), (V, 3) float32 and (F, 3) uint32."""
+    """The arrays of a mesh for every implementation: (V, 3), (V, 3) float32 and (F, 3) uint32."""
 
     positions: np.ndarray
     normals: np.ndarray
@@ -74,7 +74,7 @@ def _grid_triangles(rows: int, columns: int, wrap: bool) -> np.ndarray:
 
 
 def ground_mesh() -> MeshArrays:
-    """A square in the XZ plane that looks up."""
+    """A square in the XZ plane whose normal points up."""
     h = GROUND_SIZE / 2
     positions = np.array([(-h, 0, -h), (-h, 0, h), (h, 0, h), (h, 0, -h)])
     return _mesh(positions, np.array([(0, 1, 2), (0, 2, 3)]), np.tile([0.0, 1.0, 0.0], (4, 1)))
@@ -101,7 +101,7 @@ def sphere_mesh(radius: float, slices: int = 64, stacks: int = 32) -> MeshArrays
 
 
 def knot_mesh(size: float, around: int = 300, across: int = 30) -> MeshArrays:
-    """A (2, 3) torus knot of 2 * around * across triangles: curved, concave and nowhere symmetric by a mirror."""
+    """A (2, 3) torus knot of 2 * around * across triangles, which is curved, concave and has no mirror symmetry."""
     t = np.linspace(0, 2 * np.pi, around, endpoint=False)
 
     def curve(t: np.ndarray) -> np.ndarray:
@@ -123,7 +123,7 @@ def knot_mesh(size: float, around: int = 300, across: int = 30) -> MeshArrays:
 
 
 def obj_mesh(path: Path, size: float) -> MeshArrays:
-    """The positions and triangles of an OBJ file that holds nothing else, centred, its largest extent `size`."""
+    """The mesh of an OBJ file that holds only positions and triangles, centred, with the largest extent `size`."""
     lines = [line.split() for line in path.read_text().splitlines()]
     positions = np.array([line[1:4] for line in lines if line[:1] == ["v"]], dtype=np.float64)
     indices = np.array([line[1:4] for line in lines if line[:1] == ["f"]], dtype=np.int64) - 1
@@ -175,7 +175,7 @@ def translation(position) -> np.ndarray:
 
 
 def actor_positions(frame: int) -> list[tuple[float, float, float]]:
-    """Where the two actors stand in a frame: half a turn apart."""
+    """The positions of the two actors in a frame, which are half a turn apart."""
     angles = (frame * ORBIT_STEP, frame * ORBIT_STEP + np.pi)
     return [
         (ORBIT_RADIUS * float(np.cos(a)), ORBIT_HEIGHT, ORBIT_RADIUS * float(np.sin(a)))

@@ -1,6 +1,6 @@
-"""The GLSL of program P14 that the peers share: what document 000 prints, in modern GLSL.
+"""The GLSL of program P14 that the peers share: the shaders that document 000 prints, in modern GLSL.
 
-Block 0 is what a view needs, block 1 what an object needs; both are std140.
+Block 0 holds the data of a view, block 1 those of an object; both are std140.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def view_block(view_projection: np.ndarray, eye) -> bytes:
 
 
 def object_block(position, color) -> bytes:
-    """The bytes of block Object, for an object that is only moved: its normals are its mesh's."""
+    """The bytes of block Object for an object that is moved but not turned, so its mesh's normals stay valid."""
     return (
         np.vstack([scene.translation(position).T, np.eye(4), [[*color, 1]]])
         .astype(np.float32)

@@ -1,4 +1,4 @@
-"""Time from a fresh interpreter to `import` and to the first picture, cubecam and moderngl."""
+"""The time from the start of an interpreter to `import` and to the first picture, for cubecam and moderngl."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ assert faces.shape[:3] == (6, 256, 256)
 print(json.dumps({"import": imported - start, "picture": done - start}))
 """
 
-# A single triangle without a depth buffer, a light or a matrix: the least a context can draw.
+# This program draws one triangle without a depth buffer, a light or a matrix: a minimal picture.
 MODERNGL = """
 import json, time
 start = time.perf_counter()
@@ -53,7 +53,7 @@ print(json.dumps({"import": imported - start, "picture": done - start}))
 
 
 def run(quick: bool) -> list[Section]:
-    """Cold: an empty shader cache of the driver. Warm: the same programs were run before."""
+    """Time cold starts, with the driver's shader cache empty, and warm ones, after a run of the same programs."""
     section = Section("startup", "fresh interpreter to first picture")
     programs = {"cubecam": CUBECAM, "moderngl": MODERNGL}
     found: dict[tuple[str, str], list[dict[str, float]]] = {}

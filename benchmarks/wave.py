@@ -1,4 +1,4 @@
-"""A sheet of 100,000 vertices that waves, as plain numbers that every implementation draws."""
+"""A sheet of 100,000 vertices that moves in waves, as plain numbers that every implementation draws."""
 
 from __future__ import annotations
 

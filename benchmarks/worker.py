@@ -1,9 +1,9 @@
-"""A process that draws P14 with one implementation; it reads its orders line by line.
+"""A process that draws P14 with one implementation; it reads its requests line by line.
 
     python -m benchmarks.worker NAME MESH.npz
 
 It answers one JSON line for each JSON line it reads. One process for each implementation keeps their GL
-libraries, allocators and caches apart; the parent lets only one of them work at a time.
+libraries, allocators and caches separate; the parent lets only one process work at a time.
 """
 
 from __future__ import annotations

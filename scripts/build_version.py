@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 
 def module_of(folder: Path) -> Path | None:
-    """Give the compiled module of a tree, or None if it has none."""
+    """Return the compiled module of a tree, or None if the tree has none."""
     return next((folder / "python" / "cubecam").glob("_core*.so"), None)
 
 
@@ -29,14 +29,14 @@ def build(revision: str, folder: Path) -> Path:
     Parameters
     ----------
     revision : str
-        What git calls it: a commit, a tag or a branch.
+        A name that git knows: a commit, a tag or a branch.
     folder : Path
-        Made if it does not exist. If its module is there already, nothing is built.
+        The folder is made if it does not exist. If it holds a module already, nothing is built.
 
     Returns
     -------
     Path
-        What PYTHONPATH must name to use that version.
+        The folder that PYTHONPATH must name to use that version.
     """
     package = folder / "python"
     if module_of(folder) is not None:
@@ -53,7 +53,7 @@ def build(revision: str, folder: Path) -> Path:
 
 
 def compile_module(tree: Path, objects: Path, *options: str) -> Path:
-    """Compile a tree's module with options of CMake, in a folder for what that leaves. Gives the module."""
+    """Compile a tree's module with options of CMake, in the folder `objects`. Return the module's path."""
     import pybind11
 
     tools = Path(sys.executable).parent

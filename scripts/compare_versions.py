@@ -1,14 +1,14 @@
 """Draw many pictures with this version and with an older one, and compare their bytes.
 
     python scripts/compare_versions.py                          the older one is built from git
-    python scripts/compare_versions.py --before DIR             it lies in DIR, built (see build_version.py)
+    python scripts/compare_versions.py --before DIR             it lies, compiled, in DIR (see build_version.py)
     python scripts/compare_versions.py --only P14 --only world3 --save-differences out
     python scripts/compare_versions.py --keep DIR               the older version's pictures are kept in DIR and
                                                                 not drawn again by the next comparison
 
 The pictures are the first, middle and last frame of the programs P1 to P17, those of tests/images, and random
-worlds (random_worlds.py). Each version draws in a process of its own, its examples and reference pictures as its
-own tree has them; this version is the `cubecam` that Python finds. The exit code is 1 if any picture differs.
+worlds (random_worlds.py). Each version draws in a process of its own and uses the examples and reference pictures
+of its own tree; this version is the `cubecam` that Python finds. The exit code is 1 if any picture differs.
 
 With --allow-ties a pixel may differ where both versions see different nodes at exactly the same distance.
 """
@@ -52,12 +52,12 @@ class Recorder:
         return self.renderer.render(scene, camera, size, **options)
 
     def surfaces(self) -> dict[str, Any]:
-        """Distance and id of what the last call drew; empty where there is no such thing."""
+        """The distance and id of what the last call drew, or nothing where its pictures have no such outputs."""
         scene, camera, size, options = self.last
         options = {**options, "outputs": ("distance", "id"), "effects": (), "samples": 1}
         try:
             frame = self.renderer.render(scene, camera, size, **options)
-        except ValueError:  # without a depth buffer, and of an anaglyph
+        except ValueError:  # there is no depth buffer, or the picture is an anaglyph
             return {}
         return {"distance": frame.distance, "id": frame.id}
 
@@ -120,7 +120,7 @@ def all_pictures(only: list[str], renderer: Any) -> Iterator[tuple[str, dict[str
 
 
 def draw(folder: Path, only: list[str]) -> None:
-    """Draw everything with the cubecam that is imported; a file a picture."""
+    """Draw everything with the imported cubecam, and write one file for each picture."""
     import cubecam as cc
 
     print(f"cubecam at {Path(cc.__file__).parent}", flush=True)
@@ -157,21 +157,21 @@ def same_bytes(a: Any, b: Any) -> bool:
 
 
 def differing_pixels(a: Any, b: Any) -> Any:
-    """Where two arrays differ: of the shape of their pixels, without channels."""
+    """True for each pixel in which two arrays differ; the result has no channels."""
     bits = [np.ascontiguousarray(x).view(f"u{x.dtype.itemsize}") for x in (a, b)]
     differ = bits[0] != bits[1]
     return differ.any(axis=-1) if differ.ndim > 2 and differ.shape[-1] <= 4 else differ
 
 
 def ties(before: Any, after: Any) -> Any:
-    """Where both see different nodes at exactly the same distance; None if that is not known."""
+    """True where both versions see different nodes at exactly the same distance; None if that is not known."""
     if "distance" not in before or "id" not in before:
         return None
     return (before["distance"] == after["distance"]) & (before["id"] != after["id"])
 
 
 def compare(before: Any, after: Any, allow_ties: bool) -> tuple[str, bool]:
-    """What to say of a picture, and whether it may be as it is."""
+    """A text about a picture's difference, and whether this difference is allowed."""
     if sorted(before) != sorted(after):
         return f"DIFFERS: {sorted(before)} before, {sorted(after)} after", False
     if "error" in before:
@@ -192,7 +192,7 @@ def compare(before: Any, after: Any, allow_ties: bool) -> tuple[str, bool]:
         known = tied is not None and tied.shape == differ.shape
         excused = int((differ & tied).sum()) if known else 0
         count = int(differ.sum())
-        with np.errstate(invalid="ignore"):  # infinity minus infinity
+        with np.errstate(invalid="ignore"):  # infinity minus infinity is NaN
             gap = np.abs(a.astype(np.float64) - b.astype(np.float64))
         most = np.nanmax(gap[np.isfinite(gap)], initial=0)
         said.append(
@@ -205,7 +205,7 @@ def compare(before: Any, after: Any, allow_ties: bool) -> tuple[str, bool]:
 
 
 def save_difference(folder: Path, name: str, before: Any, after: Any) -> None:
-    """Write PNG files of a picture of both versions and of where they differ."""
+    """Write PNG files: the picture by each version, and the places where the two differ."""
     from PIL import Image
 
     folder.mkdir(parents=True, exist_ok=True)
@@ -237,7 +237,7 @@ def flat(array: Any) -> Any:
 
 
 def report(before: Path, after: Path, arguments: argparse.Namespace) -> int:
-    """Compare two folders of pictures: a line a picture, then a summary. Gives the exit code."""
+    """Compare two folders of pictures; print a line for each picture, then a summary. Return the exit code."""
     names = [
         {path.name[6:-4]: path for path in sorted(folder.glob("*.npz"))}
         for folder in (before, after)

@@ -1,6 +1,6 @@
 """Install what pyproject.toml names into the environment whose interpreter runs this.
 
-    .venv/bin/python scripts/packages.py build run      what building and running need
+    .venv/bin/python scripts/packages.py build run      packages that building and running need
     .venv/bin/python scripts/packages.py test docs      extras, by their names in pyproject.toml
     .venv/bin/python scripts/packages.py --package      cubecam itself, compiled in build/
 
@@ -17,11 +17,12 @@ from pathlib import Path
 
 try:
     import tomllib
-except ModuleNotFoundError:  # Python 3.10
+except ModuleNotFoundError:  # Python 3.10 has no tomllib
     from pip._vendor import tomli as tomllib  # type: ignore[no-redef]
 
 ROOT = Path(__file__).resolve().parent.parent
-# The environment's own, even where the system has some: everyone then builds with the same ones.
+# The environment has build tools of its own, even where the system has some, so that everyone
+# builds with the same ones.
 BUILD_TOOLS = ["cmake>=3.25", "ninja>=1.11"]
 
 

@@ -1,7 +1,7 @@
-"""Random scenes in which every feature of the renderer meets every other, for comparing two versions.
+"""Random scenes that combine all features of the renderer, for comparing two versions.
 
-A world depends on its number alone. It is written in the names of the present version; `Names` finds what the
-version that is imported calls the same things.
+A world depends on its number alone. The code uses the names of the present version; `Names` finds the names that
+the imported version has for the same things.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ METHODS = {"update_probes": "update", "read_probe": "cubemap", "read_texture": "
 
 
 class Names:
-    """Functions under their present names, also if the imported version has older names."""
+    """Functions by their present names, also if the imported version has older names."""
 
     @staticmethod
     def node(name: str) -> str:
@@ -86,7 +86,7 @@ EFFECTS = (MIX, VEIL)
 
 
 class World:
-    """A scene, the things in it that can be changed, and how it is looked at."""
+    """A scene, the things in it that can be changed, and the cameras and options of its pictures."""
 
     def __init__(self, number: int) -> None:
         self.rng = np.random.default_rng(number)
@@ -171,7 +171,7 @@ class World:
         )
 
     def surface(self) -> dict[str, Any]:
-        """What every material takes by keyword."""
+        """The keyword arguments that every material takes."""
         options: dict[str, Any] = {"stencil": self.stencil(), "double_sided": self.chance(0.3)}
         if self.chance(0.3):
             options["opacity"] = self.number(0.2, 0.9)
@@ -192,7 +192,7 @@ class World:
         return self.one(*self.images, *self.textures)
 
     def around(self) -> Any:
-        """A cubemap or a probe."""
+        """A cubemap or a probe to use as an environment."""
         if self.chance(0.4):
             return self.one(*self.cubes)
         if self.probes and self.chance(0.3):
@@ -449,7 +449,7 @@ class World:
         }
 
     def change(self) -> None:
-        """What happens between two steps."""
+        """Change things of the world, as happens between two steps."""
         nodes = self.outer.nodes + self.inner.nodes
         for _ in range(self.integer(1, 4)):
             node = self.one(*nodes)
@@ -491,7 +491,7 @@ def camera_has_outputs(camera: Any) -> bool:
 def attempt(
     arrays_of: Callable[..., dict[str, Any]], call: Any, *given: Any, **options: Any
 ) -> Any:
-    """Give the arrays of what a call gives, or the kind of its error: both versions must refuse the same."""
+    """Return the arrays of a call's result, or the kind of its error: both versions must refuse the same calls."""
     try:
         return arrays_of(call(*given, **options))
     except (ValueError, cc.Error) as error:
@@ -513,7 +513,7 @@ def of_array(array: Any) -> dict[str, Any]:
 
 
 def pictures(number: int, renderer: Any) -> Iterator[tuple[str, dict[str, Any]]]:
-    """Draw a world step by step: pairs of a name and the arrays of a picture."""
+    """Draw a world step by step, and yield the name and the arrays of each picture."""
     world = World(number)
     for step in range(STEPS):
         camera, size, options = world.frame()

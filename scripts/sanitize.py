@@ -2,8 +2,8 @@
 
     python scripts/sanitize.py [options of pytest]         without options: tests/unit and tests/gl
 
-The module lies in build/asan beside a copy of the Python files. Both sanitizers are preloaded, as the
-interpreter has neither: AddressSanitizer alone would stop at the first exception of C++.
+The module lies in build/asan beside a copy of the Python files. Both sanitizers are preloaded, because the
+interpreter contains neither: AddressSanitizer alone would stop at the first exception of C++.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ ROOT = Path(__file__).resolve().parent.parent
 FLAGS = (
     "-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer"
 )
-#: The interpreter never frees all that it holds.
+#: These leaks are not reported, because the interpreter never frees all that it holds.
 SUPPRESSIONS = "leak:libpython3\nleak:_PyObject\nleak:PyType\n"
 
 
 def library(name: str) -> str:
-    """Where the compiler has a library."""
+    """The path at which the compiler finds a library."""
     command = [os.environ.get("CXX", "c++"), f"-print-file-name={name}"]
     return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 

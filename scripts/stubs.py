@@ -25,14 +25,15 @@ ROOT = Path(__file__).resolve().parent.parent
 STUB = ROOT / "python" / "cubecam" / "_core.pyi"
 
 
-#: Stands for numpy's union of many types, and is written by its name.
+#: This type stands for numpy's union of many types, and stubs write it by its name.
 ARRAY_LIKE = type("ArrayLike", (), {"__module__": "numpy.typing"})
 
 
 def make_describable() -> None:
     """Undo, in this process, what hides the module's contents from the generator.
 
-    Classes call themselves cubecam.Scene, which is what users see, and would be taken for imports.
+    Classes name themselves as users see them, for example cubecam.Scene; the generator would take such names
+    for imports.
     Methods and properties that python/cubecam/_attach.py adds are plain functions with annotations as text.
     """
     for name, thing in vars(_core).items():
@@ -75,9 +76,9 @@ def without_package_prefix(text: str) -> str:
 
 
 def with_plain_enums(text: str) -> str:
-    """Give members of enumerations their values: annotated names are no members to type checkers.
+    """Give members of enumerations their values, since type checkers do not see annotated names as members.
 
-    What enum itself defines is left out; it differs between versions of Python.
+    What the module enum itself defines is left out, because it differs between versions of Python.
     """
     lines = text.splitlines(keepends=True)
     for kind in reversed(ast.parse(text).body):
@@ -116,7 +117,7 @@ def ruff(text: str, *command: str) -> str:
 
 
 def generate() -> str:
-    """Text of the stub, by pybind11-stubgen and ruff of the versions that pyproject.toml pins."""
+    """Return the stub's text, made by pybind11-stubgen and ruff in the versions that pyproject.toml pins."""
     make_describable()
     with tempfile.TemporaryDirectory() as folder:
         pybind11_stubgen.main([_core.__name__, "--output-dir", folder, "--exit-code"])

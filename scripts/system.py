@@ -1,8 +1,8 @@
-"""Make the machine ready: what only the system can provide, then the virtual environment.
+"""Install what only the system can provide, then make the virtual environment.
 
-Standard library only, because nothing else is installed yet. On Debian and Ubuntu what is missing
-is installed with apt, as root or by sudo; on another Linux it is named, and the program stops.
-Nothing missing: nothing is done, and the network is not touched.
+The script uses the standard library only, because nothing else is installed yet. On Debian and
+Ubuntu, apt installs what is missing, as root or by sudo; on another Linux the script names what is
+missing and stops. If nothing is missing, nothing is installed and the network is not used.
 
     python3 scripts/system.py .venv
 """
@@ -22,8 +22,8 @@ from pathlib import Path
 
 OLDEST_PYTHON = (3, 10)
 
-# Opens Mesa without a screen, as cubecam does. It runs in a process of its own, because a driver
-# that is broken may end the process that checks it.
+# This program opens Mesa without a screen, as cubecam does. It runs in a process of its own,
+# because a broken driver may end the process that checks it.
 EGL_PROBE = """
 import ctypes, os, sys
 try:
@@ -45,7 +45,7 @@ EGL_NO_LIBRARY, EGL_NO_DRIVER = 3, 4
 
 
 class SetupError(Exception):
-    """Something the user has to solve; the message says what and how."""
+    """A problem that the user has to solve; the message says what is wrong and what to do."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class Need:
 
 
 def python_package(suffix: str) -> str:
-    """Debian's name of a part of this Python: python3-venv, or python3.12-venv of another one."""
+    """Debian's name of a part of this Python: python3-venv for the system's Python, else such as python3.12-venv."""
     version = f"{sys.version_info.major}.{sys.version_info.minor}"
     default = Path("/usr/bin/python3").resolve().name
     return suffix.format("3" if default == f"python{version}" else version)
@@ -115,7 +115,7 @@ def needs(venv: Path) -> list[Need]:
             of_python=True,
         ),
         Need("a C++ compiler", lambda: compiler() is not None, ("g++",), "gcc-c++", "gcc"),
-        # Not required: CMake fetches GLM where it is not installed.
+        # GLM is not required: CMake fetches it where it is not installed.
         Need(
             "GLM",
             lambda: compiles("#include <glm/glm.hpp>\n"),
@@ -142,7 +142,7 @@ def needs(venv: Path) -> list[Need]:
 
 
 def distribution() -> set[str]:
-    """Names by which /etc/os-release calls this Linux: its own and those it is like."""
+    """The names of this Linux in /etc/os-release: its own name and those of similar systems."""
     try:
         text = Path("/etc/os-release").read_text(encoding="utf-8")
     except OSError:
@@ -180,7 +180,7 @@ def install_with_apt(packages: list[str]) -> None:
         )
     prefix = [] if os.geteuid() == 0 else ["sudo"]
     say(f"installing with apt: {' '.join(packages)}")
-    # A fresh Ubuntu holds the lock for its own updates in its first minutes.
+    # A new Ubuntu holds apt's lock in its first minutes, for its own updates.
     apt = [
         *prefix,
         "env",

@@ -1,4 +1,4 @@
-"""Build a wheel into dist/ and check it as its user would meet it.
+"""Build a wheel into dist/ and check it as its user would install it.
 
 The extension may link the C and C++ run times and nothing else: libGL, libEGL and libX11 are opened
 at run time, so that the wheel installs on a machine without them. Then the wheel goes into an empty
@@ -70,7 +70,7 @@ def try_it(wheel: Path, folder: Path) -> None:
     run(sys.executable, "-m", "venv", folder / "venv")
     python = folder / "venv" / "bin" / "python"
     run(python, "-m", "pip", "install", "--quiet", wheel)
-    # Another folder than the checkout, so that only the files of the wheel can be used.
+    # This is not the folder of the checkout, so that only the files of the wheel can be used.
     os.chdir(folder)
     subprocess.run([str(python), "-m", "cubecam", "demo", "--out", str(folder / "out")], check=True)
 

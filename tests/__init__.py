@@ -1,1 +1,1 @@
-"""The test suite: numpy only -> C++ against numpy -> GPU against numpy -> small reference images."""
+"""The test suite: tests of numpy only, of C++ against numpy, of the GPU against numpy, and of small pictures."""

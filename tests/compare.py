@@ -1,4 +1,4 @@
-"""One way to compare arrays: says how far, where, and leaves a picture of the difference."""
+"""One way to compare arrays: a failure says how much and where they differ, and leaves a picture of the difference."""
 
 import re
 from pathlib import Path
@@ -60,7 +60,7 @@ def place(index, shape):
 
 
 def save_difference(got, expected, difference, name):
-    """Three strips, one above the other, as a PNG below tests/failures; None for what is no picture."""
+    """Save three strips, one above the other, as a PNG below tests/failures; None if the arrays are no pictures."""
     strips = [picture_of(array) for array in (got, expected, difference)]
     if any(strip is None for strip in strips):
         return None
@@ -97,7 +97,7 @@ def current_test():
 
 
 def assert_identical(got, expected, name="bytes"):
-    """Bit for bit, shape and dtype included."""
+    """Compare bit for bit, with shape and dtype."""
     got, expected = np.asarray(got), np.asarray(expected)
     assert got.dtype == expected.dtype, f"{name}: expected {expected.dtype}, got {got.dtype}"
     if got.shape == expected.shape and got.tobytes() == expected.tobytes():

@@ -90,7 +90,7 @@ def any_path(request, shared_renderers):
 
 @pytest.fixture
 def fresh_renderer():
-    """A renderer of its own: no cache, no contents."""
+    """A renderer of the test's own, which has drawn nothing yet."""
     import cubecam
 
     with cubecam.Renderer(device=DEVICE) as made:
@@ -99,7 +99,7 @@ def fresh_renderer():
 
 @pytest.fixture
 def new_renderer():
-    """Makes renderers with options; closes them all at the end."""
+    """A function that makes renderers with options; all of them are closed at the end."""
     import cubecam
 
     made = []

@@ -12,7 +12,7 @@ import pytest
 
 from tests.reference.cube_faces import CONVENTIONS, FACE_IDS, LAYOUTS
 
-#: What tests draw on.
+#: The device on which tests draw.
 DEVICE = os.environ.get("CUBECAM_TEST_DEVICE", "software")
 
 faces = pytest.mark.parametrize("face", range(6), ids=FACE_IDS)
@@ -20,7 +20,7 @@ conventions = pytest.mark.parametrize("convention", CONVENTIONS)
 layouts = pytest.mark.parametrize("layout", LAYOUTS)
 dtypes = pytest.mark.parametrize("dtype", ["uint8", "float16", "float32"])
 channel_counts = pytest.mark.parametrize("channels", [1, 3, 4])
-#: The two ways to a copy: through bytes and by deepcopy.
+#: The two ways to make a copy: through bytes and by deepcopy.
 copies = pytest.mark.parametrize(
     "make_copy",
     [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy],
@@ -29,7 +29,7 @@ copies = pytest.mark.parametrize(
 
 
 def run_python(code, timeout=120, check=True, **environment):
-    """Run a script in an interpreter of its own; gives the finished process with text output."""
+    """Run a script in an interpreter of its own; return the finished process with its output as text."""
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", textwrap.dedent(code)],
         env={**os.environ, **{key: str(value) for key, value in environment.items()}},

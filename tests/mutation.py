@@ -56,12 +56,12 @@ class Copy:
             tool("cmake"), "-S", self.tree, "-B", self.build, "-G", "Ninja",
             f"-DCMAKE_MAKE_PROGRAM={tool('ninja')}", f"-DPython_EXECUTABLE={sys.executable}",
             f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", "-DCUBECAM_BUILD_MODULE=ON",
-            # Small units and little optimisation: what counts is the time of the next build.
+            # Small units and little optimisation make the next build fast.
             "-DCUBECAM_UNITY=OFF", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1",
         )  # fmt: skip
 
     def compile(self):
-        """Build and put the module beside its package; gives the compiler's complaint, or None."""
+        """Build, and put the module beside its package; return the compiler's error, or None."""
         done = self.run(tool("cmake"), "--build", self.build, "--target", "_core", check=False)
         if done.returncode != 0:
             return (done.stdout + done.stderr)[-2000:]
@@ -70,7 +70,7 @@ class Copy:
         return None
 
     def check_import(self):
-        """The copy must be what is tested, not an installed package."""
+        """Check that the tests import the copy, not an installed package."""
         code = "import cubecam, cubecam._core as c; print(cubecam.__file__); print(c.__file__)"
         done = self.run(sys.executable, "-c", code)
         for line in done.stdout.split():
@@ -108,7 +108,7 @@ def tool(name):
 
 
 def places(name):
-    """The sources of a name, relative to the tree."""
+    """The sources that have a name, relative to the tree."""
     return [
         path.relative_to(ROOT)
         for part in ("cpp", "shaders", "python")
@@ -128,7 +128,7 @@ def is_compiled(mutation):
 
 
 def stale(mutations):
-    """Mutations whose file is not one, or whose old text is not found exactly once."""
+    """Mutations whose name fits no source or several, or whose old text is not found exactly once."""
     found = []
     for m in mutations:
         if len(files := places(m.file)) != 1:
@@ -143,12 +143,12 @@ def occurrences(path, text):
 
 
 def pattern(text):
-    """Finds the text however a formatter has broken its lines."""
+    """A pattern that finds the text wherever a formatter has broken its lines."""
     return re.compile(r"\s+".join(re.escape(word) for word in text.split()))
 
 
 def try_mutation(copy, mutation):
-    """ "killed", or what is wrong instead."""
+    """Return "killed", or a text that says what is wrong."""
     path = copy.tree / place(mutation)
     original = path.read_text()
     compiled = is_compiled(mutation)

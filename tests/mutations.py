@@ -768,7 +768,7 @@ MUTATIONS = [
         "{",
         ("tests/gl/test_render_texture_circles.py",),
     ),
-    # What survived a search by hand: kinds that were not tested by value.
+    # Mutations that survived a search by hand, of kinds that no test compared by value.
     Mutation(
         "glb: normals by the matrix itself",
         "meshes.py",

@@ -1,4 +1,4 @@
-"""Notebooks: committed clean, numbered without gaps, shown with pictures; nbmake runs each from top to bottom."""
+"""Notebooks are committed clean, numbered without gaps and shown with pictures; nbmake runs each as a whole."""
 
 from pathlib import Path
 
@@ -18,7 +18,7 @@ def test_they_are_numbered_from_01():
 
 
 def test_the_suite_runs_them(pytestconfig):
-    """nbmake collects what stands in notebooks/, and `pytest` alone goes there."""
+    """nbmake collects the notebooks in notebooks/, and `pytest` without arguments runs them."""
     assert "notebooks" in pytestconfig.getini("testpaths")
     assert pytestconfig.option.nbmake
 

@@ -1,4 +1,4 @@
-"""The README's Python runs as it stands, and its material of one's own gives the picture it promises."""
+"""The README's Python runs unchanged, and its example of a user's own material gives the picture it promises."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Every tolerance of the suite in one table, each with its reason; everything else is compared exactly.
+"""Every tolerance of the suite in one table, each with its reason; all other values are compared exactly.
 
 A value passes when |got - expected| <= absolute + relative * |expected|, and the mean of the differences of all
 compared values stays below `mean`. Silhouettes are masked, never given a wider tolerance.

@@ -1,4 +1,4 @@
-"""Ten thousand boxes in cubecam: all moved, one moved, none moved, or beside the picture."""
+"""Ten thousand boxes in cubecam: all are moved, one is moved, none is moved, or many are out of view."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import cubecam as cc
 from .. import boxes
 
 ORIGIN = (0.0, 0.0, 0.0)
-BEHIND = np.array([0.0, 0.0, 40.0])  # of the camera, from the boxes that are seen
+BEHIND = np.array([0.0, 0.0, 40.0])  # offset from the boxes in view to those behind the camera
 
 
 def _mesh() -> cc.Mesh:
@@ -28,8 +28,8 @@ def _material(color, lit: bool) -> cc.Material:
 class Boxes:
     """All boxes and a camera.
 
-    `moved`: how many of the boxes move for a frame. `beside`: how many more stand behind the camera.
-    `bulk`: they are moved by one call of the scene, else one by one.
+    `moved`: how many of the boxes move for a frame. `beside`: how many more boxes stand behind the camera.
+    `bulk`: whether the boxes are moved by one call of the scene, else one by one.
     """
 
     def __init__(

@@ -68,7 +68,7 @@ class _Boxes:
         positions, normals, triangles = boxes.box_arrays()
         self.vertices = self.frame.ctx.buffer(np.hstack([positions, normals]).tobytes())
         self.triangles = self.frame.ctx.buffer(triangles.astype(np.uint16).tobytes())
-        # As GL has them: columns first, so that the last row of each holds the position.
+        # Matrices are stored as in GL, columns first, so the last row of each is the position.
         self.models = np.zeros((count, 4, 4), np.float32)
         self.models[:, :3, :3] = np.swapaxes(self.boxes.rotations(), 1, 2)
         self.models[:, 3, 3] = 1
@@ -91,7 +91,7 @@ class _Boxes:
 
 
 class Instanced(_Boxes):
-    """A matrix and the number of a material for each instance; one draw."""
+    """One draw call; each instance has a matrix and the number of a material."""
 
     def __init__(self, count: int, colors: int, lit: bool = True) -> None:
         super().__init__(count, colors)
@@ -119,7 +119,7 @@ class Instanced(_Boxes):
 
 
 class Loop(_Boxes):
-    """A draw for each box, its matrix and its colour set before."""
+    """One draw call for each box, before which the box's matrix and colour are set."""
 
     def __init__(self, count: int, colors: int, lit: bool = True) -> None:
         super().__init__(count, colors)

@@ -39,7 +39,7 @@ class Lit:
         self.renderer = cc.Renderer()
 
     def move(self, index: int) -> None:
-        # Nothing that is seen changes, but no face is what it was.
+        # No pixel changes visibly, but every face has to be drawn again.
         self.lights[0].intensity = 1.0 if index % 2 else math.nextafter(1.0, 0.0) - 1e-7
 
     def draw(self, index: int) -> np.ndarray:
@@ -50,7 +50,7 @@ class Lit:
 
 
 class Unchanged:
-    """A capture of which nothing changes, in the default format."""
+    """A capture in which nothing changes, in the default format."""
 
     def __init__(self, size: int) -> None:
         self.size = size
@@ -62,7 +62,7 @@ class Unchanged:
 
 
 class Copied:
-    """What the picture of `Unchanged` costs to copy into memory that is kept."""
+    """A copy of the picture of `Unchanged` into memory that is kept, whose time is compared."""
 
     def __init__(self, size: int) -> None:
         with cc.Renderer() as renderer:

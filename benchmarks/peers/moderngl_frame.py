@@ -1,4 +1,4 @@
-"""What the moderngl programs of the marks share: a context with a frame, and Phong's shader."""
+"""Code that the marks' moderngl programs share: a context with a framebuffer, and a Phong shader."""
 
 from __future__ import annotations
 
@@ -50,12 +50,12 @@ class Frame:
 
 
 def set_uniforms(program: moderngl.Program, **values) -> None:
-    """Sets those uniforms that the program has; a compiler drops what an unlit one does not use."""
+    """Set the uniforms that the program has; a compiler removes those that an unlit program does not use."""
     for name, value in values.items():
         if name in program:
             program[name].value = value
 
 
 def matrix_bytes(matrix: np.ndarray) -> bytes:
-    """A matrix in reading order as GL has it."""
+    """The bytes of a matrix given in reading order, in GL's order."""
     return np.ascontiguousarray(matrix.T, np.float32).tobytes()

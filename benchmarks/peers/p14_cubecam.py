@@ -14,8 +14,8 @@ from .. import scene
 class Program:
     """The scene of P14 and a renderer.
 
-    With `redraw=True` the light's intensity alternates between 1 and the next float: nothing that is
-    seen changes, but no view is what it was, so that every face is drawn for every frame.
+    With `redraw=True` the light's intensity alternates between 1 and the next float: no pixel changes
+    visibly, but every view has changed, so that every face is drawn for every frame.
     """
 
     def __init__(self, actor: scene.MeshArrays, redraw: bool = False) -> None:

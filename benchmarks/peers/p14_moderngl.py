@@ -3,7 +3,7 @@
 moderngl attaches no cube face to a framebuffer. Its users make the framebuffer with a 2D texture and put
 the cube's face in its place by one raw GL call, once (moderngl issue #570), outside of the measured frames.
 With `layered=True` the whole cube is attached and one instanced draw writes the six faces (gl_Layer from
-the vertex shader), the fastest that a user who leaves moderngl for four raw calls can do.
+the vertex shader). It is the fastest way for a user who adds four raw GL calls to moderngl.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ class Program:
         attach = self._raw("glFramebufferTexture", *[ctypes.c_uint] * 3, ctypes.c_int)
         attach(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, self.cube.glo, 0)
         attach(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, depth.glo, 0)
-        # moderngl masks depth writes of a framebuffer it made without a depth attachment.
+        # moderngl masks depth writes of a framebuffer that it made without a depth attachment.
         framebuffer.depth_mask = True
         self._depth = depth
         return framebuffer

@@ -34,7 +34,7 @@ void main() {{ out_color = vec4(phong(color, v_position, v_normal), 1.0); }}
 
 
 class Wave:
-    """One vertex array of two streams."""
+    """One vertex array with two streams."""
 
     def __init__(self) -> None:
         self.frame = Frame(wave.FRAME_SIZE, wave.CLEAR)

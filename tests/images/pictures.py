@@ -1,4 +1,4 @@
-"""The whole scenes whose small pictures are committed; scripts/compare_versions.py draws them as well."""
+"""The scenes whose small pictures are committed; scripts/compare_versions.py draws them as well."""
 
 import functools
 
@@ -58,7 +58,7 @@ def draw_reflection(renderer):
 
 
 def draw_capture(renderer):
-    """A captured cube as a cross in the convention that reads naturally."""
+    """A captured cube as a cross, in the convention whose faces look as seen from inside."""
     scene = cc.Scene(environment=surroundings("city"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(bunny(), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(0, 0, -2))

@@ -1,7 +1,7 @@
-"""A few small pictures of whole scenes against committed ones; on llvmpipe only, whose pixels are everywhere the same.
+"""A few small pictures of whole scenes against committed ones, on llvmpipe only: it draws the same pixels everywhere.
 
-They guard what no formula covers: that a change of one thing does not change another. After a change that is
-meant, write them anew and look at them:  pytest tests/images --regenerate-references
+They show whether a change of one thing changes another, which no formula covers. After an intended change,
+write the pictures anew and look at them:  pytest tests/images --regenerate-references
 """
 
 from pathlib import Path

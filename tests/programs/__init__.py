@@ -1,1 +1,1 @@
-"""Each program of the documents against numpy written from the document, over several frames."""
+"""Tests that compare each program of the documents with numpy code written from the same document."""

@@ -1,4 +1,4 @@
-"""What the programs' tests share: matrices as the documents write them, hits of a view, Phong of document 000."""
+"""Helpers of the programs' tests: the documents' matrices, the hits of a view, the Phong model of document 000."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ from tests.reference.raycast import Box, Quad
 from tests.reference.sampling import sample_faces
 
 GREY = (0.4, 0.4, 0.4)
-#: The mirror of P14 and P17.
+#: The colour of the mirror in P14 and P17.
 GOLD = np.array([0.95, 0.85, 0.4])
 LAMP = shading.Point((5, 5, 5))
 
@@ -47,7 +47,7 @@ def quad(node, edge, matrix):
 
 
 def mesh(node, matrix, size=None):
-    """A counterpart of triangles: the node's own mesh, or a file's at a size."""
+    """The oracle's counterpart of a node made of triangles: its own mesh, or the mesh of a file at a size."""
     shape = triangles_of(node.mesh if size is None else model(*size))
     shape.id, shape.matrix = node.id, matrix
     return shape
@@ -58,7 +58,7 @@ def model(name, size):
 
 
 class Look:
-    """A view from the numbers of a document: rays, and what they hit."""
+    """A view made from the numbers of a document: its rays, and what these rays hit."""
 
     def __init__(self, eye, target, fov, near, far, size):
         self.eye, self.size, self.near, self.far = np.asarray(eye, float), size, near, far
@@ -75,7 +75,10 @@ class Look:
 
 
 def lit(hits, colors, eye, background=GREY, **weights):
-    """Phong of document 000 for every pixel; colours by id, a colour or a picture where nothing is hit."""
+    """The Phong model of document 000 for every pixel.
+
+    `colors` maps an id to a colour; `background` is a colour or a picture, shown where nothing is hit.
+    """
     found = np.broadcast_to(np.asarray(background, float), (*hits.id.shape, 3)).copy()
     for number, color in colors.items():
         rows = hits.id == number
@@ -86,12 +89,15 @@ def lit(hits, colors, eye, background=GREY, **weights):
 
 
 def looked_up(cube, directions):
-    """A seamless lookup of directions, which may be NaN in the background."""
+    """A seamless lookup in a cube; the directions may be NaN where a pixel shows the background."""
     return sample_faces(cube, np.where(np.isfinite(directions), directions, 1.0))
 
 
 def unbroken(hits, jump=0.15):
-    """Where silhouettes are at least a pixel away, those of a shape before itself as well: t does not jump."""
+    """True where every silhouette is at least a pixel away, also where a shape hides a part of itself.
+
+    At such a silhouette the distance t jumps from one pixel to the next.
+    """
     t = np.where(hits.hit, hits.t, 1e3)
     padded = np.pad(t, [(0, 0)] * (t.ndim - 2) + [(1, 1)] * 2, mode="edge")
     height, width = t.shape[-2:]
@@ -104,7 +110,7 @@ def unbroken(hits, jump=0.15):
 
 
 def near_enough(got, want, mask, mean, tenth, name):
-    """For pictures with edges in them: near on the whole, and nine pixels of ten near by themselves."""
+    """Compare pictures that contain edges: the mean difference is below `mean`, nine pixels of ten below `tenth`."""
     assert mask.sum() > 30, f"{name}: {mask.sum()} pixels to compare, more than 30 are needed"
     difference = np.abs(np.asarray(got, float) - want)[mask]
     assert difference.mean() < mean, (
@@ -115,19 +121,19 @@ def near_enough(got, want, mask, mean, tenth, name):
 
 
 def photographs(size=64):
-    """Six smooth pictures that are all different: of the direction, and of the face."""
+    """Six smooth pictures, all different: their colours depend on the direction and on the face."""
     from tests.gl.world import smooth_environment
 
     faces = smooth_environment(size)
     ramp = np.linspace(0, 1, size, dtype=np.float32)
     for face in range(6):
-        # A slant of its own for each face, which a flip or a turn changes.
+        # Each face gets a slant of its own, which a flip or a turn changes.
         faces[face, ..., face % 3] += 0.1 * (1 + face) * ramp[None, :] * (0.3 + ramp[:, None])
     return faces
 
 
 def stage(program, frame):
-    """Ground and actors: on a circle of 2.5 round +Y, counter-clockwise, a tenth of a radian a frame."""
+    """The ground and the actors, which move counter-clockwise round +Y, 0.1 radian a frame, at radius 2.5."""
     ground = program.scene.nodes[0]
     shapes = [quad(ground, 10, moved(0, -2, 0))]
     colors = {ground.id: (0.4, 0.4, 1)}
@@ -140,7 +146,7 @@ def stage(program, frame):
 
 
 def predicted(events):
-    """The document's own lines: two angles that add up, and a place."""
+    """The place and the direction that the document's own lines give: they sum up two angles and move a place."""
     angle_x = angle_y = 0.0
     place = np.zeros(3)
     first = np.array([0, 0, 1.0])

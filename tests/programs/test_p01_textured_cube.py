@@ -1,4 +1,4 @@
-"""P1: every visible pixel is the lookup of its object-space position."""
+"""P1: every visible pixel shows what a lookup in the direction of its object-space position gives."""
 
 import numpy as np
 import pytest
@@ -19,7 +19,7 @@ def test_every_pixel_is_the_lookup_of_its_position(renderer, frame):
     program = textured_cube.build(images)
     color = textured_cube.draw(program, renderer, frame, size=SIZE, format="rgba32f")
     angle = 30 + 3 * frame
-    # The document's: Rx(angleY) Ry(angleX) scale(2), 60 degrees, near 1, far 15.
+    # The document has Rx(angleY) Ry(angleX) scale(2), 60 degrees, near 1, far 15.
     shape = box(program.cube, 2, rx(angle) @ ry(angle) @ scaled(2))
     hits = Look((0, 0, 7), (0, 0, 0), 60, 1, 15, SIZE).hits([shape])
     want = np.where(hits.hit[..., None], looked_up(images, hits.local), GREY)
@@ -30,7 +30,7 @@ def test_every_pixel_is_the_lookup_of_its_position(renderer, frame):
 
 @pytest.mark.parametrize("frame", [0, 60])
 def test_from_within(renderer, frame):
-    """The document's question: the camera at (0, 0, 0.001) is inside, and back faces are drawn."""
+    """The document asks for this view: the camera at (0, 0, 0.001) is inside, and back faces are drawn."""
     images = photographs()
     program = textured_cube.build(images, eye=(0, 0, 0.001))
     color = textured_cube.draw(program, renderer, frame, size=SIZE, format="rgba32f")
@@ -45,7 +45,7 @@ def test_the_photographs_are_six_of_512_by_512(renderer):
     program = textured_cube.build()
     cubemap = program.cube.material.cubemap
     assert (cubemap.size, cubemap.channels, cubemap.dtype) == (512, 3, np.uint8)
-    assert not cubemap.mipmaps  # LINEAR
+    assert not cubemap.mipmaps  # the document's filter is LINEAR
     assert len({face.tobytes() for face in cubemap.faces}) == 6
     camera = program.camera
     assert (camera.fov, camera.near, camera.far) == (60, 1, 15)

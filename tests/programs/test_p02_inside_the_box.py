@@ -9,7 +9,7 @@ from tests.gl.world import inner
 from tests.programs.oracle import GREY, Look, box, looked_up, photographs, predicted, scaled
 
 SIZE = (48, 48)
-#: Drags (angleX, angleY) and keys; the last lead out of the box.
+#: Drags (angleX, angleY) and keys; the last ones lead the camera out of the box.
 SCRIPT = [
     (25, 0),
     "w",
@@ -38,7 +38,7 @@ def test_frames(renderer, script):
         want = np.where(hits.hit[..., None], looked_up(images, hits.local), GREY)
         assert_close(color[..., :3], want, "shaded", mask=inner(hits), name=f"frame {frame}")
         outside += np.abs(place).max() > 2
-    assert outside > 0  # keep moving, and one leaves the box
+    assert outside > 0  # the script goes on until the camera has left the box
 
 
 def test_one_event_a_frame_and_none_before_the_first(renderer):
@@ -46,12 +46,12 @@ def test_one_event_a_frame_and_none_before_the_first(renderer):
     pictures = [inside_the_box.draw(program, renderer, k, size=(24, 24)) for k in (-1, 0, 1, 2, 3)]
     np.testing.assert_array_equal(pictures[0], pictures[1])
     assert (pictures[1] != pictures[2]).any()
-    np.testing.assert_array_equal(pictures[1], pictures[3])  # a step forwards, a step back
+    np.testing.assert_array_equal(pictures[1], pictures[3])  # one step forwards and one step back
     np.testing.assert_array_equal(pictures[3], pictures[4])
 
 
 def test_straight_up_keeps_the_view_and_moves_on(renderer):
-    """Rx(90) (0, 0, 1) is -Y, where lookAt with +Y up has no answer: the last view stays."""
+    """Rx(90) (0, 0, 1) is -Y, a direction for which lookAt with +Y up has no answer: the last view stays."""
     program = inside_the_box.build(photographs(8), script=[(0, 45), (0, 45), (0, 45), "w"])
     for frame in range(5):
         inside_the_box.draw(program, renderer, frame, size=(8, 8))

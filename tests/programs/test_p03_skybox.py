@@ -1,4 +1,4 @@
-"""P3: walking changes no background pixel; the sky is the direction's lookup, behind everything."""
+"""P3: walking changes no background pixel; the sky is a lookup by direction and lies behind everything."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ SCRIPT = [(40, 0), (0, 12), *["w"] * 8, (-30, 5), *["s"] * 5, (200, 0), *["w"] *
 
 
 def sky(look):
-    """inverse(projection * view without translation) * clip position, for every pixel."""
+    """The direction of every pixel: inverse(projection * view without translation) * clip position."""
     rotation = look.view.copy()
     rotation[:3, 3] = 0
     inverse = np.linalg.inv(look.projection @ rotation)
@@ -56,7 +56,7 @@ def test_walking_changes_no_pixel_of_the_background(renderer):
         assert_identical(picture[ids == 0], first[ids == 0])
         boxes_moved += (ids != 0).any()
     assert boxes_moved
-    assert np.linalg.norm(alone.camera.position) > 1  # and yet it walked
+    assert np.linalg.norm(alone.camera.position) > 1  # the camera did walk
 
 
 def test_turning_moves_it(renderer):
@@ -66,7 +66,7 @@ def test_turning_moves_it(renderer):
 
 
 def test_it_is_behind_everything(renderer):
-    """A wall just before far hides it; just beyond, the wall is gone."""
+    """A wall just before the far plane hides the sky; just beyond the far plane the wall is not seen."""
     program = skybox.build(photographs(16), boxes=False)
     wall = program.scene.add(
         cc.Mesh.box((90, 90, 1)), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, 15.4)

@@ -1,4 +1,4 @@
-"""P4: direction and colour of every pixel, reflected and refracted, for several etas."""
+"""P4: the direction and the colour of every reflecting and refracting pixel, for several values of eta."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ SIZE = (64, 64)
 
 
 def shapes_of(program, turn):
-    """Where the four stand: two stretched balls above, two teapots below, all turned together."""
+    """The four shapes in their places: two stretched balls above, two teapots below, all turned together."""
     found = {}
     for x, pair in ((-1, program.mirrors), (1, program.glass)):
         ball, pot = pair
@@ -43,7 +43,7 @@ def test_every_pixel(renderer, frame, eta):
     balls = np.isin(hits.id, [program.mirrors[0].id, program.glass[0].id])
     bounced = shading.reflect(incident, normal)
     bent = shading.refract(incident, normal, eta)
-    # Where nothing can be refracted the glass mirrors; at the border a rounding decides.
+    # Where no light can be refracted, the glass mirrors; at the border a rounding decides.
     k = 1 - eta**2 * (1 - shading.dot(incident, normal)[..., 0] ** 2)
     gone = glass & (k < 0)
     sure = ~glass | (np.abs(k) > 0.03)
@@ -54,14 +54,14 @@ def test_every_pixel(renderer, frame, eta):
         assert (gone & balls).sum() > 20
     for part, least in ((mirrors & balls, 0.03), (glass & balls, 0.03), (hits.id == 0, 0.4)):
         assert_close(color, want, "mirror", mask=part & seen & sure, least=least)
-    # A teapot's normals turn by much from one pixel to the next.
+    # The normals of a teapot change much from one pixel to the next.
     near_enough(color, want, mirrors & ~balls & seen & sure, 2e-3, 6e-3, "mirrored teapot")
     near_enough(color, want, glass & ~balls & seen & sure, 2e-3, 6e-3, "glass teapot")
 
 
 @pytest.mark.slow
 def test_a_stretched_ball_needs_the_inverse_transpose(renderer):
-    """mat3(model), as document 002 has it, would show other directions: the oracle can tell them apart."""
+    """mat3(model), as document 002 writes it, would give other directions, and the oracle notices the difference."""
     images = photographs()
     program = example.build(images)
     color = example.draw(program, renderer, 0, size=SIZE, format="rgba32f")[..., :3]
@@ -84,4 +84,4 @@ def test_eta_1_is_invisible(renderer):
     without = example.draw(program, renderer, 5, size=SIZE)
     difference = np.abs(picture.astype(int) - without)
     assert difference.mean() < 0.2
-    assert difference.max() <= 8  # the rims
+    assert difference.max() <= 8  # only the rims differ by so much

@@ -1,4 +1,4 @@
-"""P5: frames before, between and after arrival; what does not fit is refused with both sizes."""
+"""P5: frames before, between and after the arrivals; a face of another size is refused, and both sizes are named."""
 
 import numpy as np
 import pytest
@@ -20,7 +20,7 @@ def bytes_of(images):
 
 @pytest.mark.parametrize("frame", [0, 1, 3, 5, 6, 30, 45, 46, 48, 51, 80])
 def test_frames(renderer, frame):
-    """Near 1, far 2000, the eye at (0, 0, 2); from frame 45 on with the skybox."""
+    """The camera has near 1 and far 2000 and stands at (0, 0, 2); from frame 45 on the skybox is drawn."""
     images = bytes_of(photographs(32))
     program = example.build(images, size=32)
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
@@ -56,7 +56,7 @@ def test_photographs_may_leave_again(renderer):
 
 
 def test_mipmaps_are_made_anew(renderer):
-    """LINEAR_MIPMAP_LINEAR: noise seen small is near its mean, also of a face that has just arrived."""
+    """With LINEAR_MIPMAP_LINEAR, noise seen small is near its mean, also on a face that has just arrived."""
     noise = np.random.default_rng(5).integers(0, 256, (6, 512, 512, 3), np.uint8)
     program = example.build(noise)
     size = (12, 12)
@@ -81,7 +81,7 @@ def test_what_is_not_square_or_not_equal_is_refused_with_both_sizes(renderer, sh
         assert str(number) in str(caught.value)
     assert (program.cubemap.faces[ORDER[3]] == 102).all()
     assert_identical(program.cubemap.faces[ORDER[2]], images[ORDER[2]])
-    # Six faces at once raise the error, too, with both shapes.
+    # Six faces given at once raise the error, too, and its message names both shapes.
     with pytest.raises(ValueError, match="six of one shape") as caught:
         cc.CubeMap(images)
     assert str(shape[1]) in str(caught.value)

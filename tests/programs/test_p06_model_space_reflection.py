@@ -1,4 +1,4 @@
-"""P6: one image by its shape; the document's model-space reflection against numpy, and against the world's."""
+"""P6: the shape of one image gives its layout; reflection in model space is compared with numpy and world space."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ from tests.reference.transforms import normalised
 
 SIZE = (96, 48)
 EYE = (0, 0.8, 4)
-#: A rotation times one scale for all axes keeps angles, mirrored or not; the others do not.
+#: A rotation times one scale for all axes keeps angles, mirrored or not; other matrices do not.
 EVEN = [(1, 1, 1), (1.3, 1.3, 1.3), (-0.9, 0.9, 0.9)]
 UNEVEN = [(2, 1, 1), (0.8, 1.1, 0.5)]
 #: Largest angle between the document's direction and the right one for diag(2, 1, 1): 2 atan((4 - 1) / (2 * 2)).
@@ -37,12 +37,12 @@ def ball():
 
 
 def directions_as_colors(size=64):
-    """Faces that show the direction they lie in: a picture of a mirror is a picture of where it looks."""
+    """Faces whose colours are their directions, so that a mirror's colour gives the direction of the reflected ray."""
     return unit_texel_directions(size).astype(np.float32) / 2 + 0.5
 
 
 def documents_reflection(view, matrix, position, normal):
-    """The document's lines: position and unit normal in model space, directions out in world space."""
+    """What the document's lines compute: from position and unit normal in model space, directions in world space."""
     eye = np.linalg.inv(view @ matrix) @ (0, 0, 0, 1)
     eye_direction = normalised(position - eye[:3])
     return shading.reflect(eye_direction, normal) @ matrix[:3, :3].T
@@ -52,14 +52,14 @@ def per_fragment(made, hits):
     """What the document's lines look up in each pixel of the left shape; NaN elsewhere."""
     found, rows = np.full((*hits.id.shape, 3), np.nan), hits.id == made.program.model.id
     matrix = made.matrices[0]
-    # Back to the mesh's own normal: the transpose undoes the inverse transpose.
+    # This gives the mesh's own normal again: the transpose undoes the inverse transpose.
     normal = normalised(hits.normal[rows] @ matrix[:3, :3])
     found[rows] = documents_reflection(made.look.view, matrix, hits.local[rows], normal)
     return found
 
 
 def reflected_at_vertices(made):
-    """The copies; the ray caster interpolates the left one's directions, as if they were colours."""
+    """The shapes' copies for numpy; the left one has its reflected directions as colours, to be interpolated."""
     copies = made.copies()
     copies[0].colors = documents_reflection(
         made.look.view,
@@ -99,7 +99,7 @@ def test_per_fragment(renderer, stretch, frame):
     on_model, on_world = (hits.id == node.id for node in (made.program.model, made.program.world))
     want = looked_up(made.images, per_fragment(made, hits))
     assert_close(color, want, "mirror", mask=on_model & inner_smooth(hits), least=0.03)
-    # The teapot on the right equals that of P4, for any matrix.
+    # The shape on the right reflects like the teapot of P4, for any matrix.
     want = looked_up(made.images, shading.reflect(made.look.directions(), hits.normal))
     assert_close(color, want, "mirror", mask=on_world & inner_smooth(hits), least=0.03)
 
@@ -107,7 +107,7 @@ def test_per_fragment(renderer, stretch, frame):
 @pytest.mark.parametrize("frame", [0, 17])
 @stretches
 def test_per_vertex(renderer, stretch, frame):
-    """Reflected at the vertices, then interpolated: twelve of them far apart, so that it shows."""
+    """Directions are reflected at twelve vertices and then interpolated; far-apart vertices make the effect visible."""
     made = Scene(stretch, frame, cc.Mesh.icosphere(0.75, subdivisions=0), per_vertex=True)
     color = made.draw(renderer)[..., :3]
     hits = made.look.hits(reflected_at_vertices(made))
@@ -127,7 +127,7 @@ def test_the_teapot(renderer, stretch, per_vertex):
     hits = made.look.hits(reflected_at_vertices(made))
     found = hits.color[..., :3] if per_vertex else per_fragment(made, hits)
     mask = (hits.id == made.program.model.id) & inner_smooth(hits)
-    # A teapot's normals turn by much from one pixel to the next.
+    # The normals of a teapot change much from one pixel to the next.
     near_enough(color, looked_up(made.images, found), mask, 2e-3, 6e-3, "teapot")
 
 
@@ -158,7 +158,7 @@ def test_other_scales_make_one(renderer, stretch):
 
 @pytest.mark.parametrize(("stretch", "least", "most"), [((1, 1, 1), 0, 0.2), ((2, 1, 1), 70, 74)])
 def test_by_how_many_degrees(renderer, stretch, least, most):
-    """The cubemap shows directions, so pictures tell where they look."""
+    """The colours of the cubemap are directions, so the pictures give the directions that were looked up."""
     (model, world), mask = both_in_one_place(renderer, stretch, directions_as_colors(), frame=19)
     one, two = (normalised(picture[mask] * 2 - 1) for picture in (model, world))
     degrees = np.degrees(np.arccos(np.clip((one * two).sum(-1), -1, 1)))
@@ -191,7 +191,7 @@ def test_the_vertices_say_the_same(renderer, stretch, least, most):
 
 
 def test_the_eye_in_model_space(renderer):
-    """Back in the world it is the camera's place."""
+    """Transformed back into world space, this eye is the camera's position."""
     made = Scene((0.8, 1.1, 0.5), 9, ball())
     made.draw(renderer)
     eye = example.eye_in_model_space(made.program.camera, made.program.model)

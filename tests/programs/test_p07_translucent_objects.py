@@ -14,7 +14,7 @@ SIZE = (56, 56)
 
 
 def order_of(layers, eye):
-    """From far to near, by the distance of the centres."""
+    """The layers from far to near, by the distance of their centres."""
     return sorted(layers, key=lambda layer: -np.linalg.norm(layer[0].matrix[:3, 3] - eye))
 
 
@@ -34,7 +34,7 @@ def test_layers(renderer, frame):
     )
     labels, layers = [hits.id], []
     for index, node in enumerate(program.translucent):
-        # Counter-clockwise round +Y, 3 degrees a frame, facing outwards.
+        # Each node moves counter-clockwise round +Y, 3 degrees a frame, and faces outwards.
         degrees = 72 * index
         matrix = ry(3 * frame) @ ry(degrees) @ moved(1.5, 0, 0) @ ry(90)
         pane = index % 2 == 0
@@ -55,12 +55,12 @@ def test_layers(renderer, frame):
     assert (mask & (covered >= 2)).sum() > 5
     assert_close(color, want, "phong", mask=mask)
     assert (color[..., 3] == 1).all()
-    # The other way round would be another picture.
+    # The opposite order would give another picture.
     assert np.abs(composite(background, *ordered[::-1]) - want).max() > 0.05
 
 
 def test_what_is_behind_the_bunny_is_hidden(renderer):
-    """The depth test is on: with the bunny there, the panes behind it do not show."""
+    """The depth test is on: the bunny hides the panes behind it."""
     program = example.build()
     for node in program.translucent:
         node.visible = node.id == program.translucent[0].id

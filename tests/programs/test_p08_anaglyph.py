@@ -13,7 +13,7 @@ EYE = np.array([0, 1.5, 5])
 
 
 def eye_turned(degrees):
-    """The document's way: the view is turned about its own y-axis, through what it looks at, the origin."""
+    """The view as the document turns it: about its own y-axis, which passes through the origin, its target."""
     look = Look(EYE, (0, 0, 0), 45, 1, 100, SIZE)
     turn = turned(look.view[1, :3], degrees)
     look.view, look.eye = look.view @ np.linalg.inv(turn), turn[:3, :3] @ EYE
@@ -38,7 +38,7 @@ def test_channels_are_the_eyes_own_frames(any_path, frame, kind):
 @pytest.mark.slow
 @pytest.mark.parametrize("frame", [10, 70])
 def test_both_eyes_against_ray_casting(renderer, frame):
-    """Grey things: red and green are the same picture from two places."""
+    """All things are grey, so that red and green are the same picture seen from two places."""
     program = example.build(degrees=6)
     got = example.draw(program, renderer, frame, SIZE, format="rgba32f")
     nodes = [node for node in program.scene.nodes if node.mesh is not None]
@@ -53,7 +53,7 @@ def test_both_eyes_against_ray_casting(renderer, frame):
         want = lit(hits, colors, look.eye, (0, 0, 0), ks=0.3)
         mask = unbroken(hits)
         assert mask[hits.hit].mean() > 0.2
-        # The ball and the box to the last digit; bunny and teapot have edges of their own everywhere.
+        # Ball and box are compared closely; bunny and teapot have inner edges everywhere.
         plain = mask & np.isin(hits.id, [nodes[1].id, nodes[3].id])
         assert plain.sum() > 100
         assert_close(got[..., channel], want[..., 0], "phong", mask=plain, least=0.02)

@@ -10,12 +10,12 @@ SIZE = (60, 50)
 
 
 def noise(rng, height=45, width=54):
-    """As many texels as the rectangle has pixels, so that each pixel shows one."""
+    """Noise with as many texels as the rectangle has pixels, so that each pixel shows one texel."""
     return rng.integers(0, 256, (height, width, 3)).astype(np.uint8)
 
 
 def rectangle(pixels):
-    """The document's rectangle in a black picture, one texel a pixel."""
+    """The document's rectangle in a black picture, with one texel for each pixel."""
     picture = np.zeros((SIZE[1], SIZE[0], 3))
     top, left = (SIZE[1] - pixels.shape[0]) // 2, (SIZE[0] - pixels.shape[1]) // 2
     picture[top : top + pixels.shape[0], left : left + pixels.shape[1]] = pixels / 255
@@ -32,7 +32,7 @@ def passes(picture, count):
 
 @pytest.fixture
 def image(rng):
-    # An even margin of the 60 x 50 picture on all sides: 54 x 45 would sit on half pixels vertically.
+    # The margin in the 60 x 50 picture is a whole number of pixels; 45 rows would need half pixels.
     return noise(rng, 46, 54)
 
 
@@ -46,7 +46,7 @@ def program(image, monkeypatch):
 
 
 def draw(program, renderer, frame, **options):
-    """The example's own draw; the rectangle is 46 pixels high, so that texels meet pixels."""
+    """Draw as the example does, with a rectangle 46 pixels high, so that each texel covers one pixel."""
     program.camera.height = SIZE[1]
     for index, (node, offset) in enumerate(zip(program.passes, example.OFFSETS, strict=True)):
         node.visible = index < frame
@@ -80,7 +80,7 @@ def test_eight_bits_round_nine_times(any_path, program, image):
 
 
 def test_the_example_draws_its_own_picture(renderer):
-    """Through draw() itself: the sum is darker towards the borders only, and no sharper than the photograph."""
+    """The picture of draw() itself is the 3 x 3 mean of the photograph, which is black beyond its borders."""
     program = example.build()
     sharp = example.draw(program, renderer, 0, (100, 100), blurred=False, format="rgba32f")
     blurred = example.draw(program, renderer, 9, (100, 100), format="rgba32f")

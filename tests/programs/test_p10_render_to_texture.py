@@ -17,7 +17,7 @@ SIZE = (64, 64)
 def discs_at(points, frame):
     """The document's flat picture in numbers: translucent discs over white, in order, at (..., 2) points of -1..1.
 
-    Also how far the nearest rim is.
+    The second result is the distance to the nearest rim.
     """
     color = np.broadcast_to([1.0, 1, 1, 1], (*points.shape[:-1], 4))
     rim = np.full(points.shape[:-1], np.inf)
@@ -55,9 +55,9 @@ def face_uv(local, part):
 
 @pytest.mark.parametrize("frame", [0, 1, 20, 21, 77])
 def test_the_cube_shows_this_frames_picture(any_path, frame):
-    """Several frames with one renderer, each against its own discs; the frame before would be another picture."""
+    """One renderer draws several frames, each compared with its own discs; the frame before looks different."""
     program = example.build()
-    for k in (frame + 5, frame):  # whatever was drawn before does not matter
+    for k in (frame + 5, frame):  # what was drawn before does not matter
         got = example.draw(program, any_path, k, SIZE, format="rgba32f")
     look = Look((0, 1.5, 4), (0, 0, 0), 45, 0.1, 1000, SIZE)
     matrix = turned((0.3, 1, 0.2), 3 * frame) @ moved(0, 0, 0)

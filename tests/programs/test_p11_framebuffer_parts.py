@@ -1,4 +1,4 @@
-"""P11: all parts of one pass against ray casting, formats by their steps, a shadow by rays towards the lamp."""
+"""P11: all parts of one pass against ray casting; formats are tested by their steps, shadows by rays to the lamp."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,8 @@ from tests.reference.raycast import interior
 SIZE = (64, 56)
 NEAR, FAR = 1, 20
 EYE = np.array([0, 2.5, 5.0])
-#: World units: a point of the ground and those round it, as far as the lamp's filter may reach there.
+#: Offsets in world units: a point of the ground itself, and points round it as far as the lamp's
+#: filter may reach there.
 AROUND = np.array(
     [(0.0, 0.0, 0.0)]
     + [(r * np.cos(a), 0, r * np.sin(a)) for r in (0.07, 0.15) for a in np.arange(8) * np.pi / 4]
@@ -21,7 +22,7 @@ COLORS = [(0.6, 0.6, 0.7), (0.4, 1, 0.4), (1, 0.4, 0.4), (0.4, 0.4, 1)]
 
 
 def shapes_of(program, frame):
-    """Ground, bunny, teapot and box, from the document's numbers."""
+    """The ground, bunny, teapot and box, placed by the document's numbers."""
     bunny, teapot, cube = program.things
     places = [ry(3 * frame) @ ry(120 * i) @ moved(1.4, 0, 0) @ ry(-120 * i) for i in range(3)]
     return [
@@ -63,7 +64,7 @@ def test_outputs_of_one_pass(drawn, frame):
     ]
     assert_close(parts["z"], np.where(hits.hit, z, np.inf), "distance", mask=mask)
     assert_close(parts["position"], hits.position, "position", mask=mask)
-    # Bunny and teapot have no flat sides: their normals by the ray caster's interpolation, to the pixel's width.
+    # Only ground and box have flat sides; normals of bunny and teapot change within a pixel.
     flat = mask & np.isin(hits.id, [1, 5])
     assert_close(
         parts["normal"], np.where(hits.hit[..., None], hits.normal, 0), "normal", mask=flat
@@ -97,7 +98,7 @@ def test_colors_of_16_bits_are_the_quantised_ones(drawn, frame):
 
 @frames
 def test_the_stencil_counts_what_covers_a_pixel(drawn, frame):
-    """Front faces, hidden or not: for the ground and the box as many as rays through them say."""
+    """The stencil counts front faces, hidden or not; rays through the ground and the box give the same number."""
     program, parts, shapes, look, hits = drawn(frame)
     alone = [look.hits([shape]) for shape in shapes]
     others = np.zeros(hits.id.shape, bool)
@@ -117,7 +118,7 @@ def test_the_stencil_counts_what_covers_a_pixel(drawn, frame):
 @pytest.mark.slow
 @frames
 def test_the_shadow_against_ray_casting(drawn, frame):
-    """Rays from each point towards the lamp; where they turn from free to blocked the filter is soft, and masked."""
+    """Rays go from each point to the lamp; where the filter mixes free and blocked rays, pixels are masked."""
     _, parts, shapes, _, hits = drawn(frame)
     seen = hits.hit
     start = hits.position[seen]
@@ -143,14 +144,14 @@ def test_the_shadow_against_ray_casting(drawn, frame):
     assert (ground & (blocked == 1)).sum() > 5
     assert (ground & (blocked == 0)).sum() > 100
     assert_close(parts["color"][..., :3] / 255, want, "unorm8_phong", mask=ground, least=0.05)
-    # On the box too: its sides away from the lamp are dark without any map.
+    # The box is compared, too: its sides that face away from the lamp are dark without any map.
     side = (hits.id == 5) & interior(hits.id, hits.part, blocked) & hard
     assert side.sum() > (20 if frame == 0 else 2)
     assert_close(parts["color"][..., :3] / 255, want, "unorm8_phong", mask=side, least=0.0005)
 
 
 def solid(shapes):
-    """What stops light from either side."""
+    """The shapes, made double-sided so that they stop light from either side."""
     for shape in shapes:
         shape.double_sided = True
     return shapes
@@ -158,7 +159,7 @@ def solid(shapes):
 
 @frames
 def test_the_lamps_map_holds_distances(drawn, frame):
-    """The face -Y looks straight down from the lamp: a ray through a texel's center hits at the map's distance."""
+    """The map holds distances from the lamp; its face -Y looks straight down and sees the ground and the things."""
     _, parts, shapes, *_ = drawn(frame)
     shadow = parts["shadow"]
     assert shadow.shape == (6, example.SHADOW, example.SHADOW)

@@ -33,7 +33,7 @@ def test_capture_and_mirror(renderer, frame, reflector):
     program = example.build(images, reflector, probe_size=FACE, probe_format="rgba32f")
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
     shapes, colors = copies(program)
-    # 90 degrees, near 1, far 100, from the origin, without what mirrors it.
+    # The capture: 90 degrees, near 1, far 100, from the origin, without the mirror itself.
     seen = raycast.cast_cube(shapes, (0, 0, 0), FACE, 1, 100)
     sky = looked_up(images, texel_directions(FACE))
     held = renderer.read_probe(program.probe).faces

@@ -28,7 +28,7 @@ SIZE, FACE = (64, 64), 40
 
 
 def hall(program):
-    """The document's numbers: colours and places of ground, ceiling and actors."""
+    """The colours and places of ground, ceiling and actors, by the document's numbers."""
     ground, ceiling, bunny, teapot = program.scene.nodes[:4]
     shapes = [
         quad(ground, 10, moved(0, -2, 0)),
@@ -42,7 +42,7 @@ def hall(program):
 
 @pytest.fixture(scope="module")
 def drawn(shared_renderers):
-    """The frames, and what the rays of the faces meet."""
+    """A function that gives a drawn frame and what the rays of its faces meet."""
     program = example.build(probe_size=FACE, probe_format="rgba32f")
     renderer = shared_renderers(None)
     pictures = {
@@ -61,7 +61,7 @@ def test_faces(drawn, renderer):
     want = lit(seen, colors, np.zeros(3))  # the eye of a capture is its own position
     mask = unbroken(seen, 0.06)
     assert_close(held[..., :3], want, "phong", mask=mask)
-    # The ceiling is of one colour throughout: its height shows in distances.
+    # The ceiling has one colour everywhere, so only distances show its height.
     cube = renderer.capture(
         program.scene, size=FACE, near=1, far=100, exclude=[program.cube], outputs=("distance",)
     )
@@ -71,7 +71,7 @@ def test_faces(drawn, renderer):
 @pytest.mark.parametrize("frame", [0, 1, 40, 333])
 def test_main_view(drawn, frame):
     program, pictures, held, shapes, colors, _ = drawn
-    # translate(0, .8, 0) * scale(.8) * rotate(.45 k about (1, 1, 1)), of a cube with corners at -1 and 1.
+    # translate(0, .8, 0) * scale(.8) * rotate(.45 k about (1, 1, 1)); the cube spans -1 to 1.
     matrix = moved(0, 0.8, 0) @ scaled(0.8) @ turned((1, 1, 1), 0.45 * frame)
     cube = box(program.cube, 2, matrix)
     look = Look((0, 1, 5), (0, 0, 0), 70, 1, 100, SIZE)
@@ -93,7 +93,7 @@ def test_numbers_of_the_document():
 
 
 def test_turning_the_cube_draws_no_face_again(renderer):
-    """It is left out of the cubemap that it shows."""
+    """The cube is left out of the cubemap that it shows."""
     program = example.build(probe_size=16)
     example.draw(program, renderer, 0, size=(16, 16))
     example.draw(program, renderer, 10, size=(16, 16))

@@ -55,7 +55,7 @@ def test_numbers_of_the_document():
 
 
 def test_one_round(renderer):
-    """63 frames are one round, except a part of a step."""
+    """63 frames are one round, except for a part of one step."""
     program = example.build(probe_size=8)
     example.draw(program, renderer, 0, size=(8, 8))
     start = program.actors[0].position

@@ -1,4 +1,4 @@
-"""P15: the counter of views drawn is 0 while nothing changes, and right where something does."""
+"""P15: the counter of drawn views is 0 while nothing changes, and is right when something changes."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ def test_counter(fresh_renderer):
 
 
 def test_where_the_walker_is():
-    """At rest for ten frames, ten steps of a tenth of a radian, at rest where it came to."""
+    """The walker rests for ten frames, makes ten steps of a tenth of a radian, then rests at its new place."""
     steps = [example.steps(frame) for frame in range(-1, 41)]
     assert steps == [0] * 11 + list(range(1, 11)) + [10] * 10 + list(range(11, 21)) + [20]
 

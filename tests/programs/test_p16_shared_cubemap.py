@@ -1,4 +1,4 @@
-"""P16: the error of a shared cubemap grows with the distance; one of each ball's own is nearer to the truth."""
+"""P16: the error of a shared cubemap grows with the distance; a cubemap for each ball is nearer to the truth."""
 
 import sys
 
@@ -15,7 +15,7 @@ GOLD = np.array([0.95, 0.85, 0.4])
 
 
 def exact(program, distance):
-    """The reference's own truth: a ray off the ball's surface, and Phong where it ends."""
+    """The exact picture: each ray is reflected by the ball's surface, and Phong shades the point that it hits."""
     ground, bunny, teapot = program.scene.nodes[:3]
     around = [
         quad(ground, 10, moved(0, -2, 0)),
@@ -109,7 +109,7 @@ def test_one_probe_serves_three_balls(fresh_renderer):
     assert fresh_renderer.stats.probes_updated == 1
     example.share(program, "own")
     fresh_renderer.render(program.scene, camera, (32, 16))
-    assert fresh_renderer.stats.probes_updated == 2  # the middle one's is true already
+    assert fresh_renderer.stats.probes_updated == 2  # the middle ball's probe is up to date already
 
 
 def test_what_is_shown(renderer):

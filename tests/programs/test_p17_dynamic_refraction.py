@@ -1,4 +1,4 @@
-"""P17: each pixel of the glass ball against a lookup of its probe where refract sends the ray; beside it the mirror."""
+"""P17: each pixel of the glass ball against a lookup of its probe by `refract`, and the mirror ball beside it."""
 
 import numpy as np
 import pytest

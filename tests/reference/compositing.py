@@ -1,10 +1,10 @@
-"""Source over destination, with alpha ONE, ONE_MINUS_SRC_ALPHA apart from colour SRC_ALPHA, ONE_MINUS_SRC_ALPHA."""
+"""Source over destination: colour by SRC_ALPHA, ONE_MINUS_SRC_ALPHA, and alpha by ONE, ONE_MINUS_SRC_ALPHA."""
 
 import numpy as np
 
 
 def over(source, destination):
-    """(..., 4) over (..., 4), colours not multiplied by alpha."""
+    """Composite (..., 4) over (..., 4); the colours are not multiplied by alpha."""
     source, destination = np.broadcast_arrays(
         np.asarray(source, float), np.asarray(destination, float)
     )
@@ -14,7 +14,7 @@ def over(source, destination):
 
 
 def composite(background, *layers):
-    """Layers from far to near over a background."""
+    """Composite layers, given from far to near, over a background."""
     result = np.asarray(background, float)
     for layer in layers:
         result = over(layer, result)
@@ -25,9 +25,9 @@ BLENDS = ("opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplie
 
 
 def blend(mode, source, destination):
-    """One surface over what is there, by the formula of its mode; `source` has straight alpha.
+    """Blend one surface with the destination by the formula of its mode; `source` has straight alpha.
 
-    A premultiplied source is what straight alpha gives once its colour is multiplied: the same picture.
+    A premultiplied source is a straight one whose colour was multiplied by its alpha, so it gives the same picture.
     """
     source, destination = np.broadcast_arrays(
         np.asarray(source, float), np.asarray(destination, float)

@@ -12,7 +12,7 @@ LAYOUTS = ("cross", "vertical_cross", "row", "column")
 
 X, Y, Z = np.eye(3)
 
-# One row of the table: the vectors whose dot product with r gives sc, tc and ma.
+# Each row of the table holds the vectors whose dot products with r give sc, tc and ma.
 TABLE = (
     (-Z, -Y, X),
     (Z, -Y, -X),
@@ -36,7 +36,7 @@ def face_uv_to_direction(face, s, t):
 
 
 def direction_to_face_uv(directions):
-    """(face, s, t) of directions of any length; on a tie the axis of lower index wins."""
+    """(face, s, t) of directions of any length; of two equal components the axis of lower index is taken."""
     r = np.asarray(directions, float)
     axis = np.argmax(np.abs(r), axis=-1)
     major = np.take_along_axis(r, axis[..., None], axis=-1)[..., 0]
@@ -62,14 +62,14 @@ def unit_texel_directions(size):
 
 
 def view_rotation(face):
-    """Rows: right, up, back of the capture camera of a face, so that it looks along -Z of its own space."""
+    """A matrix with the rows right, up and back of a face's capture camera, which looks along -Z of its own space."""
     forward, up = FORWARD[face], UP[face]
     right = np.cross(forward, up)
     return np.array([right, up, -forward])
 
 
 def convert(faces, source, target):
-    """Faces of one convention in another. "inside" and "three" are their own inverses against "gl"."""
+    """Convert faces to another convention. "gl" to "inside" is its own inverse, and so is "gl" to "three"."""
     return _gl_to_or_from(_gl_to_or_from(np.asarray(faces), source), target)
 
 
@@ -86,13 +86,13 @@ def _gl_to_or_from(faces, convention):
 
 
 def middle_row(convention):
-    """The faces of a cross from left to right; +Y stands above and -Y below the second."""
+    """The faces in a cross's middle row from left to right; +Y stands above the second face and -Y below it."""
     names = "-x -z +x +z" if convention == "inside" else "-x +z +x -z"
     return [FACE_NAMES.index(name) for name in names.split()]
 
 
 def to_layout(faces, layout, convention="gl"):
-    """Faces held in "gl" as one picture of the layout, in the convention."""
+    """Arrange faces held in "gl" as one picture of the layout, in the given convention."""
     cells = convert(faces, "gl", convention)
     n = cells.shape[1]
     if layout == "row":

@@ -1,4 +1,4 @@
-"""Equirectangular pictures: unmirrored, row 0 = +Y, the centre column named.
+"""Equirectangular pictures: unmirrored, with +Y in row 0; `center` names the direction of the centre column.
 
 Looking along the centre with +Y up, the picture's right is the world's right: right = centre x up.
 """
@@ -18,7 +18,7 @@ CENTERS = {
 
 
 def direction_to_equirect_uv(directions, center="-z"):
-    """(u, v) in 0..1, u to the right and v downwards."""
+    """(u, v) of directions, in 0..1; u grows to the right and v downwards."""
     d = np.asarray(directions, float)
     d = d / np.linalg.norm(d, axis=-1, keepdims=True)
     forward = CENTERS[center]
@@ -47,7 +47,7 @@ def pixel_directions(width, height, center="-z"):
 
 
 def sample_equirect(image, directions, center="-z"):
-    """Bilinear lookup, round the back in u, held at the first and last row in v."""
+    """Bilinear lookup that wraps round in u and stays within the first and last row in v."""
     image = to_float(image)
     height, width = image.shape[:2]
     u, v = direction_to_equirect_uv(directions, center)
@@ -64,10 +64,10 @@ def sample_equirect(image, directions, center="-z"):
 
 
 def equirect_to_faces(image, size, center="-z"):
-    """One lookup per texel: right only where a face texel is no larger than a pixel of the picture."""
+    """One lookup per texel, which is right only where a face texel is no larger than a pixel of the picture."""
     return sample_equirect(image, texel_directions(size), center)
 
 
 def faces_to_equirect(faces, width, center="-z"):
-    """One lookup per pixel: right only where a pixel is no larger than a texel of the faces."""
+    """One lookup per pixel, which is right only where a pixel is no larger than a texel of the faces."""
     return sample_faces(faces, pixel_directions(width, width // 2, center))

@@ -1,6 +1,6 @@
-"""A vectorised ray caster: what each ray hits first, from geometry alone.
+"""A vectorised ray caster: it finds what each ray hits first, from geometry alone.
 
-A ray is origin + t * direction with t > 0; give directions of length 1 along the view's axis and t is z.
+A ray is origin + t * direction with t > 0; if directions have length 1 along the view's axis, t is z.
 Every shape stands in its own space and is placed by a matrix, so that boxes and planes can be turned and scaled.
 """
 
@@ -13,7 +13,7 @@ from .transforms import normal_matrix
 
 @dataclass
 class Hits:
-    """What the rays of any shape (...,) met; id 0 and t = inf where they met nothing."""
+    """What rays, in an array of any shape (...,), hit; id is 0 and t is inf where a ray hit nothing."""
 
     t: np.ndarray
     id: np.ndarray
@@ -22,7 +22,7 @@ class Hits:
         np.ndarray
     )  # geometric or interpolated, world space, unit, on the side the ray came from
     facing: np.ndarray  # cosine between the normal and the way back to the eye
-    position: np.ndarray  # world space, NaN where nothing was met
+    position: np.ndarray  # world space, NaN where nothing was hit
     local: np.ndarray  # position in the shape's own space
     uv: np.ndarray
     color: np.ndarray
@@ -91,7 +91,7 @@ class Box(Shape):
 
 @dataclass
 class Quad(Shape):
-    """width x depth in the plane y = 0, normal +Y: Mesh.plane."""
+    """A width x depth rectangle in the plane y = 0 with normal +Y, as Mesh.plane makes it."""
 
     width: float = 1.0
     depth: float = 1.0
@@ -109,7 +109,7 @@ class Quad(Shape):
 
 @dataclass
 class Triangles(Shape):
-    """Any mesh, by Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997."""
+    """Any mesh; the intersection is by Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997."""
 
     positions: np.ndarray = None
     indices: np.ndarray = None
@@ -264,7 +264,7 @@ def cast_frame(shapes, view, projection, size, near, far):
 
 
 def visible(shapes, points, to_light, reach=np.inf, start=1e-4):
-    """1.0 where no shape lies between start and reach, world units, on the way to a light; else 0.0.
+    """1.0 where no shape lies between start and reach (world units) on the way to a light; else 0.0.
 
     to_light: (..., 3) of any length. Surfaces stop light from either side. NaN points give 1.
     """

@@ -22,9 +22,7 @@ def pad_faces(faces):
     padded = np.zeros((6, n + 2, n + 2, faces.shape[3]))
     padded[:, 1:-1, 1:-1] = faces
     along = (np.arange(n) + 0.5) / n
-    outside = (
-        1e-3 / n
-    )  # just over the edge: far enough to leave the face, too near to leave the row
+    outside = 1e-3 / n  # just over the edge: the point has left the face but not the row
     for face in range(6):
         padded[face, 1:-1, 0] = _nearest(faces, face, -outside, along)
         padded[face, 1:-1, -1] = _nearest(faces, face, 1 + outside, along)
@@ -65,7 +63,7 @@ def sample_faces(faces, directions):
 
 
 def mip_levels(faces):
-    """Level 0 and the 2 x 2 box averages below it; for sizes that are powers of two."""
+    """Level 0 and the levels made from it by 2 x 2 box averages; the size must be a power of two."""
     levels = [to_float(faces)]
     while levels[-1].shape[1] > 1:
         f = levels[-1]
@@ -74,7 +72,7 @@ def mip_levels(faces):
 
 
 def sample_trilinear(faces, directions, lod):
-    """Linear between the two levels next to lod, each looked up seamlessly."""
+    """Interpolate linearly between seamless lookups in the two levels next to lod."""
     levels = mip_levels(faces)
     lod = float(np.clip(lod, 0, len(levels) - 1))
     lower = int(np.floor(lod))

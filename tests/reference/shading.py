@@ -20,7 +20,7 @@ def reflect(incident, normal):
 
 
 def refract(incident, normal, eta):
-    """GLSL refract (GLSL 4.50 section 8.5): unit vectors, eta = n_outside / n_inside, 0 where all is reflected."""
+    """GLSL refract (4.50 section 8.5) of unit vectors; eta = n_outside / n_inside; 0 where all light is reflected."""
     cos_i = dot(normal, incident)
     k = 1 - eta**2 * (1 - cos_i**2)
     bent = eta * incident - (eta * cos_i + np.sqrt(np.maximum(k, 0))) * normal
@@ -28,7 +28,7 @@ def refract(incident, normal, eta):
 
 
 def schlick(f0, cos_theta):
-    """Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994."""
+    """Fresnel by Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994."""
     return f0 + (1 - f0) * (1 - np.clip(cos_theta, 0, 1)) ** 5
 
 
@@ -52,7 +52,7 @@ class Point:
 
 @dataclass
 class Directional:
-    """travels: the way the light goes, from the lamp to the scene."""
+    """A directional light; `travels` is the direction in which its light goes, from the lamp to the scene."""
 
     travels: tuple
     color: tuple = (1, 1, 1)
@@ -61,7 +61,10 @@ class Directional:
 
 @dataclass
 class Spot:
-    """Half the cone's opening in degrees, and the share of it over which light fades (three.js' SpotLight)."""
+    """A spot light like three.js' SpotLight.
+
+    `angle` is half the cone's opening in degrees; `penumbra` is the share of it over which the light fades.
+    """
 
     position: tuple
     travels: tuple = (0, -1, 0)
@@ -72,7 +75,7 @@ class Spot:
     decay: float = 0.0
 
     def share(self, to_light):
-        """Of unit vectors from the surface to the lamp: smoothstep between the cosines of edge and inner cone."""
+        """The share of light along unit vectors to the lamp: smoothstep between the cosines of edge and inner cone."""
         cosine = dot(-to_light, normalised(self.travels))
         edge = np.cos(np.radians(self.angle))
         full = np.cos(np.radians(self.angle * (1 - self.penumbra)))
@@ -89,7 +92,7 @@ class Ambient:
 
 
 def way_to(light, position):
-    """Unit vectors from points to a light, and their distance from it: infinite for one that is far away."""
+    """Unit vectors from points to a light, and the distances, which are infinite for a light that is far away."""
     if isinstance(light, Directional):
         return np.broadcast_to(-normalised(light.travels), position.shape), np.full(
             (*position.shape[:-1], 1), np.inf
@@ -102,9 +105,10 @@ def way_to(light, position):
 def phong(
     position, normal, eye, color, lights, ka=0.2, kd=0.7, ks=1.0, shininess=10.0, visibility=None
 ):
-    """ka color once; per light kd color max(N.L, 0) light, and where N.L > 0 ks max(R.V, 0)^shininess light.
+    """The sum of ka color and, for each light, kd color max(N.L, 0) light + ks max(R.V, 0)^shininess light.
 
-    visibility: for each light the share (...) of it that arrives, or None for all of it.
+    The last term is left out where N.L <= 0.
+    visibility: for each light the share (...) of it that arrives, or None if all light arrives.
     """
     color = np.asarray(color, float)
     view = normalised(np.asarray(eye, float) - position)
@@ -140,7 +144,7 @@ def aces(c):
 
 
 def neutral(color):
-    """Khronos PBR Neutral Tone Mapper (2024), the specification's own steps."""
+    """Khronos PBR Neutral Tone Mapper (2024), by the steps of its specification."""
     color = np.asarray(color, float)
     start, desaturation = 0.8 - 0.04, 0.15
     low = color.min(-1, keepdims=True)

@@ -1,4 +1,4 @@
-"""The stencil test and its operations (OpenGL 4.6, section 17.3.3), and the painter who obeys them."""
+"""The stencil test and its operations (OpenGL 4.6, section 17.3.3), and a canvas that draws by them."""
 
 from dataclasses import dataclass
 
@@ -43,7 +43,7 @@ class Stencil:
         return FUNCS[self.func](self.reference & self.read_mask, stored & self.read_mask)
 
     def updated(self, stored, passed, near):
-        """What is stored next, given what passed this test and the depth test."""
+        """The new stencil values; `passed` and `near` say which pixels passed the stencil and the depth test."""
         result = stored
         for where, op in (
             (~passed, self.fail),
@@ -66,7 +66,7 @@ class Canvas:
         self.depth = depth
 
     def draw(self, covered, z, color, stencil=None):
-        """An opaque thing at one distance, where `covered`."""
+        """Draw an opaque thing at one distance into the pixels that are `covered`."""
         near = (z < self.z) if self.depth else np.ones_like(covered)
         passed = np.ones_like(covered) if stencil is None else stencil.test(self.stencil)
         if stencil is not None:

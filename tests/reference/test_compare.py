@@ -1,4 +1,4 @@
-"""The helper that judges must itself be able to say no."""
+"""Tests of assert_close and assert_identical: each must fail when arrays differ."""
 
 import numpy as np
 import pytest

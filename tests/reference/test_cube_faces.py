@@ -26,7 +26,7 @@ def test_the_center_of_a_face_is_its_axis(face):
 
 @faces
 def test_capture_camera_sees_s_to_the_right_and_t_upwards_in_its_own_frame(face):
-    """A render target's row 0 is the bottom of the view: there t is 0, and that is what `up` turns round."""
+    """Row 0 of a render target is the bottom of the view and has t = 0; the table's `up` takes this into account."""
     right, up, _ = view_rotation(face)
     np.testing.assert_array_equal(face_uv_to_direction(face, 1, 0.5), FORWARD[face] + right)
     np.testing.assert_array_equal(face_uv_to_direction(face, 0.5, 1), FORWARD[face] + up)
@@ -65,7 +65,7 @@ def test_conversions_undo_themselves(convention):
 
 
 def test_golden_texel_of_inside_and_three():
-    """The texel towards (1, .9, .9): top left of gl's +X, so top right of the same face seen from inside."""
+    """The texel towards (1, .9, .9) is top left on gl's +X, so it is top right on the same face seen from inside."""
     cube = np.zeros((6, 10, 10, 1))
     face, s, t = direction_to_face_uv(np.array([1, 0.9, 0.9]))
     cube[face, int(t * 10), int(s * 10)] = 1
@@ -104,7 +104,7 @@ def test_neighbouring_cells_of_a_cross_meet(layout, convention):
 
 
 def test_golden_cells_of_the_horizontal_crosses():
-    """Middle row: gl and three -X +Z +X -Z, inside -X -Z +X +Z; by the names of the faces."""
+    """The middle row shows, by the names of the faces, -X +Z +X -Z in gl and three, and -X -Z +X +Z in inside."""
     numbers = np.broadcast_to(np.arange(1, 7)[:, None, None, None], (6, 2, 2, 1))
     for convention, row in {
         "gl": [2, 5, 1, 6],

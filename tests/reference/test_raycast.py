@@ -159,6 +159,6 @@ def test_the_farthest_hit_is_the_last_of_all():
     origins = np.array([(0.0, 0, 3), (0.0, 0.9, 3), (0.0, 5, 3)])
     hits = cast_farthest(shapes, origins, np.array([0.0, 0, -1]) + np.zeros((3, 3)), 0.1, 100)
     assert hits.id.tolist() == [2, 1, 0]
-    # The front of the second sphere, the back of the first, nothing.
+    # The rays hit the front of the second sphere, the back of the first one, and nothing.
     np.testing.assert_allclose(hits.t, [6.5, 3 + np.sqrt(1 - 0.81), np.inf])
     np.testing.assert_allclose(hits.normal[0], [0, 0, 1])

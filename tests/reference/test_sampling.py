@@ -43,7 +43,7 @@ def test_both_sides_of_every_edge_agree(rng):
 def test_corner_is_the_average_of_three(rng):
     faces = random_faces(rng, 5)
     corner = sample_faces(faces, np.array([1.0, 1.0, 1.0]))
-    # By the table, the texels at (1, 1, 1): +X s=0 t=0, +Y s=1 t=1, +Z s=1 t=0.
+    # By the table, the texels at (1, 1, 1) are +X s=0 t=0, +Y s=1 t=1 and +Z s=1 t=0.
     three = faces[0, 0, 0] + faces[2, 4, 4] + faces[4, 0, 4]
     np.testing.assert_allclose(corner, three / 3, atol=1e-6)
 

@@ -48,7 +48,7 @@ def test_fresnel_at_normal_and_grazing_incidence_and_brewster():
 
 
 def test_phong_by_hand():
-    """Light straight above, eye 60 degrees off: diffuse 1, specular cos(60)^2."""
+    """With the light straight above and the eye 60 degrees off, diffuse is 1 and specular is cos(60)^2."""
     position, normal = np.array([[0, 0, 0.0]]), np.array([[0, 1.0, 0]])
     eye = (np.sin(np.pi / 3), np.cos(np.pi / 3), 0)
     color = (0.5, 0.25, 1)
@@ -71,7 +71,7 @@ def test_tone_curves():
     assert shading.aces(0.0) == 0
     assert shading.aces(1e6) == 1
     grey = shading.neutral(np.full(3, 0.5))
-    np.testing.assert_allclose(grey, 0.46)  # below the shoulder only the toe's .04 is taken off
+    np.testing.assert_allclose(grey, 0.46)  # below the shoulder only the toe's .04 is subtracted
     bright = shading.neutral(np.array([50.0, 1.0, 1.0]))
     assert (bright <= 1).all()
     assert bright[1] > 0.3  # bright colours lose saturation

@@ -1,4 +1,4 @@
-"""Matrices on column vectors, (4, 4) in reading order; right-handed, a camera at rest looks along -Z."""
+"""Matrices on column vectors, (4, 4) in reading order; space is right-handed, an unmoved camera looks along -Z."""
 
 import numpy as np
 
@@ -15,13 +15,13 @@ def translation(offset):
 
 
 def axis_angle(axis, degrees):
-    """Unit quaternion (w, x, y, z)."""
+    """The unit quaternion (w, x, y, z) of a rotation about an axis."""
     half = np.radians(degrees) / 2
     return np.concatenate([[np.cos(half)], np.sin(half) * normalised(axis)])
 
 
 def rotation(quaternion):
-    """(4, 4) of a quaternion (w, x, y, z) of any length."""
+    """The (4, 4) rotation matrix of a quaternion (w, x, y, z) of any length."""
     w, x, y, z = normalised(quaternion)
     m = np.eye(4)
     m[:3, :3] = [
@@ -40,7 +40,7 @@ def trs(position=(0, 0, 0), quaternion=(1, 0, 0, 0), scale=1.0):
 
 
 def look_at(eye, target, up=(0, 1, 0)):
-    """View matrix: world to camera."""
+    """The view matrix, which takes the world to the camera's space."""
     eye = np.asarray(eye, float)
     forward = normalised(np.asarray(target, float) - eye)
     right = normalised(np.cross(forward, up))
@@ -50,7 +50,7 @@ def look_at(eye, target, up=(0, 1, 0)):
 
 
 def perspective(fov, aspect, near, far):
-    """fov: vertical, degrees. Clip space of OpenGL, z in -w..w."""
+    """The projection to OpenGL's clip space with z in -w..w; `fov` is vertical, in degrees."""
     f = 1 / np.tan(np.radians(fov) / 2)
     return np.array(
         [
@@ -81,7 +81,7 @@ def apply(matrix, points):
 
 
 def normal_matrix(matrix):
-    """Normals go by the inverse transpose."""
+    """The inverse transpose, which transforms normals."""
     return np.linalg.inv(np.asarray(matrix)[:3, :3]).T
 
 
@@ -110,7 +110,7 @@ def pixel_rays(view, projection, size):
 
 
 def window_depth(z, near, far, parallel=False):
-    """OpenGL's window-space z, 0 at the near plane and 1 at the far one, of distances along the axis; inf gives 1."""
+    """OpenGL's window-space z of distances along the axis: 0 at the near plane, 1 at the far one and at infinity."""
     z = np.asarray(z, float)
     with np.errstate(invalid="ignore"):
         depth = (z - near) / (far - near) if parallel else far / (far - near) * (1 - near / z)
