@@ -35,8 +35,6 @@ bool shows_through(const MaterialValue& material, const MeshData& mesh) {
                        });
 }
 
-}  // namespace
-
 /// Places a node in the world.
 void put(NodeSnapshot& node, const glm::dmat4& world) {
     node.world = world;
@@ -51,7 +49,7 @@ void put(NodeSnapshot& node, const glm::dmat4& world) {
 
 /// Returns the node with an id, or null. Nodes are in the order of their ids, and usually no id is
 /// missing.
-const NodeSnapshot* find_node(const std::vector<NodeSnapshot>& nodes, std::int32_t id) {
+NodeSnapshot* find_node(std::vector<NodeSnapshot>& nodes, std::int32_t id) {
     if (nodes.empty()) return nullptr;
     const auto guess = static_cast<std::size_t>(id - nodes.front().id);
     if (guess < nodes.size() && nodes[guess].id == id) return &nodes[guess];
@@ -60,6 +58,8 @@ const NodeSnapshot* find_node(const std::vector<NodeSnapshot>& nodes, std::int32
         [](const NodeSnapshot& node, std::int32_t wanted) { return node.id < wanted; });
     return at != nodes.end() && at->id == id ? &*at : nullptr;
 }
+
+}  // namespace
 
 /// The objects that the scenes of one snapshot share. Each object is read once, so that all its
 /// users see one moment, and is kept alive, so that no new object gets its address.
@@ -398,13 +398,11 @@ std::shared_ptr<const SceneSnapshot> Scene::kept_snapshot() const {
 }
 
 void Scene::follow_moves(SceneSnapshot& snapshot) const {
-    std::vector<NodeSnapshot>& nodes = snapshot.nodes;
-    const auto follow = [&nodes](const Node& node) {
-        const NodeSnapshot* at = find_node(nodes, node.id());
-        if (at == nullptr) return;  // a group or an invisible node
-        NodeSnapshot& moved = nodes[static_cast<std::size_t>(at - nodes.data())];
-        put(moved, node.locked_world_matrix());
-        moved.revision = next_revision();
+    const auto follow = [&snapshot](const Node& node) {
+        NodeSnapshot* moved = find_node(snapshot.nodes, node.id());
+        if (moved == nullptr) return;  // a group or an invisible node
+        put(*moved, node.locked_world_matrix());
+        moved->revision = next_revision();
     };
     for (Node* moved : graph_->moved) {
         follow(*moved);

@@ -16,13 +16,11 @@ Dependencies ScenePicture::plan(std::vector<View> views, int width, int height,
     Dependencies shown;
     const bool shadows = has_shadows(scene_);
     shows_shadows_ = false;
-    for (const auto* nodes : {&plan_.opaque, &plan_.transparent}) {
-        for (const PlannedNode& planned : *nodes) {
-            const NodeSnapshot& node = scene_.nodes[planned.node];
-            add_dependencies(scene_, number_, node, shown);
-            shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
-        }
-    }
+    plan_.for_each([&](const PlannedNode& planned) {
+        const NodeSnapshot& node = scene_.nodes[planned.node];
+        add_dependencies(scene_, number_, node, shown);
+        shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
+    });
     if (shows_shadows_) add_shadows(scene_, number_, shown);
     return shown;
 }
