@@ -75,6 +75,17 @@ def without_package_prefix(text: str) -> str:
     return "".join(lines)
 
 
+def with_short_numpy(text: str) -> str:
+    """Turn numpy.ndarray into np.ndarray in code: in a class with a method `numpy`, the long name is the method."""
+    lines = text.splitlines(keepends=True)
+    tokens = list(tokenize.generate_tokens(io.StringIO(text).readline))
+    for before, name, dot in reversed(list(zip(tokens, tokens[1:], tokens[2:], strict=False))):
+        if name.string == "numpy" and dot.string == "." and before.string not in (".", "import"):
+            row, column = name.start
+            lines[row - 1] = lines[row - 1][:column] + "np" + lines[row - 1][name.end[1] :]
+    return "".join(lines).replace("\nimport numpy\n", "\nimport numpy as np\n")
+
+
 def with_plain_enums(text: str) -> str:
     """Give members of enumerations their values, since type checkers do not see annotated names as members.
 
@@ -122,7 +133,7 @@ def generate() -> str:
     with tempfile.TemporaryDirectory() as folder:
         pybind11_stubgen.main([_core.__name__, "--output-dir", folder, "--exit-code"])
         text = Path(folder, "cubecam", "_core.pyi").read_text(encoding="utf-8")
-    text = with_plain_enums(without_package_prefix(text))
+    text = with_short_numpy(with_plain_enums(without_package_prefix(text)))
     text = text.replace("__all__: list = [", "__all__: list[str] = [")
     text = ruff(text, "check", "--select=I,F401", "--fix-only")
     return ruff(text, "format")

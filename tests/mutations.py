@@ -793,7 +793,7 @@ MUTATIONS = [
     Mutation(
         "notebooks: every cubemap mirrored",
         "pictures.py",
-        'cube.to_layout("cross", convention="inside")',
+        'shown.to_layout("cross", convention="inside")',
         'cube.to_layout("cross", convention="gl")',
         ("tests/unit/test_cubemap.py",),
     ),
@@ -994,5 +994,33 @@ MUTATIONS = [
         "} else if (place < last_same) {\n            return to.add_all();",
         "} else if (false) {\n            return to.add_all();",
         (*INCREMENTAL, "tests/gl/test_damage.py", "tests/gl/test_render_order.py"),
+    ),
+    Mutation(
+        "encoding: a lit scene passes for an encoded one",
+        "scene_encoding.cpp",
+        "if (traits.uses_lights) return false;",
+        "",
+        ("tests/gl/test_encoding.py",),
+    ),
+    Mutation(
+        "exposure: not in the key of a picture",
+        "drawn_picture.cpp",
+        "common.add(post_process.gain);",
+        "",
+        ("tests/gl/test_encoding.py",),
+    ),
+    Mutation(
+        "files: exposure multiplies encoded numbers",
+        "screen.py",
+        'if encoding == "srgb": color = srgb_decode(color) light',
+        "light",
+        ("tests/unit/test_screen.py",),
+    ),
+    Mutation(
+        "files: light goes into 8 bits without a curve",
+        "formats.py",
+        "curve_for(pixels, tonemap), True)",
+        "None, True)",
+        ("tests/unit/test_screen.py", "tests/gl/test_encoding.py"),
     ),
 ]

@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "cubemap_arguments.hpp"
 #include "docs/cubemap.hpp"
+#include "encodings.hpp"
 #include "objects.hpp"
 
 #include "cubecam/core/parallel.hpp"
@@ -69,18 +70,21 @@ void check_six_alike(py::handle value) {
     }
 }
 
-CubePtr make_cube(const py::object& faces, const std::string& convention_name, bool mipmaps) {
+CubePtr make_cube(const py::object& faces, const std::string& convention_name, bool mipmaps,
+                  const std::optional<std::string>& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     check_six_alike(faces);
     const PixelArray pixels = pixel_array(faces, "faces", "(6, N, N, C)");
     const int size = to_texels(pixels.shape(1), "faces");
     const auto channels = static_cast<int>(pixels.shape(3));
+    const Encoding encoding = to_encoding(encoding_name, faces, pixels.dtype());
     const py::gil_scoped_release release;
     const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(pixels.dtype());
     PixelBuffer memory = convention == Convention::gl ? copy_pixels(pixels.data(), pixels.bytes())
                                                       : convert_faces(pixels.data(), size, texel,
                                                                       convention, Convention::gl);
-    return std::make_shared<CubeMap>(size, channels, pixels.dtype(), std::move(memory), mipmaps);
+    return std::make_shared<CubeMap>(size, channels, pixels.dtype(), std::move(memory), mipmaps,
+                                     OutputList(), encoding);
 }
 
 void set_face(CubeMap& cube, const py::object& face_value, const py::object& value,
@@ -201,25 +205,26 @@ OutputList copy_outputs(const py::dict& arrays, int size) {
     return outputs;
 }
 
-constexpr std::size_t parts = 3;
-
 py::tuple get_state(const CubeMap& cube) {
-    return closed_state(py::make_tuple(faces_view(cube), cube.data()->mipmaps, outputs_of(cube)));
+    return closed_state(py::make_tuple(faces_view(cube), cube.data()->mipmaps, outputs_of(cube),
+                                       to_string(cube.data()->encoding)));
 }
 
 /// NaN is kept: a rendered cube may hold NaN, and unpickling must restore it.
 CubePtr from_state(const py::tuple& closed) {
     const py::tuple state = opened_state(closed);
-    if (state.size() != parts) {
-        throw py::value_error("CubeMap: expected a state of " + std::to_string(parts) +
-                              " parts, got " + std::to_string(state.size()));
+    // The first pickles of cubecam 0.2 have no encoding.
+    if (state.size() != 3 && state.size() != 4) {
+        throw py::value_error("CubeMap: expected a state of 4 parts, got " +
+                              std::to_string(state.size()));
     }
     const PixelArray pixels = pixel_array(state[0], "faces", "(6, N, N, C)", Values::any);
     const int size = to_texels(pixels.shape(1), "faces");
-    return std::make_shared<CubeMap>(size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
-                                     copy_pixels(pixels.data(), pixels.bytes()),
-                                     state[1].cast<bool>(),
-                                     copy_outputs(state[2].cast<py::dict>(), size));
+    return std::make_shared<CubeMap>(
+        size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
+        copy_pixels(pixels.data(), pixels.bytes()), state[1].cast<bool>(),
+        copy_outputs(state[2].cast<py::dict>(), size),
+        state.size() == 4 ? parse_encoding(state[3].cast<std::string>()) : Encoding::linear);
 }
 
 std::string output_doc(const OutputRow& row) {
@@ -235,11 +240,19 @@ py::tuple reduce(const py::object& self) {
                           py::make_tuple(py::type::of(self)), get_state(self.cast<CubeMap&>()));
 }
 
+std::string outputs_text(const OutputList& outputs) {
+    if (outputs.empty()) return "";
+    py::list names;
+    for (const OutputValues& output : outputs) names.append(output.name);
+    return ", outputs=" + py::repr(py::tuple(names)).cast<std::string>();
+}
+
 std::string represent(const CubeMap& cube) {
     const auto state = cube.data();
     return "CubeMap(size=" + std::to_string(state->size) +
            ", channels=" + std::to_string(state->channels) + ", dtype=" + dtype_name(state->dtype) +
-           ", mipmaps=" + (state->mipmaps ? "True" : "False") + ")";
+           ", mipmaps=" + (state->mipmaps ? "True" : "False") + outputs_text(cube.outputs()) +
+           ", encoding='" + std::string(to_string(state->encoding)) + "')";
 }
 
 }  // namespace
@@ -262,7 +275,7 @@ void bind_cubemap(py::module_& module) {
 
     auto cube = bindings::declare<CubeMap>(module, "CubeMap", docs::cubemap);
     cube.def(py::init(&make_cube), py::arg("faces"), py::kw_only(), py::arg("convention") = "gl",
-             py::arg("mipmaps") = false)
+             py::arg("mipmaps") = false, py::arg("encoding") = py::none())
         .def_property_readonly("faces", &faces_view, docs::faces)
         .def_property_readonly(
             "size", [](const CubeMap& c) { return c.data()->size; },
@@ -274,7 +287,10 @@ void bind_cubemap(py::module_& module) {
             "numpy.dtype: uint8, float16 or float32.")
         .def_property_readonly(
             "mipmaps", [](const CubeMap& c) { return c.data()->mipmaps; },
-            "bool: whether lookups are trilinear.");
+            "bool: whether lookups are trilinear.")
+        .def_property_readonly(
+            "encoding", [](const CubeMap& c) { return std::string(to_string(c.data()->encoding)); },
+            "str: \"linear\" or \"srgb\", what the numbers of `faces` are.");
     for (const OutputRow& row : output_table) {
         cube.def_property_readonly(
             row.name.data(), [name = row.name](const CubeMap& c) { return output_of(c, name); },

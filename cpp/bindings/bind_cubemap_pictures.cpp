@@ -2,6 +2,7 @@
 #include "arrays.hpp"
 #include "cubemap_arguments.hpp"
 #include "docs/cubemap.hpp"
+#include "encodings.hpp"
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
@@ -51,7 +52,7 @@ py::array to_equirect(const CubeMap& cube, std::optional<int> width, const std::
 }
 
 CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center center, bool mipmaps,
-                      Sampling sampling, DType to) {
+                      Sampling sampling, DType to, Encoding encoding) {
     const int height = to_texels(image.shape(0), "image");
     const int width = to_texels(image.shape(1), "image");
     const auto channels = static_cast<int>(image.shape(2));
@@ -60,22 +61,25 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
     const py::gil_scoped_release release;
     PixelBuffer faces = equirect_to_cube(
         {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to);
-    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps);
+    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps, OutputList(),
+                                     encoding);
 }
 
 CubePtr from_layout(const py::object& value, const std::optional<std::string>& layout_name,
                     const std::string& convention_name, std::optional<int> size,
-                    const std::string& center_name, bool mipmaps, const DTypeOrNone& dtype) {
+                    const std::string& center_name, bool mipmaps, const DTypeOrNone& dtype,
+                    const std::optional<std::string>& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     const Center center = parse_center(center_name);
     const PixelArray image = pixel_array(value, "image", "(H, W, C)");
     const DType to = to_dtype(dtype, image.dtype());
+    const Encoding encoding = to_encoding(encoding_name, value, image.dtype());
     const int height = to_texels(image.shape(0), "image");
     const int width = to_texels(image.shape(1), "image");
     const Layout layout =
         layout_name ? parse_layout(*layout_name) : recognize_layout(width, height);
     if (layout == Layout::equirect) {
-        return from_equirect(image, size, center, mipmaps, Sampling::centers, to);
+        return from_equirect(image, size, center, mipmaps, Sampling::centers, to, encoding);
     }
     if (size) throw py::value_error("size: expected only with an equirect; see CubeMap.resize");
     const bool openexr = layout == Layout::openexr;
@@ -95,7 +99,8 @@ CubePtr from_layout(const py::object& value, const std::optional<std::string>& l
     } else if (to != image.dtype()) {
         faces = convert_pixels(faces, image.dtype(), to);
     }
-    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps);
+    return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps, OutputList(),
+                                     encoding);
 }
 
 py::array to_convention(const CubeMap& cube, const std::string& name) {
@@ -148,7 +153,8 @@ CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
     check_picture(size, 6.0 * size, state->channels, to);
     const py::gil_scoped_release release;
     PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers, to);
-    return std::make_shared<CubeMap>(size, state->channels, to, std::move(faces), state->mipmaps);
+    return std::make_shared<CubeMap>(size, state->channels, to, std::move(faces), state->mipmaps,
+                                     OutputList(), state->encoding);
 }
 
 }  // namespace
@@ -160,21 +166,24 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
         .def_static(
             "from_equirect",
             [](const py::object& image, std::optional<int> size, const std::string& center,
-               const std::string& sampling, bool mipmaps, const DTypeOrNone& dtype) {
+               const std::string& sampling, bool mipmaps, const DTypeOrNone& dtype,
+               const std::optional<std::string>& encoding) {
                 const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
                 return from_equirect(pixels, size, parse_center(center), mipmaps,
-                                     parse_sampling(sampling), to_dtype(dtype, pixels.dtype()));
+                                     parse_sampling(sampling), to_dtype(dtype, pixels.dtype()),
+                                     to_encoding(encoding, image, pixels.dtype()));
             },
             py::arg("image"), py::kw_only(), py::arg("size") = py::none(), py::arg("center") = "-z",
             py::arg("sampling") = "centers", py::arg("mipmaps") = false,
-            py::arg("dtype") = py::none(), docs::from_equirect)
+            py::arg("dtype") = py::none(), py::arg("encoding") = py::none(), docs::from_equirect)
         .def("to_convention", &to_convention, py::arg("convention"), docs::to_convention)
         .def("to_layout", &to_layout, py::arg("layout") = "cross", py::kw_only(),
              py::arg("convention") = "gl", py::arg("dtype") = py::none(), docs::to_layout)
         .def_static("from_layout", &from_layout, py::arg("image"), py::kw_only(),
                     py::arg("layout") = py::none(), py::arg("convention") = "gl",
                     py::arg("size") = py::none(), py::arg("center") = "-z",
-                    py::arg("mipmaps") = false, py::arg("dtype") = py::none(), docs::from_layout)
+                    py::arg("mipmaps") = false, py::arg("dtype") = py::none(),
+                    py::arg("encoding") = py::none(), docs::from_layout)
         .def("resize", &resize, py::arg("size"), py::kw_only(), py::arg("dtype") = py::none(),
              docs::resize);
 }

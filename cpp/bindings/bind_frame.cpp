@@ -14,7 +14,9 @@
 
 namespace cubecam {
 
-PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height), color(py::none()) {
+PyFrame::PyFrame(Frame frame)
+    : width(frame.width), height(frame.height), format(frame.format), encoding(frame.encoding),
+      color(py::none()) {
     const std::vector<py::ssize_t> flat = {frame.height, frame.width};
     const auto with_channels = [&flat](int channels) {
         std::vector<py::ssize_t> shape = flat;
@@ -33,23 +35,32 @@ PyFrame::PyFrame(Frame frame) : width(frame.width), height(frame.height), color(
 
 namespace {
 
-constexpr py::ssize_t parts = 4;
-
 py::tuple state_of(const PyFrame& frame) {
-    return py::make_tuple(frame.width, frame.height, frame.color, frame.outputs);
+    return py::make_tuple(frame.width, frame.height, frame.color, frame.outputs,
+                          to_string(frame.format), to_string(frame.encoding));
 }
 
 PyFrame from_state(const py::tuple& closed) {
     const py::tuple state = bindings::opened_state(closed);
-    if (state.size() != parts) {
-        throw py::value_error("Frame: expected a state of " + std::to_string(parts) +
-                              " parts, got " + std::to_string(state.size()));
+    // The first pickles of cubecam 0.2 have neither format nor encoding.
+    if (state.size() != 4 && state.size() != 6) {
+        throw py::value_error("Frame: expected a state of 6 parts, got " +
+                              std::to_string(state.size()));
     }
     PyFrame frame;
     frame.width = state[0].cast<int>();
     frame.height = state[1].cast<int>();
     frame.color = state[2];
     frame.outputs = state[3].cast<py::dict>();
+    if (state.size() == 6) {
+        frame.format = parse_format(state[4].cast<std::string>());
+        frame.encoding = parse_encoding(state[5].cast<std::string>());
+    } else if (!frame.color.is_none()) {
+        const DType dtype = to_dtype(frame.color.attr("dtype"), DType::uint8);
+        for (const Format format : {Format::rgba8, Format::rgba16f, Format::rgba32f}) {
+            if (dtype_of(format) == dtype) frame.format = format;
+        }
+    }
     return frame;
 }
 
@@ -84,15 +95,27 @@ void bind_frame(py::module_& m) {
             },
             docs::frame_outputs)
         .def_property_readonly(
+            "format",
+            [](const PyFrame& f) {
+                return f.color.is_none() ? py::object(py::none())
+                                         : py::object(py::str(std::string(to_string(f.format))));
+            },
+            "str: the format of `color`, as `Renderer.render` takes it; None without a colour.")
+        .def_property_readonly(
+            "encoding", [](const PyFrame& f) { return std::string(to_string(f.encoding)); },
+            "str: \"linear\" or \"srgb\", what the numbers of `color` are.")
+        .def_property_readonly(
             "size", [](const PyFrame& f) { return py::make_tuple(f.width, f.height); },
             "tuple of int: (width, height), pixels.")
         .def("__repr__",
              [](const PyFrame& f) {
-                 return "<cubecam.Frame " + std::to_string(f.width) + " x " +
-                        std::to_string(f.height) + ", " +
-                        (f.color.is_none() ? std::string("no colour")
-                                           : py::str(f.color.attr("dtype")).cast<std::string>()) +
-                        ">";
+                 std::string text = "Frame(size=(" + std::to_string(f.width) + ", " +
+                                    std::to_string(f.height) + "), format=";
+                 text += f.color.is_none() ? "None" : "'" + std::string(to_string(f.format)) + "'";
+                 if (!f.outputs.empty()) {
+                     text += ", outputs=" + py::repr(py::tuple(f.outputs)).cast<std::string>();
+                 }
+                 return text + ", encoding='" + std::string(to_string(f.encoding)) + "')";
              })
         .def("__reduce__", [](const PyFrame& frame) -> py::tuple {
             const py::object restore = py::module_::import("cubecam._core").attr("_restore_frame");

@@ -1,5 +1,6 @@
 // cubecam.Image
 #include "docs/image.hpp"
+#include "encodings.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
@@ -14,13 +15,15 @@ namespace cubecam::bindings {
 
 namespace {
 
-std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const std::string& wrap) {
+std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const std::string& wrap,
+                                  const std::optional<std::string>& encoding) {
     const Wrap mode = parse_wrap(wrap);
     const PixelArray array = pixel_array(pixels, "pixels", "(H, W, C)");
     auto kept = std::make_shared<const PixelBuffer>(array.data(), array.data() + array.bytes());
     return std::make_shared<Image>(std::move(kept), static_cast<int>(array.shape(1)),
                                    static_cast<int>(array.shape(0)),
-                                   static_cast<int>(array.shape(2)), array.dtype(), mipmaps, mode);
+                                   static_cast<int>(array.shape(2)), array.dtype(), mipmaps, mode,
+                                   to_encoding(encoding, pixels, array.dtype()));
 }
 
 py::array pixels_of(const Image& image) {
@@ -32,7 +35,7 @@ py::array pixels_of(const Image& image) {
 std::string represent(const Image& image) {
     return "Image(" + std::to_string(image.width()) + " x " + std::to_string(image.height()) +
            ", " + std::to_string(image.channels()) + " channels, " + dtype_name(image.dtype()) +
-           ")";
+           ", " + std::string(to_string(image.encoding())) + ")";
 }
 
 }  // namespace
@@ -46,7 +49,7 @@ void bind_image(pybind11::module_& module) {
 
     declare<Image>(module, "Image", docs::image)
         .def(py::init(&make_image), py::arg("pixels"), py::kw_only(), py::arg("mipmaps") = false,
-             py::arg("wrap") = "repeat")
+             py::arg("wrap") = "repeat", py::arg("encoding") = py::none())
         .def_property_readonly("pixels", &pixels_of,
                                "ndarray (H, W, C): a read-only view, row 0 on top.")
         .def_property_readonly(
@@ -61,10 +64,13 @@ void bind_image(pybind11::module_& module) {
         .def_property_readonly(
             "wrap", [](const Image& image) { return std::string(to_string(image.wrap())); },
             "str: \"repeat\" or \"clamp\".")
+        .def_property_readonly(
+            "encoding", [](const Image& image) { return std::string(to_string(image.encoding())); },
+            "str: \"linear\" or \"srgb\", what the numbers are.")
         .def("__repr__", &represent)
         .def("__reduce__",
              [](const py::object& self) {
-                 return reduced(self, attributes_of(self, "pixels", "mipmaps", "wrap"));
+                 return reduced(self, attributes_of(self, "pixels", "mipmaps", "wrap", "encoding"));
              })
         // An image never changes, so a copy is the image itself.
         .def("__copy__", [](const py::object& self) { return self; })

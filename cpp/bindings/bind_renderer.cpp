@@ -96,14 +96,16 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
 
 PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera, py::handle size,
                py::handle outputs, const std::optional<std::string>& format, py::handle samples,
-               const std::optional<std::string>& tonemap, const std::optional<std::string>& encode,
-               py::handle effects, const std::optional<std::string>& depth_format) {
+               double exposure, const std::optional<std::string>& tonemap,
+               const std::optional<std::string>& encode, py::handle effects,
+               const std::optional<std::string>& depth_format) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
     options.color = format.has_value();
     if (format) options.format = parse_format(*format);
     options.samples = to_int(samples, "samples");
+    options.exposure = exposure;
     if (tonemap) options.tonemap = parse_tonemap(*tonemap);
     if (encode) options.encode = parse_encode(*encode);
     options.depth_format = bindings::to_depth_format(depth_format);
@@ -182,9 +184,9 @@ void bind_renderer(pybind11::module_& m) {
              py::arg("debug") = false)
         .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
-             py::arg("tonemap") = py::none(), py::arg("encode") = py::none(),
-             py::arg("effects") = py::tuple(), py::arg("depth_format") = "depth_component32f",
-             docs::render)
+             py::arg("exposure") = 0.0, py::arg("tonemap") = py::none(),
+             py::arg("encode") = py::none(), py::arg("effects") = py::tuple(),
+             py::arg("depth_format") = "depth_component32f", docs::render)
         .def("capture", &capture, py::arg("scene"),
              py::arg("position") = py::make_tuple(0.0, 0.0, 0.0), py::arg("size") = 256,
              py::kw_only(), py::arg("near") = 0.05, py::arg("far") = 1000.0,

@@ -16,6 +16,8 @@ struct PyFrame {
 
     int width = 0;
     int height = 0;
+    Format format = Format::rgba8;
+    Encoding encoding = Encoding::linear;
     py::object color;
     py::dict outputs;  ///< arrays by name
 };

@@ -21,8 +21,10 @@ from .data import sample_data
 from .io.cubemaps import load_cubemap, load_environment
 from .io.images import load_image, save_animation, save_image
 from .io.meshes import load_mesh
+from .io.screen import ClippingWarning, to_screen
 
 __all__ = [
+    "ClippingWarning",
     "__version__",
     "load_cubemap",
     "load_environment",
@@ -31,6 +33,7 @@ __all__ = [
     "sample_data",
     "save_animation",
     "save_image",
+    "to_screen",
 ]
 __all__ += _core.__all__
 

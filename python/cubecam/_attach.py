@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _old_names, _shader_inputs, navigation
+from . import _array_protocol, _old_names, _shader_inputs, navigation
 from ._core import (
     CubeMap,
     Frame,
@@ -19,20 +19,21 @@ from ._core import (
     ShaderMaterial,
 )
 from .io.cubemap_save import save_cubemap
+from .io.images import save_frame
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 
 def _cube_repr_png(self: CubeMap) -> bytes:
-    """Give the picture that Jupyter shows: a cross seen from within, tone-mapped if the numbers are floats."""
+    """Give the picture that Jupyter shows: a cross seen from within, as `to_screen` turns it into 8 bits."""
     from .pictures import cube_png
 
     return cube_png(self)
 
 
 def _frame_repr_png(self: Frame) -> bytes | None:
-    """Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats; None without."""
+    """Give the picture that Jupyter shows: the file that `Frame.save` writes; None for a frame without a colour."""
     from .pictures import frame_png
 
     return None if self.color is None else frame_png(self)
@@ -53,8 +54,14 @@ def attach() -> None:
     """Attach every method; called once, by `cubecam/__init__.py`."""
     _attach(CubeMap, "save", save_cubemap)
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
+    _attach(CubeMap, "numpy", _array_protocol.cube_numpy)
+    _attach(Frame, "save", save_frame)
     _attach(Frame, "_repr_png_", _frame_repr_png)
     _attach(Image, "_repr_png_", _image_repr_png)
+    for picture in (CubeMap, Frame, Image):
+        _attach(picture, "__array__", _array_protocol.as_array)
+        _attach(picture, "__dlpack__", _array_protocol.dlpack)
+        _attach(picture, "__dlpack_device__", _array_protocol.dlpack_device)
     inputs = {
         "uniforms": property(_shader_inputs.uniforms, _shader_inputs.set_uniforms),
         "textures": property(_shader_inputs.textures, _shader_inputs.set_textures),

@@ -9,7 +9,7 @@ import enum
 import os
 import typing
 
-import numpy
+import numpy as np
 import numpy.typing
 
 __all__: list[str] = [
@@ -209,12 +209,12 @@ class Node:
     @material.setter
     def material(self, arg1: Material | None) -> None: ...
     @property
-    def matrix(self) -> numpy.typing.NDArray[numpy.float64]:
+    def matrix(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: node to parent, read-only. Setting it replaces position, rotation and scale; it must not be singular, and its last row is (0, 0, 0, 1).
         """
     @matrix.setter
-    def matrix(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def matrix(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def mesh(self) -> Mesh | None:
         """
@@ -237,12 +237,12 @@ class Node:
     @parent.setter
     def parent(self, arg1: Node | None) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: relative to the parent, read-only.
         """
     @position.setter
-    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def position(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def receive_shadow(self) -> bool:
         """
@@ -258,19 +258,19 @@ class Node:
     @render_order.setter
     def render_order(self, arg1: int) -> None: ...
     @property
-    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
+    def rotation(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.
         """
     @rotation.setter
-    def rotation(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def rotation(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def scale(self) -> numpy.typing.NDArray[numpy.float64]:
+    def scale(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: along the node's own axes, read-only; one number sets all three.
         """
     @scale.setter
-    def scale(self, arg1: float | numpy.typing.ArrayLike) -> None: ...
+    def scale(self, arg1: float | np.typing.ArrayLike) -> None: ...
     @property
     def visible(self) -> bool:
         """
@@ -279,7 +279,7 @@ class Node:
     @visible.setter
     def visible(self, arg1: bool) -> None: ...
     @property
-    def world_matrix(self) -> numpy.typing.NDArray[numpy.float64]:
+    def world_matrix(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: node to world, read-only.
         """
@@ -339,7 +339,7 @@ class Probe:
     """
     def __init__(
         self: Probe,
-        position: numpy.typing.ArrayLike = (0, 0, 0),
+        position: np.typing.ArrayLike = (0, 0, 0),
         *,
         size: typing.SupportsInt | typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
@@ -416,12 +416,12 @@ class Probe:
     @parent.setter
     def parent(self, arg1: Node | None) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, or relative to the parent's position; read-only.
         """
     @position.setter
-    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def position(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def samples(self) -> int:
         """
@@ -660,7 +660,7 @@ class Scene:
         self: Scene,
         *,
         environment: CubeMap | None = None,
-        background: numpy.typing.ArrayLike | CubeMap | None = None,
+        background: np.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Scene) -> str: ...
@@ -698,10 +698,10 @@ class Scene:
         mesh: Mesh | None = None,
         material: Material | None = None,
         *,
-        position: numpy.typing.ArrayLike | None = None,
-        rotation: numpy.typing.ArrayLike | None = None,
-        scale: float | numpy.typing.ArrayLike | None = None,
-        matrix: numpy.typing.ArrayLike | None = None,
+        position: np.typing.ArrayLike | None = None,
+        rotation: np.typing.ArrayLike | None = None,
+        scale: float | np.typing.ArrayLike | None = None,
+        matrix: np.typing.ArrayLike | None = None,
         parent: Node | None = None,
         environment: CubeMap | Probe | None = None,
         visible: bool = True,
@@ -800,7 +800,7 @@ class Scene:
         ((), True)
         """
     def set_matrices(
-        self: Scene, nodes: collections.abc.Iterable[Node], matrices: numpy.typing.ArrayLike
+        self: Scene, nodes: collections.abc.Iterable[Node], matrices: np.typing.ArrayLike
     ) -> None:
         """
         Place many nodes at once, as `Node.matrix` does for each node.
@@ -828,7 +828,7 @@ class Scene:
         [2.0, 2.0, 2.0]
         """
     def set_positions(
-        self: Scene, nodes: collections.abc.Iterable[Node], positions: numpy.typing.ArrayLike
+        self: Scene, nodes: collections.abc.Iterable[Node], positions: np.typing.ArrayLike
     ) -> None:
         """
         Place many nodes at once, as `Node.position` does for each node, in a hundredth of the time.
@@ -856,12 +856,12 @@ class Scene:
         [0.0, 1.0, 0.0]
         """
     @property
-    def background(self) -> numpy.typing.NDArray[numpy.float32] | CubeMap | None:
+    def background(self) -> np.typing.NDArray[np.float32] | CubeMap | None:
         """
         ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the environment if there is one, else transparent black.
         """
     @background.setter
-    def background(self, arg1: numpy.typing.ArrayLike | CubeMap | None) -> None: ...
+    def background(self, arg1: np.typing.ArrayLike | CubeMap | None) -> None: ...
     @property
     def environment(self) -> CubeMap | None:
         """
@@ -907,19 +907,23 @@ class CubeMap:
     ----------
     faces : array_like (6, N, N, C), or six of (N, N, C)
         C is 1, 3 or 4. uint8 (which stands for value/255), float16 and float32 are kept; float64 becomes
-        float32. The numbers are linear and raw. NaN raises ValueError; inf is kept, and lookups near it give
+        float32. NaN raises ValueError; inf is kept, and lookups near it give
         inf or NaN, as on the GPU.
     convention : {"gl", "inside", "three"}, default "gl"
         The convention of `faces`: "gl" is the layout above; "inside" shows the faces as seen from the center
         of the cube (OpenEXR); "three" is that of three.js and D3D skybox files.
     mipmaps : bool, default False
         True: lookups, here and on the GPU, are trilinear over box-filtered levels. False: they are bilinear.
+    encoding : {"linear", "srgb"}, optional
+        What the numbers are: proportional to light, or encoded for a screen, as in 8-bit files. It changes no
+        lookup, only how pictures of the cube are saved and shown (docs/conventions.md). None: that of the
+        CubeMap given as `faces`; for an array, "srgb" for uint8, else "linear".
 
     Raises
     ------
     ValueError
         For faces that are not square or not of one shape, another number of channels, NaN, or an unknown
-        convention.
+        convention or encoding.
     TypeError
         For bool, complex, text, or integers other than uint8.
 
@@ -929,7 +933,7 @@ class CubeMap:
     >>> import cubecam as cc
     >>> cube = cc.CubeMap(np.full((6, 8, 8, 3), 0.5, np.float32))
     >>> cube
-    CubeMap(size=8, channels=3, dtype=float32, mipmaps=False)
+    CubeMap(size=8, channels=3, dtype=float32, mipmaps=False, encoding='linear')
     >>> cube.sample([0, 1, 0])
     array([0.5, 0.5, 0.5], dtype=float32)
     """
@@ -943,7 +947,8 @@ class CubeMap:
         center: str = "-z",
         sampling: str = "centers",
         mipmaps: bool = False,
-        dtype: numpy.typing.DTypeLike | None = None,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: str | None = None,
     ) -> CubeMap:
         """
         Make a cube from an equirectangular panorama.
@@ -966,6 +971,8 @@ class CubeMap:
             Whether lookups in the new cube are trilinear.
         dtype : dtype, optional
             "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
+        encoding : {"linear", "srgb"}, optional
+            What the numbers of `image` are, as in `CubeMap`.
 
         Returns
         -------
@@ -985,7 +992,7 @@ class CubeMap:
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
+        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
         """
     @staticmethod
     def from_layout(
@@ -996,7 +1003,8 @@ class CubeMap:
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         mipmaps: bool = False,
-        dtype: numpy.typing.DTypeLike | None = None,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: str | None = None,
     ) -> CubeMap:
         """
         Make a cube from one picture of all faces: the inverse of `to_layout`.
@@ -1015,6 +1023,8 @@ class CubeMap:
             Whether lookups in the new cube are trilinear.
         dtype : dtype, optional
             "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
+        encoding : {"linear", "srgb"}, optional
+            What the numbers of `image` are, as in `CubeMap`.
 
         Returns
         -------
@@ -1031,17 +1041,63 @@ class CubeMap:
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_layout(np.zeros((24, 32, 3), np.uint8))
-        CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False)
+        CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
+        """
+    def __array__(
+        self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
+    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+        """
+        Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
+
+        Parameters
+        ----------
+        dtype : dtype, optional
+            None: that of the picture.
+        copy : bool, optional
+            True: always a copy. False: never; raises ValueError if `dtype` needs one. None: a copy if `dtype` needs one.
+
+        Returns
+        -------
+        ndarray (H, W, C), of a cubemap (6, N, N, C)
+            Without a copy, that of a cubemap or an image is read-only.
+
+        Raises
+        ------
+        ValueError
+            For a frame without a colour, or a copy that is not allowed.
         """
     def __copy__(self: CubeMap) -> CubeMap: ...
     def __deepcopy__(self: CubeMap, memo: dict) -> CubeMap: ...
+    def __dlpack__(
+        self,
+        *,
+        stream: object = None,
+        max_version: tuple[int, int] | None = None,
+        dl_device: tuple[int, int] | None = None,
+        copy: bool | None = None,
+    ) -> object:
+        """
+        Give the picture's numbers to ``from_dlpack`` of numpy, torch, jax and others (DLPack, array API 2023.12).
+
+        A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
+        the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
+        """
+    def __dlpack_device__(self) -> tuple[int, int]:
+        """
+        Give the device of the numbers to ``from_dlpack``: main memory.
+        """
     def __eq__(self: CubeMap, other: CubeMap) -> bool:
         """
         Whether the contents are the same bit for bit, captured outputs included.
         """
     def __getstate__(self: CubeMap) -> tuple: ...
     def __init__(
-        self: CubeMap, faces: typing.Any, *, convention: str = "gl", mipmaps: bool = False
+        self: CubeMap,
+        faces: typing.Any,
+        *,
+        convention: str = "gl",
+        mipmaps: bool = False,
+        encoding: str | None = None,
     ) -> None: ...
     def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
     def __reduce__(self) -> tuple: ...
@@ -1049,17 +1105,41 @@ class CubeMap:
     def __setstate__(self: CubeMap, arg0: tuple) -> None: ...
     def _repr_png_(self) -> bytes:
         """
-        Give the picture that Jupyter shows: a cross seen from within, tone-mapped if the numbers are floats.
+        Give the picture that Jupyter shows: a cross seen from within, as `to_screen` turns it into 8 bits.
         """
     def copy(self: CubeMap) -> CubeMap:
         """
         An independent cubemap with the same contents.
         """
+    def numpy(
+        self, *, writable: bool = False
+    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+        """
+        Give the faces as an array.
+
+        Parameters
+        ----------
+        writable : bool
+            False: `faces`, the read-only view without a copy. True: a copy, which belongs to the caller.
+
+        Returns
+        -------
+        ndarray (6, N, N, C) in the cube's `dtype`
+
+        Examples
+        --------
+        >>> import cubecam as cc, numpy as np
+        >>> cube = cc.CubeMap(np.zeros((6, 4, 4, 3), np.float32))
+        >>> own = cube.numpy(writable=True)
+        >>> own[cc.Face.POS_Y] = 1
+        >>> float(cube.faces.max()), float(own.max())
+        (0.0, 1.0)
+        """
     def resize(
         self: CubeMap,
         size: typing.SupportsInt | typing.SupportsIndex,
         *,
-        dtype: numpy.typing.DTypeLike | None = None,
+        dtype: np.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         Resample the faces to another size.
@@ -1075,7 +1155,7 @@ class CubeMap:
         Returns
         -------
         CubeMap
-            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and without captured
+            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`, without captured
             outputs.
 
         Raises
@@ -1090,7 +1170,7 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
         """
-    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> numpy.ndarray:
+    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> np.ndarray:
         """
         Look up directions, bilinear and without seams.
 
@@ -1134,11 +1214,16 @@ class CubeMap:
         convention: str | None = None,
         width: int | None = None,
         center: str = "-z",
-        srgb: bool = False,
+        exposure: float = 0.0,
+        tonemap: typing.Literal["neutral", "reinhard", "aces"] | None = "neutral",
+        srgb: bool | None = None,
         half: bool = False,
     ) -> None:
         """
         Write a cubemap as one picture or six files. The method `CubeMap.save`.
+
+        A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
+        sRGB-encoded. EXR and HDR hold linear numbers.
 
         Parameters
         ----------
@@ -1154,8 +1239,14 @@ class CubeMap:
             Width of an equirect in pixels, an even number. None: 4 times the face size.
         center : {"-z", "+z", "+x", "-x"}
             The direction in the middle of an equirect.
-        srgb, half : bool
-            As in `save_image`.
+        exposure : float
+            Stops: colours are multiplied by ``2**exposure``.
+        tonemap : {"neutral", "reinhard", "aces"} or None
+            The curve for linear floats, see `to_screen`. None clips, with a warning.
+        srgb : bool, optional
+            False writes the numbers as they are; None and True as described above.
+        half : bool
+            True stores an EXR with 16 bits a number.
 
         Raises
         ------
@@ -1212,7 +1303,7 @@ class CubeMap:
         >>> cube.sample([0, 1, 0])
         array([1.], dtype=float32)
         """
-    def to_convention(self: CubeMap, convention: str) -> numpy.ndarray:
+    def to_convention(self: CubeMap, convention: str) -> np.ndarray:
         """
         Convert the six faces to another convention.
 
@@ -1240,8 +1331,8 @@ class CubeMap:
         width: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         sampling: str = "centers",
-        dtype: numpy.typing.DTypeLike | None = None,
-    ) -> numpy.ndarray:
+        dtype: np.typing.DTypeLike | None = None,
+    ) -> np.ndarray:
         """
         Make an equirectangular panorama of this cube.
 
@@ -1284,8 +1375,8 @@ class CubeMap:
         layout: str = "cross",
         *,
         convention: str = "gl",
-        dtype: numpy.typing.DTypeLike | None = None,
-    ) -> numpy.ndarray:
+        dtype: np.typing.DTypeLike | None = None,
+    ) -> np.ndarray:
         """
         Arrange all faces in one picture.
 
@@ -1336,12 +1427,17 @@ class CubeMap:
         ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
-    def dtype(self) -> numpy.dtype[typing.Any]:
+    def dtype(self) -> np.dtype[typing.Any]:
         """
         numpy.dtype: uint8, float16 or float32.
         """
     @property
-    def faces(self) -> numpy.ndarray:
+    def encoding(self) -> str:
+        """
+        str: "linear" or "srgb", what the numbers of `faces` are.
+        """
+    @property
+    def faces(self) -> np.ndarray:
         """
         ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
@@ -1363,7 +1459,7 @@ class CubeMap:
         ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world shading normal, unit length, towards the viewer; 0 background.
         """
     @property
-    def outputs(self) -> dict[str, numpy.ndarray]:
+    def outputs(self) -> dict[str, np.ndarray]:
         """
         dict of str to ndarray: the outputs of a capture besides `faces`, by name. The arrays are read-only.
 
@@ -1396,8 +1492,8 @@ class Image:
     """
     A picture that a material shows. It never changes.
 
-    Numbers are linear and raw (uint8 as value/255). Decode an 8-bit photograph with
-    ``load_image(path, srgb=True)`` first.
+    Materials compute with the numbers as they are (uint8 as value/255). Under lights, decode an 8-bit
+    photograph with ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
 
     Parameters
     ----------
@@ -1408,13 +1504,16 @@ class Image:
         True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
     wrap : {"repeat", "clamp"}
         What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
+    encoding : {"linear", "srgb"}, optional
+        What the numbers are. It changes no lookup, only how pictures of it are saved and shown. None:
+        that of the Frame or Image given as `pixels`; for an array, "srgb" for uint8, else "linear".
 
     Raises
     ------
     TypeError
         For pixels of another type.
     ValueError
-        For another shape, an image without pixels, NaN, or another `wrap`.
+        For another shape, an image without pixels, NaN, or another `wrap` or `encoding`.
 
     Examples
     --------
@@ -1422,13 +1521,59 @@ class Image:
     >>> import cubecam as cc
     >>> checks = np.indices((8, 8)).sum(axis=0)[..., None] % 2 * np.uint8(255)
     >>> image = cc.Image(checks.astype(np.uint8), wrap="clamp")
-    >>> image.size, image.channels, image.dtype
-    ((8, 8), 1, dtype('uint8'))
+    >>> image.size, image.channels, image.dtype, image.encoding
+    ((8, 8), 1, dtype('uint8'), 'srgb')
     """
+    def __array__(
+        self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
+    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+        """
+        Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
+
+        Parameters
+        ----------
+        dtype : dtype, optional
+            None: that of the picture.
+        copy : bool, optional
+            True: always a copy. False: never; raises ValueError if `dtype` needs one. None: a copy if `dtype` needs one.
+
+        Returns
+        -------
+        ndarray (H, W, C), of a cubemap (6, N, N, C)
+            Without a copy, that of a cubemap or an image is read-only.
+
+        Raises
+        ------
+        ValueError
+            For a frame without a colour, or a copy that is not allowed.
+        """
     def __copy__(self) -> typing.Any: ...
     def __deepcopy__(self, memo: dict) -> typing.Any: ...
+    def __dlpack__(
+        self,
+        *,
+        stream: object = None,
+        max_version: tuple[int, int] | None = None,
+        dl_device: tuple[int, int] | None = None,
+        copy: bool | None = None,
+    ) -> object:
+        """
+        Give the picture's numbers to ``from_dlpack`` of numpy, torch, jax and others (DLPack, array API 2023.12).
+
+        A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
+        the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
+        """
+    def __dlpack_device__(self) -> tuple[int, int]:
+        """
+        Give the device of the numbers to ``from_dlpack``: main memory.
+        """
     def __init__(
-        self: Image, pixels: numpy.typing.ArrayLike, *, mipmaps: bool = False, wrap: str = "repeat"
+        self: Image,
+        pixels: np.typing.ArrayLike,
+        *,
+        mipmaps: bool = False,
+        wrap: str = "repeat",
+        encoding: str | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Image) -> str: ...
@@ -1442,9 +1587,14 @@ class Image:
         int: 1, 3 or 4.
         """
     @property
-    def dtype(self) -> numpy.dtype[typing.Any]:
+    def dtype(self) -> np.dtype[typing.Any]:
         """
         numpy.dtype: uint8, float16 or float32.
+        """
+    @property
+    def encoding(self) -> str:
+        """
+        str: "linear" or "srgb", what the numbers are.
         """
     @property
     def mipmaps(self) -> bool:
@@ -1452,7 +1602,7 @@ class Image:
         bool: whether lookups are trilinear.
         """
     @property
-    def pixels(self) -> numpy.ndarray:
+    def pixels(self) -> np.ndarray:
         """
         ndarray (H, W, C): a read-only view, row 0 on top.
         """
@@ -1511,7 +1661,7 @@ class Mesh:
     Mesh(24 vertices, 12 triangles)
     """
     @staticmethod
-    def box(size: float | numpy.typing.ArrayLike = 1.0) -> Mesh:
+    def box(size: float | np.typing.ArrayLike = 1.0) -> Mesh:
         """
         A centred box with flat faces, each with uv from 0 to 1.
 
@@ -1745,12 +1895,12 @@ class Mesh:
         """
     def __init__(
         self: Mesh,
-        positions: numpy.typing.ArrayLike,
-        indices: numpy.typing.ArrayLike,
+        positions: np.typing.ArrayLike,
+        indices: np.typing.ArrayLike,
         *,
-        normals: numpy.typing.ArrayLike | None = None,
-        uvs: numpy.typing.ArrayLike | None = None,
-        colors: numpy.typing.ArrayLike | None = None,
+        normals: np.typing.ArrayLike | None = None,
+        uvs: np.typing.ArrayLike | None = None,
+        colors: np.typing.ArrayLike | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Mesh) -> str: ...
@@ -1782,10 +1932,10 @@ class Mesh:
     def update(
         self: Mesh,
         *,
-        positions: numpy.typing.ArrayLike | None = None,
-        normals: numpy.typing.ArrayLike | None = None,
-        uvs: numpy.typing.ArrayLike | None = None,
-        colors: numpy.typing.ArrayLike | None = None,
+        positions: np.typing.ArrayLike | None = None,
+        normals: np.typing.ArrayLike | None = None,
+        uvs: np.typing.ArrayLike | None = None,
+        colors: np.typing.ArrayLike | None = None,
     ) -> None:
         """
         Replace several arrays of the vertices at once.
@@ -1835,35 +1985,35 @@ class Mesh:
         [1.0, 0.2, 1.0]
         """
     @property
-    def bounds(self) -> numpy.typing.NDArray[numpy.float64]:
+    def bounds(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.
         """
     @property
-    def colors(self) -> numpy.typing.NDArray[numpy.float32] | None:
+    def colors(self) -> np.typing.NDArray[np.float32] | None:
         """
         ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
 
         Colours can be set. None: the mesh has none.
         """
     @colors.setter
-    def colors(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    def colors(self, arg1: np.typing.ArrayLike | None) -> None: ...
     @property
-    def indices(self) -> numpy.typing.NDArray[numpy.uint32]:
+    def indices(self) -> np.typing.NDArray[np.uint32]:
         """
         ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside; a read-only view.
         """
     @property
-    def normals(self) -> numpy.typing.NDArray[numpy.float32]:
+    def normals(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (V, 3) float32: unit vectors; a read-only view.
 
         Normals can be set. None: smooth normals, computed now and whenever positions are set without normals.
         """
     @normals.setter
-    def normals(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    def normals(self, arg1: np.typing.ArrayLike | None) -> None: ...
     @property
-    def positions(self) -> numpy.typing.NDArray[numpy.float32]:
+    def positions(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (V, 3) float32: the positions of the vertices; a read-only view.
 
@@ -1871,16 +2021,16 @@ class Mesh:
         values.
         """
     @positions.setter
-    def positions(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def positions(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
+    def uvs(self) -> np.typing.NDArray[np.float32] | None:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
 
         Texture coordinates can be set. None: the mesh has none.
         """
     @uvs.setter
-    def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    def uvs(self, arg1: np.typing.ArrayLike | None) -> None: ...
 
 class Blend:
     """
@@ -2210,8 +2360,8 @@ class BasicMaterial(Material):
     def __init__(
         self: BasicMaterial,
         *,
-        color: numpy.typing.ArrayLike = (1, 1, 1),
-        map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
+        color: np.typing.ArrayLike = (1, 1, 1),
+        map: Image | RenderTexture | np.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -2223,12 +2373,12 @@ class BasicMaterial(Material):
         stencil: Stencil | None = None,
     ) -> None: ...
     @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+    def color(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
     @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def color(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def cubemap(self) -> CubeMap | Probe | None:
         """
@@ -2242,7 +2392,7 @@ class BasicMaterial(Material):
         Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
     @map.setter
-    def map(self, arg1: Image | RenderTexture | numpy.typing.ArrayLike | None) -> None: ...
+    def map(self, arg1: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
     @property
     def vertex_colors(self) -> bool:
         """
@@ -2288,7 +2438,7 @@ class GlassMaterial(Material):
         *,
         ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        tint: np.typing.ArrayLike = (1, 1, 1),
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
         blend: str | Blend | None = None,
@@ -2312,12 +2462,12 @@ class GlassMaterial(Material):
     @ior.setter
     def ior(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+    def tint(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, times what is refracted.
         """
     @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def tint(self, arg1: np.typing.ArrayLike) -> None: ...
 
 class MirrorMaterial(Material):
     """
@@ -2358,9 +2508,9 @@ class MirrorMaterial(Material):
     def __init__(
         self: MirrorMaterial,
         *,
-        tint: numpy.typing.ArrayLike = (1, 1, 1),
+        tint: np.typing.ArrayLike = (1, 1, 1),
         env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        color: numpy.typing.ArrayLike = (0, 0, 0),
+        color: np.typing.ArrayLike = (0, 0, 0),
         color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         f0: typing.SupportsFloat | typing.SupportsIndex | None = None,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -2372,12 +2522,12 @@ class MirrorMaterial(Material):
         stencil: Stencil | None = None,
     ) -> None: ...
     @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+    def color(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
     @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def color(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def color_weight(self) -> float:
         """
@@ -2400,12 +2550,12 @@ class MirrorMaterial(Material):
     @f0.setter
     def f0(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
-    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
+    def tint(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, times what is reflected.
         """
     @tint.setter
-    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def tint(self, arg1: np.typing.ArrayLike) -> None: ...
 
 class PhongMaterial(Material):
     """
@@ -2450,12 +2600,12 @@ class PhongMaterial(Material):
     def __init__(
         self: PhongMaterial,
         *,
-        color: numpy.typing.ArrayLike = (1, 1, 1),
+        color: np.typing.ArrayLike = (1, 1, 1),
         ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
         ks: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
-        map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
+        map: Image | RenderTexture | np.typing.ArrayLike | None = None,
         vertex_colors: bool = False,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
@@ -2466,12 +2616,12 @@ class PhongMaterial(Material):
         stencil: Stencil | None = None,
     ) -> None: ...
     @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+    def color(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
     @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def color(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def ka(self) -> float:
         """
@@ -2499,7 +2649,7 @@ class PhongMaterial(Material):
         Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
     @map.setter
-    def map(self, arg1: Image | RenderTexture | numpy.typing.ArrayLike | None) -> None: ...
+    def map(self, arg1: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
     @property
     def shininess(self) -> float:
         """
@@ -2951,12 +3101,12 @@ class Light:
     """
     def __reduce__(self) -> tuple: ...
     @property
-    def color(self) -> numpy.typing.NDArray[numpy.float32]:
+    def color(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (3,) float32: linear RGB, read-only.
         """
     @color.setter
-    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def color(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def intensity(self) -> float:
         """
@@ -2998,9 +3148,9 @@ class PointLight(Light):
     """
     def __init__(
         self: PointLight,
-        position: numpy.typing.ArrayLike = (0, 0, 0),
+        position: np.typing.ArrayLike = (0, 0, 0),
         *,
-        color: numpy.typing.ArrayLike = (1, 1, 1),
+        color: np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         shadow: Shadow | bool | None = None,
@@ -3015,12 +3165,12 @@ class PointLight(Light):
     @decay.setter
     def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only.
         """
     @position.setter
-    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def position(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -3068,12 +3218,12 @@ class SpotLight(Light):
     """
     def __init__(
         self: SpotLight,
-        position: numpy.typing.ArrayLike = (0, 0, 0),
-        direction: numpy.typing.ArrayLike = (0, -1, 0),
+        position: np.typing.ArrayLike = (0, 0, 0),
+        direction: np.typing.ArrayLike = (0, -1, 0),
         *,
         angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
         penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        color: numpy.typing.ArrayLike = (1, 1, 1),
+        color: np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         shadow: Shadow | bool | None = None,
@@ -3095,12 +3245,12 @@ class SpotLight(Light):
     @decay.setter
     def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def direction(self) -> numpy.typing.NDArray[numpy.float64]:
+    def direction(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the way the light travels, unit length, read-only.
         """
     @direction.setter
-    def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def direction(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def penumbra(self) -> float:
         """
@@ -3109,12 +3259,12 @@ class SpotLight(Light):
     @penumbra.setter
     def penumbra(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only.
         """
     @position.setter
-    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def position(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -3153,21 +3303,21 @@ class DirectionalLight(Light):
     """
     def __init__(
         self: DirectionalLight,
-        direction: numpy.typing.ArrayLike = (0, -1, 0),
+        direction: np.typing.ArrayLike = (0, -1, 0),
         *,
-        color: numpy.typing.ArrayLike = (1, 1, 1),
+        color: np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: DirectionalLight) -> str: ...
     @property
-    def direction(self) -> numpy.typing.NDArray[numpy.float64]:
+    def direction(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the way the light travels, unit length, read-only.
         """
     @direction.setter
-    def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def direction(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -3202,7 +3352,7 @@ class AmbientLight(Light):
     def __init__(
         self: AmbientLight,
         *,
-        color: numpy.typing.ArrayLike = (1, 1, 1),
+        color: np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
@@ -3238,13 +3388,13 @@ class Camera:
     0.5
     """
     def __init__(
-        self: Camera, *, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
+        self: Camera, *, view: np.typing.ArrayLike, projection: np.typing.ArrayLike
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Camera) -> str: ...
     def projection(
         self: Camera, aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0
-    ) -> numpy.typing.NDArray[numpy.float64]:
+    ) -> np.typing.NDArray[np.float64]:
         """
         Camera to clip space.
 
@@ -3264,12 +3414,12 @@ class Camera:
             For an aspect that is not above 0.
         """
     @property
-    def view(self) -> numpy.typing.NDArray[numpy.float64]:
+    def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
     @view.setter
-    def view(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def view(self, arg1: np.typing.ArrayLike) -> None: ...
 
 class PerspectiveCamera(Camera):
     """
@@ -3314,16 +3464,16 @@ class PerspectiveCamera(Camera):
         self: PerspectiveCamera,
         *,
         fov: typing.SupportsFloat | typing.SupportsIndex = 60.0,
-        position: numpy.typing.ArrayLike = (0, 0, 0),
-        target: numpy.typing.ArrayLike | None = None,
-        up: numpy.typing.ArrayLike = (0, 1, 0),
+        position: np.typing.ArrayLike = (0, 0, 0),
+        target: np.typing.ArrayLike | None = None,
+        up: np.typing.ArrayLike = (0, 1, 0),
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
-        shift: numpy.typing.ArrayLike = (0, 0),
+        shift: np.typing.ArrayLike = (0, 0),
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: PerspectiveCamera) -> str: ...
-    def look(self, direction: numpy.typing.ArrayLike) -> None:
+    def look(self, direction: np.typing.ArrayLike) -> None:
         """
         Turn the view along a direction of the world.
 
@@ -3513,35 +3663,35 @@ class PerspectiveCamera(Camera):
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
     @position.setter
-    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def position(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def shift(self) -> numpy.typing.NDArray[numpy.float64]:
+    def shift(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (2,) float64: how far the middle of the picture lies right of and above the axis, in heights of the picture, read-only.
         """
     @shift.setter
-    def shift(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def shift(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
+    def target(self) -> np.typing.NDArray[np.float64] | None:
         """
         ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
     @target.setter
-    def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    def target(self, arg1: np.typing.ArrayLike | None) -> None: ...
     @property
-    def up(self) -> numpy.typing.NDArray[numpy.float64]:
+    def up(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
     @up.setter
-    def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def up(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def view(self) -> numpy.typing.NDArray[numpy.float64]:
+    def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
@@ -3586,15 +3736,15 @@ class OrthographicCamera(Camera):
         self: OrthographicCamera,
         *,
         height: typing.SupportsFloat | typing.SupportsIndex = 2.0,
-        position: numpy.typing.ArrayLike = (0, 0, 0),
-        target: numpy.typing.ArrayLike | None = None,
-        up: numpy.typing.ArrayLike = (0, 1, 0),
+        position: np.typing.ArrayLike = (0, 0, 0),
+        target: np.typing.ArrayLike | None = None,
+        up: np.typing.ArrayLike = (0, 1, 0),
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: OrthographicCamera) -> str: ...
-    def look(self, direction: numpy.typing.ArrayLike) -> None:
+    def look(self, direction: np.typing.ArrayLike) -> None:
         """
         Turn the view along a direction of the world.
 
@@ -3784,28 +3934,28 @@ class OrthographicCamera(Camera):
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> numpy.typing.NDArray[numpy.float64]:
+    def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
     @position.setter
-    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def position(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
+    def target(self) -> np.typing.NDArray[np.float64] | None:
         """
         ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
     @target.setter
-    def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
+    def target(self, arg1: np.typing.ArrayLike | None) -> None: ...
     @property
-    def up(self) -> numpy.typing.NDArray[numpy.float64]:
+    def up(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
     @up.setter
-    def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    def up(self, arg1: np.typing.ArrayLike) -> None: ...
     @property
-    def view(self) -> numpy.typing.NDArray[numpy.float64]:
+    def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
@@ -4103,20 +4253,111 @@ class Frame:
     An output that ``outputs=`` does not request is None. Only opaque nodes write the outputs; `depth` and
     `stencil` are the contents of these buffers after the last node is drawn.
 
+    ``frame.save("x.png")`` writes the picture as a screen shows it, and a notebook shows it the same way.
+    ``np.asarray(frame)`` is `color`, and functions that take arrays, such as ``plt.imshow``, take the frame.
+
     Examples
     --------
     >>> import cubecam as cc
     >>> scene = cc.Scene(background=(1, 0, 0))
     >>> with cc.Renderer() as renderer:
     ...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 2))
+    >>> frame
+    Frame(size=(4, 2), format='rgba8', encoding='linear')
     >>> frame.color.shape, frame.color[0, 0].tolist()
     ((2, 4, 4), [255, 0, 0, 255])
     """
+    def __array__(
+        self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
+    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+        """
+        Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
+
+        Parameters
+        ----------
+        dtype : dtype, optional
+            None: that of the picture.
+        copy : bool, optional
+            True: always a copy. False: never; raises ValueError if `dtype` needs one. None: a copy if `dtype` needs one.
+
+        Returns
+        -------
+        ndarray (H, W, C), of a cubemap (6, N, N, C)
+            Without a copy, that of a cubemap or an image is read-only.
+
+        Raises
+        ------
+        ValueError
+            For a frame without a colour, or a copy that is not allowed.
+        """
+    def __dlpack__(
+        self,
+        *,
+        stream: object = None,
+        max_version: tuple[int, int] | None = None,
+        dl_device: tuple[int, int] | None = None,
+        copy: bool | None = None,
+    ) -> object:
+        """
+        Give the picture's numbers to ``from_dlpack`` of numpy, torch, jax and others (DLPack, array API 2023.12).
+
+        A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
+        the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
+        """
+    def __dlpack_device__(self) -> tuple[int, int]:
+        """
+        Give the device of the numbers to ``from_dlpack``: main memory.
+        """
     def __reduce__(self: Frame) -> tuple: ...
     def __repr__(self: Frame) -> str: ...
     def _repr_png_(self) -> bytes | None:
         """
-        Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats; None without.
+        Give the picture that Jupyter shows: the file that `Frame.save` writes; None for a frame without a colour.
+        """
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        exposure: float = 0.0,
+        tonemap: typing.Literal["neutral", "reinhard", "aces"] | None = "neutral",
+        srgb: bool | None = None,
+        half: bool = False,
+    ) -> None:
+        """
+        Write the frame's colour as a picture. The method `Frame.save`.
+
+        A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
+        sRGB-encoded. EXR and HDR hold linear numbers.
+
+        Parameters
+        ----------
+        path : str or os.PathLike
+            The extension names the kind of file, as in `save_image`.
+        exposure : float
+            Stops: colours are multiplied by ``2**exposure``.
+        tonemap : {"neutral", "reinhard", "aces"} or None
+            The curve for linear floats, see `to_screen`. None clips, with a warning.
+        srgb : bool, optional
+            False writes the numbers as they are; None and True as described above.
+        half : bool
+            True stores an EXR with 16 bits a number.
+
+        Raises
+        ------
+        OSError
+            If the folder does not exist or may not be written, or the disk is full. The old file stays as it was.
+        ValueError
+            For a frame without a colour, an extension that is not in the list, or an alpha that the file cannot hold.
+
+        Examples
+        --------
+        >>> import cubecam as cc, tempfile, pathlib
+        >>> path = pathlib.Path(tempfile.mkdtemp(), "frame.png")
+        >>> with cc.Renderer() as renderer:
+        ...     frame = renderer.render(cc.Scene(background=(0.2, 0.2, 0.2)), cc.PerspectiveCamera(), size=(2, 1))
+        >>> frame.save(path)
+        >>> cc.load_image(path)[0, 0].tolist()
+        [124, 124, 124, 255]
         """
     @property
     def color(self) -> typing.Any:
@@ -4134,6 +4375,16 @@ class Frame:
         ndarray (H, W) float32: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
+    def encoding(self) -> str:
+        """
+        str: "linear" or "srgb", what the numbers of `color` are.
+        """
+    @property
+    def format(self) -> typing.Any:
+        """
+        str: the format of `color`, as `Renderer.render` takes it; None without a colour.
+        """
+    @property
     def id(self) -> typing.Any:
         """
         ndarray (H, W) int32: ``Node.id`` of the visible node; 0 background.
@@ -4144,7 +4395,7 @@ class Frame:
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
         """
     @property
-    def outputs(self) -> dict[str, numpy.ndarray]:
+    def outputs(self) -> dict[str, np.ndarray]:
         """
         dict of str to ndarray: the outputs that were requested, by name.
 
@@ -4334,7 +4585,7 @@ class Renderer:
         >>> held.faces.shape, held.dtype.name
         ((6, 8, 8, 4), 'float16')
         """
-    def read_texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
+    def read_texture(self: Renderer, render_texture: RenderTexture) -> np.ndarray:
         """
         Read the present contents of a render texture, in its format.
 
@@ -4362,6 +4613,7 @@ class Renderer:
         outputs: typing.Any = (),
         format: str | None = "rgba8",
         samples: typing.Any = 1,
+        exposure: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         tonemap: str | None = None,
         encode: str | None = None,
         effects: typing.Any = (),
@@ -4388,11 +4640,14 @@ class Renderer:
         samples : int
             Samples of each pixel's colour (MSAA): 1 for none, at most ``info.limits.max_samples``. The outputs are the same for
             every number of samples.
+        exposure : float
+            Stops: the colour is multiplied by ``2**exposure``, after effects and before the tone curve. Default 0.
         tonemap : str or None
             "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024), applied
             after multisamples are resolved. None: values stay as they are.
         encode : str or None
-            "srgb" encodes the colour (IEC 61966-2-1). None: the colour stays linear.
+            "srgb" encodes the colour (IEC 61966-2-1), for a screen. None: the colour stays as it is; `Frame.save`, notebooks
+            and :func:`to_screen` encode it when they need it.
         effects : sequence of ImageEffect
             Passes over the colour, one after the other, after multisamples are resolved and before tone mapping.
         depth_format : str or None
@@ -4404,13 +4659,14 @@ class Renderer:
         Returns
         -------
         Frame
-            Arrays of shape (height, width, ...), row 0 on top.
+            Arrays of shape (height, width, ...), row 0 on top. ``frame.encoding`` is "srgb" with ``encode="srgb"``, and for an
+            unlit scene whose images and cubemaps are all "srgb"; else "linear".
 
         Raises
         ------
         ValueError
             For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-            outputs that ``depth_format`` does not allow, tone mapping or effects with ``format=None``, or a camera without a
+            outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with ``format=None``, or a camera without a
             valid view.
         ContextError
             After :meth:`close`, or in a forked process.
@@ -4423,7 +4679,7 @@ class Renderer:
         >>> frame.color.tolist()
         [[[2.0, 0.0, 0.0, 1.0]]]
         """
-    def shadow_map(self: Renderer, scene: Scene, light: Light) -> numpy.ndarray:
+    def shadow_map(self: Renderer, scene: Scene, light: Light) -> np.ndarray:
         """
         Draw the shadow map of a light, as distances, to look at. A map that is up to date is not drawn again.
 
@@ -4509,8 +4765,8 @@ def _shaded_outputs() -> list[str]:
     """
 
 def axis_angle(
-    axis: numpy.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
-) -> numpy.typing.NDArray[numpy.float64]:
+    axis: np.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
+) -> np.typing.NDArray[np.float64]:
     """
     Make the quaternion of a rotation round an axis.
 

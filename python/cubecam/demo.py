@@ -29,7 +29,8 @@ from .io.cubemaps import load_environment
 from .io.files import PathLike, as_path
 from .io.images import save_animation, save_image
 from .io.meshes import load_mesh
-from .pictures import cube_picture, for_screen
+from .io.screen import to_screen
+from .pictures import cube_picture
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -220,7 +221,7 @@ def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> st
             save_image(path, panorama)
             steps.advance()
         with steps.step("panorama, for the screen", "panorama.png") as path:
-            save_image(path, for_screen(panorama))
+            save_image(path, to_screen(panorama))
             steps.advance()
         with steps.step("animation", "turn.png") as path:
             pictures = []

@@ -1,6 +1,7 @@
-// Applies tone mapping and the transfer function to a finished frame in linear float. Alpha does not change.
+// Applies exposure, tone mapping and the transfer function to a finished frame in linear float. Alpha does not change.
 layout(binding = 0) uniform sampler2DArray u_frame;
 layout(location = 0) uniform int u_layer;
+layout(location = 1) uniform float u_gain;
 layout(location = 0) out vec4 o_color;
 
 #if defined(TONEMAP_REINHARD)
@@ -38,6 +39,7 @@ vec3 encode_srgb(vec3 c) {
 
 void main() {
     vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, u_layer), 0);
+    color.rgb *= u_gain;
 #if defined(TONEMAP) || defined(ENCODE_SRGB)
     // The colour of a lamp may be infinite, but its square must be finite.
     color.rgb = tonemap(clamp(color.rgb, 0.0, 1e18));

@@ -357,7 +357,7 @@ def test_without_a_color_only_outputs_come_back(any_path, depth_format, samples)
 def test_a_frame_without_a_color_is_a_frame(renderer):
     camera = cc.PerspectiveCamera()
     frame = renderer.render(cc.Scene(), camera, (3, 2), format=None, outputs="depth")
-    assert repr(frame) == "<cubecam.Frame 3 x 2, no colour>"
+    assert repr(frame) == ("Frame(size=(3, 2), format=None, outputs=('depth',), encoding='linear')")
     assert frame._repr_png_() is None
     copied = pickle.loads(pickle.dumps(frame))
     assert copied.color is None

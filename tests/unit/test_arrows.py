@@ -34,6 +34,7 @@ PYTHON_ORDER = (
     "data",  # the packaged files and their list
     "io",
     "pictures",
+    "_array_protocol",
     "navigation",
     "_shader_inputs",
     "_pickling",

@@ -195,11 +195,12 @@ def test_files(tmp_path, given):
         assert load(path, size=8).dtype == given
         other = load(path, size=8, dtype="float32")
         assert other == cc.CubeMap.from_equirect(pixels, size=8, dtype="float32")
+        assert other.encoding == ("srgb" if given == "uint8" else "linear")
     faces = cc.CubeMap(numbers((6, 8, 8, 3), given))
     cross = tmp_path / f"cross{path.suffix}"
     faces.save(cross, layout="cross")
     for dtype in DTYPES:
         assert cc.load_cubemap(cross, dtype=dtype) == cc.CubeMap(
-            as_dtype(as_floats(faces.faces), dtype)
+            as_dtype(as_floats(faces.faces), dtype), encoding=faces.encoding
         )
         assert cc.load_cubemap(cross, size=4, dtype=dtype) == faces.resize(4, dtype=dtype)

@@ -9,6 +9,7 @@ from tests.helpers import conventions, layouts
 from tests.reference.cube_faces import FACE_NAMES, convert, face_uv_to_direction, to_layout
 from tests.reference.equirect import faces_to_equirect, pixel_directions
 from tests.reference.pattern import direction_pattern, face_pattern, random_faces
+from tests.reference.shading import srgb_decode
 
 
 def six(folder, ending="png"):
@@ -49,8 +50,8 @@ def test_exr_of_every_dtype(dtype, tmp_path, rng):
     pixels = random_faces(rng, 6, 3, dtype)
     cc.CubeMap(pixels).save(tmp_path / "a.exr", layout="column")
     got = cc.load_cubemap(tmp_path / "a.exr").faces
-    scale = 255 if dtype == np.uint8 else 1
-    assert np.abs(got.astype(float) - pixels / scale).max() <= (5e-4 if dtype == np.uint8 else 0)
+    want = srgb_decode(pixels / 255) if dtype == np.uint8 else pixels
+    assert np.abs(got.astype(float) - want).max() <= (5e-4 if dtype == np.uint8 else 0)
 
 
 def test_equirect_file(tmp_path):

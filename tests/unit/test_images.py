@@ -114,10 +114,12 @@ def test_srgb_does_not_touch_floating_point_files(tmp_path):
 
 def test_floats_are_clipped_and_rounded_into_8_bits(tmp_path):
     values = np.array([[[-1.0, 0.501, 2.0], [0.1, 1.0, 0.703]]])
-    cc.save_image(tmp_path / "a.png", values)
+    with pytest.warns(cc.ClippingWarning, match="1 of 6 numbers are above 1"):
+        cc.save_image(tmp_path / "a.png", values)
     want = np.rint(np.clip(values, 0, 1) * 255)
     assert np.abs(cc.load_image(tmp_path / "a.png") - want).max() <= 0.5
-    cc.save_image(tmp_path / "b.png", values, srgb=True)
+    with pytest.warns(cc.ClippingWarning):
+        cc.save_image(tmp_path / "b.png", values, srgb=True)
     want = np.rint(srgb_encode(values) * 255)
     assert np.abs(cc.load_image(tmp_path / "b.png") - want).max() <= 0.5
 

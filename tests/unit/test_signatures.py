@@ -88,14 +88,17 @@ BY_POSITION = {
     "navigation.strafe": ["camera", "distance"],
     "navigation.orbit": ["camera"],
     "navigation.look": ["camera", "direction"],
-    "pictures.for_screen": ["pixels"],
-    "pictures.tonemap_neutral": ["linear"],
     "pictures.cube_picture": ["cube"],
     "pictures.cube_png": ["cube"],
     "pictures.frame_png": ["frame"],
     "pictures.image_png": ["image"],
     "demo.run": ["out"],
     "DemoScene.turn": ["angle"],
+    "to_screen": ["picture"],
+    "images.save_frame": ["frame", "path"],
+    "Frame.save": ["path"],
+    "images.encode_picture": ["target", "pixels", "srgb", "half", "exposure", "tonemap"],
+    "images.prepare": ["pixels", "target", "srgb", "exposure", "tonemap", "name"],
     "cubemap_save.save_cubemap": ["cube", "path"],
     "cubemap_save.arrange": ["values", "layout", "convention"],
 }
@@ -178,7 +181,7 @@ CALLS = {
         lambda r: r.render(cc.Scene(), cc.PerspectiveCamera(), (4, 4), ("id",)),
         (
             "Renderer.render: expected at most 3 arguments by position (scene, camera, size), got 4 by position; "
-            "name the others: outputs, format, samples, tonemap, encode, effects, depth_format"
+            "name the others: outputs, format, samples, exposure, tonemap, encode, effects, depth_format"
         ),
     ),
     "scene": (
@@ -205,7 +208,7 @@ CALLS = {
         lambda r: r.render(size=(3, 3)),
         (
             "Renderer.render: expected scene and camera, got none; it takes scene, camera, size, outputs, format, "
-            "samples, tonemap, encode, effects, depth_format"
+            "samples, exposure, tonemap, encode, effects, depth_format"
         ),
     ),
     "twice": (

@@ -18,19 +18,23 @@ Parameters
 ----------
 faces : array_like (6, N, N, C), or six of (N, N, C)
     C is 1, 3 or 4. uint8 (which stands for value/255), float16 and float32 are kept; float64 becomes
-    float32. The numbers are linear and raw. NaN raises ValueError; inf is kept, and lookups near it give
+    float32. NaN raises ValueError; inf is kept, and lookups near it give
     inf or NaN, as on the GPU.
 convention : {"gl", "inside", "three"}, default "gl"
     The convention of `faces`: "gl" is the layout above; "inside" shows the faces as seen from the center
     of the cube (OpenEXR); "three" is that of three.js and D3D skybox files.
 mipmaps : bool, default False
     True: lookups, here and on the GPU, are trilinear over box-filtered levels. False: they are bilinear.
+encoding : {"linear", "srgb"}, optional
+    What the numbers are: proportional to light, or encoded for a screen, as in 8-bit files. It changes no
+    lookup, only how pictures of the cube are saved and shown (docs/conventions.md). None: that of the
+    CubeMap given as `faces`; for an array, "srgb" for uint8, else "linear".
 
 Raises
 ------
 ValueError
     For faces that are not square or not of one shape, another number of channels, NaN, or an unknown
-    convention.
+    convention or encoding.
 TypeError
     For bool, complex, text, or integers other than uint8.
 
@@ -40,7 +44,7 @@ Examples
 >>> import cubecam as cc
 >>> cube = cc.CubeMap(np.full((6, 8, 8, 3), 0.5, np.float32))
 >>> cube
-CubeMap(size=8, channels=3, dtype=float32, mipmaps=False)
+CubeMap(size=8, channels=3, dtype=float32, mipmaps=False, encoding='linear')
 >>> cube.sample([0, 1, 0])
 array([0.5, 0.5, 0.5], dtype=float32)
 )doc";
@@ -142,6 +146,8 @@ mipmaps : bool, default False
     Whether lookups in the new cube are trilinear.
 dtype : dtype, optional
     "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
+encoding : {"linear", "srgb"}, optional
+    What the numbers of `image` are, as in `CubeMap`.
 
 Returns
 -------
@@ -161,7 +167,7 @@ Examples
 >>> import numpy as np
 >>> import cubecam as cc
 >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
+CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
 )doc";
 
 inline constexpr const char* set_face = R"doc(Replace one face.
@@ -268,6 +274,8 @@ mipmaps : bool, default False
     Whether lookups in the new cube are trilinear.
 dtype : dtype, optional
     "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
+encoding : {"linear", "srgb"}, optional
+    What the numbers of `image` are, as in `CubeMap`.
 
 Returns
 -------
@@ -284,7 +292,7 @@ Examples
 >>> import numpy as np
 >>> import cubecam as cc
 >>> cc.CubeMap.from_layout(np.zeros((24, 32, 3), np.uint8))
-CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False)
+CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
 )doc";
 
 inline constexpr const char* resize = R"doc(Resample the faces to another size.
@@ -300,7 +308,7 @@ dtype : dtype, optional
 Returns
 -------
 CubeMap
-    A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and without captured
+    A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`, without captured
     outputs.
 
 Raises

@@ -9,12 +9,17 @@ inline constexpr const char* frame =
 An output that ``outputs=`` does not request is None. Only opaque nodes write the outputs; `depth` and
 `stencil` are the contents of these buffers after the last node is drawn.
 
+``frame.save("x.png")`` writes the picture as a screen shows it, and a notebook shows it the same way.
+``np.asarray(frame)`` is `color`, and functions that take arrays, such as ``plt.imshow``, take the frame.
+
 Examples
 --------
 >>> import cubecam as cc
 >>> scene = cc.Scene(background=(1, 0, 0))
 >>> with cc.Renderer() as renderer:
 ...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 2))
+>>> frame
+Frame(size=(4, 2), format='rgba8', encoding='linear')
 >>> frame.color.shape, frame.color[0, 0].tolist()
 ((2, 4, 4), [255, 0, 0, 255])
 )doc";

@@ -6,8 +6,8 @@ namespace cubecam::docs {
 inline constexpr const char* image =
     R"doc(A picture that a material shows. It never changes.
 
-Numbers are linear and raw (uint8 as value/255). Decode an 8-bit photograph with
-``load_image(path, srgb=True)`` first.
+Materials compute with the numbers as they are (uint8 as value/255). Under lights, decode an 8-bit
+photograph with ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
 
 Parameters
 ----------
@@ -18,13 +18,16 @@ mipmaps : bool
     True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
 wrap : {"repeat", "clamp"}
     What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
+encoding : {"linear", "srgb"}, optional
+    What the numbers are. It changes no lookup, only how pictures of it are saved and shown. None:
+    that of the Frame or Image given as `pixels`; for an array, "srgb" for uint8, else "linear".
 
 Raises
 ------
 TypeError
     For pixels of another type.
 ValueError
-    For another shape, an image without pixels, NaN, or another `wrap`.
+    For another shape, an image without pixels, NaN, or another `wrap` or `encoding`.
 
 Examples
 --------
@@ -32,8 +35,8 @@ Examples
 >>> import cubecam as cc
 >>> checks = np.indices((8, 8)).sum(axis=0)[..., None] % 2 * np.uint8(255)
 >>> image = cc.Image(checks.astype(np.uint8), wrap="clamp")
->>> image.size, image.channels, image.dtype
-((8, 8), 1, dtype('uint8'))
+>>> image.size, image.channels, image.dtype, image.encoding
+((8, 8), 1, dtype('uint8'), 'srgb')
 )doc";
 
 }  // namespace cubecam::docs

@@ -68,11 +68,14 @@ format : str or None
 samples : int
     Samples of each pixel's colour (MSAA): 1 for none, at most ``info.limits.max_samples``. The outputs are the same for
     every number of samples.
+exposure : float
+    Stops: the colour is multiplied by ``2**exposure``, after effects and before the tone curve. Default 0.
 tonemap : str or None
     "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024), applied
     after multisamples are resolved. None: values stay as they are.
 encode : str or None
-    "srgb" encodes the colour (IEC 61966-2-1). None: the colour stays linear.
+    "srgb" encodes the colour (IEC 61966-2-1), for a screen. None: the colour stays as it is; `Frame.save`, notebooks
+    and :func:`to_screen` encode it when they need it.
 effects : sequence of ImageEffect
     Passes over the colour, one after the other, after multisamples are resolved and before tone mapping.
 depth_format : str or None
@@ -84,13 +87,14 @@ depth_format : str or None
 Returns
 -------
 Frame
-    Arrays of shape (height, width, ...), row 0 on top.
+    Arrays of shape (height, width, ...), row 0 on top. ``frame.encoding`` is "srgb" with ``encode="srgb"``, and for an
+    unlit scene whose images and cubemaps are all "srgb"; else "linear".
 
 Raises
 ------
 ValueError
     For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-    outputs that ``depth_format`` does not allow, tone mapping or effects with ``format=None``, or a camera without a
+    outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with ``format=None``, or a camera without a
     valid view.
 ContextError
     After :meth:`close`, or in a forked process.

@@ -92,7 +92,7 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
 }  // namespace
 
 CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels,
-                 bool mipmaps, OutputList outputs)
+                 bool mipmaps, OutputList outputs, Encoding encoding)
     : outputs_(std::move(outputs)) {
     if (size < 1) {
         throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
@@ -101,8 +101,8 @@ CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffe
         throw std::invalid_argument("channels: expected 1, 3 or 4, got " +
                                     std::to_string(channels));
     }
-    CubeMapData data{size,           channels, dtype, mipmaps, nullptr, new_face_revisions(),
-                     next_revision()};
+    CubeMapData data{
+        size, channels, dtype, mipmaps, encoding, nullptr, new_face_revisions(), next_revision()};
     if (pixels->size() != face_count * data.face_bytes()) {
         throw std::invalid_argument(
             "pixels: expected " + std::to_string(face_count * data.face_bytes()) + " bytes (6 x " +
@@ -198,7 +198,8 @@ bool CubeMap::same_contents(const CubeMap& other) const {
                same_values<std::byte>(p.values, q.values);
     };
     return a->size == b->size && a->channels == b->channels && a->dtype == b->dtype &&
-           a->mipmaps == b->mipmaps && same_values<std::byte>(a->pixels, b->pixels) &&
+           a->mipmaps == b->mipmaps && a->encoding == b->encoding &&
+           same_values<std::byte>(a->pixels, b->pixels) &&
            std::equal(outputs_.begin(), outputs_.end(), other.outputs_.begin(),
                       other.outputs_.end(), same_output);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/core/revision.hpp"
+#include "cubecam/image/encoding.hpp"
 #include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/cube_face.hpp"
@@ -20,7 +21,8 @@ struct CubeMapData {
     int size;      ///< N, texels along an edge
     int channels;  ///< C: 1, 3 or 4
     DType dtype;
-    bool mipmaps;                               ///< lookups are trilinear
+    bool mipmaps;  ///< lookups are trilinear
+    Encoding encoding;
     std::shared_ptr<const PixelBuffer> pixels;  ///< [6][N][N][C], laid out as cube_face.hpp says
     std::array<std::uint64_t, face_count> face_revisions;
     std::uint64_t revision;  ///< of all faces: changes with each of them
@@ -43,12 +45,12 @@ public:
     /// @throws std::invalid_argument unless size >= 1, channels is 1, 3 or 4 and the lengths of
     ///         `pixels` and of each output match.
     CubeMap(int size, int channels, DType dtype, PixelBuffer pixels, bool mipmaps = false,
-            OutputList outputs = {})
+            OutputList outputs = {}, Encoding encoding = Encoding::linear)
         : CubeMap(size, channels, dtype, std::make_shared<PixelBuffer>(std::move(pixels)), mipmaps,
-                  std::move(outputs)) {}
+                  std::move(outputs), encoding) {}
     /// Makes a cubemap of memory that already has a shared owner.
     CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels, bool mipmaps,
-            OutputList outputs);
+            OutputList outputs, Encoding encoding = Encoding::linear);
 
     /// Makes an independent cubemap with the same contents and new revisions. The two share their
     /// pixels until one of them changes.

@@ -47,9 +47,9 @@ Wrap parse_wrap(std::string_view name) {
 std::string_view to_string(Wrap wrap) { return wrap == Wrap::repeat ? "repeat" : "clamp"; }
 
 Image::Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps,
-             Wrap wrap)
+             Wrap wrap, Encoding encoding)
     : pixels_(std::move(pixels)), width_(width), height_(height), channels_(channels),
-      dtype_(dtype), mipmaps_(mipmaps), wrap_(wrap), translucent_(false),
+      dtype_(dtype), mipmaps_(mipmaps), wrap_(wrap), encoding_(encoding), translucent_(false),
       revision_(next_revision()) {
     const std::string shape = "(" + std::to_string(height) + ", " + std::to_string(width) + ", " +
                               std::to_string(channels) + ")";

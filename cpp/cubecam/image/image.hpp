@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/image/encoding.hpp"
 #include "cubecam/image/pixels.hpp"
 
 #include <cstddef>
@@ -27,7 +28,8 @@ public:
 
     /// @throws std::invalid_argument when the pixel count does not match, a side is 0 or channels
     /// is not 1, 3 or 4.
-    Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps, Wrap wrap);
+    Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps, Wrap wrap,
+          Encoding encoding = Encoding::linear);
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -35,6 +37,7 @@ public:
     DType dtype() const { return dtype_; }
     bool mipmaps() const { return mipmaps_; }
     Wrap wrap() const { return wrap_; }
+    Encoding encoding() const { return encoding_; }
     const Pixels& pixels() const { return pixels_; }
     std::uint64_t revision() const { return revision_; }
 
@@ -50,6 +53,7 @@ private:
     DType dtype_;
     bool mipmaps_;
     Wrap wrap_;
+    Encoding encoding_;
     bool translucent_;
     std::uint64_t revision_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/image/encoding.hpp"
 #include "cubecam/materials/kind.hpp"
 
 #include <glm/glm.hpp>
@@ -49,6 +50,7 @@ struct MaterialTraits {
     bool textured = false;                  ///< whether any of them is set, or is a user's
     bool uses_environment;
     bool uses_lights;
+    bool zeros_and_ones = false;  ///< all colours are, so sRGB encoding does not change them
     VertexColors vertex_colors;
     std::optional<UserCode> user_code;
 
@@ -102,6 +104,7 @@ public:
                    std::visit([](const auto* source) { return source->index() != 0; },
                               texture.source);
         };
+        traits_.zeros_and_ones = !traits_.user_code && has_zeros_and_ones();
         traits_.textured = std::any_of(traits_.textures.begin(), traits_.textures.end(), shows);
     }
 
@@ -118,6 +121,16 @@ public:
     }
 
 private:
+    bool has_zeros_and_ones() const {
+        bool all = true;
+        for_each_field<Kind>([&](const auto& field) {
+            if constexpr (requires(glm::vec4 color) { color = kind_.*field.member; }) {
+                all = all && cubecam::zeros_and_ones(kind_.*field.member);
+            }
+        });
+        return all;
+    }
+
     template <class Value>
     void add_textures(const Field<Kind, Value>& field) {
         if constexpr (std::same_as<Value, MapSource>) {

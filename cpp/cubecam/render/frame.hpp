@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/image/encoding.hpp"
 #include "cubecam/image/format.hpp"
 #include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
@@ -13,6 +14,7 @@ struct Frame {
     int width = 0;
     int height = 0;
     Format format = Format::rgba8;
+    Encoding encoding = Encoding::linear;
     std::shared_ptr<PixelBuffer> color;  ///< [height][width][4]; null without a colour buffer
     OutputList outputs;                  ///< [height][width][channels], those that were requested
 };

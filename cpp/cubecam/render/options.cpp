@@ -27,10 +27,15 @@ void check_outputs_of(const RequestedOutputs& requested, DepthFormat depth_forma
 
 void check_buffers(const FrameOptions& options) {
     check_outputs_of(options.outputs, options.depth_format);
+    if (!(options.exposure >= -64.0 && options.exposure <= 64.0)) {
+        throw std::invalid_argument("exposure: expected -64 to 64 stops, got " +
+                                    std::to_string(options.exposure));
+    }
     if (options.color) return;
-    if (options.tonemap != Tonemap::none || options.encode != Encode::none) {
-        throw std::invalid_argument("tonemap, encode: expected None without a colour, got format "
-                                    "None");
+    if (options.tonemap != Tonemap::none || options.encode != Encode::none ||
+        options.exposure != 0.0) {
+        throw std::invalid_argument("exposure, tonemap, encode: expected 0 and None without a "
+                                    "colour, got format None");
     }
     if (options.depth_format == DepthFormat::none) {
         throw std::invalid_argument("format, depth_format: expected at least one, got None twice");

@@ -32,6 +32,7 @@ struct FrameOptions {
     RequestedOutputs outputs;
     Format format = Format::rgba8;
     std::int64_t samples = 1;
+    double exposure = 0.0;  ///< stops: colour is multiplied by 2^exposure before the tone curve
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
     bool color = true;  ///< false: no colour buffer, only outputs; `format` is ignored

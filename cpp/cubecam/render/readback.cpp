@@ -169,14 +169,15 @@ Frame read_frame(const GladGLContext& gl, Target& target, ResultPool& pool) {
     return frame;
 }
 
-std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool) {
+std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool,
+                                   Encoding encoding) {
     const TargetDescription& d = target.description();
     Reader reader(gl, target, pool);
     Result color = reader.picture();
     OutputList outputs = reader.outputs();
     gl::check_gl(gl, "reading a cubemap");
     return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
-                                     std::move(outputs));
+                                     std::move(outputs), encoding);
 }
 
 }  // namespace cubecam

@@ -12,6 +12,7 @@ namespace cubecam {
 /// Copies of a target's contents. Frames are flipped so that row 0 is on top, with several views
 /// one below the other; cube faces are copied as they are.
 Frame read_frame(const GladGLContext& gl, Target& target, ResultPool& pool);
-std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool);
+std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool,
+                                   Encoding encoding);
 
 }  // namespace cubecam

@@ -5,6 +5,7 @@
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/requested_outputs.hpp"
 #include "cubecam/render/stereo.hpp"
+#include "cubecam/scene/scene_encoding.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -54,6 +55,12 @@ void check(const CaptureOptions& options) {
                                     std::to_string(options.near) + " and far " +
                                     std::to_string(options.far));
     }
+}
+
+Encoding frame_encoding(const SceneSnapshot& scene, const FrameOptions& options) {
+    if (options.encode == Encode::srgb) return Encoding::srgb;
+    if (options.tonemap != Tonemap::none) return Encoding::linear;
+    return scene_encoding(scene, 0, [](const NodeSnapshot&) { return true; });
 }
 
 }  // namespace
@@ -160,7 +167,9 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
                           .outputs = resolve_outputs(options.outputs, scene),
                           .depth_format = options.depth_format,
                           .color = options.color});
-        const PostProcess post_process{scene.effects, options.tonemap, options.encode};
+        const PostProcess post_process{scene.effects,
+                                       static_cast<float>(std::exp2(options.exposure)),
+                                       options.tonemap, options.encode};
         set_post_process(description, post_process.effects.size(), post_process.any());
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
@@ -173,7 +182,9 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         frame.draw(
             std::move(views), target, [](const NodeSnapshot&) { return true; }, {}, post_process);
         stats_ = frame.stats;
-        return read_frame(gpu.context.gl(), target, *gpu.results);
+        Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
+        drawn.encoding = frame_encoding(scene, options);
+        return drawn;
     });
 }
 
@@ -210,14 +221,12 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         Key wanted;
         wanted.add(true);  // a capture
         for (const std::int32_t id : options.exclude) wanted.add(id);
-        frame.draw(
-            std::move(views), target,
-            [&](const NodeSnapshot& node) {
-                return node.in_captures && !is_excluded(node, options.exclude);
-            },
-            std::move(wanted));
+        const auto seen = [&](const NodeSnapshot& node) {
+            return node.in_captures && !is_excluded(node, options.exclude);
+        };
+        frame.draw(std::move(views), target, seen, std::move(wanted));
         stats_ = frame.stats;
-        return read_cube(gpu.context.gl(), target, *gpu.results);
+        return read_cube(gpu.context.gl(), target, *gpu.results, scene_encoding(scene, 0, seen));
     });
 }
 
@@ -276,7 +285,7 @@ std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& prob
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update_probes()");
         }
-        return read_cube(gpu.context.gl(), *state->target, *gpu.results);
+        return read_cube(gpu.context.gl(), *state->target, *gpu.results, state->encoding);
     });
 }
 

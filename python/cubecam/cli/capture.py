@@ -123,9 +123,7 @@ def capture(
             )
             drawn_by = str(renderer.info.renderer)
         written = [output]
-        cube.save(
-            output, layout=wanted, convention=convention, width=width, center=center, srgb=srgb
-        )
+        cube.save(output, layout=wanted, convention=convention, width=width, center=center)
         for name in more:
             written += _save_output(cube, name, output, wanted, convention or "gl")
         console = Console(soft_wrap=True)

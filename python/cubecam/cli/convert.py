@@ -126,7 +126,6 @@ def convert(
                 convention=convention,
                 width=width,
                 center=center,
-                srgb=srgb,
                 half=half,
             )
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:

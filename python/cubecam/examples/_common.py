@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 import cubecam as cc
-from cubecam.pictures import for_screen
 
 #: The background colour of documents 000 and 001.
 GREY = (0.4, 0.4, 0.4, 1.0)
@@ -53,7 +52,7 @@ def surroundings(images: Any = None, *, mipmaps: bool = False) -> cc.CubeMap:
 def _city() -> Picture:
     # Tone mapping rounds to 8 bits, so the resampling before it must not round.
     cube = cc.load_environment(cc.sample_data("city.exr"), size=PHOTOGRAPH, dtype="float32")
-    return np.stack([for_screen(face) for face in cube.faces])
+    return cc.to_screen(cube)[..., :3]
 
 
 @functools.cache

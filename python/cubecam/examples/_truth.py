@@ -102,7 +102,7 @@ def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> t
     origins, directions = _pixel_rays(camera, size)
     seen = Geometry(nodes).cast(origins, directions)
     background = np.zeros(4) if scene.background is None else scene.background
-    color = _phong(scene, nodes, seen, origins, np.asarray(background)[:3])
+    color = _phong(scene, nodes, seen, origins, np.asarray(background, dtype=float)[:3])
     mirrors = {
         node.id: node.material for node in nodes if isinstance(node.material, cc.MirrorMaterial)
     }
@@ -111,7 +111,9 @@ def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> t
     bounced = incident - 2 * _dot(normal, incident) * normal
     start = seen.position[reflective]
     around = Geometry(node for node in nodes if node.in_captures and node.id not in mirrors)
-    light = _phong(scene, nodes, around.cast(start, bounced), start, np.asarray(background)[:3])
+    light = _phong(
+        scene, nodes, around.cast(start, bounced), start, np.asarray(background, dtype=float)[:3]
+    )
     weights = [mirrors[number] for number in seen.id[reflective]]
     tint = np.array([m.env_weight * m.tint[:3] for m in weights]).reshape(-1, 3)
     own = np.array([m.color_weight * m.color[:3] for m in weights]).reshape(-1, 3)

@@ -11,6 +11,7 @@ from . import formats
 from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from .files import as_path, write_files
 from .pixels import Array
+from .screen import Tonemap, check_look, curve_for, numbers_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -24,10 +25,15 @@ def save_cubemap(
     convention: str | None = None,
     width: int | None = None,
     center: str = "-z",
-    srgb: bool = False,
+    exposure: float = 0.0,
+    tonemap: Tonemap | None = "neutral",
+    srgb: bool | None = None,
     half: bool = False,
 ) -> None:
     """Write a cubemap as one picture or six files. The method `CubeMap.save`.
+
+    A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
+    sRGB-encoded. EXR and HDR hold linear numbers.
 
     Parameters
     ----------
@@ -43,8 +49,14 @@ def save_cubemap(
         Width of an equirect in pixels, an even number. None: 4 times the face size.
     center : {"-z", "+z", "+x", "-x"}
         The direction in the middle of an equirect.
-    srgb, half : bool
-        As in `save_image`.
+    exposure : float
+        Stops: colours are multiplied by ``2**exposure``.
+    tonemap : {"neutral", "reinhard", "aces"} or None
+        The curve for linear floats, see `to_screen`. None clips, with a warning.
+    srgb : bool, optional
+        False writes the numbers as they are; None and True as described above.
+    half : bool
+        True stores an EXR with 16 bits a number.
 
     Raises
     ------
@@ -74,13 +86,22 @@ def save_cubemap(
     if width is not None and wanted != "equirect":
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
     half = half or cube.dtype == np.float16
+    encoding = numbers_of(cube)[1]
+    check_look(exposure, tonemap)
+    # What the cube's own numbers are decides, even where resampling makes floats of whole numbers.
+    curve = curve_for(cube.faces, tonemap)
+
+    def ready(target: Path, pixels: Array) -> Array:
+        light = formats.holds_light(target, cube.faces)
+        return formats.for_file(pixels, encoding, light, exposure, curve, srgb)
+
     if paths is not None:
         if wanted not in (None, "faces"):
             raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
         faces = _storable(cube, paths).to_convention(convention or "gl")
         write_files(
             {
-                target: formats.encode(target, face, srgb=srgb, half=half)
+                target: formats.encode(target, ready(target, face), half=half)
                 for target, face in zip(paths, faces, strict=True)
             }
         )
@@ -93,7 +114,8 @@ def save_cubemap(
     attributes: dict[str, Any] = {}
     source = _storable(cube, [target])
     # If the file rounds the numbers, they are not rounded before, since two roundings would add up.
-    exact = formats.stores(target, cube.dtype) and not srgb
+    kept = exposure == 0 and (srgb is False or cube.encoding == "srgb")
+    exact = formats.stores(target, cube.dtype) and (kept or formats.holds_light(target, cube.faces))
     resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
         picture = source.to_equirect(width=width, center=center, dtype=resampled)
@@ -108,7 +130,7 @@ def save_cubemap(
         attributes["textureformat"] = "CubeFace Environment"
     else:
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
-    encoded = formats.encode(target, picture, srgb=srgb, half=half, attributes=attributes)
+    encoded = formats.encode(target, ready(target, picture), half=half, attributes=attributes)
     write_files({target: encoded})
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from .oiio import Picture
+    from .screen import Encoding
 
 __all__ = ["load_cubemap", "load_environment"]
 
@@ -54,7 +55,8 @@ def load_cubemap(
     center : {"-z", "+z", "+x", "-x"}, optional
         The direction in the middle of a panorama. None: "-z", or "+z" for OpenEXR panoramas.
     srgb : bool
-        Decode files of 8 and 16 bits to linear float32, as `load_image` does.
+        Decode files of 8 and 16 bits to linear float32, as `load_image` does. False keeps their numbers, and the
+        cube's `encoding` is "srgb".
     mipmaps : bool
         Let lookups in the result be trilinear.
     dtype : dtype, optional
@@ -63,8 +65,8 @@ def load_cubemap(
     Returns
     -------
     CubeMap
-        Linear, raw numbers in `dtype`; they are rounded to nearest if the file is resampled (panorama, OpenEXR cube,
-        size).
+        The file's numbers in `dtype`; they are rounded to nearest if the file is resampled (panorama, OpenEXR cube,
+        size). `encoding` is "srgb" for files of 8 and 16 bits that were not decoded, else "linear".
 
     Raises
     ------
@@ -93,7 +95,8 @@ def load_cubemap(
     if paths is not None:
         if wanted not in (None, "faces"):
             raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
-        cube = CubeMap(_read_faces(paths, srgb), convention=convention or "gl", mipmaps=mipmaps)
+        faces, encoding = _read_faces(paths, srgb)
+        cube = CubeMap(faces, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding)
     else:
         if wanted == "faces":
             raise ValueError(
@@ -110,7 +113,10 @@ def load_cubemap(
     if dtype is None or cube.dtype == np.dtype(dtype):
         return cube
     return CubeMap.from_layout(
-        cube.to_layout("column", dtype=dtype), layout="column", mipmaps=mipmaps
+        cube.to_layout("column", dtype=dtype),
+        layout="column",
+        mipmaps=mipmaps,
+        encoding=cube.encoding,
     )
 
 
@@ -141,7 +147,7 @@ def load_environment(
     Returns
     -------
     CubeMap
-        Linear numbers that are not clipped: lamps keep values in the thousands. Their type is that of the file, for
+        Numbers that are not clipped: lamps keep values in the thousands. Their type is that of the file, for
         example float16 from an EXR of half floats.
 
     Raises
@@ -173,12 +179,11 @@ def load_environment(
     )
 
 
-def _read_faces(paths: list[Path], srgb: bool) -> Array:
+def _read_faces(paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
     """Read six square pictures of one size, converted to the most channels and, if types differ, to float32."""
-    faces = []
-    for path in paths:
-        picture = oiio.read(existing_file(path))
-        faces.append(_colors(formats.decode(picture.pixels, srgb)))
+    pictures = [oiio.read(existing_file(path)).pixels for path in paths]
+    faces = [_colors(formats.decode(pixels, srgb)) for pixels in pictures]
+    encodings = {formats.encoding_after_decode(pixels, srgb) for pixels in pictures}
     shapes = [face.shape[1::-1] for face in faces]
     for path, shape in zip(paths, shapes, strict=True):
         if shape[0] != shape[1] or shape != shapes[0]:
@@ -189,7 +194,8 @@ def _read_faces(paths: list[Path], srgb: bool) -> Array:
     if len({face.dtype for face in faces}) > 1:
         faces = [to_float32(face) for face in faces]
     channels = max(face.shape[2] for face in faces)
-    return np.stack([_with_channels(face, channels) for face in faces])
+    encoding: Encoding = "srgb" if encodings == {"srgb"} else "linear"
+    return np.stack([_with_channels(face, channels) for face in faces]), encoding
 
 
 def _with_channels(face: Array, channels: int) -> Array:
@@ -218,6 +224,7 @@ def _from_picture(
     dtype: npt.DTypeLike | None,
 ) -> CubeMap:
     pixels = _colors(formats.decode(picture.pixels, srgb))
+    encoding = formats.encoding_after_decode(picture.pixels, srgb)
     height, width = pixels.shape[:2]
     if picture.environment == "cube" and layout is None:
         layout = "openexr"
@@ -228,6 +235,7 @@ def _from_picture(
             layout="openexr",
             mipmaps=mipmaps,
             dtype=dtype if size is None else None,
+            encoding=encoding,
         )
     if layout == "equirect" or (
         layout is None and (width == 2 * height or picture.environment == "latlong")
@@ -240,7 +248,8 @@ def _from_picture(
             mipmaps=mipmaps,
             sampling="borders" if borders else "centers",
             dtype=dtype,
+            encoding=encoding,
         )
     return CubeMap.from_layout(
-        pixels, layout=layout, convention=convention or "gl", mipmaps=mipmaps
+        pixels, layout=layout, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding
     )

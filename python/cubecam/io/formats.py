@@ -17,6 +17,16 @@ from .pixels import (
     to_float32,
     to_integers,
 )
+from .screen import (
+    Encoding,
+    Tonemap,
+    check_look,
+    curve_for,
+    encoding_of,
+    screen_pixels,
+    to_light,
+    warn_if_clipped,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -52,11 +62,40 @@ FORMATS = {
 }
 
 
+def for_file(
+    pixels: Array,
+    encoding: Encoding,
+    light: bool,
+    exposure: float,
+    tonemap: Tonemap | None,
+    srgb: bool | None,
+) -> Array:
+    """Turn an object's numbers into those of a file: linear if it holds light, else as a screen shows them.
+
+    `tonemap` maps floats only. With ``srgb=False`` the numbers stay as they are.
+    """
+    check_look(exposure, tonemap)
+    if srgb is False:
+        if exposure != 0:
+            raise ValueError(
+                f"exposure: expected 0 with srgb=False, which writes numbers as they are, got {exposure}"
+            )
+        return pixels
+    if light:
+        return to_light(pixels, encoding, exposure)
+    return screen_pixels(pixels, encoding, exposure, curve_for(pixels, tonemap), True)
+
+
 def decode(pixels: Array, srgb: bool) -> Array:
     """Turn the numbers of a file into the array that `load_image` returns."""
     if srgb and pixels.dtype in (np.uint8, np.uint16):
         return on_color(srgb_decode, to_float32(pixels))
     return to_float32(pixels) if pixels.dtype == np.uint16 else pixels
+
+
+def encoding_after_decode(pixels: Array, srgb: bool) -> Encoding:
+    """Say what the numbers are that `decode` makes of those of a file: whole numbers in files are sRGB."""
+    return "linear" if srgb else encoding_of(pixels)
 
 
 def encode(
@@ -72,6 +111,12 @@ def encode(
     array = _fit_channels(check_picture(pixels), form, extension)
     array = fit_samples(array, form, extension, srgb, half)
     return oiio.encode(extension, array, {**dict(form.attributes), **(attributes or {})})
+
+
+def holds_light(path: Path, pixels: Array) -> bool:
+    """Say whether a file of this name stores such pixels as floats, which are linear by convention."""
+    samples = find_format(path)[1].samples
+    return "float32" in samples and not ("uint8" in samples and pixels.dtype.kind == "u")
 
 
 def find_format(path: Path) -> tuple[str, Format]:
@@ -120,6 +165,8 @@ def fit_samples(pixels: Array, form: Format, extension: str, srgb: bool, half: b
         return _whole_numbers(pixels, form, extension)
     if "float32" in form.samples and not ("uint8" in form.samples and pixels.dtype.kind == "u"):
         return _floats(pixels, form, extension, half)
+    if pixels.dtype.kind == "f":
+        warn_if_clipped(pixels[..., :3])
     if srgb:
         pixels = on_color(srgb_encode, np.clip(to_float32(pixels), 0, 1))
     wide = pixels.dtype == np.uint16 and "uint16" in form.samples

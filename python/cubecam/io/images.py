@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .._core import CubeMap, Frame, Image
 from . import oiio
+from .cubemap_save import save_cubemap
 from .files import PathLike, as_path, existing_file, write_files
-from .formats import FORMATS, decode, encode, fit_samples, is_opaque
-from .pixels import Array, check_picture
+from .formats import FORMATS, decode, encode, fit_samples, for_file, holds_light, is_opaque
+from .pixels import Array, FloatArray, check_picture, on_color, to_float32
+from .screen import CURVES, Picture, Tonemap, check_look, numbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
+    from pathlib import Path
 
-__all__ = ["load_image", "save_animation", "save_image"]
+    import numpy.typing as npt
+
+__all__ = ["load_image", "save_animation", "save_frame", "save_image"]
 
 
 def load_image(path: PathLike, *, srgb: bool = False) -> Array:
@@ -55,29 +61,54 @@ def load_image(path: PathLike, *, srgb: bool = False) -> Array:
     return decode(oiio.read(existing_file(path)).pixels, srgb)
 
 
-def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = False) -> None:
-    """Write an array as a picture; the extension names the kind of file.
+def save_image(
+    path: PathLike,
+    pixels: npt.ArrayLike | Picture,
+    *,
+    srgb: bool | None = None,
+    half: bool = False,
+    exposure: float = 0.0,
+    tonemap: Tonemap | Literal["auto"] | None = "auto",
+) -> None:
+    """Write a frame, a cubemap or an array as a picture; the extension names the kind of file.
+
+    A Frame, a CubeMap or an Image is written as a screen shows it, unless the file holds linear numbers; an array is
+    written as it is.
 
     Parameters
     ----------
     path : str or os.PathLike
         A name that ends in .exr, .hdr, .png, .jpg, .tif, .webp, .bmp or .tga.
-    pixels : array_like (H, W) or (H, W, C), C of 1, 3 or 4
-        Real numbers, row 0 on top.
-    srgb : bool
-        True encodes linear colour with the sRGB curve for files of 8 and 16 bits (uint8 is taken as
-        value/255). EXR, HDR and float TIFF hold linear numbers and are never encoded.
+    pixels : Frame, CubeMap, Image or array_like (H, W) or (H, W, C), C of 1, 3 or 4
+        Row 0 on top. A cubemap is written as `CubeMap.save` writes it by default, as a cross.
+    srgb : bool, optional
+        Whether a file of 8 or 16 bits holds sRGB-encoded numbers. EXR, HDR and float TIFF hold linear numbers and are
+        never encoded.
+
+        Of an object: None and True encode what is linear, and leave what is encoded; False writes the numbers
+        as they are. Of an array: True encodes it (uint8 is taken as value/255); None and False write it as it is.
     half : bool
         True stores an EXR with 16 bits a number, half the bytes, three digits, up to 65504.
+    exposure : float
+        Stops: colours are multiplied by ``2**exposure``.
+    tonemap : {"neutral", "reinhard", "aces", "auto"} or None
+        The curve that maps linear floats into 0..1 for files of 8 and 16 bits, see `to_screen`. None clips, with a
+        warning. "auto" is "neutral" for objects and None for arrays.
 
     Raises
     ------
     OSError
         If the folder does not exist or may not be written, or the disk is full. The old file stays as it was.
     ValueError
-        For an extension that is not in the list, a shape of no picture, or numbers that the file cannot hold.
+        For an extension that is not in the list, a shape of no picture, numbers that the file cannot hold, a frame
+        without a colour, or a look (exposure, tone curve) of numbers that are written as they are.
     TypeError
         For bool, complex, object or text.
+
+    Warns
+    -----
+    ClippingWarning
+        If floats above 1 are clipped for a file of 8 or 16 bits.
 
     Notes
     -----
@@ -107,11 +138,109 @@ def save_image(path: PathLike, pixels: Any, *, srgb: bool = False, half: bool = 
     array([[1.5, inf]], dtype=float32)
     """
     target = as_path(path)
-    write_files({target: encode(target, pixels, srgb=srgb, half=half)})
+    if isinstance(pixels, CubeMap):
+        curve: Tonemap | None = "neutral" if tonemap == "auto" else tonemap
+        save_cubemap(pixels, target, srgb=srgb, half=half, exposure=exposure, tonemap=curve)
+        return
+    write_files({target: encode_picture(target, pixels, srgb, half, exposure, tonemap)})
+
+
+def save_frame(
+    frame: Frame,
+    path: PathLike,
+    *,
+    exposure: float = 0.0,
+    tonemap: Tonemap | None = "neutral",
+    srgb: bool | None = None,
+    half: bool = False,
+) -> None:
+    """Write the frame's colour as a picture. The method `Frame.save`.
+
+    A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
+    sRGB-encoded. EXR and HDR hold linear numbers.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        The extension names the kind of file, as in `save_image`.
+    exposure : float
+        Stops: colours are multiplied by ``2**exposure``.
+    tonemap : {"neutral", "reinhard", "aces"} or None
+        The curve for linear floats, see `to_screen`. None clips, with a warning.
+    srgb : bool, optional
+        False writes the numbers as they are; None and True as described above.
+    half : bool
+        True stores an EXR with 16 bits a number.
+
+    Raises
+    ------
+    OSError
+        If the folder does not exist or may not be written, or the disk is full. The old file stays as it was.
+    ValueError
+        For a frame without a colour, an extension that is not in the list, or an alpha that the file cannot hold.
+
+    Examples
+    --------
+    >>> import cubecam as cc, tempfile, pathlib
+    >>> path = pathlib.Path(tempfile.mkdtemp(), "frame.png")
+    >>> with cc.Renderer() as renderer:
+    ...     frame = renderer.render(cc.Scene(background=(0.2, 0.2, 0.2)), cc.PerspectiveCamera(), size=(2, 1))
+    >>> frame.save(path)
+    >>> cc.load_image(path)[0, 0].tolist()
+    [124, 124, 124, 255]
+    """
+    target = as_path(path)
+    write_files({target: encode_picture(target, frame, srgb, half, exposure, tonemap)})
+
+
+def encode_picture(
+    target: Path,
+    pixels: npt.ArrayLike | Picture,
+    srgb: bool | None = None,
+    half: bool = False,
+    exposure: float = 0.0,
+    tonemap: Tonemap | Literal["auto"] | None = "auto",
+) -> bytes:
+    """Turn a picture into the bytes of the file that `target` names, by the rules of `save_image`."""
+    numbers, encoded = prepare(pixels, target, srgb, exposure, tonemap)
+    return encode(target, numbers, srgb=encoded, half=half)
+
+
+def prepare(
+    pixels: npt.ArrayLike | Picture,
+    target: Path,
+    srgb: bool | None,
+    exposure: float,
+    tonemap: Tonemap | Literal["auto"] | None,
+    name: str = "pixels",
+) -> tuple[Array, bool]:
+    """Give the numbers to write and whether they are still to be sRGB-encoded."""
+    if isinstance(pixels, (Frame, Image)):
+        numbers, encoding = numbers_of(pixels)
+        curve: Tonemap | None = "neutral" if tonemap == "auto" else tonemap
+        light = holds_light(target, numbers)
+        return for_file(numbers, encoding, light, exposure, curve, srgb), False
+    array = check_picture(pixels, name)
+    curve = None if tonemap == "auto" else tonemap
+    check_look(exposure, curve)
+    if exposure == 0 and curve is None:
+        return array, bool(srgb)
+
+    def shown(color: FloatArray) -> FloatArray:
+        light = color * np.float32(2.0**exposure)
+        return light if curve is None else CURVES[curve](np.maximum(light, 0))
+
+    return on_color(shown, to_float32(array, name)), bool(srgb)
 
 
 def save_animation(
-    path: PathLike, frames: Iterable[Any], *, fps: float = 25, srgb: bool = False
+    path: PathLike,
+    frames: Iterable[npt.ArrayLike | Frame | Image],
+    *,
+    fps: float = 25,
+    srgb: bool | None = None,
+    exposure: float = 0.0,
+    tonemap: Tonemap | Literal["auto"] | None = "auto",
 ) -> None:
     """Write pictures as an animation that repeats forever.
 
@@ -119,13 +248,13 @@ def save_animation(
     ----------
     path : str or os.PathLike
         A name that ends in .png (APNG: all colours, every browser opens it), .gif (256 colours) or .webp (lossless).
-    frames : iterable of array_like (H, W) or (H, W, C)
+    frames : iterable of Frame, Image or array_like (H, W) or (H, W, C)
         Pictures as for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored
         as a single frame that lasts as long as all of them.
     fps : float
         Frames a second, above 0 and up to 100. A GIF's frames last a whole number of hundredths of a second.
-    srgb : bool
-        True encodes linear colour with the sRGB curve.
+    srgb, exposure, tonemap
+        As in `save_image`.
 
     Raises
     ------
@@ -152,9 +281,8 @@ def save_animation(
         raise ValueError(f"fps: expected a number above 0 and up to 100, got {fps}")
     pictures: list[Any] = []
     for index, frame in enumerate(frames):
-        pixels = fit_samples(
-            check_picture(frame, f"frames[{index}]"), FORMATS[".webp"], extension, srgb, False
-        )
+        pixels, encoded = prepare(frame, target, srgb, exposure, tonemap, f"frames[{index}]")
+        pixels = fit_samples(pixels, FORMATS[".webp"], extension, encoded, False)
         pixels = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels
         if extension == ".gif" or (pixels.shape[2] == 4 and is_opaque(pixels)):
             pixels = pixels[..., :3]

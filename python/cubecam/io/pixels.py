@@ -66,6 +66,31 @@ def check_picture(pixels: Any, name: str = "pixels") -> Array:
     return array
 
 
+def check_colors(pixels: Any, name: str = "pixels") -> Array:
+    """Check that an array holds colours: (H, W) or (..., 1, 3 or 4), whole numbers of 8 or 16 bits or floats.
+
+    Returns (..., C) with (H, W) as (H, W, 1).
+
+    Raises
+    ------
+    TypeError
+        For bool, complex, object and text, and for wider whole numbers, which are ids.
+    ValueError
+        For another shape, or an empty array.
+    """
+    array = np.asarray(pixels)
+    if array.dtype.kind != "f" and array.dtype not in (np.uint8, np.uint16):
+        raise TypeError(f"{name}: expected floats, uint8 or uint16, got {_describe(pixels, array)}")
+    if array.ndim == 2:
+        array = array[:, :, None]
+    if array.ndim < 2 or array.shape[-1] not in (1, 3, 4) or array.size == 0:
+        raise ValueError(
+            f"{name}: expected shape (..., channels) with 1, 3 or 4 channels, or (height, width), "
+            f"got {np.shape(pixels)}"
+        )
+    return array
+
+
 def _describe(value: object, array: Array) -> str:
     return f"dtype {array.dtype}" if isinstance(value, np.ndarray) else type(value).__name__
 

@@ -49,6 +49,7 @@ std::vector<NodeTextures> DrawnPicture::look_up_all() {
 
 std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& lookups) {
     Key common;
+    common.add(post_process.gain);
     common.add(post_process.tonemap);
     common.add(post_process.encode);
     common.add(post_process.effects.size());

@@ -1,6 +1,7 @@
 #include "cubecam/render/graph/probe_picture.hpp"
 
 #include "cubecam/core/revision.hpp"
+#include "cubecam/scene/scene_encoding.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -92,6 +93,8 @@ void ProbePicture::update() {
     // A face that is left for a later call was drawn from elsewhere.
     if (state_.position != probe_.position) context_.gpu.contents = next_revision();
     state_.position = probe_.position;
+    state_.encoding =
+        scene_encoding(context_.scenes, number_, [this](const NodeSnapshot& n) { return sees(n); });
     if (drawn == 0) return;
     if (budget) state_.next_face = (budget->first + drawn) % 6;
     if (description.mipmaps) {

@@ -21,11 +21,12 @@ namespace cubecam {
 
 /// A renderer's state of a probe.
 struct ProbeState {
-    std::unique_ptr<Target> target;  ///< null: not drawn yet
-    std::uint64_t revision = 0;      ///< new whenever a face was drawn; 0: not drawn yet
-    std::int64_t calls = 0;          ///< calls that needed it, for every_n_frames
-    std::size_t next_face = 0;       ///< the next face to draw with faces_per_frame
-    glm::dvec3 position{0.0};        ///< the position of the last drawing, world
+    std::unique_ptr<Target> target;        ///< null: not drawn yet
+    std::uint64_t revision = 0;            ///< new whenever a face was drawn; 0: not drawn yet
+    std::int64_t calls = 0;                ///< calls that needed it, for every_n_frames
+    std::size_t next_face = 0;             ///< the next face to draw with faces_per_frame
+    glm::dvec3 position{0.0};              ///< the position of the last drawing, world
+    Encoding encoding = Encoding::linear;  ///< of the last drawing
 };
 
 /// A renderer's state of a light's shadow map.

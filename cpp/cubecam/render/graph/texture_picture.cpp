@@ -90,8 +90,7 @@ void TexturePicture::update() {
     const TargetDescription description = describe();
     try {
         prepare(description);
-        const std::size_t drawn =
-            draw_changed(*state_.target, {texture_.effects, Tonemap::none, Encode::none});
+        const std::size_t drawn = draw_changed(*state_.target, {.effects = texture_.effects});
         if (drawn == 0) return;
         if (description.mipmaps) {
             context_.gpu.context.gl().GenerateTextureMipmap(state_.target->picture().id());

@@ -20,8 +20,10 @@ void PostProcessPass::draw(const PostProcess& post_process,
         draw_quad(target.scratch_pass(to).one(layer), source, program.program(), layer, stats);
         source = target.scratch(to).id();
     }
-    draw_quad(target.post_processed_pass().one(layer), source,
-              programs_->grade(post_process.tonemap, post_process.encode), layer, stats);
+    const gl::Program& grade = programs_->grade(post_process.tonemap, post_process.encode);
+    grade.use();
+    grade.set("u_gain", post_process.gain);
+    draw_quad(target.post_processed_pass().one(layer), source, grade, layer, stats);
 }
 
 void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,

@@ -12,14 +12,16 @@
 namespace cubecam {
 
 /// The steps that follow when a scene is drawn and resolved, in this order: effects, each in linear
-/// float over all pixels, then the tone curve, then the transfer function.
+/// float over all pixels, then exposure, the tone curve and the transfer function.
 struct PostProcess {
     std::vector<EffectSnapshot> effects;
+    float gain = 1.0F;  ///< multiplies the colour: 2^exposure
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
 
     bool any() const {
-        return !effects.empty() || tonemap != Tonemap::none || encode != Encode::none;
+        return !effects.empty() || gain != 1.0F || tonemap != Tonemap::none ||
+               encode != Encode::none;
     }
 };
 

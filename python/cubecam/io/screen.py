@@ -1,0 +1,246 @@
+"""The numbers that a screen shows: exposure, a tone curve and the sRGB encoding, in this order.
+
+Files of 8 bits, pictures in notebooks and the command line all go through `to_screen`, so that the same light looks the
+same everywhere.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+
+from .._core import CubeMap, Frame, Image
+from .pixels import Array, FloatArray, check_colors, on_color, srgb_decode, srgb_encode, to_float32
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+__all__ = ["ClippingWarning", "to_screen"]
+
+Encoding: TypeAlias = Literal["linear", "srgb"]
+Tonemap: TypeAlias = Literal["neutral", "reinhard", "aces"]
+Picture: TypeAlias = Frame | CubeMap | Image
+
+_PACKAGE = str(Path(__file__).resolve().parents[1])
+_LARGEST = np.float32(
+    1e18
+)  # the square of the largest light must be finite, as in shaders/passes/tonemap.frag
+_VISIBLE = 1 + 0.5 / 255  # linear numbers above this are visibly clipped
+
+
+class ClippingWarning(UserWarning):
+    """Numbers above 1 were clipped on their way into an 8-bit picture."""
+
+    __module__ = "cubecam"
+
+
+def to_screen(
+    picture: npt.ArrayLike | Picture,
+    *,
+    exposure: float = 0.0,
+    tonemap: Tonemap | None = "neutral",
+    encode: Literal["srgb"] | None = "srgb",
+) -> npt.NDArray[np.uint8]:
+    """Turn a picture into the 8-bit numbers that a screen shows.
+
+    Parameters
+    ----------
+    picture : Frame, CubeMap, Image or array_like (..., C) or (H, W)
+        The attribute `encoding` of an object says what its numbers are. In a plain array, uint8 and uint16 are
+        sRGB-encoded and floats are linear. C is 1, 3 or 4; a fourth channel is alpha.
+    exposure : float
+        Stops: the light is multiplied by ``2**exposure``.
+    tonemap : {"neutral", "reinhard", "aces"} or None
+        The curve that maps linear floats of any size into 0..1, as in `Renderer.render`: "neutral" is the Khronos PBR
+        Neutral Tone Mapper (2024), "reinhard" is equation 3 of Reinhard et al. (2002), and "aces" is Narkowicz's fit
+        (2015). None clips. Numbers that are sRGB-encoded or 8-bit hold no highlights and are never mapped.
+    encode : {"srgb"} or None
+        "srgb" encodes with the transfer function of IEC 61966-2-1, which screens expect; None leaves light linear.
+
+    Returns
+    -------
+    ndarray uint8
+        A new array of the picture's shape. NaN counts as 0; alpha is not changed by exposure, curve and encoding.
+
+    Warns
+    -----
+    ClippingWarning
+        If linear numbers above 1 are clipped, which happens without a tone curve only.
+
+    Raises
+    ------
+    TypeError
+        For bool, complex, text, or whole numbers of more than 16 bits, such as ids.
+    ValueError
+        For another shape, an unknown name, an exposure that is not from -64 to 64, or a frame without a colour.
+
+    Examples
+    --------
+    >>> import cubecam as cc, numpy as np
+    >>> cc.to_screen(np.float32([[0.0, 0.2, 0.5], [1.0, 4.0, 100.0]])).tolist()
+    [[0, 111, 181], [240, 253, 255]]
+    >>> cc.to_screen(np.float32([[0.0, 0.2, 0.5]]), tonemap=None, exposure=1).tolist()
+    [[0, 170, 255]]
+    >>> cc.to_screen(np.uint8([[7, 77, 177]])).tolist()
+    [[7, 77, 177]]
+    """
+    check_look(exposure, tonemap)
+    if encode not in ("srgb", None):
+        raise ValueError(f'encode: expected "srgb" or None, got {encode!r}')
+    if isinstance(picture, (Frame, CubeMap, Image)):
+        pixels, encoding = numbers_of(picture)
+    else:
+        pixels = check_colors(picture, "picture")
+        encoding = encoding_of(pixels)
+    curve = curve_for(pixels, tonemap)
+    shown = screen_pixels(pixels, encoding, exposure, curve, encode is not None)
+    # A grey array (H, W) is (H, W, 1) here.
+    return shown[..., 0] if np.ndim(picture) == 2 else shown
+
+
+def numbers_of(picture: Picture) -> tuple[Array, Encoding]:
+    """Give the numbers of an object and what they are; raise ValueError for a frame without a colour."""
+    if isinstance(picture, CubeMap):
+        return picture.faces, _known(picture.encoding)
+    if isinstance(picture, Image):
+        return picture.pixels, _known(picture.encoding)
+    if picture.color is None:
+        raise ValueError("expected a frame with a colour, got one of format=None")
+    return picture.color, _known(picture.encoding)
+
+
+def _known(encoding: str) -> Encoding:
+    return "srgb" if encoding == "srgb" else "linear"
+
+
+def encoding_of(pixels: Array) -> Encoding:
+    """Give the encoding of a plain array: whole numbers are sRGB, as in files, and floats are linear."""
+    return "srgb" if pixels.dtype.kind == "u" else "linear"
+
+
+def curve_for(pixels: Array, tonemap: Tonemap | None) -> Tonemap | None:
+    """Give the curve for pixels of this type: whole numbers hold no highlights that a curve would keep."""
+    return tonemap if pixels.dtype.kind == "f" else None
+
+
+def check_look(exposure: float, tonemap: str | None) -> None:
+    """Raise ValueError or TypeError for an exposure or a curve that `to_screen` does not take."""
+    if isinstance(exposure, bool) or not isinstance(exposure, (int, float, np.number)):
+        raise TypeError(f"exposure: expected a number of stops, got {type(exposure).__name__}")
+    if not -64 <= exposure <= 64:
+        raise ValueError(f"exposure: expected -64 to 64 stops, got {exposure}")
+    if tonemap is not None and tonemap not in CURVES:
+        names = ", ".join(f'"{name}"' for name in CURVES)
+        raise ValueError(f"tonemap: expected {names} or None, got {tonemap!r}")
+
+
+def screen_pixels(
+    pixels: Array, encoding: Encoding, exposure: float, curve: Tonemap | None, encode: bool
+) -> npt.NDArray[np.uint8]:
+    """Do what `to_screen` describes with (..., C) numbers of a known encoding."""
+    if encoding == "srgb" and encode and exposure == 0:
+        return to_bytes(pixels)
+
+    def shown(color: FloatArray) -> FloatArray:
+        if encoding == "srgb":
+            color = srgb_decode(color)
+        light = np.nan_to_num(color, nan=0, posinf=_LARGEST, neginf=0) * np.float32(2.0**exposure)
+        light = np.clip(light, 0, _LARGEST)
+        if curve is not None and encoding == "linear":
+            light = CURVES[curve](light)
+        else:
+            warn_if_clipped(light)
+        light = np.clip(light, 0, 1)
+        return srgb_encode(light) if encode else light
+
+    return to_bytes(on_color(shown, to_float32(pixels)))
+
+
+def to_light(pixels: Array, encoding: Encoding, exposure: float) -> Array:
+    """Turn (..., C) numbers into linear floats; linear numbers that need no exposure stay as they are."""
+    if encoding == "linear" and exposure == 0:
+        return pixels
+
+    def light(color: FloatArray) -> FloatArray:
+        linear = srgb_decode(color) if encoding == "srgb" else color
+        return np.asarray(linear * np.float32(2.0**exposure), dtype=np.float32)
+
+    values = on_color(light, to_float32(pixels))
+    return values.astype(np.float16) if pixels.dtype.itemsize < 4 and _fits_half(values) else values
+
+
+def _fits_half(values: FloatArray) -> bool:
+    return bool(np.max(np.abs(values), where=np.isfinite(values), initial=0) <= 65504)
+
+
+def to_bytes(pixels: Array) -> npt.NDArray[np.uint8]:
+    """Round numbers 0..1 to 0..255, in a new array; NaN becomes 0."""
+    if pixels.dtype == np.uint8:
+        return np.array(pixels, dtype=np.uint8)
+    values = np.nan_to_num(to_float32(pixels), nan=0, posinf=1, neginf=0)
+    scaled = np.clip(values, 0, 1) * np.float32(255) + np.float32(0.5)
+    return np.asarray(scaled).astype(np.uint8)
+
+
+def warn_if_clipped(color: Array) -> None:
+    """Warn, at the user's line, if numbers are visibly above 1; `color` has no alpha."""
+    over = int(np.count_nonzero(color > _VISIBLE))
+    if over:
+        warnings.warn(
+            f"{over} of {color.size} numbers are above 1 and are clipped, the largest is {float(color.max()):.4g}; "
+            'tonemap="neutral" keeps highlights, exposure= makes the picture darker, .exr holds all numbers',
+            ClippingWarning,
+            stacklevel=_level_of_the_user(),
+        )
+
+
+def _level_of_the_user() -> int:
+    """Count the calls from `warnings.warn` up to the first line outside this package."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
+    return level
+
+
+def _neutral(linear: FloatArray) -> FloatArray:
+    """Compress highlights into 0..1 and keep darker colours as they are.
+
+    Khronos PBR Neutral Tone Mapper (specification of 2024), whose names the variables keep.
+    """
+    f90, start = np.float32(0.04), np.float32(0.8 - 0.04)
+    desaturation = np.float32(0.15)
+    low = linear.min(axis=-1, keepdims=True)
+    offset = np.where(low < 2 * f90, low - low * low / (4 * f90), f90)
+    color = linear - offset
+    peak = color.max(axis=-1, keepdims=True)
+    d = 1 - start
+    # Below the start nothing changes; the maximum keeps the unused branch from dividing by zero.
+    new_peak = np.where(peak < start, peak, 1 - d * d / np.maximum(peak + d - start, d))
+    scaled = color * (new_peak / np.maximum(peak, np.float32(1e-9)))
+    white = 1 - 1 / (desaturation * (peak - new_peak) + 1)
+    return np.asarray(scaled + (new_peak - scaled) * white, dtype=np.float32)
+
+
+def _reinhard(linear: FloatArray) -> FloatArray:
+    """E. Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, equation 3, per channel."""
+    return np.asarray(linear / (1 + linear), dtype=np.float32)
+
+
+def _aces(linear: FloatArray) -> FloatArray:
+    """K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit of the reference curve."""
+    a, b, c, d, e = (np.float32(x) for x in (2.51, 0.03, 2.43, 0.59, 0.14))
+    mapped: FloatArray = linear * (a * linear + b) / (linear * (c * linear + d) + e)
+    return mapped
+
+
+CURVES: dict[str, Callable[[FloatArray], FloatArray]] = {
+    "neutral": _neutral,
+    "reinhard": _reinhard,
+    "aces": _aces,
+}
