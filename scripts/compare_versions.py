@@ -9,6 +9,7 @@
 The pictures are the first, middle and last frame of the programs P1 to P17, those of tests/images, and random
 worlds (random_worlds.py). Each version draws in a process of its own and uses the examples and reference pictures
 of its own tree; this version is the `cubecam` that Python finds. The exit code is 1 if any picture differs.
+Pictures that show a sample photograph differ from those of versions whose photographs are others.
 
 With --allow-ties a pixel may differ where both versions see different nodes at exactly the same distance.
 """

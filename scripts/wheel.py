@@ -18,6 +18,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 DIST = ROOT / "dist"
 LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
+LARGEST = 5_000_000  # bytes
 EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md")
 
 
@@ -51,6 +52,10 @@ def needed_libraries(library: Path) -> list[str]:
 
 
 def check_contents(wheel: Path, folder: Path) -> None:
+    if wheel.stat().st_size >= LARGEST:
+        raise SystemExit(
+            f"{wheel.name}: expected less than {LARGEST:,} bytes, got {wheel.stat().st_size:,}"
+        )
     with zipfile.ZipFile(wheel) as archive:
         names = archive.namelist()
         missing = [name for name in EXPECTED if name not in names]

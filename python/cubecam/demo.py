@@ -1,4 +1,4 @@
-"""The demo: a bunny and a teapot circle a mirror ball in a photographed square, drawn in every kind of picture.
+"""The demo: a bunny and a teapot circle a mirror ball on a photographed quay, drawn in every kind of picture.
 
 The command line, a notebook and the tests use the scene that `build_scene` makes.
 """
@@ -75,7 +75,7 @@ def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) ->
     Parameters
     ----------
     environment : CubeMap, optional
-        The surroundings of the scene. None: the sample photograph of a city square.
+        The surroundings of the scene. None: the sample photograph of a quay at sunset.
     probe_size : int
         Texels along a face of the cubemap that the ball shows.
 
@@ -92,7 +92,7 @@ def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) ->
     [0.0, -0.1, -1.4]
     """
     if environment is None:
-        environment = load_environment(sample_data("city.exr"))
+        environment = load_environment(sample_data("sunset.exr"))
     scene = Scene(environment=environment)
     scene.add(PointLight(position=(3, 4, 3)))
     scene.add(Mesh.plane(10, 10), PhongMaterial(color=(0.4, 0.4, 1)), position=(0, -2, 0))

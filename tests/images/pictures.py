@@ -23,8 +23,8 @@ def front(renderer, scene, **more):
 
 
 def draw_materials(renderer):
-    """The four materials side by side in the city."""
-    scene = cc.Scene(environment=surroundings("city"))
+    """The four materials side by side at sunset."""
+    scene = cc.Scene(environment=surroundings("sunset"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     materials = [
         cc.BasicMaterial(color=(0.9, 0.3, 0.1)),
@@ -43,7 +43,7 @@ def draw_materials(renderer):
 
 def draw_reflection(renderer):
     """The scene of the front page: a mirror ball that shows bunny and teapot."""
-    scene = cc.Scene(environment=surroundings("studio"))
+    scene = cc.Scene(environment=surroundings("forest"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(cc.Mesh.plane(10, 10), cc.PhongMaterial(color=(0.4, 0.4, 1)), position=(0, -0.8, 0))
     scene.add(bunny(1), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(1.2, -0.3, 0.6))
@@ -59,7 +59,7 @@ def draw_reflection(renderer):
 
 def draw_capture(renderer):
     """A captured cube as a cross, in the convention whose faces look as seen from inside."""
-    scene = cc.Scene(environment=surroundings("city"))
+    scene = cc.Scene(environment=surroundings("sunset"))
     scene.add(cc.PointLight(position=(3, 4, 3)))
     scene.add(bunny(), cc.PhongMaterial(color=(1, 0.4, 0.4)), position=(0, 0, -2))
     cube = renderer.capture(scene, size=32, format="rgba8", samples=4)

@@ -157,7 +157,7 @@ def test_without_the_attribute_a_column_is_copied(tmp_path):
 
 def test_environment_of_a_panorama_has_the_default_size():
     cube = cc.load_environment(cc.sample_data("studio.exr"))
-    assert cube.size == 256
+    assert cube.size == 512
     assert cube.channels == 3
     assert cube.faces.max() > 100  # the bright lamps are not clipped
 
@@ -261,7 +261,7 @@ def test_unknown_names_are_refused_where_they_are_not_needed(tmp_path, options):
             tmp_path / "a.png", layout="equirect" if "convention" in options else None, **options
         )
     with pytest.raises(ValueError, match="bogus"):
-        cc.load_cubemap(cc.sample_data("city.exr"), **options)
+        cc.load_cubemap(cc.sample_data("sunset.exr"), **options)
 
 
 def test_one_path_for_two_faces_is_refused(tmp_path):

@@ -287,11 +287,6 @@ def test_a_mesh_without_triangles_is_a_mesh_error(tmp_path):
         cc.load_mesh(tmp_path / "a.obj")
 
 
-def test_unknown_sample_data_names_what_there_is():
-    with pytest.raises(ValueError, match=r"bunny\.obj"):
-        cc.sample_data("dragon.obj")
-
-
 @pytest.mark.parametrize(
     "text",
     [

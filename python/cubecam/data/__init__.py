@@ -2,38 +2,88 @@
 
 from __future__ import annotations
 
+import difflib
 from pathlib import Path
+from typing import overload
 
 __all__ = ["sample_data"]
 
-_FILES = ("studio.exr", "city.exr", "forest.exr", "workshop.exr", "bunny.obj", "teapot.obj")
+_FILES = (
+    "courtyard.exr",
+    "forest.exr",
+    "interior.exr",
+    "studio.exr",
+    "sunrise.exr",
+    "sunset.exr",
+    "bunny.obj",
+    "suzanne.glb",
+    "teapot.obj",
+)
 
 
-def sample_data(name: str) -> Path:
-    """Find a sample file.
+@overload
+def sample_data() -> tuple[str, ...]: ...
+@overload
+def sample_data(name: str) -> Path: ...
+
+
+def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
+    """Find a sample file, or list the names of all.
 
     Parameters
     ----------
-    name : str
-        "studio.exr", "city.exr", "forest.exr" or "workshop.exr": equirectangular HDR photographs, 512 x 256,
-        linear, half float. "bunny.obj", "teapot.obj": meshes without normals, some 10 and 32 units wide.
+    name : str, optional
+        The name of a file, see below. None: the names of all files are returned.
 
     Returns
     -------
-    pathlib.Path
-        The path of the file, which must not be changed.
+    pathlib.Path or tuple of str
+        The path of the file, which must not be changed; without a name, the names: photographs first, then meshes.
 
     Raises
     ------
     ValueError
-        For another name.
+        For another name; the error says which names there are.
+
+    Notes
+    -----
+    The photographs are equirectangular, (512, 1024, 3), half floats, linear, 0 or more; the lamps and the sun are not
+    clipped. `load_environment` makes faces of 512 x 512 texels of them.
+
+    =============  ==============================================================  ==================
+    photograph     shows                                                           highest number
+    =============  ==============================================================  ==================
+    courtyard.exr  a yard under a roof, open to a sunny sky in the middle          54.8
+    forest.exr     a path in a Japanese garden, the sun behind trees               1,437
+    interior.exr   a hotel room with lamps and two bright windows                  35,744
+    studio.exr     a dark photographer's studio with lamps                         616.5
+    sunrise.exr    a meadow in the morning, the sun low                            34,560
+    sunset.exr     a quay at the sea in the evening, the sun on the horizon        6,248
+    =============  ==============================================================  ==================
+
+    The meshes have no texture coordinates; `load_mesh` computes smooth normals where a file has none. Sizes are those
+    along x, y and z in the file's own units.
+
+    ===========  ======================  ========  =========  ==================
+    mesh         shows                   vertices  triangles  size
+    ===========  ======================  ========  =========  ==================
+    bunny.obj    Stanford bunny          1,839     3,674      9.9, 9.7, 7.5
+    suzanne.glb  Blender's monkey head   2,012     3,936      2.7, 1.9, 1.6
+    teapot.obj   Utah teapot             792       992        32.1, 15.8, 20.0
+    ===========  ======================  ========  =========  ==================
 
     Examples
     --------
     >>> import cubecam as cc
-    >>> cc.sample_data("studio.exr").name
-    'studio.exr'
+    >>> cc.sample_data("sunset.exr").name
+    'sunset.exr'
+    >>> cc.sample_data()[:3]
+    ('courtyard.exr', 'forest.exr', 'interior.exr')
     """
+    if name is None:
+        return _FILES
     if name not in _FILES:
-        raise ValueError(f"expected one of {', '.join(_FILES)}; got {name!r}")
+        near = difflib.get_close_matches(str(name), _FILES, n=1)
+        hint = f"; did you mean {near[0]!r}?" if near else ""
+        raise ValueError(f"expected one of {', '.join(_FILES)}; got {name!r}{hint}")
     return Path(__file__).with_name(name)

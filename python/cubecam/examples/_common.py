@@ -28,10 +28,10 @@ def photographs(images: Any = None) -> list[Picture]:
     """Return six pictures (N, N, C) in the order +X -X +Y -Y +Z -Z, in the layout of OpenGL's faces.
 
     images : six arrays, an array (6, N, N, C), six paths, or a path with {face}. None: pictures of 512 x 512 pixels of
-    8 bits, made from the sample photograph of a city square by tone mapping, like the pictures of a camera.
+    8 bits, made from the sample photograph of a quay at sunset by tone mapping, like the pictures of a camera.
     """
     if images is None:
-        return list(_city())
+        return list(_quay())
     if isinstance(images, str) or not isinstance(images, Sequence | np.ndarray):
         return list(cc.load_cubemap(images).faces)
     if len(images) != 6:
@@ -49,9 +49,9 @@ def surroundings(images: Any = None, *, mipmaps: bool = False) -> cc.CubeMap:
 
 
 @functools.cache
-def _city() -> Picture:
+def _quay() -> Picture:
     # Tone mapping rounds to 8 bits, so the resampling before it must not round.
-    cube = cc.load_environment(cc.sample_data("city.exr"), size=PHOTOGRAPH, dtype="float32")
+    cube = cc.load_environment(cc.sample_data("sunset.exr"), size=PHOTOGRAPH, dtype="float32")
     return cc.to_screen(cube)[..., :3]
 
 

@@ -85,7 +85,7 @@ def load_cubemap(
     Examples
     --------
     >>> import cubecam as cc
-    >>> cube = cc.load_cubemap(cc.sample_data("city.exr"), size=64)
+    >>> cube = cc.load_cubemap(cc.sample_data("sunset.exr"), size=64)
     >>> cube.faces.shape
     (6, 64, 64, 3)
     """
@@ -157,15 +157,15 @@ def load_environment(
 
     Notes
     -----
-    The numbers are those of the file. Lossy EXR compression (DWA) leaves some numbers below 0 near lamps, also in
-    the sample photographs; if they are visible, use `CubeMap(numpy.maximum(cube.faces, 0))`.
+    The numbers are those of the file. Those of the sample photographs are 0 or more, but some programs leave numbers
+    below 0 round lamps; if they are visible, use `CubeMap(numpy.maximum(cube.faces, 0))`.
 
     Examples
     --------
     >>> import cubecam as cc
-    >>> studio = cc.load_environment(cc.sample_data("studio.exr"))
-    >>> studio.size, bool(studio.faces.max() > 1000)
-    (256, True)
+    >>> sunset = cc.load_environment(cc.sample_data("sunset.exr"))
+    >>> sunset.size, bool(sunset.faces.max() > 1000)
+    (512, True)
     """
     return load_cubemap(
         path,

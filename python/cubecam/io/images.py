@@ -56,7 +56,7 @@ def load_image(path: PathLike, *, srgb: bool = False) -> Array:
     >>> import cubecam as cc
     >>> studio = cc.load_image(cc.sample_data("studio.exr"))
     >>> studio.shape, studio.dtype.name, float(studio.max())
-    ((256, 512, 3), 'float16', 3730.0)
+    ((512, 1024, 3), 'float16', 616.5)
     """
     return decode(oiio.read(existing_file(path)).pixels, srgb)
 
