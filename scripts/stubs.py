@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import builtins
 import difflib
 import enum
 import inspect
@@ -19,14 +20,11 @@ import numpy.typing as npt
 import pybind11_stubgen
 
 import cubecam
+import cubecam.typing
 from cubecam import _core
 
 ROOT = Path(__file__).resolve().parent.parent
 STUB = ROOT / "python" / "cubecam" / "_core.pyi"
-
-
-#: This type stands for numpy's union of many types, and stubs write it by its name.
-ARRAY_LIKE = type("ArrayLike", (), {"__module__": "numpy.typing"})
 
 
 def make_describable() -> None:
@@ -36,6 +34,7 @@ def make_describable() -> None:
     for imports.
     Methods and properties that python/cubecam/_attach.py adds are plain functions with annotations as text.
     """
+    methods = set()  # some belong to several classes
     for name, thing in vars(_core).items():
         if getattr(thing, "__module__", None) != "cubecam":
             continue
@@ -48,19 +47,146 @@ def make_describable() -> None:
             for function in accessors:
                 ours = isinstance(function, types.FunctionType)
                 if ours and function.__module__.startswith("cubecam"):
-                    make_method(function)
+                    methods.add(function)
+    for method in methods:
+        make_method(method)
 
 
 def make_method(function: types.FunctionType) -> None:
-    """Give a function the first argument `self` and annotations that are types."""
+    """Give a function the first argument `self` and annotations with full names."""
     arguments = function.__code__.co_varnames
-    annotations = typing.get_type_hints(function)
-    annotations.pop(arguments[0], None)
-    for name, kind in annotations.items():
-        annotations[name] = ARRAY_LIKE if kind == npt.ArrayLike else kind
-    function.__annotations__ = annotations
+    function.__annotations__ = {
+        name: full_names(annotation, function.__globals__)
+        for name, annotation in function.__annotations__.items()
+        if name != arguments[0]
+    }
     function.__code__ = function.__code__.replace(co_varnames=("self", *arguments[1:]))
     function.__doc__ = inspect.getdoc(function)
+
+
+def full_names(annotation: str, scope: dict[str, object]) -> str:
+    """Turn "NDArray[np.float32]" into "numpy.typing.NDArray[numpy.float32]"."""
+
+    class FullNames(ast.NodeTransformer):
+        def visit_Name(self, node: ast.Name) -> ast.expr:
+            thing = scope.get(node.id, getattr(builtins, node.id, None))
+            for module in (cubecam.typing, npt):
+                # An alias of a union has no name of its own; None: only type checkers import it.
+                if node.id in module.__all__ and thing in (None, getattr(module, node.id)):
+                    return ast.parse(f"{module.__name__}.{node.id}", mode="eval").body
+            if isinstance(thing, types.ModuleType):
+                return ast.parse(thing.__name__, mode="eval").body
+            if thing is None:
+                raise SystemExit(
+                    f"{node.id} in {annotation}: expected a name that exists when the program runs"
+                )
+            if typing.get_origin(thing) is not None:  # another alias
+                return ast.parse(str(thing), mode="eval").body
+            name = getattr(thing, "__qualname__", node.id)
+            package = getattr(thing, "__module__", "builtins")
+            full = name if package == "builtins" else f"{package}.{name}"
+            return ast.parse(full, mode="eval").body
+
+    return ast.unparse(FullNames().visit(ast.parse(annotation, mode="eval")))
+
+
+def names_of_choices() -> dict[tuple[str, ...], str]:
+    """Map the names that a choice has to the alias of the choice in cubecam.typing."""
+    aliases = vars(cubecam.typing).items()
+    return {
+        typing.get_args(alias): name
+        for name, alias in aliases
+        if typing.get_origin(alias) is typing.Literal
+    }
+
+
+class ExactTypes(ast.NodeTransformer):
+    """Replaces types that pybind11 cannot say more exactly, and lists of names by their aliases."""
+
+    def __init__(self) -> None:
+        self.choices = names_of_choices()
+        self.unknown: list[str] = []
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.FunctionDef:
+        arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+        arguments += [more for more in (node.args.vararg, node.args.kwarg) if more]
+        if any(ast.unparse(decorator).endswith(".setter") for decorator in node.decorator_list):
+            arguments[1].arg = "value"
+        for argument in arguments[1 if arguments[:1] and arguments[0].arg == "self" else 0 :]:
+            argument.annotation = self.visit(argument.annotation or ast.Name("object"))
+        if node.returns is not None:
+            node.returns = self.visit(node.returns)
+        if node.name in ("__eq__", "__ne__"):  # both return NotImplemented for other classes
+            arguments[1].annotation = ast.Name("object")
+            node.returns = ast.Name("bool")
+        if node.name == "__setstate__":  # raises TypeError for a state of another class
+            arguments[1].arg = "state"
+            arguments[1].annotation = ast.Name("object")
+        return node
+
+    def visit_Subscript(self, node: ast.Subscript) -> ast.expr:
+        kind = ast.unparse(node.value)
+        if kind == "typing.Literal":
+            parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
+            names = tuple(part.value for part in parts if isinstance(part, ast.Constant))
+            if names not in self.choices:
+                self.unknown.append(", ".join(map(str, names)))
+                return node
+            return ast.Name(self.choices[names])
+        # The names of these types stay; only what the brackets hold is visited.
+        node.slice = self.visit(node.slice)
+        return node
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        whole = ast.unparse(node)
+        if whole.startswith("cubecam.typing."):
+            return ast.Name(node.attr)
+        return ast.Name("object") if whole == "typing.Any" else node
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        bare = {"tuple": "tuple[object, ...]", "dict": "dict[str, object]", "list": "list[object]"}
+        return ast.parse(bare.get(node.id, node.id), mode="eval").body
+
+
+def with_exact_types(text: str) -> str:
+    """Apply ExactTypes to a stub, and import the aliases that the stub uses."""
+    exact = ExactTypes()
+    tree = exact.visit(ast.parse(text))
+    if exact.unknown:
+        lists = "\n".join(dict.fromkeys(exact.unknown))
+        raise SystemExit(
+            f"expected an alias in cubecam.typing for each choice, got none for\n{lists}"
+        )
+    imported = ", ".join(cubecam.typing.__all__)
+    lines = ast.unparse(tree).splitlines(keepends=True)
+    at = lines.index("from __future__ import annotations\n") + 1
+    lines = [line for line in lines if line not in ("import cubecam\n", "import cubecam.typing\n")]
+    return "".join([*lines[:at], f"from cubecam.typing import {imported}\n", *lines[at:]])
+
+
+def with_excuses(text: str) -> str:
+    """Mark what the core does on purpose although type checkers refuse it.
+
+    A class without a hash has None in its place, and a camera that computes its view has no setter for it.
+    """
+    lines = text.splitlines()
+    classes = [node for node in ast.parse(text).body if isinstance(node, ast.ClassDef)]
+    setters = {
+        (kind.name, member.name)
+        for kind in classes
+        for member in kind.body
+        if isinstance(member, ast.FunctionDef) and len(member.decorator_list) == 1
+        if ast.unparse(member.decorator_list[0]).endswith(".setter")
+    }
+    for kind in classes:
+        for member in kind.body:
+            if isinstance(member, ast.AnnAssign) and ast.unparse(member.target) == "__hash__":
+                lines[member.lineno - 1] += "  # type: ignore[assignment]"
+            name = getattr(member, "name", "")
+            inherits = any((ast.unparse(base), name) in setters for base in kind.bases)
+            if inherits and (kind.name, name) not in setters:
+                lines[member.decorator_list[0].lineno - 1] += "  # type: ignore[misc]"
+    return "\n".join(lines) + "\n"
 
 
 def without_package_prefix(text: str) -> str:
@@ -135,8 +261,9 @@ def generate() -> str:
         text = Path(folder, "cubecam", "_core.pyi").read_text(encoding="utf-8")
     text = with_short_numpy(with_plain_enums(without_package_prefix(text)))
     text = text.replace("__all__: list = [", "__all__: list[str] = [")
+    text = with_exact_types(text)
     text = ruff(text, "check", "--select=I,F401", "--fix-only")
-    return ruff(text, "format")
+    return with_excuses(ruff(text, "format"))
 
 
 def main(arguments: list[str]) -> int:

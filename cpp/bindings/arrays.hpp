@@ -10,6 +10,8 @@
 /// bool, complex, object, str and dates raise TypeError; wrong shapes and values raise ValueError.
 #pragma once
 
+#include "objects.hpp"
+
 #include "cubecam/image/output_values.hpp"
 #include "cubecam/image/pixels.hpp"
 
@@ -112,6 +114,20 @@ py::array readonly_view(py::dtype dtype, std::vector<py::ssize_t> shape, const v
 /// The numpy type of pixels, and of an output's values.
 py::dtype numpy_dtype(DType dtype);
 py::dtype numpy_dtype(OutputType type);
+namespace bindings {
+
+/// Calls a function with an object of the type that signatures show for an output's array.
+template <class Function>
+void with_array_type(OutputType type, Function function) {
+    switch (type) {
+        case OutputType::float32: return function(OneOf<py::array_t<float>>());
+        case OutputType::int32: return function(OneOf<py::array_t<std::int32_t>>());
+        case OutputType::uint8: return function(OneOf<py::array_t<std::uint8_t>>());
+    }
+}
+
+}  // namespace bindings
+
 /// uint8, float16 or float32 from any form that numpy reads as a dtype; None gives `otherwise`.
 DType to_dtype(py::handle value, DType otherwise);
 

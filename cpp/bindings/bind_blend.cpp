@@ -1,4 +1,5 @@
 // cubecam.Blend
+#include "choice.hpp"
 #include "docs/blend.hpp"
 #include "objects.hpp"
 
@@ -13,7 +14,9 @@ namespace cubecam::bindings {
 
 namespace {
 
-using WordOrNone = OneOf<py::str, py::none>;
+using FactorName = Choice<blend_factor_names>;
+using EquationName = Choice<blend_equation_names>;
+using FactorOrNone = OneOf<FactorName, py::none>;
 
 BlendFactor to_factor(py::handle given, const char* name, BlendFactor colors) {
     if (given.is_none()) return colors;
@@ -21,8 +24,8 @@ BlendFactor to_factor(py::handle given, const char* name, BlendFactor colors) {
     return parse_blend_factor(given.cast<std::string>(), name);
 }
 
-BlendFactors from_words(const std::string& src, const std::string& dst, const WordOrNone& src_alpha,
-                        const WordOrNone& dst_alpha, const std::string& equation) {
+BlendFactors from_words(const FactorName& src, const FactorName& dst, const FactorOrNone& src_alpha,
+                        const FactorOrNone& dst_alpha, const EquationName& equation) {
     BlendFactors made;
     made.src = parse_blend_factor(src, "src");
     made.dst = parse_blend_factor(dst, "dst");
@@ -32,9 +35,8 @@ BlendFactors from_words(const std::string& src, const std::string& dst, const Wo
     return made;
 }
 
-template <class Word>
-auto word_of(Word BlendFactors::* field) {
-    return [field](const BlendFactors& self) { return std::string(to_string(self.*field)); };
+auto factor_of(BlendFactor BlendFactors::* field) {
+    return [field](const BlendFactors& self) -> FactorName { return to_string(self.*field); };
 }
 
 /// The arguments of the constructor, in their order.
@@ -66,23 +68,25 @@ void bind_blend(pybind11::module_& module) {
     auto blend = declare<BlendFactors>(module, "Blend", docs::blend);
     blend
         .def(
-            py::init([](const std::string& src, const std::string& dst, const WordOrNone& src_alpha,
-                        const WordOrNone& dst_alpha, const std::string& equation) {
+            py::init([](const FactorName& src, const FactorName& dst, const FactorOrNone& src_alpha,
+                        const FactorOrNone& dst_alpha, const EquationName& equation) {
                 return std::make_shared<BlendFactors>(
                     from_words(src, dst, src_alpha, dst_alpha, equation));
             }),
             py::arg("src"), py::arg("dst"), py::kw_only(), py::arg("src_alpha") = py::none(),
             py::arg("dst_alpha") = py::none(), py::arg("equation") = "add")
-        .def_property_readonly("src", word_of(&BlendFactors::src),
+        .def_property_readonly("src", factor_of(&BlendFactors::src),
                                "str: the factor of the surface's colour.")
-        .def_property_readonly("dst", word_of(&BlendFactors::dst),
+        .def_property_readonly("dst", factor_of(&BlendFactors::dst),
                                "str: the factor of the colour in the picture.")
-        .def_property_readonly("src_alpha", word_of(&BlendFactors::src_alpha),
+        .def_property_readonly("src_alpha", factor_of(&BlendFactors::src_alpha),
                                "str: the factor of the surface's alpha.")
-        .def_property_readonly("dst_alpha", word_of(&BlendFactors::dst_alpha),
+        .def_property_readonly("dst_alpha", factor_of(&BlendFactors::dst_alpha),
                                "str: the factor of the alpha in the picture.")
-        .def_property_readonly("equation", word_of(&BlendFactors::equation),
-                               "str: how the two products are combined.")
+        .def_property_readonly(
+            "equation",
+            [](const BlendFactors& self) -> EquationName { return to_string(self.equation); },
+            "str: how the two products are combined.")
         .def(
             "__eq__", [](const BlendFactors& a, const BlendFactors& b) { return a == b; },
             py::is_operator(), py::arg("other"))
@@ -93,8 +97,8 @@ void bind_blend(pybind11::module_& module) {
             return reduced(self, py::make_tuple(words[0], words[1]), words);
         });
     def_setstate(blend, "tuple", [](const py::object& self, const py::tuple& words) {
-        self.cast<BlendFactors&>() =
-            from_words(words[0].cast<std::string>(), words[1].cast<std::string>(),
-                       WordOrNone(words[2]), WordOrNone(words[3]), words[4].cast<std::string>());
+        self.cast<BlendFactors&>() = from_words(
+            words[0].cast<std::string>(), words[1].cast<std::string>(), FactorOrNone(words[2]),
+            FactorOrNone(words[3]), words[4].cast<std::string>());
     });
 }

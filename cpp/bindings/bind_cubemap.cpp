@@ -36,6 +36,8 @@ PixelBuffer copy_pixels(const std::byte* from, std::size_t bytes) {
     return to;
 }
 
+using FaceLike = OneOf<Face, WholeNumber, Choice<face_words>>;
+
 Face to_face(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_face(value.cast<std::string>());
     if (py::isinstance<py::bool_>(value) || !PyIndex_Check(value.ptr())) {
@@ -70,8 +72,8 @@ void check_six_alike(py::handle value) {
     }
 }
 
-CubePtr make_cube(const py::object& faces, const std::string& convention_name, bool mipmaps,
-                  const std::optional<std::string>& encoding_name) {
+CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name, bool mipmaps,
+                  const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     check_six_alike(faces);
     const PixelArray pixels = pixel_array(faces, "faces", "(6, N, N, C)");
@@ -87,8 +89,8 @@ CubePtr make_cube(const py::object& faces, const std::string& convention_name, b
                                      OutputList(), encoding);
 }
 
-void set_face(CubeMap& cube, const py::object& face_value, const py::object& value,
-              const std::string& convention_name) {
+void set_face(CubeMap& cube, const FaceLike& face_value, const ArrayLike& value,
+              const ConventionName& convention_name) {
     const Convention convention = parse_convention(convention_name);
     const Face named = to_face(face_value);
     std::shared_ptr<const CubeMapData> state = cube.data();
@@ -112,13 +114,13 @@ void set_face(CubeMap& cube, const py::object& face_value, const py::object& val
     cube.set_face(flips.face, memory);
 }
 
-py::array faces_view(const CubeMap& cube) {
+Pixels faces_view(const CubeMap& cube) {
     const auto state = cube.data();
     return readonly_view(numpy_dtype(state->dtype), face_shape(state->size, state->channels),
                          state->pixels->data(), state->pixels);
 }
 
-py::array sample(const CubeMap& cube, const py::object& directions, const py::object& lod) {
+py::array_t<float> sample(const CubeMap& cube, const ArrayLike& directions, const ArrayLike& lod) {
     const auto towards = float_array(directions, "directions", "(..., 3)");
     const auto count = static_cast<std::size_t>(towards.size() / 3);
     const float* d = towards.data();
@@ -168,8 +170,8 @@ py::object output_of(const CubeMap& cube, std::string_view name) {
     return output == nullptr ? py::object(py::none()) : py::object(output_view(cube, *output));
 }
 
-py::typing::Dict<py::str, py::array> outputs_of(const CubeMap& cube) {
-    py::typing::Dict<py::str, py::array> outputs;
+py::typing::Dict<py::str, OutputArray> outputs_of(const CubeMap& cube) {
+    py::typing::Dict<py::str, OutputArray> outputs;
     for (const OutputValues& output : cube.outputs()) {
         outputs[py::str(output.name)] = output_view(cube, output);
     }
@@ -283,18 +285,24 @@ void bind_cubemap(py::module_& module) {
         .def_property_readonly(
             "channels", [](const CubeMap& c) { return c.data()->channels; }, "int: C, 1, 3 or 4.")
         .def_property_readonly(
-            "dtype", [](const CubeMap& c) { return numpy_dtype(c.data()->dtype); },
+            "dtype", [](const CubeMap& c) -> PixelDType { return numpy_dtype(c.data()->dtype); },
             "numpy.dtype: uint8, float16 or float32.")
         .def_property_readonly(
             "mipmaps", [](const CubeMap& c) { return c.data()->mipmaps; },
             "bool: whether lookups are trilinear.")
         .def_property_readonly(
-            "encoding", [](const CubeMap& c) { return std::string(to_string(c.data()->encoding)); },
+            "encoding",
+            [](const CubeMap& c) -> EncodingNow { return to_string(c.data()->encoding); },
             "str: \"linear\" or \"srgb\", what the numbers of `faces` are.");
     for (const OutputRow& row : output_table) {
-        cube.def_property_readonly(
-            row.name.data(), [name = row.name](const CubeMap& c) { return output_of(c, name); },
-            output_doc(row).c_str());
+        with_array_type(row.type, [&](auto type) {
+            cube.def_property_readonly(
+                row.name.data(),
+                [name = row.name](const CubeMap& c) -> decltype(type) {
+                    return output_of(c, name);
+                },
+                output_doc(row).c_str());
+        });
     }
     cube.def_property_readonly("outputs", &outputs_of, docs::outputs);
 
@@ -308,7 +316,10 @@ void bind_cubemap(py::module_& module) {
     cube.def("copy", duplicate, "An independent cubemap with the same contents.")
         .def("__copy__", duplicate)
         .def(
-            "__deepcopy__", [duplicate](const CubeMap& c, const py::dict&) { return duplicate(c); },
+            "__deepcopy__",
+            [duplicate](const CubeMap& c, const py::typing::Dict<py::int_, py::object>&) {
+                return duplicate(c);
+            },
             py::arg("memo"))
         .def(
             "__eq__",

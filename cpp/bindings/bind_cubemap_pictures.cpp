@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace cubecam::bindings {
@@ -22,10 +23,15 @@ namespace {
 
 using DTypeOrNone = OneOf<DTypeLike, py::none>;
 
-Sampling parse_sampling(const std::string& name) {
-    if (name == "centers") return Sampling::centers;
-    if (name == "borders") return Sampling::borders;
-    throw py::value_error("sampling: expected 'centers' or 'borders', got '" + name + "'");
+constexpr NameTable<Sampling, 2> sampling_names{
+    {{"centers", Sampling::centers}, {"borders", Sampling::borders}}};
+using SamplingName = Choice<sampling_names>;
+
+Sampling parse_sampling(std::string_view name) {
+    const std::size_t place = place_of_name(sampling_names, name);
+    if (place < sampling_names.size()) return sampling_names[place].second;
+    throw py::value_error("sampling: expected " + quoted_names(sampling_names) + ", got '" +
+                          std::string(name) + "'");
 }
 
 /// Raises ValueError for a picture that memory cannot hold.
@@ -35,8 +41,8 @@ void check_picture(double width, double height, int channels, DType dtype) {
                      std::to_string(static_cast<long long>(height)) + " pixels");
 }
 
-py::array to_equirect(const CubeMap& cube, std::optional<int> width, const std::string& center_name,
-                      const std::string& sampling_name, const DTypeOrNone& dtype) {
+Pixels to_equirect(const CubeMap& cube, std::optional<int> width, const CenterName& center_name,
+                   const SamplingName& sampling_name, const DTypeOrNone& dtype) {
     const Center center = parse_center(center_name);
     const Sampling sampling = parse_sampling(sampling_name);
     const auto state = cube.data();
@@ -65,10 +71,10 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
                                      encoding);
 }
 
-CubePtr from_layout(const py::object& value, const std::optional<std::string>& layout_name,
-                    const std::string& convention_name, std::optional<int> size,
-                    const std::string& center_name, bool mipmaps, const DTypeOrNone& dtype,
-                    const std::optional<std::string>& encoding_name) {
+CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& layout_name,
+                    const ConventionName& convention_name, std::optional<int> size,
+                    const CenterName& center_name, bool mipmaps, const DTypeOrNone& dtype,
+                    const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     const Center center = parse_center(center_name);
     const PixelArray image = pixel_array(value, "image", "(H, W, C)");
@@ -103,7 +109,7 @@ CubePtr from_layout(const py::object& value, const std::optional<std::string>& l
                                      encoding);
 }
 
-py::array to_convention(const CubeMap& cube, const std::string& name) {
+Pixels to_convention(const CubeMap& cube, const ConventionName& name) {
     const Convention convention = parse_convention(name);
     const auto state = cube.data();
     PixelBuffer faces;
@@ -117,8 +123,8 @@ py::array to_convention(const CubeMap& cube, const std::string& name) {
     return owned_pixels(std::move(faces), state->dtype, face_shape(state->size, state->channels));
 }
 
-py::array to_layout(const CubeMap& cube, const std::string& layout_name,
-                    const std::string& convention_name, const DTypeOrNone& dtype) {
+Pixels to_layout(const CubeMap& cube, const LayoutName& layout_name,
+                 const ConventionName& convention_name, const DTypeOrNone& dtype) {
     const Layout layout = parse_layout(layout_name);
     const Convention convention = parse_convention(convention_name);
     if (layout == Layout::equirect) return to_equirect(cube, std::nullopt, "-z", "centers", dtype);
@@ -165,9 +171,9 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
              py::arg("dtype") = py::none(), docs::to_equirect)
         .def_static(
             "from_equirect",
-            [](const py::object& image, std::optional<int> size, const std::string& center,
-               const std::string& sampling, bool mipmaps, const DTypeOrNone& dtype,
-               const std::optional<std::string>& encoding) {
+            [](const ArrayLike& image, std::optional<int> size, const CenterName& center,
+               const SamplingName& sampling, bool mipmaps, const DTypeOrNone& dtype,
+               const EncodingName& encoding) {
                 const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
                 return from_equirect(pixels, size, parse_center(center), mipmaps,
                                      parse_sampling(sampling), to_dtype(dtype, pixels.dtype()),

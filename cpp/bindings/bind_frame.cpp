@@ -1,5 +1,7 @@
 #include "arrays.hpp"
 #include "docs/frame.hpp"
+#include "encodings.hpp"
+#include "formats.hpp"
 #include "frame.hpp"
 #include "objects.hpp"
 
@@ -79,33 +81,41 @@ std::string output_doc(const OutputRow& row) {
 void bind_frame(py::module_& m) {
     auto frame_class = bindings::declare<PyFrame>(m, "Frame", docs::frame);
     for (const OutputRow& row : output_table) {
-        frame_class.def_property_readonly(
-            row.name.data(), [name = row.name](const PyFrame& f) { return output_of(f, name); },
-            output_doc(row).c_str());
+        bindings::with_array_type(row.type, [&](auto type) {
+            frame_class.def_property_readonly(
+                row.name.data(),
+                [name = row.name](const PyFrame& f) -> decltype(type) {
+                    return output_of(f, name);
+                },
+                output_doc(row).c_str());
+        });
     }
     frame_class
-        .def_readonly(
-            "color", &PyFrame::color,
+        .def_property_readonly(
+            "color", [](const PyFrame& f) -> bindings::Pixels { return f.color; },
             "ndarray (H, W, 4): the colour, uint8, float16 or float32 by ``format``; linear, "
             "except with ``encode=``. None with ``format=None``.")
         .def_property_readonly(
             "outputs",
             [](const PyFrame& f) {
-                return f.outputs.attr("copy")().cast<py::typing::Dict<py::str, py::array>>();
+                return f.outputs.attr("copy")()
+                    .cast<py::typing::Dict<py::str, bindings::OutputArray>>();
             },
             docs::frame_outputs)
         .def_property_readonly(
             "format",
-            [](const PyFrame& f) {
-                return f.color.is_none() ? py::object(py::none())
-                                         : py::object(py::str(std::string(to_string(f.format))));
+            [](const PyFrame& f) -> std::optional<bindings::FormatName> {
+                if (f.color.is_none()) return std::nullopt;
+                return to_string(f.format);
             },
             "str: the format of `color`, as `Renderer.render` takes it; None without a colour.")
         .def_property_readonly(
-            "encoding", [](const PyFrame& f) { return std::string(to_string(f.encoding)); },
+            "encoding",
+            [](const PyFrame& f) -> bindings::EncodingNow { return to_string(f.encoding); },
             "str: \"linear\" or \"srgb\", what the numbers of `color` are.")
         .def_property_readonly(
-            "size", [](const PyFrame& f) { return py::make_tuple(f.width, f.height); },
+            "size",
+            [](const PyFrame& f) -> bindings::Size { return py::make_tuple(f.width, f.height); },
             "tuple of int: (width, height), pixels.")
         .def("__repr__",
              [](const PyFrame& f) {

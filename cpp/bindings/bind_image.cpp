@@ -1,4 +1,5 @@
 // cubecam.Image
+#include "choice.hpp"
 #include "docs/image.hpp"
 #include "encodings.hpp"
 #include "objects.hpp"
@@ -15,8 +16,10 @@ namespace cubecam::bindings {
 
 namespace {
 
-std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const std::string& wrap,
-                                  const std::optional<std::string>& encoding) {
+using WrapWord = Choice<wrap_names>;
+
+std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const WrapWord& wrap,
+                                  const EncodingName& encoding) {
     const Wrap mode = parse_wrap(wrap);
     const PixelArray array = pixel_array(pixels, "pixels", "(H, W, C)");
     auto kept = std::make_shared<const PixelBuffer>(array.data(), array.data() + array.bytes());
@@ -26,7 +29,7 @@ std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const s
                                    to_encoding(encoding, pixels, array.dtype()));
 }
 
-py::array pixels_of(const Image& image) {
+Pixels pixels_of(const Image& image) {
     return readonly_view(numpy_dtype(image.dtype()),
                          {image.height(), image.width(), image.channels()}, image.pixels()->data(),
                          image.pixels());
@@ -54,18 +57,21 @@ void bind_image(pybind11::module_& module) {
                                "ndarray (H, W, C): a read-only view, row 0 on top.")
         .def_property_readonly(
             "size",
-            [](const Image& image) { return py::make_tuple(image.width(), image.height()); },
+            [](const Image& image) -> Size {
+                return py::make_tuple(image.width(), image.height());
+            },
             "tuple of int: (width, height).")
         .def_property_readonly("channels", &Image::channels, "int: 1, 3 or 4.")
         .def_property_readonly(
-            "dtype", [](const Image& image) { return numpy_dtype(image.dtype()); },
+            "dtype", [](const Image& image) -> PixelDType { return numpy_dtype(image.dtype()); },
             "numpy.dtype: uint8, float16 or float32.")
         .def_property_readonly("mipmaps", &Image::mipmaps, "bool: whether lookups are trilinear.")
         .def_property_readonly(
-            "wrap", [](const Image& image) { return std::string(to_string(image.wrap())); },
+            "wrap", [](const Image& image) -> WrapWord { return to_string(image.wrap()); },
             "str: \"repeat\" or \"clamp\".")
         .def_property_readonly(
-            "encoding", [](const Image& image) { return std::string(to_string(image.encoding())); },
+            "encoding",
+            [](const Image& image) -> EncodingNow { return to_string(image.encoding()); },
             "str: \"linear\" or \"srgb\", what the numbers are.")
         .def("__repr__", &represent)
         .def("__reduce__",
@@ -73,8 +79,11 @@ void bind_image(pybind11::module_& module) {
                  return reduced(self, attributes_of(self, "pixels", "mipmaps", "wrap", "encoding"));
              })
         // An image never changes, so a copy is the image itself.
-        .def("__copy__", [](const py::object& self) { return self; })
+        .def("__copy__", [](const std::shared_ptr<Image>& self) { return self; })
         .def(
-            "__deepcopy__", [](const py::object& self, const py::dict&) { return self; },
+            "__deepcopy__",
+            [](const std::shared_ptr<Image>& self, const py::typing::Dict<py::int_, py::object>&) {
+                return self;
+            },
             py::arg("memo"));
 }

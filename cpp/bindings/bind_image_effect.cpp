@@ -26,8 +26,8 @@ bool reload(ImageEffect& self) {
 void bind_effect_class(py::module_& module) {
     using E = ImageEffect;
     auto made = declare<E>(module, "ImageEffect", docs::image_effect);
-    made.def(py::init([](const SourceLike& fragment, const MappingLike& uniforms,
-                         const MappingLike& textures) {
+    made.def(py::init([](const SourceLike& fragment, const UniformsLike& uniforms,
+                         const TexturesLike& textures) {
                  return std::make_shared<E>(EffectValue{to_user_source(fragment, "fragment"),
                                                         to_inputs(uniforms, textures)});
              }),

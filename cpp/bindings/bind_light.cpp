@@ -70,7 +70,7 @@ constexpr const char* decay_text = "float: the light falls with distance**-decay
 
 void bind_point(py::module_& module) {
     auto light = declare<PointLight, Light>(module, "PointLight", docs::point);
-    light.def(py::init([](const ArrayLike& position, const ArrayLike& color, float intensity,
+    light.def(py::init([](const ArrayLike& position, const ColorLike& color, float intensity,
                           double decay, const ShadowLike& shadow) {
                   return std::make_shared<PointLight>(
                       PointParameters{to_point(position, "position"), decay},
@@ -97,7 +97,7 @@ void bind_point(py::module_& module) {
 void bind_spot(py::module_& module) {
     auto light = declare<SpotLight, Light>(module, "SpotLight", docs::spot);
     light.def(py::init([](const ArrayLike& position, const ArrayLike& direction, double angle,
-                          double penumbra, const ArrayLike& color, float intensity, double decay,
+                          double penumbra, const ColorLike& color, float intensity, double decay,
                           const ShadowLike& shadow) {
                   return std::make_shared<SpotLight>(
                       SpotParameters{to_point(position, "position"),
@@ -133,7 +133,7 @@ void bind_spot(py::module_& module) {
 
 void bind_directional(py::module_& module) {
     auto light = declare<DirectionalLight, Light>(module, "DirectionalLight", docs::directional);
-    light.def(py::init([](const ArrayLike& direction, const ArrayLike& color, float intensity,
+    light.def(py::init([](const ArrayLike& direction, const ColorLike& color, float intensity,
                           const ShadowLike& shadow) {
                   return std::make_shared<DirectionalLight>(
                       DirectionalParameters{to_point(direction, "direction")},
@@ -157,7 +157,7 @@ void bind_directional(py::module_& module) {
 
 void bind_ambient(py::module_& module) {
     declare<AmbientLight, Light>(module, "AmbientLight", docs::ambient)
-        .def(py::init([](const ArrayLike& color, float intensity) {
+        .def(py::init([](const ColorLike& color, float intensity) {
                  return std::make_shared<AmbientLight>(AmbientParameters{}, to_rgb(color, "color"),
                                                        intensity);
              }),

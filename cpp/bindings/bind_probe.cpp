@@ -23,23 +23,24 @@ namespace cubecam::bindings {
 
 namespace {
 
-using UpdateLike = OneOf<py::str, py::int_>;
+constexpr NameTable<ProbeUpdate, 3> update_names{{{"on_change", ProbeUpdate::on_change},
+                                                  {"once", ProbeUpdate::once},
+                                                  {"manual", ProbeUpdate::manual}}};
+
+using UpdateLike = OneOf<Choice<update_names>, WholeNumber>;
+using UpdateNow = OneOf<Choice<update_names>, int>;
 
 void set_update(ProbeValue& value, py::handle update) {
     constexpr const char* expected = "'on_change', 'once', 'manual' or a number of frames";
     if (py::isinstance<py::str>(update)) {
         const auto name = update.cast<std::string>();
         value.every = 1;
-        if (name == "on_change") {
-            value.update = ProbeUpdate::on_change;
-        } else if (name == "once") {
-            value.update = ProbeUpdate::once;
-        } else if (name == "manual") {
-            value.update = ProbeUpdate::manual;
-        } else {
+        const std::size_t place = place_of_name(update_names, name);
+        if (place == update_names.size()) {
             throw py::value_error(std::string("update: expected ") + expected + ", got '" + name +
                                   "'");
         }
+        value.update = update_names[place].second;
         return;
     }
     if (py::isinstance<py::bool_>(update) || !PyIndex_Check(update.ptr())) {
@@ -50,20 +51,16 @@ void set_update(ProbeValue& value, py::handle update) {
 }
 
 py::object update_of(const ProbeValue& value) {
-    switch (value.update) {
-        case ProbeUpdate::on_change: return py::str("on_change");
-        case ProbeUpdate::once: return py::str("once");
-        case ProbeUpdate::manual: return py::str("manual");
-        case ProbeUpdate::every_n_frames: return py::int_(value.every);
-    }
-    return py::none();
+    if (value.update == ProbeUpdate::every_n_frames) return py::int_(value.every);
+    const std::string_view name = update_names[static_cast<std::size_t>(value.update)].first;
+    return py::str(name.data(), name.size());
 }
 
 std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double near, double far,
-                                  const std::string& format, bool mipmaps, int samples,
+                                  const FormatName& format, bool mipmaps, int samples,
                                   const UpdateLike& update, const Nodes& exclude,
                                   const OrNone<Node>& parent, int faces_per_frame,
-                                  const std::optional<std::string>& depth_format) {
+                                  const DepthFormatName& depth_format) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -141,8 +138,8 @@ void bind_probe(pybind11::module_& module) {
     field(probe, "near", &ProbeValue::near, "float: the near clip distance, world units.");
     field(probe, "far", &ProbeValue::far, "float: the far clip distance, world units.");
     probe.def_property(
-        "format", [](const Probe& self) { return std::string(to_string(self.value().format)); },
-        [](Probe& self, const std::string& value) {
+        "format", [](const Probe& self) -> FormatName { return to_string(self.value().format); },
+        [](Probe& self, const FormatName& value) {
             const Format format = parse_format(value);
             self.edit([&](ProbeValue& next) { next.format = format; });
         },
@@ -150,7 +147,7 @@ void bind_probe(pybind11::module_& module) {
     probe.def_property(
         "depth_format",
         [](const Probe& self) { return from_depth_format(self.value().depth_format); },
-        [](Probe& self, const std::optional<std::string>& value) {
+        [](Probe& self, const DepthFormatName& value) {
             const DepthFormat format = to_depth_format(value);
             self.edit([&](ProbeValue& next) { next.depth_format = format; });
         },
@@ -158,7 +155,7 @@ void bind_probe(pybind11::module_& module) {
     field(probe, "mipmaps", &ProbeValue::mipmaps, "bool: whether lookups are trilinear.");
     field(probe, "samples", &ProbeValue::samples, "int: samples of each texel (MSAA); 1 is none.");
     probe.def_property(
-        "update", [](const Probe& self) -> UpdateLike { return update_of(self.value()); },
+        "update", [](const Probe& self) -> UpdateNow { return update_of(self.value()); },
         [](Probe& self, const UpdateLike& value) {
             ProbeValue given;
             set_update(given, value);

@@ -27,9 +27,7 @@ namespace cubecam::bindings {
 
 namespace {
 
-using Size = py::typing::Tuple<py::int_, py::int_>;
-using SizeLike = OneOf<Size>;
-using WholeNumber = OneOf<py::int_>;
+using WrapName = Choice<wrap_names>;
 
 std::shared_ptr<Scene> to_shown_scene(py::handle value) {
     return to_shared<Scene>(value, "scene", "a Scene");
@@ -58,9 +56,9 @@ void watch(const std::shared_ptr<RenderTexture>& texture) {
 
 std::shared_ptr<RenderTexture>
 make_render_texture(const OneOf<Scene>& scene, const OneOf<Camera>& camera, const SizeLike& size,
-                    const std::string& format, const WholeNumber& samples, bool mipmaps,
-                    const std::string& wrap, const Nodes& exclude, std::string name,
-                    const EffectsLike& effects, const std::optional<std::string>& depth_format) {
+                    const FormatName& format, const WholeNumber& samples, bool mipmaps,
+                    const WrapName& wrap, const Nodes& exclude, std::string name,
+                    const EffectsLike& effects, const DepthFormatName& depth_format) {
     RenderTextureValue value;
     value.scene = to_shown_scene(scene);
     value.camera = to_shown_camera(camera);
@@ -92,15 +90,15 @@ void bind_texture_picture(Class<RenderTexture>& made) {
         },
         "tuple of int: (width, height), texels.");
     made.def_property(
-        "format", [](const T& self) { return std::string(to_string(self.value().format)); },
-        [](T& self, const std::string& value) {
+        "format", [](const T& self) -> FormatName { return to_string(self.value().format); },
+        [](T& self, const FormatName& value) {
             const Format format = parse_format(value);
             self.edit([&](RenderTextureValue& next) { next.format = format; });
         },
         "str: \"rgba8\", \"rgba16f\", \"rgba32f\" or \"rgb565\".");
     made.def_property(
         "depth_format", [](const T& self) { return from_depth_format(self.value().depth_format); },
-        [](T& self, const std::optional<std::string>& value) {
+        [](T& self, const DepthFormatName& value) {
             const DepthFormat format = to_depth_format(value);
             self.edit([&](RenderTextureValue& next) { next.depth_format = format; });
         },
@@ -119,8 +117,8 @@ void bind_texture_picture(Class<RenderTexture>& made) {
         },
         "bool: whether lookups are trilinear.");
     made.def_property(
-        "wrap", [](const T& self) { return std::string(to_string(self.value().wrap)); },
-        [](T& self, const std::string& value) {
+        "wrap", [](const T& self) -> WrapName { return to_string(self.value().wrap); },
+        [](T& self, const WrapName& value) {
             const Wrap wrap = parse_wrap(value);
             self.edit([&](RenderTextureValue& next) { next.wrap = wrap; });
         },

@@ -4,6 +4,7 @@
 #include "formats.hpp"
 #include "frame.hpp"
 #include "info.hpp"
+#include "node_list.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
 
@@ -24,6 +25,13 @@
 
 namespace cubecam {
 namespace {
+
+using SeenBy = bindings::OneOf<Camera, StereoCamera>;
+using OutputNames = bindings::OneOf<py::typing::Iterable<py::str>>;
+using FormatOrNone = std::optional<bindings::FormatName>;
+using DeviceLike = bindings::OneOf<py::str, bindings::WholeNumber, gl::DeviceInfo, py::none>;
+using LayeredLike = bindings::OneOf<py::bool_, py::none>;
+using ProbesLike = bindings::OneOf<Probe, py::typing::Iterable<Probe>, py::none>;
 
 RequestedOutputs to_outputs(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_outputs({value.cast<std::string>()});
@@ -73,7 +81,7 @@ std::optional<bool> to_layered(py::handle value) {
     return value.cast<bool>();
 }
 
-std::shared_ptr<Renderer> make_renderer(py::handle device, py::handle layered,
+std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredLike& layered,
                                         std::int64_t cache_bytes, bool debug) {
     if (cache_bytes < 0) {
         throw std::invalid_argument("cache_bytes: expected 0 or more, got " +
@@ -85,8 +93,6 @@ std::shared_ptr<Renderer> make_renderer(py::handle device, py::handle layered,
     return std::make_shared<Renderer>(std::move(options));
 }
 
-using SeenBy = bindings::OneOf<Camera, StereoCamera>;
-
 std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
     if (py::isinstance<StereoCamera>(camera)) {
         return camera.cast<std::shared_ptr<StereoCamera>>()->value();
@@ -94,11 +100,13 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
     return bindings::to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")->value();
 }
 
-PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera, py::handle size,
-               py::handle outputs, const std::optional<std::string>& format, py::handle samples,
-               double exposure, const std::optional<std::string>& tonemap,
-               const std::optional<std::string>& encode, py::handle effects,
-               const std::optional<std::string>& depth_format) {
+PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
+               const bindings::SizeLike& size, const OutputNames& outputs,
+               const FormatOrNone& format, const bindings::WholeNumber& samples, double exposure,
+               const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+               const std::optional<bindings::Choice<encode_names>>& encode,
+               const bindings::EffectsLike& effects,
+               const bindings::DepthFormatName& depth_format) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
@@ -120,12 +128,14 @@ PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera, py:
     return PyFrame(std::move(frame));
 }
 
-std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::handle position,
-                                 py::handle size, double near, double far, py::handle exclude,
-                                 py::handle outputs, const std::optional<std::string>& format,
-                                 py::handle samples, py::handle eye,
-                                 const std::optional<std::string>& depth_format,
-                                 const std::string& depth_order) {
+std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
+                                 const bindings::ArrayLike& position,
+                                 const bindings::WholeNumber& size, double near, double far,
+                                 const bindings::Nodes& exclude, const OutputNames& outputs,
+                                 const FormatOrNone& format, const bindings::WholeNumber& samples,
+                                 const bindings::OrNone<bindings::ArrayLike>& eye,
+                                 const bindings::DepthFormatName& depth_format,
+                                 const bindings::Choice<depth_order_names>& depth_order) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -147,7 +157,7 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene, py::han
     return renderer.capture(*snapshot, options);
 }
 
-void update_probes(Renderer& renderer, const Scene& scene, py::handle probes) {
+void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& probes) {
     std::vector<std::shared_ptr<Probe>> wanted;
     if (py::isinstance<Probe>(probes)) {
         wanted.push_back(probes.cast<std::shared_ptr<Probe>>());
@@ -211,7 +221,7 @@ void bind_renderer(pybind11::module_& m) {
                     const py::gil_scoped_release release;
                     held = self.read_texture(render_texture);
                 }
-                return py::array(PyFrame(std::move(held)).color);
+                return bindings::Pixels(PyFrame(std::move(held)).color);
             },
             py::arg("render_texture").none(false), docs::read_texture)
         .def(
@@ -223,8 +233,8 @@ void bind_renderer(pybind11::module_& m) {
                     const py::gil_scoped_release release;
                     picture = self.shadow_map(*snapshot, light);
                 }
-                return owned_array(std::move(picture.distances),
-                                   {picture.layers, picture.size, picture.size});
+                return py::array_t<float>(owned_array(
+                    std::move(picture.distances), {picture.layers, picture.size, picture.size}));
             },
             py::arg("scene"), py::arg("light"), docs::shadow_map)
         .def(

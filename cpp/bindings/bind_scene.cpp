@@ -14,7 +14,7 @@ namespace cubecam::bindings {
 
 namespace {
 
-using BackgroundLike = OneOf<ArrayLike, CubeMap, py::none>;
+using BackgroundLike = OneOf<py::str, ArrayLike, CubeMap, py::none>;
 
 std::shared_ptr<CubeMap> to_environment(py::handle value) {
     return to_shared_or_none<CubeMap>(value, "environment",

@@ -18,8 +18,8 @@ namespace cubecam::bindings {
 
 namespace {
 
-Shader shader_of(const SourceLike& fragment, const SourceLike& vertex, const MappingLike& uniforms,
-                 const MappingLike& textures, std::optional<float> displacement) {
+Shader shader_of(const SourceLike& fragment, const SourceLike& vertex, const UniformsLike& uniforms,
+                 const TexturesLike& textures, std::optional<float> displacement) {
     return {to_user_source(fragment, "fragment"), to_user_source(vertex, "vertex"),
             to_inputs(uniforms, textures), displacement};
 }

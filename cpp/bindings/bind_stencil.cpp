@@ -1,4 +1,5 @@
 // cubecam.Stencil
+#include "choice.hpp"
 #include "docs/stencil.hpp"
 #include "numbers.hpp"
 #include "stencil.hpp"
@@ -16,12 +17,13 @@ std::uint8_t to_byte(py::handle value, const char* name) {
     return static_cast<std::uint8_t>(to_int(value, name, 0, 255));
 }
 
-using Whole = OneOf<py::int_>;
+using FuncName = Choice<stencil_func_names>;
+using OpName = Choice<stencil_op_names>;
 
-std::shared_ptr<Stencil> make_stencil(const std::string& func, const Whole& reference,
-                                      const Whole& read_mask, const Whole& write_mask,
-                                      const std::string& fail, const std::string& depth_fail,
-                                      const std::string& depth_pass) {
+std::shared_ptr<Stencil> make_stencil(const FuncName& func, const WholeNumber& reference,
+                                      const WholeNumber& read_mask, const WholeNumber& write_mask,
+                                      const OpName& fail, const OpName& depth_fail,
+                                      const OpName& depth_pass) {
     return std::make_shared<Stencil>(
         Stencil{parse_stencil_func(func, "func"), to_byte(reference, "reference"),
                 to_byte(read_mask, "read_mask"), to_byte(write_mask, "write_mask"),
@@ -51,9 +53,8 @@ std::string represent(const Stencil& stencil) {
     return "Stencil(" + text + ")";
 }
 
-template <class Word>
-auto word_of(Word Stencil::* field) {
-    return [field](const Stencil& self) { return std::string(to_string(self.*field)); };
+auto op_of(StencilOp Stencil::* field) {
+    return [field](const Stencil& self) -> OpName { return to_string(self.*field); };
 }
 
 }  // namespace
@@ -71,17 +72,18 @@ void bind_stencil(pybind11::module_& module) {
              py::arg("reference") = 0, py::arg("read_mask") = 255, py::arg("write_mask") = 255,
              py::arg("fail") = "keep", py::arg("depth_fail") = "keep",
              py::arg("depth_pass") = "keep")
-        .def_property_readonly("func", word_of(&Stencil::func),
-                               "str: the comparison of the reference with the stored number.")
+        .def_property_readonly(
+            "func", [](const Stencil& self) -> FuncName { return to_string(self.func); },
+            "str: the comparison of the reference with the stored number.")
         .def_readonly("reference", &Stencil::reference,
                       "int: the number that is compared and written.")
         .def_readonly("read_mask", &Stencil::read_mask, "int: the bits that are compared.")
         .def_readonly("write_mask", &Stencil::write_mask, "int: the bits that may change.")
-        .def_property_readonly("fail", word_of(&Stencil::fail),
+        .def_property_readonly("fail", op_of(&Stencil::fail),
                                "str: how the number changes where the test fails.")
-        .def_property_readonly("depth_fail", word_of(&Stencil::depth_fail),
+        .def_property_readonly("depth_fail", op_of(&Stencil::depth_fail),
                                "str: how the number changes where only the depth test fails.")
-        .def_property_readonly("depth_pass", word_of(&Stencil::depth_pass),
+        .def_property_readonly("depth_pass", op_of(&Stencil::depth_pass),
                                "str: how the number changes where both tests pass.")
         .def(
             "__eq__", [](const Stencil& a, const Stencil& b) { return a == b; }, py::is_operator(),

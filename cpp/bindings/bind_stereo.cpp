@@ -1,4 +1,5 @@
 // cubecam.StereoCamera
+#include "choice.hpp"
 #include "docs/stereo.hpp"
 #include "objects.hpp"
 
@@ -16,6 +17,8 @@ namespace cubecam::bindings {
 
 namespace {
 
+using StereoName = Choice<stereo_layout_names>;
+
 std::shared_ptr<Camera> to_eye(py::handle value, const char* name) {
     return to_shared<Camera>(value, name, "a Camera");
 }
@@ -29,7 +32,7 @@ std::shared_ptr<Camera> camera_of(const CameraValue& value) {
     return std::make_shared<OrthographicCamera>(placed.lens, placed.placement);
 }
 
-std::shared_ptr<StereoCamera> stereo_of(const Eyes& eyes, const std::string& layout) {
+std::shared_ptr<StereoCamera> stereo_of(const Eyes& eyes, const StereoName& layout) {
     return std::make_shared<StereoCamera>(camera_of(eyes.left), camera_of(eyes.right),
                                           parse_stereo_layout(layout));
 }
@@ -46,7 +49,7 @@ void bind_stereo(pybind11::module_& module) {
 
     auto stereo = declare<StereoCamera>(module, "StereoCamera", docs::stereo);
     stereo
-        .def(py::init([](const Eye& left, const Eye& right, const std::string& layout) {
+        .def(py::init([](const Eye& left, const Eye& right, const StereoName& layout) {
                  return std::make_shared<StereoCamera>(to_eye(left, "left"), to_eye(right, "right"),
                                                        parse_stereo_layout(layout));
              }),
@@ -54,7 +57,7 @@ void bind_stereo(pybind11::module_& module) {
         .def_static(
             "off_axis",
             [](const Eye& camera, double separation, std::optional<double> convergence,
-               const std::string& layout) {
+               const StereoName& layout) {
                 return stereo_of(
                     off_axis_eyes(to_eye(camera, "camera")->value(), separation, convergence),
                     layout);
@@ -63,7 +66,7 @@ void bind_stereo(pybind11::module_& module) {
             py::arg("convergence") = py::none(), py::arg("layout") = "anaglyph", docs::off_axis)
         .def_static(
             "toe_in",
-            [](const Eye& camera, double degrees, const std::string& layout) {
+            [](const Eye& camera, double degrees, const StereoName& layout) {
                 return stereo_of(toe_in_eyes(to_eye(camera, "camera")->value(), degrees), layout);
             },
             py::arg("camera"), py::kw_only(), py::arg("degrees") = 4.0,
@@ -78,8 +81,8 @@ void bind_stereo(pybind11::module_& module) {
             "Camera: the camera of the right eye.")
         .def_property(
             "layout",
-            [](const StereoCamera& self) { return std::string(to_string(self.layout())); },
-            [](StereoCamera& self, const std::string& value) {
+            [](const StereoCamera& self) -> StereoName { return to_string(self.layout()); },
+            [](StereoCamera& self, const StereoName& value) {
                 self.set_layout(parse_stereo_layout(value));
             },
             "str: \"anaglyph\", \"side_by_side\" or \"top_bottom\".")

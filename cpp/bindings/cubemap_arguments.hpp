@@ -1,9 +1,11 @@
 /// What the two binding files of cubecam.CubeMap share.
 #pragma once
 
+#include "choice.hpp"
 #include "objects.hpp"
 
 #include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/cubemap/cubemap_layout.hpp"
 
 #include <memory>
 #include <string>
@@ -12,6 +14,9 @@
 namespace cubecam::bindings {
 
 using CubePtr = std::shared_ptr<CubeMap>;
+using ConventionName = Choice<convention_names>;
+using LayoutName = Choice<layout_names>;
+using CenterName = Choice<center_names>;
 
 inline std::vector<py::ssize_t> face_shape(int size, int channels) {
     return {6, size, size, channels};

@@ -1,6 +1,7 @@
 /// The `encoding` argument of classes that hold pictures.
 #pragma once
 
+#include "choice.hpp"
 #include "objects.hpp"
 
 #include "cubecam/image/encoding.hpp"
@@ -11,9 +12,12 @@
 
 namespace cubecam::bindings {
 
+using EncodingNow = Choice<encoding_names>;
+using EncodingName = std::optional<EncodingNow>;
+
 /// The encoding that a caller names. None: that of a Frame, a CubeMap or an Image; of an array, it
 /// follows from the type: 8-bit pictures are sRGB, as in files, and floats are linear.
-inline Encoding to_encoding(const std::optional<std::string>& name, py::handle value, DType dtype) {
+inline Encoding to_encoding(const EncodingName& name, py::handle value, DType dtype) {
     if (name) return parse_encoding(*name);
     if (py::hasattr(value, "encoding")) {
         const py::object own = value.attr("encoding");

@@ -36,7 +36,7 @@ struct Conversion {
 
 template <>
 struct Conversion<glm::vec4> {
-    using Given = ArrayLike;
+    using Given = ColorLike;
     static glm::vec4 to(const Given& value, const char* name) { return to_rgba(value, name); }
     static py::array_t<float> from(const glm::vec4& value) { return color_array(value); }
     /// A tuple such as (1, 1, 1): whole numbers are ints, and an alpha of 1 is left out.

@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/typing.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -51,20 +52,35 @@ class OneOf : public py::object {
     using object::object;
 };
 
-/// Any Python object. Signatures show it as numpy.typing.ArrayLike.
-class ArrayLike : public py::object {
-    PYBIND11_OBJECT_DEFAULT(ArrayLike, object, any_object)
+/// The text of a type, as a parameter of a template.
+template <std::size_t size>
+struct TypeText {
+    constexpr TypeText(const char (&given)[size]) { std::copy_n(given, size, text); }
+    char text[size];
+};
+
+/// Any Python object. Signatures show it as this text; the binding checks the type.
+template <TypeText text>
+class Shown : public py::object {
+    PYBIND11_OBJECT_DEFAULT(Shown, object, any_object)
     using object::object;
 };
 
-/// Any Python object. Signatures show it as numpy.typing.DTypeLike.
-class DTypeLike : public py::object {
-    PYBIND11_OBJECT_DEFAULT(DTypeLike, object, any_object)
-    using object::object;
-};
+using ArrayLike = Shown<"numpy.typing.ArrayLike">;
+using DTypeLike = Shown<"numpy.typing.DTypeLike">;
+using PathLike = Shown<"os.PathLike[str]">;
+using WholeNumber = Shown<"typing.SupportsIndex">;  ///< an int of Python or numpy
+using Pixels = Shown<"numpy.typing.NDArray[numpy.uint8 | numpy.float16 | numpy.float32]">;
+using PixelDType = Shown<"numpy.dtype[numpy.uint8 | numpy.float16 | numpy.float32]">;
+using OutputArray = Shown<"numpy.typing.NDArray[numpy.float32 | numpy.int32 | numpy.uint8]">;
 
 template <class T>
 using OrNone = OneOf<T, py::none>;
+
+/// (width, height).
+using Size = py::typing::Tuple<int, int>;
+using SizeLike = OneOf<py::typing::Tuple<py::int_, py::int_>>;
+using ColorLike = OneOf<py::str, ArrayLike>;
 
 inline std::string type_name(py::handle value) {
     return value.is_none() ? "None" : py::str(py::type::handle_of(value).attr("__name__"));
@@ -154,14 +170,9 @@ struct handle_type_name<cubecam::bindings::OneOf<Types...>> {
     static constexpr auto name = union_concat(make_caster<Types>::name...);
 };
 
-template <>
-struct handle_type_name<cubecam::bindings::ArrayLike> {
-    static constexpr auto name = const_name("numpy.typing.ArrayLike");
-};
-
-template <>
-struct handle_type_name<cubecam::bindings::DTypeLike> {
-    static constexpr auto name = const_name("numpy.typing.DTypeLike");
+template <cubecam::bindings::TypeText text>
+struct handle_type_name<cubecam::bindings::Shown<text>> {
+    static constexpr auto name = const_name(text.text);
 };
 
 }  // namespace pybind11::detail

@@ -4,7 +4,11 @@
 #include "arrays.hpp"
 #include "objects.hpp"
 
+#include "cubecam/cubemap/cubemap.hpp"
+#include "cubecam/image/image.hpp"
 #include "cubecam/materials/user_shader.hpp"
+#include "cubecam/scene/probe.hpp"
+#include "cubecam/scene/render_texture.hpp"
 
 #include <pybind11/pybind11.h>
 
@@ -13,10 +17,21 @@
 
 namespace cubecam::bindings {
 
-using MappingLike = OneOf<py::typing::Dict<py::str, py::object>, py::none>;
+/// Any Python object. Signatures show it as a mapping of names to values of one type.
+template <class Value>
+class Mapping : public py::object {
+    PYBIND11_OBJECT_DEFAULT(Mapping, object, any_object)
+    using object::object;
+};
+
+using UniformsLike = OneOf<Mapping<ArrayLike>, py::none>;
+using TextureLike = OneOf<Image, RenderTexture, CubeMap, Probe, ArrayLike>;
+using TexturesLike = OneOf<Mapping<TextureLike>, py::none>;
+using UniformsNow = py::typing::Dict<py::str, OneOf<py::float_, py::array_t<double>>>;
+using TexturesNow = py::typing::Dict<py::str, OneOf<Image, RenderTexture, CubeMap, Probe>>;
 
 /// GLSL itself, or the path of a file with GLSL.
-using SourceLike = OneOf<py::str, py::typing::Optional<py::object>>;
+using SourceLike = OneOf<py::str, PathLike, py::none>;
 
 /// The source from a str of GLSL, or from the file of a path (os.PathLike). None gives an empty
 /// source.
@@ -54,8 +69,10 @@ inline UserSource source_from_state(const py::handle& state) {
 template <class Bound, class Get, class Edit>
 void bind_inputs(Bound& made, Get get, Edit edit) {
     using Owner = typename Bound::type;
-    made.def("_uniforms", [get](const Owner& self) { return uniforms_of(get(self)); });
-    made.def("_textures", [get](const Owner& self) { return textures_of(get(self)); });
+    made.def("_uniforms",
+             [get](const Owner& self) -> UniformsNow { return uniforms_of(get(self)); });
+    made.def("_textures",
+             [get](const Owner& self) -> TexturesNow { return textures_of(get(self)); });
     made.def(
         "_set_inputs",
         [edit](Owner& self, const py::object& uniforms, const py::object& textures) {
@@ -100,3 +117,13 @@ void bind_inputs(Bound& made, Get get, Edit edit) {
 }
 
 }  // namespace cubecam::bindings
+
+namespace pybind11::detail {
+
+template <class Value>
+struct handle_type_name<cubecam::bindings::Mapping<Value>> {
+    static constexpr auto name =
+        const_name("collections.abc.Mapping[str, ") + make_caster<Value>::name + const_name("]");
+};
+
+}  // namespace pybind11::detail

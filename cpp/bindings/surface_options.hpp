@@ -1,6 +1,7 @@
 /// The options that every material takes by keyword, from Python and back.
 #pragma once
 
+#include "choice.hpp"
 #include "objects.hpp"
 #include "stencil.hpp"
 
@@ -14,7 +15,7 @@
 
 namespace cubecam::bindings {
 
-using BlendLike = OneOf<py::str, BlendFactors, py::none>;
+using BlendLike = OneOf<Choice<blend_names>, BlendFactors, py::none>;
 using DepthWriteLike = OneOf<py::bool_, py::none>;
 using ColorWriteLike = OneOf<py::bool_, py::typing::Tuple<bool, bool, bool, bool>>;
 

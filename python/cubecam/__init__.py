@@ -15,6 +15,7 @@ no library for files; both happen at their first use.
 from __future__ import annotations
 
 from . import _attach, _core
+from . import typing as typing
 from ._core import *  # noqa: F403 - what _core.__all__ lists, so that a new class is exported at once
 from ._core import __version__
 from .data import sample_data

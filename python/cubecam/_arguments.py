@@ -183,7 +183,7 @@ def _fits_one(kind: str, value: Any) -> bool:
         return kind in ("object", "typing.Any")
     if kind == "bool":
         return type(value).__name__ in ("bool", "bool_")
-    if kind == "str":
+    if kind == "str" or kind.startswith("typing.Literal["):
         return isinstance(value, (str, bytes))
     if kind == "typing.SupportsFloat":
         return hasattr(value, "__float__")
@@ -198,15 +198,20 @@ def _fits_one(kind: str, value: Any) -> bool:
 def _readable(kind: str) -> str:
     names = []
     for one in kind.split(" | "):
+        if one.startswith("typing.Literal["):
+            names += one.removeprefix("typing.Literal[").removesuffix("]").split(", ")
+            continue
         plain = {"typing.SupportsFloat": "float", "typing.SupportsInt": "int"}.get(one, one)
         plain = plain.removeprefix("cubecam.").removeprefix("numpy.typing.").removeprefix("typing.")
-        if plain != "SupportsIndex":
-            names.append({"ArrayLike": "array_like"}.get(plain, plain))
-    return " or ".join(names)
+        plain = {"ArrayLike": "array_like", "SupportsIndex": "int"}.get(plain, plain)
+        if not (one == "typing.SupportsIndex" and names[-1:] in (["float"], ["int"])):
+            names.append(plain)
+    return " or ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
 def _described(parameter: Parameter) -> str:
-    return f"{parameter.name}: {_readable(parameter.kind)}"
+    kind = re.sub(r"typing\.Literal\[[^]]*\]", "str", parameter.kind)
+    return f"{parameter.name}: {_readable(kind)}"
 
 
 def _value(value: Any) -> str:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._core import CubeMap, Frame, Image
 from .io.screen import numbers_of
+
+if TYPE_CHECKING:
+    from .typing import Pixels
 
 _NUMPY = tuple(int(part) for part in np.__version__.split(".")[:2])
 
@@ -45,7 +48,7 @@ def as_array(
     return np.asarray(values, dtype)
 
 
-def cube_numpy(self: CubeMap, *, writable: bool = False) -> npt.NDArray[np.generic]:
+def cube_numpy(self: CubeMap, *, writable: bool = False) -> Pixels:
     """Give the faces as an array.
 
     Parameters

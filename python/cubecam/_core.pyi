@@ -12,6 +12,31 @@ import typing
 import numpy as np
 import numpy.typing
 
+import cubecam._shader_inputs
+from cubecam.typing import (
+    BlendEquation,
+    BlendFactor,
+    BlendMode,
+    Center,
+    Convention,
+    DepthFormat,
+    DepthOrder,
+    Encode,
+    Encoding,
+    FaceName,
+    FileLayout,
+    Format,
+    Layout,
+    Pixels,
+    ProbeUpdate,
+    Sampling,
+    StencilFunc,
+    StencilOp,
+    StereoLayout,
+    Tonemap,
+    Wrap,
+)
+
 __all__: list[str] = [
     "AmbientLight",
     "BasicMaterial",
@@ -122,7 +147,8 @@ class Device:
     problem : str
         Why the device cannot be used; empty if it can.
     """
-    def __reduce__(self) -> tuple: ...
+
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Device) -> str: ...
     @property
     def cuda_index(self) -> int | None: ...
@@ -164,120 +190,138 @@ class Node:
     >>> hand.world_matrix[:3, 3].round(12).tolist()
     [0.0, 3.0, 0.0]
     """
-    def __reduce__(self: Node) -> tuple: ...
+
+    def __reduce__(self: Node) -> tuple[object, ...]: ...
     def __repr__(self: Node) -> str: ...
-    def __setstate__(self: Node, state: tuple) -> None:
+    def __setstate__(self: Node, state: object) -> None:
         """
         For unpickling.
         """
+
     @property
     def cast_shadow(self) -> bool:
         """
         bool: False: neither the node nor any node below it casts shadows. Translucent nodes never do.
         """
+
     @cast_shadow.setter
-    def cast_shadow(self, arg1: bool) -> None: ...
+    def cast_shadow(self, value: bool) -> None: ...
     @property
     def children(self) -> tuple[Node, ...]:
         """
         tuple of Node: in order of id.
         """
+
     @property
     def environment(self) -> CubeMap | Probe | None:
         """
         CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.
         """
+
     @environment.setter
-    def environment(self, arg1: CubeMap | Probe | None) -> None: ...
+    def environment(self, value: CubeMap | Probe | None) -> None: ...
     @property
     def id(self) -> int:
         """
         int: from 1 in order of add, never used again in the scene; the output id is 0 where the background is.
         """
+
     @property
     def in_captures(self) -> bool:
         """
         bool: False: captures and probes show neither the node nor any node below it. Frames do, and the node still shows its own probe there.
         """
+
     @in_captures.setter
-    def in_captures(self, arg1: bool) -> None: ...
+    def in_captures(self, value: bool) -> None: ...
     @property
     def material(self) -> Material | None:
         """
         Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.
         """
+
     @material.setter
-    def material(self, arg1: Material | None) -> None: ...
+    def material(self, value: Material | None) -> None: ...
     @property
     def matrix(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: node to parent, read-only. Setting it replaces position, rotation and scale; it must not be singular, and its last row is (0, 0, 0, 1).
         """
+
     @matrix.setter
-    def matrix(self, arg1: np.typing.ArrayLike) -> None: ...
+    def matrix(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def mesh(self) -> Mesh | None:
         """
         Mesh or None: the shape; a node without a mesh is a group.
         """
+
     @mesh.setter
-    def mesh(self, arg1: Mesh | None) -> None: ...
+    def mesh(self, value: Mesh | None) -> None: ...
     @property
     def name(self) -> str:
         """
         str: a name for people; need not be unique.
         """
+
     @name.setter
-    def name(self, arg1: str) -> None: ...
+    def name(self, value: str) -> None: ...
     @property
     def parent(self) -> Node | None:
         """
         Node or None: the node that this one moves with. Setting it keeps position, rotation and scale, which are relative to the parent; a cycle raises ValueError.
         """
+
     @parent.setter
-    def parent(self, arg1: Node | None) -> None: ...
+    def parent(self, value: Node | None) -> None: ...
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: relative to the parent, read-only.
         """
+
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def receive_shadow(self) -> bool:
         """
         bool: whether shadows show on the node's own surface.
         """
+
     @receive_shadow.setter
-    def receive_shadow(self, arg1: bool) -> None: ...
+    def receive_shadow(self, value: bool) -> None: ...
     @property
     def render_order(self) -> int:
         """
         int: nodes of lower order are drawn first, before any distance counts, among opaque and among translucent nodes; 0 by default. Nodes below this one have an order of their own.
         """
+
     @render_order.setter
-    def render_order(self, arg1: int) -> None: ...
+    def render_order(self, value: int) -> None: ...
     @property
     def rotation(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.
         """
+
     @rotation.setter
-    def rotation(self, arg1: np.typing.ArrayLike) -> None: ...
+    def rotation(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def scale(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: along the node's own axes, read-only; one number sets all three.
         """
+
     @scale.setter
-    def scale(self, arg1: float | np.typing.ArrayLike) -> None: ...
+    def scale(self, value: float | np.typing.ArrayLike) -> None: ...
     @property
     def visible(self) -> bool:
         """
         bool: False: no picture shows the node or any node below it.
         """
+
     @visible.setter
-    def visible(self, arg1: bool) -> None: ...
+    def visible(self, value: bool) -> None: ...
     @property
     def world_matrix(self) -> np.typing.NDArray[np.float64]:
         """
@@ -337,6 +381,7 @@ class Probe:
     >>> ball.environment.update
     'on_change'
     """
+
     def __init__(
         self: Probe,
         position: np.typing.ArrayLike = (0, 0, 0),
@@ -344,105 +389,118 @@ class Probe:
         size: typing.SupportsInt | typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
-        format: str = "rgba16f",
+        format: Format = "rgba16f",
         mipmaps: bool = False,
         samples: typing.SupportsInt | typing.SupportsIndex = 1,
-        update: str | int = "on_change",
+        update: ProbeUpdate | typing.SupportsIndex = "on_change",
         exclude: collections.abc.Iterable[Node] = (),
         parent: Node | None = None,
         faces_per_frame: typing.SupportsInt | typing.SupportsIndex = 6,
-        depth_format: str | None = "depth_component32f",
+        depth_format: DepthFormat | None = "depth_component32f",
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
-    def __setstate__(self: Probe, state: tuple) -> None:
+    def __setstate__(self: Probe, state: object) -> None:
         """
         For unpickling.
         """
+
     @property
-    def depth_format(self) -> str | None:
+    def depth_format(self) -> DepthFormat | None:
         """
         str or None: the format of the depth and stencil buffer, see `Renderer.render`.
         """
+
     @depth_format.setter
-    def depth_format(self, arg1: str | None) -> None: ...
+    def depth_format(self, value: DepthFormat | None) -> None: ...
     @property
     def exclude(self) -> tuple[Node, ...]:
         """
         tuple of Node: nodes that the probe leaves out with all nodes below them, besides the nodes that use it.
         """
+
     @exclude.setter
-    def exclude(self, arg1: collections.abc.Iterable[Node]) -> None: ...
+    def exclude(self, value: collections.abc.Iterable[Node]) -> None: ...
     @property
     def faces_per_frame(self) -> int:
         """
         int: the greatest number of faces that one call draws.
         """
+
     @faces_per_frame.setter
-    def faces_per_frame(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def faces_per_frame(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def far(self) -> float:
         """
         float: the far clip distance, world units.
         """
+
     @far.setter
-    def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def far(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def format(self) -> str:
+    def format(self) -> Format:
         """
         str: "rgba8", "rgba16f", "rgba32f" or "rgb565".
         """
+
     @format.setter
-    def format(self, arg1: str) -> None: ...
+    def format(self, value: Format) -> None: ...
     @property
     def mipmaps(self) -> bool:
         """
         bool: whether lookups are trilinear.
         """
+
     @mipmaps.setter
-    def mipmaps(self, arg1: bool) -> None: ...
+    def mipmaps(self, value: bool) -> None: ...
     @property
     def near(self) -> float:
         """
         float: the near clip distance, world units.
         """
+
     @near.setter
-    def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def parent(self) -> Node | None:
         """
         Node or None: the node that the probe moves with.
         """
+
     @parent.setter
-    def parent(self, arg1: Node | None) -> None: ...
+    def parent(self, value: Node | None) -> None: ...
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, or relative to the parent's position; read-only.
         """
+
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def samples(self) -> int:
         """
         int: samples of each texel (MSAA); 1 is none.
         """
+
     @samples.setter
-    def samples(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def samples(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
     def size(self) -> int:
         """
         int: texels along an edge of a face.
         """
+
     @size.setter
-    def size(self, arg1: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def size(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
     @property
-    def update(self) -> str | int:
+    def update(self) -> ProbeUpdate | int:
         """
         str or int: "on_change", "once", "manual", or n: every n-th call.
         """
+
     @update.setter
-    def update(self, arg1: str | int) -> None: ...
+    def update(self, value: ProbeUpdate | typing.SupportsIndex) -> None: ...
 
 class RenderTexture:
     """
@@ -516,104 +574,117 @@ class RenderTexture:
     >>> picture.shape, drawn
     ((64, 64, 4), 1)
     """
+
     def __init__(
         self: RenderTexture,
         scene: Scene,
         camera: Camera,
         *,
         size: tuple[int, int] = (512, 512),
-        format: str = "rgba8",
-        samples: int = 1,
+        format: Format = "rgba8",
+        samples: typing.SupportsIndex = 1,
         mipmaps: bool = False,
-        wrap: str = "clamp",
+        wrap: Wrap = "clamp",
         exclude: collections.abc.Iterable[Node] = (),
         name: str = "",
         effects: collections.abc.Iterable[ImageEffect] = (),
-        depth_format: str | None = "depth_component32f",
+        depth_format: DepthFormat | None = "depth_component32f",
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: RenderTexture) -> str: ...
-    def __setstate__(self: RenderTexture, state: tuple) -> None:
+    def __setstate__(self: RenderTexture, state: object) -> None:
         """
         For unpickling.
         """
+
     @property
     def camera(self) -> Camera:
         """
         Camera: the camera that the scene is drawn by.
         """
+
     @camera.setter
-    def camera(self, arg1: Camera) -> None: ...
+    def camera(self, value: Camera) -> None: ...
     @property
-    def depth_format(self) -> str | None:
+    def depth_format(self) -> DepthFormat | None:
         """
         str or None: the format of the depth and stencil buffer, see `Renderer.render`.
         """
+
     @depth_format.setter
-    def depth_format(self, arg1: str | None) -> None: ...
+    def depth_format(self, value: DepthFormat | None) -> None: ...
     @property
     def effects(self) -> tuple[ImageEffect, ...]:
         """
         tuple of ImageEffect: passes over the picture, one after the other.
         """
+
     @effects.setter
-    def effects(self, arg1: collections.abc.Iterable[ImageEffect]) -> None: ...
+    def effects(self, value: collections.abc.Iterable[ImageEffect]) -> None: ...
     @property
     def exclude(self) -> tuple[Node, ...]:
         """
         tuple of Node: nodes of `scene` that the texture leaves out, with all nodes below them.
         """
+
     @exclude.setter
-    def exclude(self, arg1: collections.abc.Iterable[Node]) -> None: ...
+    def exclude(self, value: collections.abc.Iterable[Node]) -> None: ...
     @property
-    def format(self) -> str:
+    def format(self) -> Format:
         """
         str: "rgba8", "rgba16f", "rgba32f" or "rgb565".
         """
+
     @format.setter
-    def format(self, arg1: str) -> None: ...
+    def format(self, value: Format) -> None: ...
     @property
     def mipmaps(self) -> bool:
         """
         bool: whether lookups are trilinear.
         """
+
     @mipmaps.setter
-    def mipmaps(self, arg1: bool) -> None: ...
+    def mipmaps(self, value: bool) -> None: ...
     @property
     def name(self) -> str:
         """
         str: a name for people; need not be unique.
         """
+
     @name.setter
-    def name(self, arg1: str) -> None: ...
+    def name(self, value: str) -> None: ...
     @property
     def samples(self) -> int:
         """
         int: samples of each texel (MSAA); 1 is none.
         """
+
     @samples.setter
-    def samples(self, arg1: int) -> None: ...
+    def samples(self, value: typing.SupportsIndex) -> None: ...
     @property
     def scene(self) -> Scene:
         """
         Scene: the scene that is drawn.
         """
+
     @scene.setter
-    def scene(self, arg1: Scene) -> None: ...
+    def scene(self, value: Scene) -> None: ...
     @property
     def size(self) -> tuple[int, int]:
         """
         tuple of int: (width, height), texels.
         """
+
     @size.setter
-    def size(self, arg1: tuple[int, int]) -> None: ...
+    def size(self, value: tuple[int, int]) -> None: ...
     @property
-    def wrap(self) -> str:
+    def wrap(self) -> Wrap:
         """
         str: "repeat" or "clamp".
         """
+
     @wrap.setter
-    def wrap(self, arg1: str) -> None: ...
+    def wrap(self, value: Wrap) -> None: ...
 
 class Scene:
     """
@@ -647,31 +718,36 @@ class Scene:
     >>> ball.id, ball in scene
     (1, True)
     """
+
     @staticmethod
     def _loose(id: typing.SupportsInt | typing.SupportsIndex) -> Node:
         """
         For unpickling: an empty node that is in no scene.
         """
-    def __contains__(self: Scene, thing: typing.Any) -> bool:
+
+    def __contains__(self: Scene, thing: object) -> bool:
         """
         Whether a node or a light is in the scene.
         """
+
     def __init__(
         self: Scene,
         *,
         environment: CubeMap | None = None,
-        background: np.typing.ArrayLike | CubeMap | None = None,
+        background: str | np.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Scene) -> str: ...
-    def __setstate__(self: Scene, state: dict) -> None:
+    def __setstate__(self: Scene, state: object) -> None:
         """
         For unpickling.
         """
+
     def _restore(self: Scene, id: typing.SupportsInt | typing.SupportsIndex) -> Node:
         """
         For unpickling: the node with an id.
         """
+
     @typing.overload
     def add(self: Scene, light: Light) -> Light:
         """
@@ -692,6 +768,7 @@ class Scene:
         ValueError
             If the light is already in this scene.
         """
+
     @typing.overload
     def add(
         self: Scene,
@@ -769,10 +846,12 @@ class Scene:
         >>> box.scale.tolist(), box.name
         ([2.0, 2.0, 2.0], 'crate')
         """
+
     def clear(self: Scene) -> None:
         """
         Remove all nodes and lights.
         """
+
     def remove(self: Scene, thing: Node | Light) -> None:
         """
         Remove a light, or a node with all nodes below it.
@@ -799,6 +878,7 @@ class Scene:
         >>> scene.nodes, child.parent is group
         ((), True)
         """
+
     def set_matrices(
         self: Scene, nodes: collections.abc.Iterable[Node], matrices: np.typing.ArrayLike
     ) -> None:
@@ -827,6 +907,7 @@ class Scene:
         >>> nodes[0].scale.tolist()
         [2.0, 2.0, 2.0]
         """
+
     def set_positions(
         self: Scene, nodes: collections.abc.Iterable[Node], positions: np.typing.ArrayLike
     ) -> None:
@@ -855,25 +936,29 @@ class Scene:
         >>> nodes[1].position.tolist()
         [0.0, 1.0, 0.0]
         """
+
     @property
     def background(self) -> np.typing.NDArray[np.float32] | CubeMap | None:
         """
         ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the environment if there is one, else transparent black.
         """
+
     @background.setter
-    def background(self, arg1: np.typing.ArrayLike | CubeMap | None) -> None: ...
+    def background(self, value: str | np.typing.ArrayLike | CubeMap | None) -> None: ...
     @property
     def environment(self) -> CubeMap | None:
         """
         CubeMap or None: what mirrors and glass without an environment of their own show.
         """
+
     @environment.setter
-    def environment(self, arg1: CubeMap | None) -> None: ...
+    def environment(self, value: CubeMap | None) -> None: ...
     @property
     def lights(self) -> tuple[Light, ...]:
         """
         tuple of Light: all lights of the scene, in order of add.
         """
+
     @property
     def nodes(self) -> tuple[Node, ...]:
         """
@@ -938,17 +1023,18 @@ class CubeMap:
     array([0.5, 0.5, 0.5], dtype=float32)
     """
 
-    __hash__: typing.ClassVar[None] = None
+    __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
+
     @staticmethod
     def from_equirect(
-        image: typing.Any,
+        image: np.typing.ArrayLike,
         *,
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
-        center: str = "-z",
-        sampling: str = "centers",
+        center: Center = "-z",
+        sampling: Sampling = "centers",
         mipmaps: bool = False,
         dtype: np.typing.DTypeLike | None = None,
-        encoding: str | None = None,
+        encoding: Encoding | None = None,
     ) -> CubeMap:
         """
         Make a cube from an equirectangular panorama.
@@ -994,17 +1080,18 @@ class CubeMap:
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
         CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
         """
+
     @staticmethod
     def from_layout(
-        image: typing.Any,
+        image: np.typing.ArrayLike,
         *,
-        layout: str | None = None,
-        convention: str = "gl",
+        layout: Layout | None = None,
+        convention: Convention = "gl",
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
-        center: str = "-z",
+        center: Center = "-z",
         mipmaps: bool = False,
         dtype: np.typing.DTypeLike | None = None,
-        encoding: str | None = None,
+        encoding: Encoding | None = None,
     ) -> CubeMap:
         """
         Make a cube from one picture of all faces: the inverse of `to_layout`.
@@ -1043,9 +1130,10 @@ class CubeMap:
         >>> cc.CubeMap.from_layout(np.zeros((24, 32, 3), np.uint8))
         CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
         """
+
     def __array__(
         self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+    ) -> np.typing.NDArray[np.generic]:
         """
         Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
 
@@ -1066,8 +1154,9 @@ class CubeMap:
         ValueError
             For a frame without a colour, or a copy that is not allowed.
         """
+
     def __copy__(self: CubeMap) -> CubeMap: ...
-    def __deepcopy__(self: CubeMap, memo: dict) -> CubeMap: ...
+    def __deepcopy__(self: CubeMap, memo: dict[int, object]) -> CubeMap: ...
     def __dlpack__(
         self,
         *,
@@ -1082,38 +1171,41 @@ class CubeMap:
         A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
         the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
         """
+
     def __dlpack_device__(self) -> tuple[int, int]:
         """
         Give the device of the numbers to ``from_dlpack``: main memory.
         """
-    def __eq__(self: CubeMap, other: CubeMap) -> bool:
+
+    def __eq__(self: CubeMap, other: object) -> bool:
         """
         Whether the contents are the same bit for bit, captured outputs included.
         """
-    def __getstate__(self: CubeMap) -> tuple: ...
+
+    def __getstate__(self: CubeMap) -> tuple[object, ...]: ...
     def __init__(
         self: CubeMap,
-        faces: typing.Any,
+        faces: np.typing.ArrayLike,
         *,
-        convention: str = "gl",
+        convention: Convention = "gl",
         mipmaps: bool = False,
-        encoding: str | None = None,
+        encoding: Encoding | None = None,
     ) -> None: ...
-    def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
-    def __reduce__(self) -> tuple: ...
+    def __ne__(self: CubeMap, other: object) -> bool: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: CubeMap) -> str: ...
-    def __setstate__(self: CubeMap, arg0: tuple) -> None: ...
+    def __setstate__(self: CubeMap, state: object) -> None: ...
     def _repr_png_(self) -> bytes:
         """
         Give the picture that Jupyter shows: a cross seen from within, as `to_screen` turns it into 8 bits.
         """
+
     def copy(self: CubeMap) -> CubeMap:
         """
         An independent cubemap with the same contents.
         """
-    def numpy(
-        self, *, writable: bool = False
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+
+    def numpy(self, *, writable: bool = False) -> Pixels:
         """
         Give the faces as an array.
 
@@ -1135,6 +1227,7 @@ class CubeMap:
         >>> float(cube.faces.max()), float(own.max())
         (0.0, 1.0)
         """
+
     def resize(
         self: CubeMap,
         size: typing.SupportsInt | typing.SupportsIndex,
@@ -1170,7 +1263,10 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
         """
-    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> np.ndarray:
+
+    def sample(
+        self: CubeMap, directions: np.typing.ArrayLike, *, lod: np.typing.ArrayLike = 0.0
+    ) -> np.typing.NDArray[np.float32]:
         """
         Look up directions, bilinear and without seams.
 
@@ -1206,16 +1302,17 @@ class CubeMap:
         >>> cube.sample([[1, 0, 0], [0, -1, 0], [1, 0, 1]]).ravel()
         array([0., 3., 2.], dtype=float32)
         """
+
     def save(
         self,
         path: str | os.PathLike[str] | collections.abc.Sequence[str | os.PathLike[str]],
         *,
-        layout: str | None = None,
-        convention: str | None = None,
+        layout: FileLayout | None = None,
+        convention: Convention | None = None,
         width: int | None = None,
-        center: str = "-z",
+        center: Center = "-z",
         exposure: float = 0.0,
-        tonemap: typing.Literal["neutral", "reinhard", "aces"] | None = "neutral",
+        tonemap: Tonemap | None = "neutral",
         srgb: bool | None = None,
         half: bool = False,
     ) -> None:
@@ -1268,8 +1365,13 @@ class CubeMap:
         >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
         True
         """
+
     def set_face(
-        self: CubeMap, face: typing.Any, pixels: typing.Any, *, convention: str = "gl"
+        self: CubeMap,
+        face: Face | typing.SupportsIndex | FaceName,
+        pixels: np.typing.ArrayLike,
+        *,
+        convention: Convention = "gl",
     ) -> None:
         """
         Replace one face.
@@ -1303,7 +1405,10 @@ class CubeMap:
         >>> cube.sample([0, 1, 0])
         array([1.], dtype=float32)
         """
-    def to_convention(self: CubeMap, convention: str) -> np.ndarray:
+
+    def to_convention(
+        self: CubeMap, convention: Convention
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         Convert the six faces to another convention.
 
@@ -1325,14 +1430,15 @@ class CubeMap:
         >>> cc.CubeMap(cube.to_convention("three"), convention="three") == cube
         True
         """
+
     def to_equirect(
         self: CubeMap,
         *,
         width: typing.SupportsInt | typing.SupportsIndex | None = None,
-        center: str = "-z",
-        sampling: str = "centers",
+        center: Center = "-z",
+        sampling: Sampling = "centers",
         dtype: np.typing.DTypeLike | None = None,
-    ) -> np.ndarray:
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         Make an equirectangular panorama of this cube.
 
@@ -1370,13 +1476,14 @@ class CubeMap:
         >>> panorama.shape, panorama.dtype.name
         ((32, 64, 4), 'float16')
         """
+
     def to_layout(
         self: CubeMap,
-        layout: str = "cross",
+        layout: Layout = "cross",
         *,
-        convention: str = "gl",
+        convention: Convention = "gl",
         dtype: np.typing.DTypeLike | None = None,
-    ) -> np.ndarray:
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         Arrange all faces in one picture.
 
@@ -1411,55 +1518,65 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", convention="inside").shape
         (24, 32, 3)
         """
+
     @property
     def channels(self) -> int:
         """
         int: C, 1, 3 or 4.
         """
+
     @property
-    def depth(self) -> typing.Any:
+    def depth(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at the far plane and in the background.
         """
+
     @property
-    def distance(self) -> typing.Any:
+    def distance(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
+
     @property
-    def dtype(self) -> np.dtype[typing.Any]:
+    def dtype(self) -> np.dtype[np.uint8 | np.float16 | np.float32]:
         """
         numpy.dtype: uint8, float16 or float32.
         """
+
     @property
-    def encoding(self) -> str:
+    def encoding(self) -> Encoding:
         """
         str: "linear" or "srgb", what the numbers of `faces` are.
         """
+
     @property
-    def faces(self) -> np.ndarray:
+    def faces(self) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
         The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes.
         """
+
     @property
-    def id(self) -> typing.Any:
+    def id(self) -> np.typing.NDArray[np.int32]:
         """
         ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of the visible node; 0 background.
         """
+
     @property
     def mipmaps(self) -> bool:
         """
         bool: whether lookups are trilinear.
         """
+
     @property
-    def normal(self) -> typing.Any:
+    def normal(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world shading normal, unit length, towards the viewer; 0 background.
         """
+
     @property
-    def outputs(self) -> dict[str, np.ndarray]:
+    def outputs(self) -> dict[str, np.typing.NDArray[np.float32 | np.int32 | np.uint8]]:
         """
         dict of str to ndarray: the outputs of a capture besides `faces`, by name. The arrays are read-only.
 
@@ -1467,23 +1584,27 @@ class CubeMap:
         declares, such as `out vec4 heat;`: float32 (6, N, N, 4), with fewer channels for vec3 and vec2 and
         (6, N, N) for float. A declared output is 0 where the visible node does not write it.
         """
+
     @property
-    def position(self) -> typing.Any:
+    def position(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world position; NaN background.
         """
+
     @property
     def size(self) -> int:
         """
         int: N, texels along an edge of a face.
         """
+
     @property
-    def stencil(self) -> typing.Any:
+    def stencil(self) -> np.typing.NDArray[np.uint8]:
         """
         ndarray (6, N, N) uint8, read-only, of a capture that requested it, or None: the stencil buffer after all drawing; 0 background.
         """
+
     @property
-    def z(self) -> typing.Any:
+    def z(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: distance along the camera's axis, or a face's, world units; +inf background.
         """
@@ -1524,9 +1645,10 @@ class Image:
     >>> image.size, image.channels, image.dtype, image.encoding
     ((8, 8), 1, dtype('uint8'), 'srgb')
     """
+
     def __array__(
         self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+    ) -> np.typing.NDArray[np.generic]:
         """
         Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
 
@@ -1547,8 +1669,9 @@ class Image:
         ValueError
             For a frame without a colour, or a copy that is not allowed.
         """
-    def __copy__(self) -> typing.Any: ...
-    def __deepcopy__(self, memo: dict) -> typing.Any: ...
+
+    def __copy__(self: Image) -> Image: ...
+    def __deepcopy__(self: Image, memo: dict[int, object]) -> Image: ...
     def __dlpack__(
         self,
         *,
@@ -1563,56 +1686,65 @@ class Image:
         A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
         the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
         """
+
     def __dlpack_device__(self) -> tuple[int, int]:
         """
         Give the device of the numbers to ``from_dlpack``: main memory.
         """
+
     def __init__(
         self: Image,
         pixels: np.typing.ArrayLike,
         *,
         mipmaps: bool = False,
-        wrap: str = "repeat",
-        encoding: str | None = None,
+        wrap: Wrap = "repeat",
+        encoding: Encoding | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Image) -> str: ...
     def _repr_png_(self) -> bytes:
         """
         Give the picture that Jupyter shows.
         """
+
     @property
     def channels(self) -> int:
         """
         int: 1, 3 or 4.
         """
+
     @property
-    def dtype(self) -> np.dtype[typing.Any]:
+    def dtype(self) -> np.dtype[np.uint8 | np.float16 | np.float32]:
         """
         numpy.dtype: uint8, float16 or float32.
         """
+
     @property
-    def encoding(self) -> str:
+    def encoding(self) -> Encoding:
         """
         str: "linear" or "srgb", what the numbers are.
         """
+
     @property
     def mipmaps(self) -> bool:
         """
         bool: whether lookups are trilinear.
         """
+
     @property
-    def pixels(self) -> np.ndarray:
+    def pixels(self) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         ndarray (H, W, C): a read-only view, row 0 on top.
         """
+
     @property
     def size(self) -> tuple[int, int]:
         """
         tuple of int: (width, height).
         """
+
     @property
-    def wrap(self) -> str:
+    def wrap(self) -> Wrap:
         """
         str: "repeat" or "clamp".
         """
@@ -1660,6 +1792,7 @@ class Mesh:
     >>> cc.Mesh.box(2)
     Mesh(24 vertices, 12 triangles)
     """
+
     @staticmethod
     def box(size: float | np.typing.ArrayLike = 1.0) -> Mesh:
         """
@@ -1688,6 +1821,7 @@ class Mesh:
         >>> cc.Mesh.box((1, 2, 3)).bounds[1].tolist()
         [0.5, 1.0, 1.5]
         """
+
     @staticmethod
     def cone(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -1720,6 +1854,7 @@ class Mesh:
         >>> len(cc.Mesh.cone(segments=16).indices)
         32
         """
+
     @staticmethod
     def cylinder(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -1754,6 +1889,7 @@ class Mesh:
         >>> cc.Mesh.cylinder(1, 4).bounds[1].tolist()
         [1.0, 2.0, 1.0]
         """
+
     @staticmethod
     def icosphere(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -1787,6 +1923,7 @@ class Mesh:
         >>> len(cc.Mesh.icosphere(1, subdivisions=3).indices)
         1280
         """
+
     @staticmethod
     def plane(
         width: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -1819,6 +1956,7 @@ class Mesh:
         >>> cc.Mesh.plane(10, 4).bounds.tolist()
         [[-5.0, 0.0, -2.0], [5.0, 0.0, 2.0]]
         """
+
     @staticmethod
     def sphere(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -1856,6 +1994,7 @@ class Mesh:
         >>> cc.Mesh.sphere(0.5)
         Mesh(2145 vertices, 3968 triangles)
         """
+
     @staticmethod
     def torus(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -1893,6 +2032,7 @@ class Mesh:
         >>> cc.Mesh.torus(1, .25).bounds[1].tolist()
         [1.25, 0.25, 1.25]
         """
+
     def __init__(
         self: Mesh,
         positions: np.typing.ArrayLike,
@@ -1902,7 +2042,7 @@ class Mesh:
         uvs: np.typing.ArrayLike | None = None,
         colors: np.typing.ArrayLike | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
     def resized(self: Mesh, size: typing.SupportsFloat | typing.SupportsIndex) -> Mesh:
         """
@@ -1929,6 +2069,7 @@ class Mesh:
         >>> cc.Mesh.box((1, 2, 4)).resized(1).bounds[1].tolist()
         [0.125, 0.25, 0.5]
         """
+
     def update(
         self: Mesh,
         *,
@@ -1984,11 +2125,13 @@ class Mesh:
         >>> mesh.bounds[1].round(2).tolist()
         [1.0, 0.2, 1.0]
         """
+
     @property
     def bounds(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.
         """
+
     @property
     def colors(self) -> np.typing.NDArray[np.float32] | None:
         """
@@ -1996,13 +2139,15 @@ class Mesh:
 
         Colours can be set. None: the mesh has none.
         """
+
     @colors.setter
-    def colors(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def colors(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def indices(self) -> np.typing.NDArray[np.uint32]:
         """
         ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside; a read-only view.
         """
+
     @property
     def normals(self) -> np.typing.NDArray[np.float32]:
         """
@@ -2010,8 +2155,9 @@ class Mesh:
 
         Normals can be set. None: smooth normals, computed now and whenever positions are set without normals.
         """
+
     @normals.setter
-    def normals(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def normals(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def positions(self) -> np.typing.NDArray[np.float32]:
         """
@@ -2020,8 +2166,9 @@ class Mesh:
         Positions can be set; `update` says what the normals become. An array that was read before keeps its
         values.
         """
+
     @positions.setter
-    def positions(self, arg1: np.typing.ArrayLike) -> None: ...
+    def positions(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def uvs(self) -> np.typing.NDArray[np.float32] | None:
         """
@@ -2029,8 +2176,9 @@ class Mesh:
 
         Texture coordinates can be set. None: the mesh has none.
         """
+
     @uvs.setter
-    def uvs(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def uvs(self, value: np.typing.ArrayLike | None) -> None: ...
 
 class Blend:
     """
@@ -2082,45 +2230,51 @@ class Blend:
     >>> frame.color[4, 4].tolist()
     [0.5, 0.0, 0.5, 0.75]
     """
-    def __eq__(self: Blend, other: Blend) -> bool: ...
+
+    def __eq__(self: Blend, other: object) -> bool: ...
     def __hash__(self: Blend) -> int: ...
     def __init__(
         self: Blend,
-        src: str,
-        dst: str,
+        src: BlendFactor,
+        dst: BlendFactor,
         *,
-        src_alpha: str | None = None,
-        dst_alpha: str | None = None,
-        equation: str = "add",
+        src_alpha: BlendFactor | None = None,
+        dst_alpha: BlendFactor | None = None,
+        equation: BlendEquation = "add",
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Blend) -> str: ...
-    def __setstate__(self: Blend, state: tuple) -> None:
+    def __setstate__(self: Blend, state: object) -> None:
         """
         For unpickling.
         """
+
     @property
-    def dst(self) -> str:
+    def dst(self) -> BlendFactor:
         """
         str: the factor of the colour in the picture.
         """
+
     @property
-    def dst_alpha(self) -> str:
+    def dst_alpha(self) -> BlendFactor:
         """
         str: the factor of the alpha in the picture.
         """
+
     @property
-    def equation(self) -> str:
+    def equation(self) -> BlendEquation:
         """
         str: how the two products are combined.
         """
+
     @property
-    def src(self) -> str:
+    def src(self) -> BlendFactor:
         """
         str: the factor of the surface's colour.
         """
+
     @property
-    def src_alpha(self) -> str:
+    def src_alpha(self) -> BlendFactor:
         """
         str: the factor of the surface's alpha.
         """
@@ -2182,51 +2336,58 @@ class Stencil:
     >>> int(frame.id[16, 16]), int(frame.stencil[16, 16]), int(frame.id[0, 0])
     (2, 1, 0)
     """
-    def __eq__(self: Stencil, other: Stencil) -> bool: ...
+
+    def __eq__(self: Stencil, other: object) -> bool: ...
     def __hash__(self: Stencil) -> int: ...
     def __init__(
         self: Stencil,
         *,
-        func: str = "always",
-        reference: int = 0,
-        read_mask: int = 255,
-        write_mask: int = 255,
-        fail: str = "keep",
-        depth_fail: str = "keep",
-        depth_pass: str = "keep",
+        func: StencilFunc = "always",
+        reference: typing.SupportsIndex = 0,
+        read_mask: typing.SupportsIndex = 255,
+        write_mask: typing.SupportsIndex = 255,
+        fail: StencilOp = "keep",
+        depth_fail: StencilOp = "keep",
+        depth_pass: StencilOp = "keep",
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Stencil) -> str: ...
     @property
-    def depth_fail(self) -> str:
+    def depth_fail(self) -> StencilOp:
         """
         str: how the number changes where only the depth test fails.
         """
+
     @property
-    def depth_pass(self) -> str:
+    def depth_pass(self) -> StencilOp:
         """
         str: how the number changes where both tests pass.
         """
+
     @property
-    def fail(self) -> str:
+    def fail(self) -> StencilOp:
         """
         str: how the number changes where the test fails.
         """
+
     @property
-    def func(self) -> str:
+    def func(self) -> StencilFunc:
         """
         str: the comparison of the reference with the stored number.
         """
+
     @property
     def read_mask(self) -> int:
         """
         int: the bits that are compared.
         """
+
     @property
     def reference(self) -> int:
         """
         int: the number that is compared and written.
         """
+
     @property
     def write_mask(self) -> int:
         """
@@ -2270,61 +2431,70 @@ class Material:
     colour and no other output. A mask, which writes a stencil but neither colour nor depth, is drawn among
     the opaque nodes.
     """
-    def __reduce__(self) -> tuple: ...
+
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self) -> str: ...
-    def __setstate__(self: Material, state: dict) -> None:
+    def __setstate__(self: Material, state: object) -> None:
         """
         For unpickling.
         """
+
     @property
-    def blend(self) -> str | Blend | None:
+    def blend(self) -> BlendMode | Blend | None:
         """
         str, Blend or None: how the material is combined with the picture: "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied" or a `Blend`; see `Material`. None: "alpha" if any part of the material is translucent, else "opaque".
         """
+
     @blend.setter
-    def blend(self, arg1: str | Blend | None) -> None: ...
+    def blend(self, value: BlendMode | Blend | None) -> None: ...
     @property
     def color_write(self) -> tuple[bool, bool, bool, bool]:
         """
         tuple of bool: which of red, green, blue, alpha are written; one bool sets all four. Depth and the other outputs do not depend on this option.
         """
+
     @color_write.setter
-    def color_write(self, arg1: bool | tuple[bool, bool, bool, bool]) -> None: ...
+    def color_write(self, value: bool | tuple[bool, bool, bool, bool]) -> None: ...
     @property
     def depth_test(self) -> bool:
         """
         bool: False: the surface is drawn over nearer ones, too.
         """
+
     @depth_test.setter
-    def depth_test(self, arg1: bool) -> None: ...
+    def depth_test(self, value: bool) -> None: ...
     @property
     def depth_write(self) -> bool | None:
         """
         bool or None: whether the surface hides farther surfaces that are drawn after it. None: True if the blend is "opaque".
         """
+
     @depth_write.setter
-    def depth_write(self, arg1: bool | None) -> None: ...
+    def depth_write(self, value: bool | None) -> None: ...
     @property
     def double_sided(self) -> bool:
         """
         bool: True shows both sides, with the normal turned to the viewer; False culls back faces.
         """
+
     @double_sided.setter
-    def double_sided(self, arg1: bool) -> None: ...
+    def double_sided(self, value: bool) -> None: ...
     @property
     def opacity(self) -> float:
         """
         float: from 0 to 1; multiplies the alpha of the colours.
         """
+
     @opacity.setter
-    def opacity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def opacity(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def stencil(self) -> Stencil | None:
         """
         Stencil or None: how the surface tests and changes the stencil buffer, if ``depth_format`` has one. None: it does neither.
         """
+
     @stencil.setter
-    def stencil(self, arg1: Stencil | None) -> None: ...
+    def stencil(self, value: Stencil | None) -> None: ...
 
 class BasicMaterial(Material):
     """
@@ -2357,16 +2527,17 @@ class BasicMaterial(Material):
     >>> cc.BasicMaterial(color=(1, 0, 0, .5))
     BasicMaterial(color=(1, 0, 0, 0.5))
     """
+
     def __init__(
         self: BasicMaterial,
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: str | np.typing.ArrayLike = (1, 1, 1),
         map: Image | RenderTexture | np.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | Blend | None = None,
+        blend: BlendMode | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2377,29 +2548,33 @@ class BasicMaterial(Material):
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
+
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, value: str | np.typing.ArrayLike) -> None: ...
     @property
     def cubemap(self) -> CubeMap | Probe | None:
         """
         CubeMap, Probe or None: looked up by the object-space position.
         """
+
     @cubemap.setter
-    def cubemap(self, arg1: CubeMap | Probe | None) -> None: ...
+    def cubemap(self, value: CubeMap | Probe | None) -> None: ...
     @property
     def map(self) -> Image | RenderTexture | None:
         """
         Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
+
     @map.setter
-    def map(self, arg1: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
+    def map(self, value: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
     @property
     def vertex_colors(self) -> bool:
         """
         bool: whether the colour is multiplied by the mesh's vertex colours.
         """
+
     @vertex_colors.setter
-    def vertex_colors(self, arg1: bool) -> None: ...
+    def vertex_colors(self, value: bool) -> None: ...
 
 class GlassMaterial(Material):
     """
@@ -2433,15 +2608,16 @@ class GlassMaterial(Material):
     >>> water
     GlassMaterial(ior=1.33, tint=(0.8, 0.9, 1, 1))
     """
+
     def __init__(
         self: GlassMaterial,
         *,
         ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
-        tint: np.typing.ArrayLike = (1, 1, 1),
+        tint: str | np.typing.ArrayLike = (1, 1, 1),
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | Blend | None = None,
+        blend: BlendMode | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2452,22 +2628,25 @@ class GlassMaterial(Material):
         """
         bool: whether part of the light is reflected; False: all is refracted.
         """
+
     @fresnel.setter
-    def fresnel(self, arg1: bool) -> None: ...
+    def fresnel(self, value: bool) -> None: ...
     @property
     def ior(self) -> float:
         """
         float: refractive index inside divided by the one outside.
         """
+
     @ior.setter
-    def ior(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def ior(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tint(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, times what is refracted.
         """
+
     @tint.setter
-    def tint(self, arg1: np.typing.ArrayLike) -> None: ...
+    def tint(self, value: str | np.typing.ArrayLike) -> None: ...
 
 class MirrorMaterial(Material):
     """
@@ -2505,17 +2684,18 @@ class MirrorMaterial(Material):
     >>> gold.env_weight, gold.f0
     (0.78, None)
     """
+
     def __init__(
         self: MirrorMaterial,
         *,
-        tint: np.typing.ArrayLike = (1, 1, 1),
+        tint: str | np.typing.ArrayLike = (1, 1, 1),
         env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        color: np.typing.ArrayLike = (0, 0, 0),
+        color: str | np.typing.ArrayLike = (0, 0, 0),
         color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         f0: typing.SupportsFloat | typing.SupportsIndex | None = None,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | Blend | None = None,
+        blend: BlendMode | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2526,36 +2706,41 @@ class MirrorMaterial(Material):
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
+
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, value: str | np.typing.ArrayLike) -> None: ...
     @property
     def color_weight(self) -> float:
         """
         float: weight of the mirror's own colour.
         """
+
     @color_weight.setter
-    def color_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def color_weight(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def env_weight(self) -> float:
         """
         float: weight of what is reflected.
         """
+
     @env_weight.setter
-    def env_weight(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def env_weight(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def f0(self) -> float | None:
         """
         float or None: the reflectance seen head-on, from 0 to 1; None reflects evenly.
         """
+
     @f0.setter
-    def f0(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    def f0(self, value: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
     def tint(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (4,) float32: linear RGBA, times what is reflected.
         """
+
     @tint.setter
-    def tint(self, arg1: np.typing.ArrayLike) -> None: ...
+    def tint(self, value: str | np.typing.ArrayLike) -> None: ...
 
 class PhongMaterial(Material):
     """
@@ -2597,10 +2782,11 @@ class PhongMaterial(Material):
     >>> red
     PhongMaterial(color=(1, 0.4, 0.4, 1), kd=0.5)
     """
+
     def __init__(
         self: PhongMaterial,
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: str | np.typing.ArrayLike = (1, 1, 1),
         ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
         ks: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -2609,7 +2795,7 @@ class PhongMaterial(Material):
         vertex_colors: bool = False,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | Blend | None = None,
+        blend: BlendMode | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
@@ -2620,50 +2806,57 @@ class PhongMaterial(Material):
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
+
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, value: str | np.typing.ArrayLike) -> None: ...
     @property
     def ka(self) -> float:
         """
         float: ambient weight.
         """
+
     @ka.setter
-    def ka(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def ka(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def kd(self) -> float:
         """
         float: diffuse weight.
         """
+
     @kd.setter
-    def kd(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def kd(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def ks(self) -> float:
         """
         float: specular weight; highlights are white.
         """
+
     @ks.setter
-    def ks(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def ks(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def map(self) -> Image | RenderTexture | None:
         """
         Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
+
     @map.setter
-    def map(self, arg1: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
+    def map(self, value: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
     @property
     def shininess(self) -> float:
         """
         float: Phong's exponent.
         """
+
     @shininess.setter
-    def shininess(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def shininess(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def vertex_colors(self) -> bool:
         """
         bool: whether the colour is multiplied by the mesh's vertex colours.
         """
+
     @vertex_colors.setter
-    def vertex_colors(self, arg1: bool) -> None: ...
+    def vertex_colors(self, value: bool) -> None: ...
 
 class ShaderMaterial(Material):
     """
@@ -2779,40 +2972,44 @@ class ShaderMaterial(Material):
     >>> cube.outputs["height"].shape, float(cube.outputs["height"].max())
     ((6, 4, 4), 2.0)
     """
+
     def __init__(
         self: ShaderMaterial,
-        fragment: str | typing.Any | None,
+        fragment: str | os.PathLike[str] | None,
         *,
-        vertex: str | typing.Any | None = None,
-        uniforms: dict[str, typing.Any] | None = None,
-        textures: dict[str, typing.Any] | None = None,
+        vertex: str | os.PathLike[str] | None = None,
+        uniforms: collections.abc.Mapping[str, np.typing.ArrayLike] | None = None,
+        textures: collections.abc.Mapping[
+            str, Image | RenderTexture | CubeMap | Probe | np.typing.ArrayLike
+        ]
+        | None = None,
         displacement: typing.SupportsFloat | typing.SupportsIndex | None = None,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
-        blend: str | Blend | None = None,
+        blend: BlendMode | Blend | None = None,
         depth_write: bool | None = None,
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: ShaderMaterial) -> str: ...
-    def __setstate__(self: ShaderMaterial, state: tuple) -> None:
+    def __setstate__(self: ShaderMaterial, state: object) -> None:
         """
         For unpickling.
         """
+
     def _remove_texture(self: ShaderMaterial, name: str) -> None: ...
     def _remove_uniform(self: ShaderMaterial, name: str) -> None: ...
-    def _set_inputs(
-        self: ShaderMaterial, uniforms: typing.Any = None, textures: typing.Any = None
-    ) -> None:
+    def _set_inputs(self: ShaderMaterial, uniforms: object = None, textures: object = None) -> None:
         """
         Replace all uniforms, all textures, or both.
         """
-    def _set_texture(self: ShaderMaterial, name: str, value: typing.Any) -> None: ...
-    def _set_uniform(self: ShaderMaterial, name: str, value: typing.Any) -> None: ...
-    def _textures(self: ShaderMaterial) -> dict: ...
-    def _uniforms(self: ShaderMaterial) -> dict: ...
+
+    def _set_texture(self: ShaderMaterial, name: str, value: object) -> None: ...
+    def _set_uniform(self: ShaderMaterial, name: str, value: object) -> None: ...
+    def _textures(self: ShaderMaterial) -> dict[str, Image | RenderTexture | CubeMap | Probe]: ...
+    def _uniforms(self: ShaderMaterial) -> dict[str, float | np.typing.NDArray[np.float64]]: ...
     def reload(self: ShaderMaterial) -> bool:
         """
         Read the source again from its file.
@@ -2832,47 +3029,60 @@ class ShaderMaterial(Material):
         OSError
             If the file cannot be read; the old source stays.
         """
+
     @property
     def displacement(self) -> float | None:
         """
         float or None: how far `vertex` moves a vertex at most, in the mesh's units; None: unknown, so the node is never culled.
         """
+
     @displacement.setter
-    def displacement(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
+    def displacement(self, value: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
     def fragment(self) -> str | None:
         """
         str: GLSL of every fragment. Setting it, to text or a path, shows in the next picture.
         """
+
     @fragment.setter
-    def fragment(self, arg1: str | typing.Any | None) -> None: ...
+    def fragment(self, value: str | os.PathLike[str] | None) -> None: ...
     @property
-    def textures(self) -> collections.abc.MutableMapping[str, typing.Any]:
+    def textures(self) -> cubecam._shader_inputs.Textures:
         """
         Mapping of str to Image, RenderTexture, CubeMap or Probe: a name set here shows in the next picture.
         """
+
     @textures.setter
-    def textures(self, values: typing.Any) -> None:
+    def textures(
+        self,
+        value: collections.abc.Mapping[
+            str, Image | RenderTexture | CubeMap | Probe | np.typing.ArrayLike
+        ],
+    ) -> None:
         """
         Replace all textures.
         """
+
     @property
-    def uniforms(self) -> collections.abc.MutableMapping[str, typing.Any]:
+    def uniforms(self) -> cubecam._shader_inputs.Uniforms:
         """
         Mapping of str to numbers: ``uniforms["time"] = 2`` shows in the next picture.
         """
+
     @uniforms.setter
-    def uniforms(self, values: typing.Any) -> None:
+    def uniforms(self, value: collections.abc.Mapping[str, np.typing.ArrayLike]) -> None:
         """
         Replace all uniforms.
         """
+
     @property
     def vertex(self) -> str | None:
         """
         str or None: GLSL of every vertex.
         """
+
     @vertex.setter
-    def vertex(self, arg1: str | typing.Any | None) -> None: ...
+    def vertex(self, value: str | os.PathLike[str] | None) -> None: ...
 
 class ImageEffect:
     """
@@ -2926,31 +3136,35 @@ class ImageEffect:
     >>> frame.color[0, 0].tolist()
     [255, 128, 0, 255]
     """
+
     def __init__(
         self: ImageEffect,
-        fragment: str | typing.Any | None,
+        fragment: str | os.PathLike[str] | None,
         *,
-        uniforms: dict[str, typing.Any] | None = None,
-        textures: dict[str, typing.Any] | None = None,
+        uniforms: collections.abc.Mapping[str, np.typing.ArrayLike] | None = None,
+        textures: collections.abc.Mapping[
+            str, Image | RenderTexture | CubeMap | Probe | np.typing.ArrayLike
+        ]
+        | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: ImageEffect) -> str: ...
-    def __setstate__(self: ImageEffect, state: tuple) -> None:
+    def __setstate__(self: ImageEffect, state: object) -> None:
         """
         For unpickling.
         """
+
     def _remove_texture(self: ImageEffect, name: str) -> None: ...
     def _remove_uniform(self: ImageEffect, name: str) -> None: ...
-    def _set_inputs(
-        self: ImageEffect, uniforms: typing.Any = None, textures: typing.Any = None
-    ) -> None:
+    def _set_inputs(self: ImageEffect, uniforms: object = None, textures: object = None) -> None:
         """
         Replace all uniforms, all textures, or both.
         """
-    def _set_texture(self: ImageEffect, name: str, value: typing.Any) -> None: ...
-    def _set_uniform(self: ImageEffect, name: str, value: typing.Any) -> None: ...
-    def _textures(self: ImageEffect) -> dict: ...
-    def _uniforms(self: ImageEffect) -> dict: ...
+
+    def _set_texture(self: ImageEffect, name: str, value: object) -> None: ...
+    def _set_uniform(self: ImageEffect, name: str, value: object) -> None: ...
+    def _textures(self: ImageEffect) -> dict[str, Image | RenderTexture | CubeMap | Probe]: ...
+    def _uniforms(self: ImageEffect) -> dict[str, float | np.typing.NDArray[np.float64]]: ...
     def reload(self: ImageEffect) -> bool:
         """
         Read the source again from its file.
@@ -2970,30 +3184,40 @@ class ImageEffect:
         OSError
             If the file cannot be read; the old source stays.
         """
+
     @property
     def fragment(self) -> str:
         """
         str: GLSL that runs for every pixel. It can be set to text or a path; the next picture shows the change.
         """
+
     @fragment.setter
-    def fragment(self, arg1: str | typing.Any | None) -> None: ...
+    def fragment(self, value: str | os.PathLike[str] | None) -> None: ...
     @property
-    def textures(self) -> collections.abc.MutableMapping[str, typing.Any]:
+    def textures(self) -> cubecam._shader_inputs.Textures:
         """
         Mapping of str to Image, RenderTexture, CubeMap or Probe: a name set here shows in the next picture.
         """
+
     @textures.setter
-    def textures(self, values: typing.Any) -> None:
+    def textures(
+        self,
+        value: collections.abc.Mapping[
+            str, Image | RenderTexture | CubeMap | Probe | np.typing.ArrayLike
+        ],
+    ) -> None:
         """
         Replace all textures.
         """
+
     @property
-    def uniforms(self) -> collections.abc.MutableMapping[str, typing.Any]:
+    def uniforms(self) -> cubecam._shader_inputs.Uniforms:
         """
         Mapping of str to numbers: ``uniforms["time"] = 2`` shows in the next picture.
         """
+
     @uniforms.setter
-    def uniforms(self, values: typing.Any) -> None:
+    def uniforms(self, value: collections.abc.Mapping[str, np.typing.ArrayLike]) -> None:
         """
         Replace all uniforms.
         """
@@ -3048,7 +3272,8 @@ class Shadow:
     >>> lamp.shadow == cc.Shadow(size=512, radius=2)
     True
     """
-    def __eq__(self: Shadow, other: typing.Any) -> typing.Any: ...
+
+    def __eq__(self: Shadow, other: object) -> bool: ...
     def __hash__(self: Shadow) -> int: ...
     def __init__(
         self: Shadow,
@@ -3060,33 +3285,38 @@ class Shadow:
         far: typing.SupportsFloat | typing.SupportsIndex | None = None,
         extent: typing.SupportsFloat | typing.SupportsIndex | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Shadow) -> str: ...
     @property
     def bias(self) -> float:
         """
         float: the distance within which nothing casts, world units.
         """
+
     @property
     def extent(self) -> float | None:
         """
         float or None: side of the area that the map covers, world units; directional lights.
         """
+
     @property
     def far(self) -> float | None:
         """
         float or None: casters farther from the light cast no shadow; point and spot lights.
         """
+
     @property
     def near(self) -> float:
         """
         float: casters nearer to the light cast no shadow; point and spot lights.
         """
+
     @property
     def radius(self) -> float:
         """
         float: radius of the filter, texels.
         """
+
     @property
     def size(self) -> int:
         """
@@ -3099,21 +3329,24 @@ class Light:
 
     A light may be in several scenes; every scene shows a change of it.
     """
-    def __reduce__(self) -> tuple: ...
+
+    def __reduce__(self) -> tuple[object, ...]: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (3,) float32: linear RGB, read-only.
         """
+
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def intensity(self) -> float:
         """
         float: a factor of color.
         """
+
     @intensity.setter
-    def intensity(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def intensity(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
 
 class PointLight(Light):
     """
@@ -3146,38 +3379,42 @@ class PointLight(Light):
     >>> lamp
     PointLight(position=(3, 4, 3), color=(1, 1, 1), intensity=2, decay=0)
     """
+
     def __init__(
         self: PointLight,
         position: np.typing.ArrayLike = (0, 0, 0),
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         shadow: Shadow | bool | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: PointLight) -> str: ...
     @property
     def decay(self) -> float:
         """
         float: the light falls with distance**-decay.
         """
+
     @decay.setter
-    def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def decay(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only.
         """
+
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
         Shadow or None: None casts no shadows; True sets ``Shadow()``.
         """
+
     @shadow.setter
-    def shadow(self, arg1: Shadow | bool | None) -> None: ...
+    def shadow(self, value: Shadow | bool | None) -> None: ...
 
 class SpotLight(Light):
     """
@@ -3216,6 +3453,7 @@ class SpotLight(Light):
     >>> cc.SpotLight(position=(0, 3, 0), angle=20, penumbra=.5)
     SpotLight(position=(0, 3, 0), direction=(0, -1, 0), angle=20, penumbra=0.5, color=(1, 1, 1), intensity=1, decay=0)
     """
+
     def __init__(
         self: SpotLight,
         position: np.typing.ArrayLike = (0, 0, 0),
@@ -3223,55 +3461,61 @@ class SpotLight(Light):
         *,
         angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
         penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         shadow: Shadow | bool | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: SpotLight) -> str: ...
     @property
     def angle(self) -> float:
         """
         float: angle from the axis to the cone's edge, degrees.
         """
+
     @angle.setter
-    def angle(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def angle(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def decay(self) -> float:
         """
         float: the light falls with distance**-decay.
         """
+
     @decay.setter
-    def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def decay(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def direction(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the way the light travels, unit length, read-only.
         """
+
     @direction.setter
-    def direction(self, arg1: np.typing.ArrayLike) -> None: ...
+    def direction(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def penumbra(self) -> float:
         """
         float: share of the angle over which the light fades.
         """
+
     @penumbra.setter
-    def penumbra(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def penumbra(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only.
         """
+
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
         Shadow or None: None casts no shadows; True sets ``Shadow()``.
         """
+
     @shadow.setter
-    def shadow(self, arg1: Shadow | bool | None) -> None: ...
+    def shadow(self, value: Shadow | bool | None) -> None: ...
 
 class DirectionalLight(Light):
     """
@@ -3301,30 +3545,33 @@ class DirectionalLight(Light):
     >>> cc.DirectionalLight(direction=(0, 0, -2)).direction.tolist()
     [0.0, 0.0, -1.0]
     """
+
     def __init__(
         self: DirectionalLight,
         direction: np.typing.ArrayLike = (0, -1, 0),
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: DirectionalLight) -> str: ...
     @property
     def direction(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the way the light travels, unit length, read-only.
         """
+
     @direction.setter
-    def direction(self, arg1: np.typing.ArrayLike) -> None: ...
+    def direction(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
         Shadow or None: None casts no shadows; True sets ``Shadow()``.
         """
+
     @shadow.setter
-    def shadow(self, arg1: Shadow | bool | None) -> None: ...
+    def shadow(self, value: Shadow | bool | None) -> None: ...
 
 class AmbientLight(Light):
     """
@@ -3349,13 +3596,14 @@ class AmbientLight(Light):
     >>> cc.AmbientLight(intensity=.5)
     AmbientLight(color=(1, 1, 1), intensity=0.5)
     """
+
     def __init__(
         self: AmbientLight,
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: AmbientLight) -> str: ...
 
 class Camera:
@@ -3387,10 +3635,11 @@ class Camera:
     >>> float(camera.projection()[0, 0])
     0.5
     """
+
     def __init__(
         self: Camera, *, view: np.typing.ArrayLike, projection: np.typing.ArrayLike
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Camera) -> str: ...
     def projection(
         self: Camera, aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0
@@ -3413,13 +3662,15 @@ class Camera:
         ValueError
             For an aspect that is not above 0.
         """
+
     @property
     def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
+
     @view.setter
-    def view(self, arg1: np.typing.ArrayLike) -> None: ...
+    def view(self, value: np.typing.ArrayLike) -> None: ...
 
 class PerspectiveCamera(Camera):
     """
@@ -3460,6 +3711,7 @@ class PerspectiveCamera(Camera):
     >>> camera.target.tolist()
     [0.0, 0.0, 0.0]
     """
+
     def __init__(
         self: PerspectiveCamera,
         *,
@@ -3471,7 +3723,7 @@ class PerspectiveCamera(Camera):
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         shift: np.typing.ArrayLike = (0, 0),
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: PerspectiveCamera) -> str: ...
     def look(self, direction: np.typing.ArrayLike) -> None:
         """
@@ -3502,6 +3754,7 @@ class PerspectiveCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
+
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the viewer turned the scene by hand.
@@ -3536,6 +3789,7 @@ class PerspectiveCamera(Camera):
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
+
     def pitch(self, degrees: float) -> None:
         """
         Turn the view up, round the camera's right.
@@ -3564,6 +3818,7 @@ class PerspectiveCamera(Camera):
         >>> camera.target.round(3).tolist()
         [0.0, 1.5, -0.866]
         """
+
     def strafe(self, distance: float) -> None:
         """
         Move position and target to the right.
@@ -3587,6 +3842,7 @@ class PerspectiveCamera(Camera):
         >>> camera.position.tolist()
         [0.5, 0.0, 0.0]
         """
+
     def walk(self, distance: float) -> None:
         """
         Move position and target along the view direction.
@@ -3612,6 +3868,7 @@ class PerspectiveCamera(Camera):
         >>> camera.position.tolist(), camera.target.tolist()
         ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
         """
+
     def yaw(self, degrees: float) -> None:
         """
         Turn the view to the left, round the camera's `up` through its position.
@@ -3641,56 +3898,64 @@ class PerspectiveCamera(Camera):
         >>> camera.target.round(3).tolist()
         [-1.0, 1.0, -1.732]
         """
+
     @property
     def far(self) -> float:
         """
         float: the farthest depth that is drawn, world units.
         """
+
     @far.setter
-    def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def far(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def fov(self) -> float:
         """
         float: vertical, in degrees.
         """
+
     @fov.setter
-    def fov(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def fov(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def near(self) -> float:
         """
         float: the nearest depth that is drawn, world units.
         """
+
     @near.setter
-    def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
+
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def shift(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (2,) float64: how far the middle of the picture lies right of and above the axis, in heights of the picture, read-only.
         """
+
     @shift.setter
-    def shift(self, arg1: np.typing.ArrayLike) -> None: ...
+    def shift(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def target(self) -> np.typing.NDArray[np.float64] | None:
         """
         ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
+
     @target.setter
-    def target(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def target(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def up(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
+
     @up.setter
-    def up(self, arg1: np.typing.ArrayLike) -> None: ...
-    @property
+    def up(self, value: np.typing.ArrayLike) -> None: ...
+    @property  # type: ignore[misc]
     def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
@@ -3732,6 +3997,7 @@ class OrthographicCamera(Camera):
     >>> cc.OrthographicCamera(height=4).projection(aspect=2)[:2, :2].tolist()
     [[0.25, 0.0], [0.0, 0.5]]
     """
+
     def __init__(
         self: OrthographicCamera,
         *,
@@ -3742,7 +4008,7 @@ class OrthographicCamera(Camera):
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: OrthographicCamera) -> str: ...
     def look(self, direction: np.typing.ArrayLike) -> None:
         """
@@ -3773,6 +4039,7 @@ class OrthographicCamera(Camera):
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
         """
+
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
         Move round the target, as if the viewer turned the scene by hand.
@@ -3807,6 +4074,7 @@ class OrthographicCamera(Camera):
         >>> camera.position.round(3).tolist()
         [-2.0, 0.0, 3.464]
         """
+
     def pitch(self, degrees: float) -> None:
         """
         Turn the view up, round the camera's right.
@@ -3835,6 +4103,7 @@ class OrthographicCamera(Camera):
         >>> camera.target.round(3).tolist()
         [0.0, 1.5, -0.866]
         """
+
     def strafe(self, distance: float) -> None:
         """
         Move position and target to the right.
@@ -3858,6 +4127,7 @@ class OrthographicCamera(Camera):
         >>> camera.position.tolist()
         [0.5, 0.0, 0.0]
         """
+
     def walk(self, distance: float) -> None:
         """
         Move position and target along the view direction.
@@ -3883,6 +4153,7 @@ class OrthographicCamera(Camera):
         >>> camera.position.tolist(), camera.target.tolist()
         ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
         """
+
     def yaw(self, degrees: float) -> None:
         """
         Turn the view to the left, round the camera's `up` through its position.
@@ -3912,49 +4183,56 @@ class OrthographicCamera(Camera):
         >>> camera.target.round(3).tolist()
         [-1.0, 1.0, -1.732]
         """
+
     @property
     def far(self) -> float:
         """
         float: the farthest depth that is drawn, world units.
         """
+
     @far.setter
-    def far(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def far(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def height(self) -> float:
         """
         float: world units from the bottom to the top of the picture.
         """
+
     @height.setter
-    def height(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def height(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def near(self) -> float:
         """
         float: the nearest depth that is drawn, world units.
         """
+
     @near.setter
-    def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
+
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def target(self) -> np.typing.NDArray[np.float64] | None:
         """
         ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
+
     @target.setter
-    def target(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def target(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def up(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
+
     @up.setter
-    def up(self, arg1: np.typing.ArrayLike) -> None: ...
-    @property
+    def up(self, value: np.typing.ArrayLike) -> None: ...
+    @property  # type: ignore[misc]
     def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
@@ -3997,13 +4275,14 @@ class StereoCamera:
     >>> frame.size
     (8, 4)
     """
+
     @staticmethod
     def off_axis(
         camera: Camera,
         *,
         separation: typing.SupportsFloat | typing.SupportsIndex = 0.065,
         convergence: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        layout: str = "anaglyph",
+        layout: StereoLayout = "anaglyph",
     ) -> StereoCamera:
         """
         Place two eyes beside a camera, with parallel axes.
@@ -4040,12 +4319,13 @@ class StereoCamera:
         ``separation * (1 / convergence - 1 / z) * f / 2`` widths of the picture farther to the right than in the
         left eye's picture, where f is ``camera.projection(aspect)[0, 0]``.
         """
+
     @staticmethod
     def toe_in(
         camera: Camera,
         *,
         degrees: typing.SupportsFloat | typing.SupportsIndex = 4.0,
-        layout: str = "anaglyph",
+        layout: StereoLayout = "anaglyph",
     ) -> StereoCamera:
         """
         Place two eyes on a circle round a camera's target; both look at the target.
@@ -4079,79 +4359,92 @@ class StereoCamera:
         >>> cc.StereoCamera.toe_in(camera, degrees=90).right.position.round(3).tolist()
         [1.414, 0.0, 1.414]
         """
+
     def __init__(
-        self: StereoCamera, left: Camera, right: Camera, *, layout: str = "anaglyph"
+        self: StereoCamera, left: Camera, right: Camera, *, layout: StereoLayout = "anaglyph"
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: StereoCamera) -> str: ...
     @property
-    def layout(self) -> str:
+    def layout(self) -> StereoLayout:
         """
         str: "anaglyph", "side_by_side" or "top_bottom".
         """
+
     @layout.setter
-    def layout(self, arg1: str) -> None: ...
+    def layout(self, value: StereoLayout) -> None: ...
     @property
     def left(self) -> Camera:
         """
         Camera: the camera of the left eye.
         """
+
     @left.setter
-    def left(self, arg1: Camera) -> None: ...
+    def left(self, value: Camera) -> None: ...
     @property
     def right(self) -> Camera:
         """
         Camera: the camera of the right eye.
         """
+
     @right.setter
-    def right(self, arg1: Camera) -> None: ...
+    def right(self, value: Camera) -> None: ...
 
 class Stats:
     """
     What the last call of a renderer drew and skipped, and how long it took.
     """
-    def __reduce__(self) -> tuple: ...
+
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Stats) -> str: ...
     @property
     def draw_calls(self) -> int:
         """
         int
         """
+
     @property
     def milliseconds(self) -> float:
         """
         float: time of the whole call, including the copy to main memory.
         """
+
     @property
     def pictures_not_kept(self) -> int:
         """
         int: frames and captures whose buffers take more than the renderer's ``cache_bytes``, so that the next call must draw them again.
         """
+
     @property
     def probes_updated(self) -> int:
         """
         int: probes of which at least one face was drawn.
         """
+
     @property
     def shadow_views_drawn(self) -> int:
         """
         int: layers of shadow maps drawn: one for each directional and spot light, six for a point light.
         """
+
     @property
     def textures_updated(self) -> int:
         """
         int: render textures that were drawn.
         """
+
     @property
     def triangles(self) -> int:
         """
         int: triangles sent to the GPU, counted once for each view.
         """
+
     @property
     def views_drawn(self) -> int:
         """
         int: pictures drawn: frames, faces of captures, faces of probes, textures.
         """
+
     @property
     def views_skipped(self) -> int:
         """
@@ -4162,27 +4455,32 @@ class Limits:
     """
     The greatest values that the driver allows.
     """
-    def __reduce__(self) -> tuple: ...
+
+    def __reduce__(self) -> tuple[object, ...]: ...
     @property
     def max_array_texture_layers(self) -> int:
         """
         int
         """
+
     @property
     def max_color_attachments(self) -> int:
         """
         int
         """
+
     @property
     def max_cube_map_texture_size(self) -> int:
         """
         int: pixels along an edge of a face.
         """
+
     @property
     def max_samples(self) -> int:
         """
         int: samples of each pixel (MSAA).
         """
+
     @property
     def max_texture_size(self) -> int:
         """
@@ -4193,53 +4491,63 @@ class RendererInfo:
     """
     The device, driver and limits of a renderer.
     """
-    def __reduce__(self) -> tuple: ...
+
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: RendererInfo) -> str: ...
     @property
     def device(self) -> Device:
         """
         Device: the device of the renderer.
         """
+
     @property
     def egl_version(self) -> str:
         """
         str: EGL_VERSION.
         """
+
     @property
     def glsl_version(self) -> str:
         """
         str: GL_SHADING_LANGUAGE_VERSION.
         """
+
     @property
     def layered(self) -> bool:
         """
         bool: whether one draw call draws a mesh on all faces of a cube.
         """
+
     @property
     def limits(self) -> Limits:
         """
         Limits
         """
+
     @property
     def platform(self) -> str:
         """
         str: "device", "surfaceless" or "default".
         """
+
     @property
     def renderer(self) -> str:
         """
         str: GL_RENDERER.
         """
+
     @property
     def software(self) -> bool:
         """
         bool: whether the device renders on the CPU.
         """
+
     @property
     def vendor(self) -> str:
         """
         str: GL_VENDOR.
         """
+
     @property
     def version(self) -> str:
         """
@@ -4250,7 +4558,8 @@ class Frame:
     """
     A rendered picture: arrays with row 0 on top, which belong to the caller.
 
-    An output that ``outputs=`` does not request is None. Only opaque nodes write the outputs; `depth` and
+    An output that ``outputs=`` does not request is None; type checkers see the array of an output that was
+    requested. Only opaque nodes write the outputs; `depth` and
     `stencil` are the contents of these buffers after the last node is drawn.
 
     ``frame.save("x.png")`` writes the picture as a screen shows it, and a notebook shows it the same way.
@@ -4267,9 +4576,10 @@ class Frame:
     >>> frame.color.shape, frame.color[0, 0].tolist()
     ((2, 4, 4), [255, 0, 0, 255])
     """
+
     def __array__(
         self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
+    ) -> np.typing.NDArray[np.generic]:
         """
         Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
 
@@ -4290,6 +4600,7 @@ class Frame:
         ValueError
             For a frame without a colour, or a copy that is not allowed.
         """
+
     def __dlpack__(
         self,
         *,
@@ -4304,22 +4615,25 @@ class Frame:
         A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
         the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
         """
+
     def __dlpack_device__(self) -> tuple[int, int]:
         """
         Give the device of the numbers to ``from_dlpack``: main memory.
         """
-    def __reduce__(self: Frame) -> tuple: ...
+
+    def __reduce__(self: Frame) -> tuple[object, ...]: ...
     def __repr__(self: Frame) -> str: ...
     def _repr_png_(self) -> bytes | None:
         """
         Give the picture that Jupyter shows: the file that `Frame.save` writes; None for a frame without a colour.
         """
+
     def save(
         self,
         path: str | os.PathLike[str],
         *,
         exposure: float = 0.0,
-        tonemap: typing.Literal["neutral", "reinhard", "aces"] | None = "neutral",
+        tonemap: Tonemap | None = "neutral",
         srgb: bool | None = None,
         half: bool = False,
     ) -> None:
@@ -4359,43 +4673,51 @@ class Frame:
         >>> cc.load_image(path)[0, 0].tolist()
         [124, 124, 124, 255]
         """
+
     @property
-    def color(self) -> typing.Any:
+    def color(self) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         ndarray (H, W, 4): the colour, uint8, float16 or float32 by ``format``; linear, except with ``encode=``. None with ``format=None``.
         """
+
     @property
-    def depth(self) -> typing.Any:
+    def depth(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (H, W) float32: OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at the far plane and in the background.
         """
+
     @property
-    def distance(self) -> typing.Any:
+    def distance(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (H, W) float32: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
+
     @property
-    def encoding(self) -> str:
+    def encoding(self) -> Encoding:
         """
         str: "linear" or "srgb", what the numbers of `color` are.
         """
+
     @property
-    def format(self) -> typing.Any:
+    def format(self) -> Format | None:
         """
         str: the format of `color`, as `Renderer.render` takes it; None without a colour.
         """
+
     @property
-    def id(self) -> typing.Any:
+    def id(self) -> np.typing.NDArray[np.int32]:
         """
         ndarray (H, W) int32: ``Node.id`` of the visible node; 0 background.
         """
+
     @property
-    def normal(self) -> typing.Any:
+    def normal(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
         """
+
     @property
-    def outputs(self) -> dict[str, np.ndarray]:
+    def outputs(self) -> dict[str, np.typing.NDArray[np.float32 | np.int32 | np.uint8]]:
         """
         dict of str to ndarray: the outputs that were requested, by name.
 
@@ -4403,23 +4725,27 @@ class Frame:
         declares, such as `out vec4 heat;`: float32 (H, W, 4), with fewer channels for vec3 and vec2 and (H, W) for
         float. A declared output is 0 where the visible node does not write it.
         """
+
     @property
-    def position(self) -> typing.Any:
+    def position(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (H, W, 3) float32: world position; NaN background.
         """
+
     @property
     def size(self) -> tuple[int, int]:
         """
         tuple of int: (width, height), pixels.
         """
+
     @property
-    def stencil(self) -> typing.Any:
+    def stencil(self) -> np.typing.NDArray[np.uint8]:
         """
         ndarray (H, W) uint8: the stencil buffer after all drawing; 0 background.
         """
+
     @property
-    def z(self) -> typing.Any:
+    def z(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (H, W) float32: distance along the camera's axis, or a face's, world units; +inf background.
         """
@@ -4468,33 +4794,34 @@ class Renderer:
     >>> cube.faces.shape
     (6, 32, 32, 4)
     """
+
     def __enter__(self: Renderer) -> Renderer: ...
-    def __exit__(self: Renderer, *args) -> None: ...
+    def __exit__(self: Renderer, *args: object) -> None: ...
     def __init__(
         self: Renderer,
         *,
-        device: typing.Any = "auto",
-        layered: typing.Any = None,
+        device: str | typing.SupportsIndex | Device | None = "auto",
+        layered: bool | None = None,
         cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
         debug: bool = False,
     ) -> None: ...
-    def __reduce__(self) -> tuple: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Renderer) -> str: ...
     def capture(
         self: Renderer,
         scene: Scene,
-        position: typing.Any = (0.0, 0.0, 0.0),
-        size: typing.Any = 256,
+        position: np.typing.ArrayLike = (0.0, 0.0, 0.0),
+        size: typing.SupportsIndex = 256,
         *,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
-        exclude: typing.Any = (),
-        outputs: typing.Any = (),
-        format: str | None = "rgba32f",
-        samples: typing.Any = 1,
-        eye: typing.Any = None,
-        depth_format: str | None = "depth_component32f",
-        depth_order: str = "nearest",
+        exclude: collections.abc.Iterable[Node] = (),
+        outputs: collections.abc.Iterable[str] = (),
+        format: Format | None = "rgba32f",
+        samples: typing.SupportsIndex = 1,
+        eye: np.typing.ArrayLike | None = None,
+        depth_format: DepthFormat | None = "depth_component32f",
+        depth_order: DepthOrder = "nearest",
     ) -> CubeMap:
         """
         Draw the surroundings of a point into a cubemap.
@@ -4548,10 +4875,12 @@ class Renderer:
         >>> cube.sample((0, -1, 0)).tolist(), int(cube.id[3, 8, 8])
         ([1.0, 0.0, 0.0, 1.0], 1)
         """
+
     def close(self: Renderer) -> None:
         """
         Free the OpenGL context and its memory. Calls after that raise ContextError; a second close() does nothing.
         """
+
     def read_probe(self: Renderer, probe: Probe) -> CubeMap:
         """
         Read the present contents of a probe, in the probe's format.
@@ -4585,7 +4914,10 @@ class Renderer:
         >>> held.faces.shape, held.dtype.name
         ((6, 8, 8, 4), 'float16')
         """
-    def read_texture(self: Renderer, render_texture: RenderTexture) -> np.ndarray:
+
+    def read_texture(
+        self: Renderer, render_texture: RenderTexture
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
         """
         Read the present contents of a render texture, in its format.
 
@@ -4604,20 +4936,21 @@ class Renderer:
         ValueError
             If this renderer has not drawn the object yet.
         """
+
     def render(
         self: Renderer,
         scene: Scene,
         camera: Camera | StereoCamera,
-        size: typing.Any,
+        size: tuple[int, int],
         *,
-        outputs: typing.Any = (),
-        format: str | None = "rgba8",
-        samples: typing.Any = 1,
+        outputs: collections.abc.Iterable[str] = (),
+        format: Format | None = "rgba8",
+        samples: typing.SupportsIndex = 1,
         exposure: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        tonemap: str | None = None,
-        encode: str | None = None,
-        effects: typing.Any = (),
-        depth_format: str | None = "depth_component32f",
+        tonemap: Tonemap | None = None,
+        encode: Encode | None = None,
+        effects: collections.abc.Iterable[ImageEffect] = (),
+        depth_format: DepthFormat | None = "depth_component32f",
     ) -> Frame:
         """
         Draw a picture of a scene. The probes that its mirrors need are brought up to date first.
@@ -4679,7 +5012,8 @@ class Renderer:
         >>> frame.color.tolist()
         [[[2.0, 0.0, 0.0, 1.0]]]
         """
-    def shadow_map(self: Renderer, scene: Scene, light: Light) -> np.ndarray:
+
+    def shadow_map(self: Renderer, scene: Scene, light: Light) -> np.typing.NDArray[np.float32]:
         """
         Draw the shadow map of a light, as distances, to look at. A map that is up to date is not drawn again.
 
@@ -4716,7 +5050,13 @@ class Renderer:
         >>> depth.shape, depth[0, 16, 16].round(3).item(), depth[0, 16, 4].round(3).item()
         ((1, 32, 32), 0.0, 3.5)
         """
-    def update_probes(self: Renderer, scene: Scene, *, probes: typing.Any = None) -> None:
+
+    def update_probes(
+        self: Renderer,
+        scene: Scene,
+        *,
+        probes: Probe | collections.abc.Iterable[Probe] | None = None,
+    ) -> None:
         """
         Draw probes now, whatever value their ``update`` has.
 
@@ -4733,28 +5073,31 @@ class Renderer:
         ContextError
             After :meth:`close`, or in a forked process.
         """
+
     @property
     def closed(self) -> bool:
         """
         bool: whether close() was called.
         """
+
     @property
     def info(self) -> RendererInfo:
         """
         RendererInfo: the device, driver and limits; readable after close(), too.
         """
+
     @property
     def stats(self) -> Stats:
         """
         Stats: what the last call drew.
         """
 
-def _check_pickle(format: typing.Any) -> None:
+def _check_pickle(format: object) -> None:
     """
     For unpickling: raises TypeError for a format that is not this version's.
     """
 
-def _restore_frame(state: tuple) -> Frame:
+def _restore_frame(state: tuple[object, ...]) -> Frame:
     """
     For unpickling.
     """

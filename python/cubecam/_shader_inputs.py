@@ -2,32 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, MutableMapping
-from typing import Any
+from collections.abc import Iterator, Mapping, MutableMapping
+from typing import TYPE_CHECKING, TypeVar
 
-from ._core import ImageEffect, ShaderMaterial
+from ._core import CubeMap, Image, ImageEffect, Probe, RenderTexture, ShaderMaterial
 
-__all__ = ["ShaderInputs", "set_textures", "set_uniforms", "textures", "uniforms"]
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = [
+    "ShaderInputs",
+    "Textures",
+    "Uniforms",
+    "set_textures",
+    "set_uniforms",
+    "textures",
+    "uniforms",
+]
+
+Given = TypeVar("Given")
 
 
-class ShaderInputs(MutableMapping[str, Any]):
-    """A live view of an object's uniforms or textures: the next picture shows a value that is set here.
+class ShaderInputs(MutableMapping[str, Given]):
+    """A live view of an object's uniforms or textures: the next picture shows a value that is set here."""
 
-    A value that is read is a float, a read-only float64 array, an Image, a RenderTexture, a CubeMap or a Probe.
-    """
+    _kind: str
 
-    def __init__(self, owner: ShaderMaterial | ImageEffect, kind: str) -> None:
+    def __init__(self, owner: ShaderMaterial | ImageEffect) -> None:
         self._owner = owner
-        self._kind = kind
 
-    def _values(self) -> dict[str, Any]:
+    def _values(self) -> dict[str, Given]:
         return dict(getattr(self._owner, f"_{self._kind}s")())
 
-    def __getitem__(self, name: str) -> Any:
+    def __getitem__(self, name: str) -> Given:
         """Return a value."""
         return self._values()[name]
 
-    def __setitem__(self, name: str, value: Any) -> None:
+    def __setitem__(self, name: str, value: Given) -> None:
         """Set a value; it is checked and copied."""
         getattr(self._owner, f"_set_{self._kind}")(name, value)
 
@@ -48,21 +60,44 @@ class ShaderInputs(MutableMapping[str, Any]):
         return repr(self._values())
 
 
-def uniforms(self: ShaderMaterial | ImageEffect) -> MutableMapping[str, Any]:
+class Uniforms(ShaderInputs["ArrayLike"]):
+    """Numbers by name. A value that is read is a float or a read-only array."""
+
+    _kind = "uniform"
+
+    def __getitem__(self, name: str) -> float | NDArray[np.float64]:
+        """Return a value."""
+        return self._owner._uniforms()[name]
+
+
+class Textures(ShaderInputs["Image | RenderTexture | CubeMap | Probe | ArrayLike"]):
+    """Pictures by name. An array that is set becomes an Image."""
+
+    _kind = "texture"
+
+    def __getitem__(self, name: str) -> Image | RenderTexture | CubeMap | Probe:
+        """Return a value."""
+        return self._owner._textures()[name]
+
+
+def uniforms(self: ShaderMaterial | ImageEffect) -> Uniforms:
     """Mapping of str to numbers: ``uniforms["time"] = 2`` shows in the next picture."""
-    return ShaderInputs(self, "uniform")
+    return Uniforms(self)
 
 
-def set_uniforms(self: ShaderMaterial | ImageEffect, values: Any) -> None:
+def set_uniforms(self: ShaderMaterial | ImageEffect, value: Mapping[str, ArrayLike]) -> None:
     """Replace all uniforms."""
-    self._set_inputs(uniforms=values)
+    self._set_inputs(uniforms=value)
 
 
-def textures(self: ShaderMaterial | ImageEffect) -> MutableMapping[str, Any]:
+def textures(self: ShaderMaterial | ImageEffect) -> Textures:
     """Mapping of str to Image, RenderTexture, CubeMap or Probe: a name set here shows in the next picture."""
-    return ShaderInputs(self, "texture")
+    return Textures(self)
 
 
-def set_textures(self: ShaderMaterial | ImageEffect, values: Any) -> None:
+def set_textures(
+    self: ShaderMaterial | ImageEffect,
+    value: Mapping[str, Image | RenderTexture | CubeMap | Probe | ArrayLike],
+) -> None:
     """Replace all textures."""
-    self._set_inputs(textures=values)
+    self._set_inputs(textures=value)

@@ -10,7 +10,8 @@ import numpy as np
 from ._core import CubeMap
 from .io import oiio
 from .io.images import encode_picture
-from .io.screen import Tonemap, to_screen
+from .io.screen import to_screen
+from .typing import Tonemap
 
 if TYPE_CHECKING:
     from ._core import Frame, Image

@@ -30,6 +30,8 @@ CPP_KNOWS = {"gl": {"core"}, "math": {"core"}}
 
 #: The parts of python/cubecam in the same kind of order; a part is a folder or a module.
 PYTHON_ORDER = (
+    "_array_types",  # needs numpy
+    "typing",
     "_core",
     "data",  # the packaged files and their list
     "io",

@@ -216,6 +216,28 @@ CALLS = {
         "axis_angle: degrees: expected it once, got it by position and by name",
     ),
     "type": (lambda r: cc.Scene().add(light=3), "Scene.add: light: expected Light, got 3"),
+    "a choice": (
+        lambda r: cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), wrap=None),
+        'RenderTexture: wrap: expected "repeat" or "clamp", got None',
+    ),
+    "many arguments of a choice": (
+        lambda r: cc.Image([[[0.0]]], wrap="clamp", mipmaps=object()),
+        "Image: mipmaps: expected bool, got object",
+    ),
+    "a choice or none": (
+        lambda r: cc.Probe(depth_format=8),
+        (
+            'Probe: depth_format: expected "depth_component16", "depth_component24", "depth_component32f", '
+            '"depth24_stencil8", "depth32f_stencil8", "stencil_index8" or None, got 8'
+        ),
+    ),
+    "too large beside choices": (
+        lambda r: cc.CubeMap([[[[0.0]]]] * 6).to_equirect(width=1 << 40),
+        (
+            "CubeMap.to_equirect: expected (width: int or None, center: str, sampling: str, dtype: DTypeLike or None), "
+            "got (width=1099511627776)"
+        ),
+    ),
     "number": (
         lambda r: cc.PerspectiveCamera(fov="wide"),
         "PerspectiveCamera: fov: expected float, got 'wide'",

@@ -6,7 +6,8 @@ namespace cubecam::docs {
 inline constexpr const char* frame =
     R"doc(A rendered picture: arrays with row 0 on top, which belong to the caller.
 
-An output that ``outputs=`` does not request is None. Only opaque nodes write the outputs; `depth` and
+An output that ``outputs=`` does not request is None; type checkers see the array of an output that was
+requested. Only opaque nodes write the outputs; `depth` and
 `stencil` are the contents of these buffers after the last node is drawn.
 
 ``frame.save("x.png")`` writes the picture as a screen shows it, and a notebook shows it the same way.

@@ -21,9 +21,19 @@ std::string plain_name(std::string_view name) {
     return plain;
 }
 
-[[noreturn]] void refuse_name(const char* what, const char* names, std::string_view got) {
+[[noreturn]] void refuse_name(const char* what, const std::string& names, std::string_view got) {
     throw std::invalid_argument(std::string(what) + ": expected " + names + ", got '" +
                                 std::string(got) + "'");
+}
+
+/// Returns the value that a name stands for, whatever its letter case and its separators.
+template <class Value, std::size_t N>
+std::optional<Value> find_name(const NameTable<Value, N>& table, std::string_view name) {
+    const std::string plain = plain_name(name);
+    for (const auto& [known, value] : table) {
+        if (plain_name(known) == plain) return value;
+    }
+    return std::nullopt;
 }
 
 /// How a convention shows the gl cube. Each conversion is its own inverse: a flip is, and the
@@ -103,67 +113,32 @@ void copy_rows(const std::byte* from, std::size_t from_stride, std::byte* to, st
 }  // namespace
 
 Convention parse_convention(std::string_view name) {
-    const std::string plain = plain_name(name);
-    if (plain == "gl") return Convention::gl;
-    if (plain == "inside") return Convention::inside;
-    if (plain == "three") return Convention::three;
-    refuse_name("convention", "'gl', 'inside' or 'three'", name);
+    if (const auto found = find_name(convention_names, name)) return *found;
+    refuse_name("convention", quoted_names(convention_names), name);
 }
 
 Layout parse_layout(std::string_view name) {
-    const std::string plain = plain_name(name);
-    if (plain == "cross" || plain == "horizontal_cross") return Layout::cross;
-    if (plain == "vertical_cross") return Layout::vertical_cross;
-    if (plain == "row") return Layout::row;
-    if (plain == "column") return Layout::column;
-    if (plain == "equirect") return Layout::equirect;
-    if (plain == "openexr") return Layout::openexr;
-    refuse_name("layout", "'cross', 'vertical_cross', 'row', 'column', 'equirect' or 'openexr'",
-                name);
+    if (const auto found = find_name(layout_names, name)) return *found;
+    if (plain_name(name) == "horizontal_cross") return Layout::cross;
+    refuse_name("layout", quoted_names(layout_names), name);
 }
 
 Center parse_center(std::string_view name) {
-    const std::string plain = plain_name(name);  // plain_name turns '-' into '_'
-    if (plain == "_z") return Center::neg_z;
-    if (plain == "+z") return Center::pos_z;
-    if (plain == "+x") return Center::pos_x;
-    if (plain == "_x") return Center::neg_x;
-    refuse_name("center", "'-z', '+z', '+x' or '-x'", name);
+    if (const auto found = find_name(center_names, name)) return *found;
+    refuse_name("center", quoted_names(center_names), name);
 }
 
 Face parse_face(std::string_view name) {
-    constexpr std::array<std::array<const char*, 3>, face_count> names = {{
-        {"+x", "px", "pos_x"},
-        {"_x", "nx", "neg_x"},
-        {"+y", "py", "pos_y"},
-        {"_y", "ny", "neg_y"},
-        {"+z", "pz", "pos_z"},
-        {"_z", "nz", "neg_z"},
-    }};
-    const std::string plain = plain_name(name);
-    for (const Face face : all_faces) {
-        const auto& same = names[face_index(face)];
-        if (std::find(same.begin(), same.end(), plain) != same.end()) return face;
-    }
+    if (const auto found = find_name(face_words, name)) return *found;
     refuse_name("face", "'+x', '-x', '+y', '-y', '+z' or '-z' (or 'px' ..., 'pos_x' ...)", name);
 }
 
 std::string_view to_string(Convention convention) {
-    return convention == Convention::gl       ? "gl"
-           : convention == Convention::inside ? "inside"
-                                              : "three";
+    return convention_names[static_cast<std::size_t>(convention)].first;
 }
 
 std::string_view to_string(Layout layout) {
-    switch (layout) {
-        case Layout::cross: return "cross";
-        case Layout::vertical_cross: return "vertical_cross";
-        case Layout::row: return "row";
-        case Layout::column: return "column";
-        case Layout::equirect: return "equirect";
-        case Layout::openexr: return "openexr";
-    }
-    return "";
+    return layout_names[static_cast<std::size_t>(layout)].first;
 }
 
 FaceSource face_source(Convention from, Convention to, Face face) {

@@ -2,6 +2,7 @@
 /// only move texels, so a conversion and its inverse give the same bytes.
 #pragma once
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/math/equirect.hpp"
@@ -29,6 +30,36 @@ enum class Layout {
     equirect,        ///< 2H x H, resampled
     openexr,         ///< N x 6N, "inside", samples on the faces' borders: resampled
 };
+
+inline constexpr NameTable<Convention, 3> convention_names{
+    {{"gl", Convention::gl}, {"inside", Convention::inside}, {"three", Convention::three}}};
+inline constexpr NameTable<Layout, 6> layout_names{{{"cross", Layout::cross},
+                                                    {"vertical_cross", Layout::vertical_cross},
+                                                    {"row", Layout::row},
+                                                    {"column", Layout::column},
+                                                    {"equirect", Layout::equirect},
+                                                    {"openexr", Layout::openexr}}};
+inline constexpr NameTable<Center, 4> center_names{
+    {{"-z", Center::neg_z}, {"+z", Center::pos_z}, {"+x", Center::pos_x}, {"-x", Center::neg_x}}};
+/// Three names of every face.
+inline constexpr NameTable<Face, 18> face_words{{{"+x", Face::pos_x},
+                                                 {"-x", Face::neg_x},
+                                                 {"+y", Face::pos_y},
+                                                 {"-y", Face::neg_y},
+                                                 {"+z", Face::pos_z},
+                                                 {"-z", Face::neg_z},
+                                                 {"px", Face::pos_x},
+                                                 {"nx", Face::neg_x},
+                                                 {"py", Face::pos_y},
+                                                 {"ny", Face::neg_y},
+                                                 {"pz", Face::pos_z},
+                                                 {"nz", Face::neg_z},
+                                                 {"pos_x", Face::pos_x},
+                                                 {"neg_x", Face::neg_x},
+                                                 {"pos_y", Face::pos_y},
+                                                 {"neg_y", Face::neg_y},
+                                                 {"pos_z", Face::pos_z},
+                                                 {"neg_z", Face::neg_z}}};
 
 /// These accept names in any letter case, with '-' or ' ' in place of '_'.
 /// @throws std::invalid_argument that lists the names.

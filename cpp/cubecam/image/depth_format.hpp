@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cubecam/core/parse_name.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -17,6 +19,14 @@ enum class DepthFormat : std::uint8_t {
     depth32f_stencil8,
     stencil_index8,  ///< a stencil without depth
 };
+
+inline constexpr NameTable<DepthFormat, 6> depth_format_names{
+    {{"depth_component16", DepthFormat::depth_component16},
+     {"depth_component24", DepthFormat::depth_component24},
+     {"depth_component32f", DepthFormat::depth_component32f},
+     {"depth24_stencil8", DepthFormat::depth24_stencil8},
+     {"depth32f_stencil8", DepthFormat::depth32f_stencil8},
+     {"stencil_index8", DepthFormat::stencil_index8}}};
 
 /// @throws std::invalid_argument that lists the known names, for any other name; `none` has no
 /// name.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/image/pixels.hpp"
 
 #include <cstddef>
@@ -11,6 +12,11 @@ namespace cubecam {
 /// Colour format of a frame, a capture or a probe: four channels of 8-bit unorm, half or float, or
 /// GL_RGB565: 5, 6 and 5 bits without alpha, read as rgba8.
 enum class Format : std::uint8_t { rgba8, rgba16f, rgba32f, rgb565 };
+
+inline constexpr NameTable<Format, 4> format_names{{{"rgba8", Format::rgba8},
+                                                    {"rgba16f", Format::rgba16f},
+                                                    {"rgba32f", Format::rgba32f},
+                                                    {"rgb565", Format::rgb565}}};
 
 /// @throws std::invalid_argument for any other name.
 Format parse_format(std::string_view name);

@@ -38,13 +38,13 @@ bool any_alpha_below_one(DType dtype, const PixelBuffer& pixels) {
 }  // namespace
 
 Wrap parse_wrap(std::string_view name) {
-    if (name == "repeat") return Wrap::repeat;
-    if (name == "clamp") return Wrap::clamp;
-    throw std::invalid_argument("expected wrap 'repeat' or 'clamp', got '" + std::string(name) +
-                                "'");
+    const std::size_t place = place_of_name(wrap_names, name);
+    if (place < wrap_names.size()) return wrap_names[place].second;
+    throw std::invalid_argument("expected wrap " + quoted_names(wrap_names) + ", got '" +
+                                std::string(name) + "'");
 }
 
-std::string_view to_string(Wrap wrap) { return wrap == Wrap::repeat ? "repeat" : "clamp"; }
+std::string_view to_string(Wrap wrap) { return wrap_names[static_cast<std::size_t>(wrap)].first; }
 
 Image::Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps,
              Wrap wrap, Encoding encoding)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/image/encoding.hpp"
 #include "cubecam/image/pixels.hpp"
 
@@ -12,6 +13,8 @@ namespace cubecam {
 
 /// How a lookup outside 0..1 is treated; glTF's names are REPEAT and CLAMP_TO_EDGE.
 enum class Wrap : std::uint8_t { repeat, clamp };
+
+inline constexpr NameTable<Wrap, 2> wrap_names{{{"repeat", Wrap::repeat}, {"clamp", Wrap::clamp}}};
 
 /// @throws std::invalid_argument for any other name.
 Wrap parse_wrap(std::string_view name);

@@ -8,22 +8,6 @@
 namespace cubecam {
 namespace {
 
-// The names are in the order of the enums.
-constexpr std::string_view blend_names[] = {"opaque",   "alpha",    "alpha_keep",
-                                            "additive", "multiply", "premultiplied"};
-constexpr std::string_view factor_names[] = {"zero",
-                                             "one",
-                                             "src_color",
-                                             "one_minus_src_color",
-                                             "dst_color",
-                                             "one_minus_dst_color",
-                                             "src_alpha",
-                                             "one_minus_src_alpha",
-                                             "dst_alpha",
-                                             "one_minus_dst_alpha",
-                                             "src_alpha_saturate"};
-constexpr std::string_view equation_names[] = {"add", "subtract", "reverse_subtract", "min", "max"};
-
 std::size_t index_of_name(std::span<const std::string_view> names, std::string_view name,
                           const std::string& before, std::string_view after) {
     std::string expected = before;
@@ -43,22 +27,22 @@ Blend parse_blend(std::string_view name) {
 
 BlendFactor parse_blend_factor(std::string_view word, std::string_view name) {
     return static_cast<BlendFactor>(
-        index_of_name(factor_names, word, std::string(name) + ": expected ", ""));
+        index_of_name(blend_factor_names, word, std::string(name) + ": expected ", ""));
 }
 
 BlendEquation parse_blend_equation(std::string_view word) {
     return static_cast<BlendEquation>(
-        index_of_name(equation_names, word, "equation: expected ", ""));
+        index_of_name(blend_equation_names, word, "equation: expected ", ""));
 }
 
 std::string_view to_string(Blend blend) { return blend_names[static_cast<std::size_t>(blend)]; }
 
 std::string_view to_string(BlendFactor factor) {
-    return factor_names[static_cast<std::size_t>(factor)];
+    return blend_factor_names[static_cast<std::size_t>(factor)];
 }
 
 std::string_view to_string(BlendEquation equation) {
-    return equation_names[static_cast<std::size_t>(equation)];
+    return blend_equation_names[static_cast<std::size_t>(equation)];
 }
 
 }  // namespace cubecam

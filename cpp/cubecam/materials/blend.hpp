@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -16,6 +17,10 @@ enum class Blend : std::uint8_t {
     premultiplied,  ///< S + (1 - a) D, for colours that are multiplied by their alpha already
     factors,        ///< by SurfaceOptions::blend_factors
 };
+
+/// In the order of Blend; "factors" has no name.
+inline constexpr std::array<std::string_view, 6> blend_names = {
+    "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied"};
 
 /// @throws std::invalid_argument for any other name, and for "factors", which has no name.
 Blend parse_blend(std::string_view name);
@@ -39,6 +44,21 @@ enum class BlendFactor : std::uint8_t {
 /// How the two products are combined (GL 4.5, table 17.1). min and max take S and D without
 /// factors.
 enum class BlendEquation : std::uint8_t { add, subtract, reverse_subtract, min, max };
+
+/// In the order of the enums.
+inline constexpr std::array<std::string_view, 11> blend_factor_names = {"zero",
+                                                                        "one",
+                                                                        "src_color",
+                                                                        "one_minus_src_color",
+                                                                        "dst_color",
+                                                                        "one_minus_dst_color",
+                                                                        "src_alpha",
+                                                                        "one_minus_src_alpha",
+                                                                        "dst_alpha",
+                                                                        "one_minus_dst_alpha",
+                                                                        "src_alpha_saturate"};
+inline constexpr std::array<std::string_view, 5> blend_equation_names = {
+    "add", "subtract", "reverse_subtract", "min", "max"};
 
 /// `name` is the argument that has this word as its value. @throws std::invalid_argument for any
 /// other word.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string_view>
 
@@ -30,6 +31,12 @@ enum class StencilOp : std::uint8_t {
     decr_wrap,
     invert
 };
+
+/// In the order of the enums.
+inline constexpr std::array<std::string_view, 8> stencil_func_names = {
+    "never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"};
+inline constexpr std::array<std::string_view, 8> stencil_op_names = {
+    "keep", "zero", "replace", "incr", "incr_wrap", "decr", "decr_wrap", "invert"};
 
 /// A stencil test, and how drawing changes the stencil buffer; front and back faces are treated
 /// alike (OpenGL 4.6, section 17.3.3).

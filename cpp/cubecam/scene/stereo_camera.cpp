@@ -16,9 +16,6 @@ namespace cubecam {
 namespace {
 
 // The names are in the order of the enum.
-constexpr std::array<std::string_view, 3> stereo_layout_names = {"anaglyph", "side_by_side",
-                                                                 "top_bottom"};
-
 /// A camera's own axes in the world: right, up and back.
 glm::dmat3 axes_of(const Placement& placement) {
     const glm::dvec3 forward =
@@ -102,16 +99,14 @@ CameraValue turned(const Matrices&, double) {
 }  // namespace
 
 StereoLayout parse_stereo_layout(std::string_view name) {
-    for (std::size_t i = 0; i < stereo_layout_names.size(); ++i) {
-        if (stereo_layout_names[i] == name) return static_cast<StereoLayout>(i);
-    }
-    throw std::invalid_argument(
-        "layout: expected 'anaglyph', 'side_by_side' or 'top_bottom', got '" + std::string(name) +
-        "'");
+    const std::size_t place = place_of_name(stereo_layout_names, name);
+    if (place < stereo_layout_names.size()) return stereo_layout_names[place].second;
+    throw std::invalid_argument("layout: expected " + quoted_names(stereo_layout_names) +
+                                ", got '" + std::string(name) + "'");
 }
 
 std::string_view to_string(StereoLayout layout) {
-    return stereo_layout_names[static_cast<std::size_t>(layout)];
+    return stereo_layout_names[static_cast<std::size_t>(layout)].first;
 }
 
 Eyes off_axis_eyes(const CameraValue& camera, double separation,

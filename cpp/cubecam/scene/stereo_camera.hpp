@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/scene/camera.hpp"
 
 #include <cstdint>
@@ -16,6 +17,11 @@ enum class StereoLayout : std::uint8_t {
     side_by_side,  ///< the left eye in the left half
     top_bottom     ///< the left eye in the upper half
 };
+
+inline constexpr NameTable<StereoLayout, 3> stereo_layout_names{
+    {{"anaglyph", StereoLayout::anaglyph},
+     {"side_by_side", StereoLayout::side_by_side},
+     {"top_bottom", StereoLayout::top_bottom}}};
 
 /// @throws std::invalid_argument for any other name.
 StereoLayout parse_stereo_layout(std::string_view name);

@@ -24,7 +24,8 @@ from .. import (
 from .._core import _shaded_outputs
 from ..io.cubemap_names import FACE_NAMES
 from ..io.cubemap_save import arrange
-from .common import Center, Convention, DeviceOption, Layout, failures_reported, parse_device
+from ..typing import Center, Convention, FileLayout
+from .common import DeviceOption, failures_reported, parse_device
 
 _OUTPUTS = tuple(_shaded_outputs())
 MaterialName: TypeAlias = Literal["phong", "mirror", "glass"]
@@ -78,7 +79,7 @@ def capture(
     size: Annotated[int, typer.Option("--size", "-s", min=1, help="Texels along a face.")] = 256,
     samples: Annotated[int, typer.Option(min=1, help="Samples of each texel.")] = 1,
     layout: Annotated[
-        Layout | None,
+        FileLayout | None,
         typer.Option("--layout", "-l", help="Default: cross; faces for an output with {face}."),
     ] = None,
     convention: Annotated[
@@ -163,7 +164,9 @@ def _material(name: MaterialName, color: Triple) -> Material:
     return PhongMaterial(color=color)
 
 
-def _save_output(cube: CubeMap, name: str, output: str, layout: str, convention: str) -> list[str]:
+def _save_output(
+    cube: CubeMap, name: str, output: str, layout: FileLayout, convention: Convention
+) -> list[str]:
     """Write an output as EXR of float or whole numbers, in the layout of the colours."""
     values = getattr(cube, name)
     path = Path(output)

@@ -4,19 +4,13 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated
 
 import typer
 from rich.console import Console
 from rich.markup import escape
 
 from .. import Error
-
-Layout: TypeAlias = Literal[
-    "cross", "vertical_cross", "row", "column", "equirect", "openexr", "faces"
-]
-Convention: TypeAlias = Literal["gl", "inside", "three"]
-Center: TypeAlias = Literal["-z", "+z", "+x", "-x"]
 
 DeviceOption = Annotated[
     str | None,

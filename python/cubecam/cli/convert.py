@@ -12,7 +12,8 @@ from rich.progress import track
 
 from .. import Error
 from ..io.cubemaps import load_cubemap
-from .common import Center, Convention, Layout, describe
+from ..typing import Center, Convention, FileLayout
+from .common import describe
 
 _FROM = "Options for reading"
 _TO = "Options for writing"
@@ -36,7 +37,7 @@ def convert(
         ),
     ] = None,
     layout: Annotated[
-        Layout | None,
+        FileLayout | None,
         typer.Option(
             "--layout",
             "-l",
@@ -70,7 +71,7 @@ def convert(
         bool, typer.Option("--half", help="Store EXR with 16 bits a number.", rich_help_panel=_TO)
     ] = False,
     from_layout: Annotated[
-        Layout | None,
+        FileLayout | None,
         typer.Option(help="Default: by the shape of the picture.", rich_help_panel=_FROM),
     ] = None,
     from_convention: Annotated[
@@ -145,7 +146,7 @@ class _Target:
     """The path and the layout of the output of one input."""
 
     def __init__(
-        self, source: str, output: str | None, layout: str | None, extension: str | None
+        self, source: str, output: str | None, layout: FileLayout | None, extension: str | None
     ) -> None:
         self.source = source
         if not Path(source).name:
@@ -155,7 +156,7 @@ class _Target:
         named = output is not None and (
             Path(output).suffix != "" and not output.endswith("/") and not Path(output).is_dir()
         )
-        self.layout = layout or ("faces" if output and "{face}" in output else "cross")
+        self.layout: FileLayout = layout or ("faces" if output and "{face}" in output else "cross")
         ending = "{face}" if self.layout == "faces" else self.layout
         if output is None:
             self.path = str(Path(source).with_name(f"{stem}_{ending}{wanted}"))

@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import cubecam as cc
+from cubecam.typing import Format
 
 from ._common import LIGHT, Picture, on_circle, picture, surroundings, teapot
 
@@ -58,7 +59,7 @@ def build(
     images: Any = None,
     reflector: Literal["sphere", "teapot"] = "sphere",
     probe_size: int = PROBE,
-    probe_format: str = "rgba8",
+    probe_format: Format = "rgba8",
 ) -> Program:
     """Make the scene; images as in P1, the probe's texels of 8 bits as in the document."""
     if reflector not in ("sphere", "teapot"):

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import cubecam as cc
+from cubecam.typing import DepthFormat, Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
 
@@ -31,7 +32,7 @@ SIZE = (512, 512)  # aspect 1
 FOV, NEAR, FAR = 70.0, 1.0, 100.0  # main view: degrees, world units
 EYE = (0.0, 1.0, 5.0)  # the document prints none; it looks at the origin
 PROBE = 256  # texels along an edge of a face; 90 degrees, aspect 1, near 1, far 100
-DEPTH = "depth_component16"  # of the framebuffer that the faces are drawn in
+DEPTH: DepthFormat = "depth_component16"  # of the framebuffer that the faces are drawn in
 CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 PLACE, SCALE = (0.0, 0.8, 0.0), 0.8
 AXIS, TURN = (1.0, 1.0, 1.0), 0.45  # degrees a frame
@@ -59,7 +60,7 @@ def phong(color: tuple[float, float, float]) -> cc.PhongMaterial:
     return cc.PhongMaterial(color=color, ka=0.2, kd=0.7, ks=1.0, shininess=10.0)
 
 
-def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
+def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
     """Make the scene; the probe's texels are of 8 bits as in the document."""
     scene = cc.Scene(background=GREY)
     scene.add(cc.PointLight(position=LIGHT))

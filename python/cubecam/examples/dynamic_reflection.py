@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import cubecam as cc
+from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, on_circle, picture, teapot
 from .cubemap_on_a_cube import (
@@ -59,7 +60,7 @@ class Program:
     probe: cc.Probe
 
 
-def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
+def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
     """Make the scene; the probe's texels are of 8 bits as in the document."""
     scene, actors = stage()
     ball = scene.add(cc.Mesh.sphere(BALL), gold(), scale=SCALE)

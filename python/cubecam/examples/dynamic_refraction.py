@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import cubecam as cc
+from cubecam.typing import Format
 
 from ._common import Picture, picture
 from .cubemap_on_a_cube import FAR, NEAR, PROBE
@@ -52,7 +53,7 @@ class Program:
 
 
 def build(
-    eta: float = ETA, fresnel: bool = False, probe_size: int = PROBE, probe_format: str = "rgba8"
+    eta: float = ETA, fresnel: bool = False, probe_size: int = PROBE, probe_format: Format = "rgba8"
 ) -> Program:
     """Make the scene; eta is the refractive index outside divided by that inside."""
     scene, actors = stage()

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import cubecam as cc
+from cubecam.typing import Format
 
 from . import dynamic_reflection
 from ._common import Picture, picture
@@ -43,7 +44,7 @@ class Program:
     probe: cc.Probe
 
 
-def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
+def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
     """Make P14's scene, actors in their places of frame 0."""
     made = dynamic_reflection.build(probe_size, probe_format)
     go_round(made.actors, 0)

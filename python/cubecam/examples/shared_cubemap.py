@@ -30,6 +30,7 @@ import numpy as np
 import numpy.typing as npt
 
 import cubecam as cc
+from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
 from ._truth import mirror_image
@@ -82,7 +83,7 @@ class Errors:
     own: npt.NDArray[np.float64]
 
 
-def build(probe_size: int = PROBE, probe_format: str = "rgba8") -> Program:
+def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
     """Make the scene: P14's ground and actors, the latter standing still, and three balls in a row."""
     scene = cc.Scene(background=GREY)
     scene.add(cc.PointLight(position=LIGHT))

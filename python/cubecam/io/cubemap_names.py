@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 
+from ..typing import Center, Convention, FileLayout, Layout
 from .files import PathLike, as_path
 
 Source: TypeAlias = PathLike | Sequence[PathLike]
@@ -16,19 +17,20 @@ FACE_NAMES = (
     ("posx", "negx", "posy", "negy", "posz", "negz"),
     ("pos-x", "neg-x", "pos-y", "neg-y", "pos-z", "neg-z"),
 )
-CONVENTIONS = ("gl", "inside", "three")
-CENTERS = ("-z", "+z", "+x", "-x")
-LAYOUTS = ("cross", "vertical_cross", "row", "column", "equirect", "openexr", "faces")
+CONVENTIONS: tuple[Convention, ...] = get_args(Convention)
+CENTERS: tuple[Center, ...] = get_args(Center)
+LAYOUTS: tuple[FileLayout, ...] = (*get_args(Layout), "faces")
 
 
-def layout_name(layout: str | None) -> str | None:
+def layout_name(layout: str | None) -> FileLayout | None:
     if layout is None:
         return None
     name = str(layout).lower().replace("-", "_").replace(" ", "_")
     name = "cross" if name == "horizontal_cross" else name
-    if name not in LAYOUTS:
-        raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {layout!r}")
-    return name
+    for known in LAYOUTS:
+        if name == known:
+            return known
+    raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {layout!r}")
 
 
 def check_names(convention: str | None, center: str | None) -> None:

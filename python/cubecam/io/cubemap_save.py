@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import CubeMap
+from ..typing import Center, Convention, FileLayout, Layout, Tonemap
 from . import formats
 from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from .files import as_path, write_files
 from .pixels import Array
-from .screen import Tonemap, check_look, curve_for, numbers_of
+from .screen import check_look, curve_for, numbers_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,10 +22,10 @@ def save_cubemap(
     cube: CubeMap,
     path: Source,
     *,
-    layout: str | None = None,
-    convention: str | None = None,
+    layout: FileLayout | None = None,
+    convention: Convention | None = None,
     width: int | None = None,
-    center: str = "-z",
+    center: Center = "-z",
     exposure: float = 0.0,
     tonemap: Tonemap | None = "neutral",
     srgb: bool | None = None,
@@ -134,7 +135,7 @@ def save_cubemap(
     write_files({target: encoded})
 
 
-def arrange(values: Array, layout: str, convention: str) -> Array:
+def arrange(values: Array, layout: Layout, convention: Convention) -> Array:
     """Lay out six faces of any numbers, (6, N, N) or (6, N, N, C), as `CubeMap.to_layout` does with colours.
 
     A CubeMap cannot hold ids, or positions with NaN; so each number is laid out as its four bytes.

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._core import CubeMap, ImageError
+from ..typing import Center, Convention, FileLayout, Layout
 from . import formats, oiio
 from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from .files import existing_file
@@ -20,8 +21,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from ..typing import Encoding
     from .oiio import Picture
-    from .screen import Encoding
 
 __all__ = ["load_cubemap", "load_environment"]
 
@@ -29,10 +30,10 @@ __all__ = ["load_cubemap", "load_environment"]
 def load_cubemap(
     path: Source,
     *,
-    layout: str | None = None,
-    convention: str | None = None,
+    layout: FileLayout | None = None,
+    convention: Convention | None = None,
     size: int | None = None,
-    center: str | None = None,
+    center: Center | None = None,
     srgb: bool = False,
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
@@ -123,10 +124,10 @@ def load_cubemap(
 def load_environment(
     path: Source,
     *,
-    layout: str | None = None,
-    convention: str | None = None,
+    layout: FileLayout | None = None,
+    convention: Convention | None = None,
     size: int | None = None,
-    center: str | None = None,
+    center: Center | None = None,
     srgb: bool = False,
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
@@ -216,10 +217,10 @@ def _colors(pixels: Array) -> Array:
 def _from_picture(
     picture: Picture,
     srgb: bool,
-    layout: str | None,
-    convention: str | None,
+    layout: Layout | None,
+    convention: Convention | None,
     size: int | None,
-    center: str | None,
+    center: Center | None,
     mipmaps: bool,
     dtype: npt.DTypeLike | None,
 ) -> CubeMap:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..typing import Encoding, Tonemap
 from . import oiio
 from .pixels import (
     Array,
@@ -18,8 +19,6 @@ from .pixels import (
     to_integers,
 )
 from .screen import (
-    Encoding,
-    Tonemap,
     check_look,
     curve_for,
     encoding_of,

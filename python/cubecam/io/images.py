@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from .._core import CubeMap, Frame, Image
+from ..typing import Tonemap
 from . import oiio
 from .cubemap_save import save_cubemap
 from .files import PathLike, as_path, existing_file, write_files
 from .formats import FORMATS, decode, encode, fit_samples, for_file, holds_light, is_opaque
 from .pixels import Array, FloatArray, check_picture, on_color, to_float32
-from .screen import CURVES, Picture, Tonemap, check_look, numbers_of
+from .screen import CURVES, Picture, check_look, numbers_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

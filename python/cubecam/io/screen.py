@@ -9,11 +9,12 @@ from __future__ import annotations
 import sys
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from .._core import CubeMap, Frame, Image
+from ..typing import Encode, Encoding, Tonemap
 from .pixels import Array, FloatArray, check_colors, on_color, srgb_decode, srgb_encode, to_float32
 
 if TYPE_CHECKING:
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["ClippingWarning", "to_screen"]
 
-Encoding: TypeAlias = Literal["linear", "srgb"]
-Tonemap: TypeAlias = Literal["neutral", "reinhard", "aces"]
 Picture: TypeAlias = Frame | CubeMap | Image
 
 _PACKAGE = str(Path(__file__).resolve().parents[1])
@@ -45,7 +44,7 @@ def to_screen(
     *,
     exposure: float = 0.0,
     tonemap: Tonemap | None = "neutral",
-    encode: Literal["srgb"] | None = "srgb",
+    encode: Encode | None = "srgb",
 ) -> npt.NDArray[np.uint8]:
     """Turn a picture into the 8-bit numbers that a screen shows.
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "cubecam/core/parse_name.hpp"
+
 #include <glad/gl.h>
 
 #include <cstdint>
@@ -9,6 +11,9 @@ namespace cubecam {
 
 /// Which of the surfaces along a ray a picture shows.
 enum class DepthOrder : std::uint8_t { nearest, farthest };
+
+inline constexpr NameTable<DepthOrder, 2> depth_order_names{
+    {{"nearest", DepthOrder::nearest}, {"farthest", DepthOrder::farthest}}};
 
 /// @throws std::invalid_argument for every name except "nearest" and "farthest".
 DepthOrder parse_depth_order(std::string_view name);

@@ -1,0 +1,96 @@
+/// Arguments and attributes whose value is one of a list of names.
+#pragma once
+
+#include "cubecam/core/parse_name.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace cubecam::bindings {
+
+namespace py = pybind11;
+
+/// A str of which signatures show the names in a table, as `typing.Literal["gl", "inside"]`. The
+/// function that looks up the name raises the error for a name that is not in the table.
+template <const auto& table>
+class Choice {
+public:
+    Choice() = default;
+    template <std::convertible_to<std::string_view> Text>
+    Choice(Text name) : name_(std::string_view(name)) {}
+
+    operator std::string_view() const { return name_; }
+
+private:
+    std::string name_;
+};
+
+}  // namespace cubecam::bindings
+
+namespace pybind11::detail {
+
+/// The type of a table's names as pybind11 writes it in a signature, where '!' stands before the
+/// letters that have a meaning of their own.
+template <const auto& table>
+class LiteralText {
+    template <class Write>
+    static constexpr void each_letter(Write write) {
+        const auto plain = [&](std::string_view text) {
+            for (const char letter : text) write(letter);
+        };
+        plain("typing.Literal[");
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            plain(i == 0 ? "\"" : ", \"");
+            for (const char letter : cubecam::name_of(table[i])) {
+                if (std::string_view("!@%{}-").find(letter) != std::string_view::npos) write('!');
+                write(letter);
+            }
+            plain("\"");
+        }
+        plain("]");
+    }
+
+    static constexpr std::size_t count() {
+        std::size_t letters = 0;
+        each_letter([&letters](char) { ++letters; });
+        return letters;
+    }
+
+    struct Letters {
+        char text[count() + 1] = {};
+    };
+
+    static constexpr Letters letters() {
+        Letters made;
+        std::size_t at = 0;
+        each_letter([&](char letter) { made.text[at++] = letter; });
+        return made;
+    }
+
+public:
+    static constexpr auto name = const_name(letters().text);
+};
+
+template <const auto& table>
+struct type_caster<cubecam::bindings::Choice<table>> {
+    using Value = cubecam::bindings::Choice<table>;
+    PYBIND11_TYPE_CASTER(Value, LiteralText<table>::name);
+
+    bool load(handle from, bool convert) {
+        make_caster<std::string> text;
+        if (!text.load(from, convert)) return false;
+        value = Value(std::string_view(cast_op<std::string&>(text)));
+        return true;
+    }
+
+    static handle cast(const Value& from, return_value_policy policy, handle parent) {
+        return make_caster<std::string_view>::cast(from, policy, parent);
+    }
+};
+
+}  // namespace pybind11::detail

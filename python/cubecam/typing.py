@@ -1,0 +1,123 @@
+"""Names of types, for annotations in your own code; cubecam's own signatures use them, too.
+
+Every choice is the list of the names that an argument accepts, as a `typing.Literal`, so that type checkers refuse
+others and editors complete them.
+
+>>> from cubecam.typing import Tonemap
+>>> def curve(name: Tonemap = "neutral") -> dict[str, Tonemap]:
+...     return {"tonemap": name}
+>>> curve("aces")
+{'tonemap': 'aces'}
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+if TYPE_CHECKING:
+    from ._array_types import Color, Outputs, Pixels
+else:
+
+    def __getattr__(name):
+        """Load numpy when a type of arrays is first used; names alone do without."""
+        if name in ("Color", "Outputs", "Pixels"):
+            from . import _array_types
+
+            return getattr(_array_types, name)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+__all__ = [
+    "BlendEquation",
+    "BlendFactor",
+    "BlendMode",
+    "Center",
+    "Color",
+    "Convention",
+    "DepthFormat",
+    "DepthOrder",
+    "Encode",
+    "Encoding",
+    "FaceName",
+    "FileLayout",
+    "Format",
+    "Layout",
+    "Outputs",
+    "Pixels",
+    "ProbeUpdate",
+    "Sampling",
+    "StencilFunc",
+    "StencilOp",
+    "StereoLayout",
+    "Tonemap",
+    "Wrap",
+]
+
+# The tables in C++ list the names as well; scripts/stubs.py reports a list that differs from its table.
+BlendEquation: TypeAlias = Literal["add", "subtract", "reverse_subtract", "min", "max"]
+BlendFactor: TypeAlias = Literal[
+    "zero",
+    "one",
+    "src_color",
+    "one_minus_src_color",
+    "dst_color",
+    "one_minus_dst_color",
+    "src_alpha",
+    "one_minus_src_alpha",
+    "dst_alpha",
+    "one_minus_dst_alpha",
+    "src_alpha_saturate",
+]
+BlendMode: TypeAlias = Literal[
+    "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied"
+]
+Center: TypeAlias = Literal["-z", "+z", "+x", "-x"]
+Convention: TypeAlias = Literal["gl", "inside", "three"]
+DepthFormat: TypeAlias = Literal[
+    "depth_component16",
+    "depth_component24",
+    "depth_component32f",
+    "depth24_stencil8",
+    "depth32f_stencil8",
+    "stencil_index8",
+]
+DepthOrder: TypeAlias = Literal["nearest", "farthest"]
+Encode: TypeAlias = Literal["srgb"]
+Encoding: TypeAlias = Literal["linear", "srgb"]
+FaceName: TypeAlias = Literal[
+    "+x",
+    "-x",
+    "+y",
+    "-y",
+    "+z",
+    "-z",
+    "px",
+    "nx",
+    "py",
+    "ny",
+    "pz",
+    "nz",
+    "pos_x",
+    "neg_x",
+    "pos_y",
+    "neg_y",
+    "pos_z",
+    "neg_z",
+]
+Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
+Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
+ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
+Sampling: TypeAlias = Literal["centers", "borders"]
+StencilFunc: TypeAlias = Literal[
+    "never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"
+]
+StencilOp: TypeAlias = Literal[
+    "keep", "zero", "replace", "incr", "incr_wrap", "decr", "decr_wrap", "invert"
+]
+StereoLayout: TypeAlias = Literal["anaglyph", "side_by_side", "top_bottom"]
+Tonemap: TypeAlias = Literal["reinhard", "aces", "neutral"]
+
+Wrap: TypeAlias = Literal["repeat", "clamp"]
+
+#: A layout of the files of a cubemap: "faces" stands for six files.
+FileLayout: TypeAlias = Literal[Layout, "faces"]
