@@ -1,4 +1,5 @@
 // cubecam.Node and cubecam.axis_angle
+#include "bounds.hpp"
 #include "docs/node.hpp"
 #include "node_state.hpp"
 
@@ -92,6 +93,15 @@ void bind_placing(Class<Node>& node) {
     node.def_property_readonly(
         "world_matrix", [](const Node& self) { return matrix_array(self.world_matrix()); },
         "ndarray (4, 4) float64: node to world, read-only.");
+    node.def_property_readonly(
+        "world_bounds", [](const Node& self) { return bounds_array(self.world_bounds()); },
+        docs::world_bounds);
+    node.def(
+        "look_at",
+        [](Node& self, const ArrayLike& target, const ArrayLike& up) {
+            self.look_at(to_point(target, "target"), to_point(up, "up"));
+        },
+        py::arg("target"), py::kw_only(), py::arg("up") = py::make_tuple(0, 1, 0), docs::look_at);
 }
 
 void bind_contents(Class<Node>& node) {

@@ -24,7 +24,8 @@ std::shared_ptr<CubeMap> to_environment(py::handle value) {
 Background to_background(py::handle value) {
     if (value.is_none()) return {};
     if (py::isinstance<CubeMap>(value)) return py::cast<std::shared_ptr<CubeMap>>(value);
-    if (!py::isinstance<py::sequence>(value)) {  // a str is a sequence, too: the name of a colour
+    // A str is a sequence, too: the name of a colour. So is a Scene.
+    if (!py::isinstance<py::sequence>(value) || py::isinstance<Scene>(value)) {
         refuse(value, "background", "a colour, a CubeMap or None");
     }
     return to_rgba(value, "background");
@@ -105,11 +106,6 @@ void set_matrices(Scene& scene, const Nodes& nodes, const ArrayLike& matrices) {
         }
         placing = matrix;
     });
-}
-
-bool contains_thing(const Scene& scene, py::handle thing) {
-    if (py::isinstance<Node>(thing)) return scene.contains(thing.cast<const Node&>());
-    return py::isinstance<Light>(thing) && scene.contains(thing.cast<const Light&>());
 }
 
 py::dict state_of(const Scene& scene) {
@@ -222,8 +218,6 @@ void bind_scene(pybind11::module_& module) {
             return py::tuple(py::cast(self.lights()));
         },
         "tuple of Light: all lights of the scene, in order of add.");
-    scene.def("__contains__", &contains_thing, py::arg("thing"),
-              "Whether a node or a light is in the scene.");
     scene.def("__repr__", [](const Scene& self) {
         const std::size_t nodes = self.nodes().size();
         const std::size_t lights = self.lights().size();

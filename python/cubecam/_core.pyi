@@ -9,7 +9,7 @@ import enum
 import os
 import typing
 
-import numpy as np
+import numpy
 import numpy.typing
 
 __all__: list[str] = [
@@ -170,6 +170,39 @@ class Node:
         """
         For unpickling.
         """
+    def look_at(
+        self: Node, target: numpy.typing.ArrayLike, *, up: numpy.typing.ArrayLike = (0, 1, 0)
+    ) -> None:
+        """
+        Turn the node round its own position, so that its +Z axis points at a point of the world.
+
+        As in three.js and glTF, an object's front is +Z (and the front of a camera is -Z). The parents may have
+        any transforms. Position and scale stay.
+
+        Parameters
+        ----------
+        target : array_like (3,)
+            World space.
+        up : array_like (3,)
+            World space: +Y of the node lies in the plane of `up` and the direction, on the side of `up`. An
+            `up` along the direction is replaced: by +Y or, if the direction is vertical, by -Z for a target
+            above the node and +Z for one below it.
+
+        Raises
+        ------
+        ValueError
+            For a target at the node's position, an `up` of length 0, numbers that are not finite, or a `matrix`
+            with a shear.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> head = scene.add(cc.Mesh.box(), position=(0, 1, 0))
+        >>> head.look_at((4, 1, 0))
+        >>> head.world_matrix[:3, 2].round(12).tolist()
+        [1.0, 0.0, 0.0]
+        """
     @property
     def cast_shadow(self) -> bool:
         """
@@ -209,12 +242,12 @@ class Node:
     @material.setter
     def material(self, arg1: Material | None) -> None: ...
     @property
-    def matrix(self) -> np.typing.NDArray[np.float64]:
+    def matrix(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4, 4) float64: node to parent, read-only. Setting it replaces position, rotation and scale; it must not be singular, and its last row is (0, 0, 0, 1).
         """
     @matrix.setter
-    def matrix(self, arg1: np.typing.ArrayLike) -> None: ...
+    def matrix(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def mesh(self) -> Mesh | None:
         """
@@ -237,12 +270,12 @@ class Node:
     @parent.setter
     def parent(self, arg1: Node | None) -> None: ...
     @property
-    def position(self) -> np.typing.NDArray[np.float64]:
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: relative to the parent, read-only.
         """
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def receive_shadow(self) -> bool:
         """
@@ -258,19 +291,19 @@ class Node:
     @render_order.setter
     def render_order(self, arg1: int) -> None: ...
     @property
-    def rotation(self) -> np.typing.NDArray[np.float64]:
+    def rotation(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4,) float64: unit quaternion (w, x, y, z), read-only; see `axis_angle`.
         """
     @rotation.setter
-    def rotation(self, arg1: np.typing.ArrayLike) -> None: ...
+    def rotation(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def scale(self) -> np.typing.NDArray[np.float64]:
+    def scale(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: along the node's own axes, read-only; one number sets all three.
         """
     @scale.setter
-    def scale(self, arg1: float | np.typing.ArrayLike) -> None: ...
+    def scale(self, arg1: float | numpy.typing.ArrayLike) -> None: ...
     @property
     def visible(self) -> bool:
         """
@@ -279,7 +312,25 @@ class Node:
     @visible.setter
     def visible(self, arg1: bool) -> None: ...
     @property
-    def world_matrix(self) -> np.typing.NDArray[np.float64]:
+    def world_bounds(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (2, 3) float64: the lowest and the highest corner of the node and all nodes below it, read-only.
+
+        The numbers are world units and exact for the vertices, as `Scene.bounds`. Hidden nodes below the node do
+        not count; whether the node itself is visible does not matter. Without a mesh the bounds are those of
+        nothing, ``[[inf, inf, inf], [-inf, -inf, -inf]]``.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> cart = scene.add(position=(0, 5, 0))
+        >>> box = scene.add(cc.Mesh.box(2), parent=cart, rotation=cc.axis_angle((0, 1, 0), 45))
+        >>> cart.world_bounds.round(3).tolist()
+        [[-1.414, 4.0, -1.414], [1.414, 6.0, 1.414]]
+        """
+    @property
+    def world_matrix(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4, 4) float64: node to world, read-only.
         """
@@ -339,7 +390,7 @@ class Probe:
     """
     def __init__(
         self: Probe,
-        position: np.typing.ArrayLike = (0, 0, 0),
+        position: numpy.typing.ArrayLike = (0, 0, 0),
         *,
         size: typing.SupportsInt | typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
@@ -416,12 +467,12 @@ class Probe:
     @parent.setter
     def parent(self, arg1: Node | None) -> None: ...
     @property
-    def position(self) -> np.typing.NDArray[np.float64]:
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: world space, or relative to the parent's position; read-only.
         """
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def samples(self) -> int:
         """
@@ -652,16 +703,57 @@ class Scene:
         """
         For unpickling: an empty node that is in no scene.
         """
+    def __bool__(self: Scene) -> bool:
+        """
+        True, also for a scene without nodes, so that ``scene or other`` is the scene.
+        """
     def __contains__(self: Scene, thing: typing.Any) -> bool:
         """
-        Whether a node or a light is in the scene.
+        Whether a node, a light or a node of a name is in the scene.
+        """
+    def __getitem__(self: Scene, name: str) -> Node:
+        """
+        Get a node by its name; of several, the one of the lowest id.
+
+        Parameters
+        ----------
+        name : str
+            The exact name of the node.
+
+        Returns
+        -------
+        Node
+            The node; `find` gives all nodes of a name.
+
+        Raises
+        ------
+        KeyError
+            If no node has this name; the message suggests similar names.
+        TypeError
+            For a name that is not a str.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> lamp = scene.add(cc.Mesh.sphere(.1), name="lamp")
+        >>> scene["lamp"] is lamp, "lamp" in scene, [node.name for node in scene], len(scene)
+        (True, True, ['lamp'], 1)
         """
     def __init__(
         self: Scene,
         *,
         environment: CubeMap | None = None,
-        background: np.typing.ArrayLike | CubeMap | None = None,
+        background: numpy.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
+    def __iter__(self: Scene) -> collections.abc.Iterator[Node]:
+        """
+        Iterate over all nodes, in order of id, as they are at this moment.
+        """
+    def __len__(self: Scene) -> int:
+        """
+        The number of nodes.
+        """
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Scene) -> str: ...
     def __setstate__(self: Scene, state: dict) -> None:
@@ -698,10 +790,10 @@ class Scene:
         mesh: Mesh | None = None,
         material: Material | None = None,
         *,
-        position: np.typing.ArrayLike | None = None,
-        rotation: np.typing.ArrayLike | None = None,
-        scale: float | np.typing.ArrayLike | None = None,
-        matrix: np.typing.ArrayLike | None = None,
+        position: numpy.typing.ArrayLike | None = None,
+        rotation: numpy.typing.ArrayLike | None = None,
+        scale: float | numpy.typing.ArrayLike | None = None,
+        matrix: numpy.typing.ArrayLike | None = None,
         parent: Node | None = None,
         environment: CubeMap | Probe | None = None,
         visible: bool = True,
@@ -773,6 +865,29 @@ class Scene:
         """
         Remove all nodes and lights.
         """
+    def find(self: Scene, name: str) -> list[Node]:
+        """
+        Find all nodes of a name.
+
+        Parameters
+        ----------
+        name : str
+            The exact name.
+
+        Returns
+        -------
+        list of Node
+            In order of id; empty if no node has this name.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> for x in range(3):
+        ...     tree = scene.add(cc.Mesh.cone(), position=(x, 0, 0), name="tree")
+        >>> [node.id for node in scene.find("tree")]
+        [1, 2, 3]
+        """
     def remove(self: Scene, thing: Node | Light) -> None:
         """
         Remove a light, or a node with all nodes below it.
@@ -800,7 +915,7 @@ class Scene:
         ((), True)
         """
     def set_matrices(
-        self: Scene, nodes: collections.abc.Iterable[Node], matrices: np.typing.ArrayLike
+        self: Scene, nodes: collections.abc.Iterable[Node], matrices: numpy.typing.ArrayLike
     ) -> None:
         """
         Place many nodes at once, as `Node.matrix` does for each node.
@@ -828,7 +943,7 @@ class Scene:
         [2.0, 2.0, 2.0]
         """
     def set_positions(
-        self: Scene, nodes: collections.abc.Iterable[Node], positions: np.typing.ArrayLike
+        self: Scene, nodes: collections.abc.Iterable[Node], positions: numpy.typing.ArrayLike
     ) -> None:
         """
         Place many nodes at once, as `Node.position` does for each node, in a hundredth of the time.
@@ -856,12 +971,31 @@ class Scene:
         [0.0, 1.0, 0.0]
         """
     @property
-    def background(self) -> np.typing.NDArray[np.float32] | CubeMap | None:
+    def background(self) -> numpy.typing.NDArray[numpy.float32] | CubeMap | None:
         """
         ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the environment if there is one, else transparent black.
         """
     @background.setter
-    def background(self, arg1: np.typing.ArrayLike | CubeMap | None) -> None: ...
+    def background(self, arg1: numpy.typing.ArrayLike | CubeMap | None) -> None: ...
+    @property
+    def bounds(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (2, 3) float64: the lowest and the highest corner of all visible nodes, read-only.
+
+        The numbers are world units and exact for the vertices: the bounds of the transformed vertices, not of
+        transformed boxes. The ``vertex`` function of a `ShaderMaterial` is not taken into account. Without a
+        visible mesh the bounds are those of nothing, ``[[inf, inf, inf], [-inf, -inf, -inf]]``: the minimum of the
+        first rows and the maximum of the second rows unites any bounds.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(2), position=(3, 0, 0))
+        >>> ball = scene.add(cc.Mesh.sphere(.5), position=(0, 2, 0))
+        >>> scene.bounds.tolist()
+        [[-0.5, -1.0, -1.0], [4.0, 2.5, 1.0]]
+        """
     @property
     def environment(self) -> CubeMap | None:
         """
@@ -907,23 +1041,19 @@ class CubeMap:
     ----------
     faces : array_like (6, N, N, C), or six of (N, N, C)
         C is 1, 3 or 4. uint8 (which stands for value/255), float16 and float32 are kept; float64 becomes
-        float32. NaN raises ValueError; inf is kept, and lookups near it give
+        float32. The numbers are linear and raw. NaN raises ValueError; inf is kept, and lookups near it give
         inf or NaN, as on the GPU.
     convention : {"gl", "inside", "three"}, default "gl"
         The convention of `faces`: "gl" is the layout above; "inside" shows the faces as seen from the center
         of the cube (OpenEXR); "three" is that of three.js and D3D skybox files.
     mipmaps : bool, default False
         True: lookups, here and on the GPU, are trilinear over box-filtered levels. False: they are bilinear.
-    encoding : {"linear", "srgb"}, optional
-        What the numbers are: proportional to light, or encoded for a screen, as in 8-bit files. It changes no
-        lookup, only how pictures of the cube are saved and shown (docs/conventions.md). None: that of the
-        CubeMap given as `faces`; for an array, "srgb" for uint8, else "linear".
 
     Raises
     ------
     ValueError
         For faces that are not square or not of one shape, another number of channels, NaN, or an unknown
-        convention or encoding.
+        convention.
     TypeError
         For bool, complex, text, or integers other than uint8.
 
@@ -933,7 +1063,7 @@ class CubeMap:
     >>> import cubecam as cc
     >>> cube = cc.CubeMap(np.full((6, 8, 8, 3), 0.5, np.float32))
     >>> cube
-    CubeMap(size=8, channels=3, dtype=float32, mipmaps=False, encoding='linear')
+    CubeMap(size=8, channels=3, dtype=float32, mipmaps=False)
     >>> cube.sample([0, 1, 0])
     array([0.5, 0.5, 0.5], dtype=float32)
     """
@@ -947,8 +1077,7 @@ class CubeMap:
         center: str = "-z",
         sampling: str = "centers",
         mipmaps: bool = False,
-        dtype: np.typing.DTypeLike | None = None,
-        encoding: str | None = None,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         Make a cube from an equirectangular panorama.
@@ -971,8 +1100,6 @@ class CubeMap:
             Whether lookups in the new cube are trilinear.
         dtype : dtype, optional
             "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
-        encoding : {"linear", "srgb"}, optional
-            What the numbers of `image` are, as in `CubeMap`.
 
         Returns
         -------
@@ -992,7 +1119,7 @@ class CubeMap:
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
-        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
+        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False)
         """
     @staticmethod
     def from_layout(
@@ -1003,8 +1130,7 @@ class CubeMap:
         size: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         mipmaps: bool = False,
-        dtype: np.typing.DTypeLike | None = None,
-        encoding: str | None = None,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         Make a cube from one picture of all faces: the inverse of `to_layout`.
@@ -1023,8 +1149,6 @@ class CubeMap:
             Whether lookups in the new cube are trilinear.
         dtype : dtype, optional
             "uint8", "float16" or "float32", in any form that numpy reads as a dtype. None: that of `image`.
-        encoding : {"linear", "srgb"}, optional
-            What the numbers of `image` are, as in `CubeMap`.
 
         Returns
         -------
@@ -1041,63 +1165,17 @@ class CubeMap:
         >>> import numpy as np
         >>> import cubecam as cc
         >>> cc.CubeMap.from_layout(np.zeros((24, 32, 3), np.uint8))
-        CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
-        """
-    def __array__(
-        self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
-        """
-        Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
-
-        Parameters
-        ----------
-        dtype : dtype, optional
-            None: that of the picture.
-        copy : bool, optional
-            True: always a copy. False: never; raises ValueError if `dtype` needs one. None: a copy if `dtype` needs one.
-
-        Returns
-        -------
-        ndarray (H, W, C), of a cubemap (6, N, N, C)
-            Without a copy, that of a cubemap or an image is read-only.
-
-        Raises
-        ------
-        ValueError
-            For a frame without a colour, or a copy that is not allowed.
+        CubeMap(size=8, channels=3, dtype=uint8, mipmaps=False)
         """
     def __copy__(self: CubeMap) -> CubeMap: ...
     def __deepcopy__(self: CubeMap, memo: dict) -> CubeMap: ...
-    def __dlpack__(
-        self,
-        *,
-        stream: object = None,
-        max_version: tuple[int, int] | None = None,
-        dl_device: tuple[int, int] | None = None,
-        copy: bool | None = None,
-    ) -> object:
-        """
-        Give the picture's numbers to ``from_dlpack`` of numpy, torch, jax and others (DLPack, array API 2023.12).
-
-        A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
-        the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
-        """
-    def __dlpack_device__(self) -> tuple[int, int]:
-        """
-        Give the device of the numbers to ``from_dlpack``: main memory.
-        """
     def __eq__(self: CubeMap, other: CubeMap) -> bool:
         """
         Whether the contents are the same bit for bit, captured outputs included.
         """
     def __getstate__(self: CubeMap) -> tuple: ...
     def __init__(
-        self: CubeMap,
-        faces: typing.Any,
-        *,
-        convention: str = "gl",
-        mipmaps: bool = False,
-        encoding: str | None = None,
+        self: CubeMap, faces: typing.Any, *, convention: str = "gl", mipmaps: bool = False
     ) -> None: ...
     def __ne__(self: CubeMap, other: CubeMap) -> bool: ...
     def __reduce__(self) -> tuple: ...
@@ -1105,41 +1183,17 @@ class CubeMap:
     def __setstate__(self: CubeMap, arg0: tuple) -> None: ...
     def _repr_png_(self) -> bytes:
         """
-        Give the picture that Jupyter shows: a cross seen from within, as `to_screen` turns it into 8 bits.
+        Give the picture that Jupyter shows: a cross seen from within, tone-mapped if the numbers are floats.
         """
     def copy(self: CubeMap) -> CubeMap:
         """
         An independent cubemap with the same contents.
         """
-    def numpy(
-        self, *, writable: bool = False
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
-        """
-        Give the faces as an array.
-
-        Parameters
-        ----------
-        writable : bool
-            False: `faces`, the read-only view without a copy. True: a copy, which belongs to the caller.
-
-        Returns
-        -------
-        ndarray (6, N, N, C) in the cube's `dtype`
-
-        Examples
-        --------
-        >>> import cubecam as cc, numpy as np
-        >>> cube = cc.CubeMap(np.zeros((6, 4, 4, 3), np.float32))
-        >>> own = cube.numpy(writable=True)
-        >>> own[cc.Face.POS_Y] = 1
-        >>> float(cube.faces.max()), float(own.max())
-        (0.0, 1.0)
-        """
     def resize(
         self: CubeMap,
         size: typing.SupportsInt | typing.SupportsIndex,
         *,
-        dtype: np.typing.DTypeLike | None = None,
+        dtype: numpy.typing.DTypeLike | None = None,
     ) -> CubeMap:
         """
         Resample the faces to another size.
@@ -1155,7 +1209,7 @@ class CubeMap:
         Returns
         -------
         CubeMap
-            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`, without captured
+            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and without captured
             outputs.
 
         Raises
@@ -1170,7 +1224,7 @@ class CubeMap:
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
         """
-    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> np.ndarray:
+    def sample(self: CubeMap, directions: typing.Any, *, lod: typing.Any = 0.0) -> numpy.ndarray:
         """
         Look up directions, bilinear and without seams.
 
@@ -1214,16 +1268,11 @@ class CubeMap:
         convention: str | None = None,
         width: int | None = None,
         center: str = "-z",
-        exposure: float = 0.0,
-        tonemap: typing.Literal["neutral", "reinhard", "aces"] | None = "neutral",
-        srgb: bool | None = None,
+        srgb: bool = False,
         half: bool = False,
     ) -> None:
         """
         Write a cubemap as one picture or six files. The method `CubeMap.save`.
-
-        A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-        sRGB-encoded. EXR and HDR hold linear numbers.
 
         Parameters
         ----------
@@ -1239,14 +1288,8 @@ class CubeMap:
             Width of an equirect in pixels, an even number. None: 4 times the face size.
         center : {"-z", "+z", "+x", "-x"}
             The direction in the middle of an equirect.
-        exposure : float
-            Stops: colours are multiplied by ``2**exposure``.
-        tonemap : {"neutral", "reinhard", "aces"} or None
-            The curve for linear floats, see `to_screen`. None clips, with a warning.
-        srgb : bool, optional
-            False writes the numbers as they are; None and True as described above.
-        half : bool
-            True stores an EXR with 16 bits a number.
+        srgb, half : bool
+            As in `save_image`.
 
         Raises
         ------
@@ -1303,7 +1346,7 @@ class CubeMap:
         >>> cube.sample([0, 1, 0])
         array([1.], dtype=float32)
         """
-    def to_convention(self: CubeMap, convention: str) -> np.ndarray:
+    def to_convention(self: CubeMap, convention: str) -> numpy.ndarray:
         """
         Convert the six faces to another convention.
 
@@ -1331,8 +1374,8 @@ class CubeMap:
         width: typing.SupportsInt | typing.SupportsIndex | None = None,
         center: str = "-z",
         sampling: str = "centers",
-        dtype: np.typing.DTypeLike | None = None,
-    ) -> np.ndarray:
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> numpy.ndarray:
         """
         Make an equirectangular panorama of this cube.
 
@@ -1375,8 +1418,8 @@ class CubeMap:
         layout: str = "cross",
         *,
         convention: str = "gl",
-        dtype: np.typing.DTypeLike | None = None,
-    ) -> np.ndarray:
+        dtype: numpy.typing.DTypeLike | None = None,
+    ) -> numpy.ndarray:
         """
         Arrange all faces in one picture.
 
@@ -1427,17 +1470,12 @@ class CubeMap:
         ndarray (6, N, N) float32, read-only, of a capture that requested it, or None: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
-    def dtype(self) -> np.dtype[typing.Any]:
+    def dtype(self) -> numpy.dtype[typing.Any]:
         """
         numpy.dtype: uint8, float16 or float32.
         """
     @property
-    def encoding(self) -> str:
-        """
-        str: "linear" or "srgb", what the numbers of `faces` are.
-        """
-    @property
-    def faces(self) -> np.ndarray:
+    def faces(self) -> numpy.ndarray:
         """
         ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
@@ -1459,7 +1497,7 @@ class CubeMap:
         ndarray (6, N, N, 3) float32, read-only, of a capture that requested it, or None: world shading normal, unit length, towards the viewer; 0 background.
         """
     @property
-    def outputs(self) -> dict[str, np.ndarray]:
+    def outputs(self) -> dict[str, numpy.ndarray]:
         """
         dict of str to ndarray: the outputs of a capture besides `faces`, by name. The arrays are read-only.
 
@@ -1492,8 +1530,8 @@ class Image:
     """
     A picture that a material shows. It never changes.
 
-    Materials compute with the numbers as they are (uint8 as value/255). Under lights, decode an 8-bit
-    photograph with ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
+    Numbers are linear and raw (uint8 as value/255). Decode an 8-bit photograph with
+    ``load_image(path, srgb=True)`` first.
 
     Parameters
     ----------
@@ -1504,16 +1542,13 @@ class Image:
         True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
     wrap : {"repeat", "clamp"}
         What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
-    encoding : {"linear", "srgb"}, optional
-        What the numbers are. It changes no lookup, only how pictures of it are saved and shown. None:
-        that of the Frame or Image given as `pixels`; for an array, "srgb" for uint8, else "linear".
 
     Raises
     ------
     TypeError
         For pixels of another type.
     ValueError
-        For another shape, an image without pixels, NaN, or another `wrap` or `encoding`.
+        For another shape, an image without pixels, NaN, or another `wrap`.
 
     Examples
     --------
@@ -1521,59 +1556,13 @@ class Image:
     >>> import cubecam as cc
     >>> checks = np.indices((8, 8)).sum(axis=0)[..., None] % 2 * np.uint8(255)
     >>> image = cc.Image(checks.astype(np.uint8), wrap="clamp")
-    >>> image.size, image.channels, image.dtype, image.encoding
-    ((8, 8), 1, dtype('uint8'), 'srgb')
+    >>> image.size, image.channels, image.dtype
+    ((8, 8), 1, dtype('uint8'))
     """
-    def __array__(
-        self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
-        """
-        Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
-
-        Parameters
-        ----------
-        dtype : dtype, optional
-            None: that of the picture.
-        copy : bool, optional
-            True: always a copy. False: never; raises ValueError if `dtype` needs one. None: a copy if `dtype` needs one.
-
-        Returns
-        -------
-        ndarray (H, W, C), of a cubemap (6, N, N, C)
-            Without a copy, that of a cubemap or an image is read-only.
-
-        Raises
-        ------
-        ValueError
-            For a frame without a colour, or a copy that is not allowed.
-        """
     def __copy__(self) -> typing.Any: ...
     def __deepcopy__(self, memo: dict) -> typing.Any: ...
-    def __dlpack__(
-        self,
-        *,
-        stream: object = None,
-        max_version: tuple[int, int] | None = None,
-        dl_device: tuple[int, int] | None = None,
-        copy: bool | None = None,
-    ) -> object:
-        """
-        Give the picture's numbers to ``from_dlpack`` of numpy, torch, jax and others (DLPack, array API 2023.12).
-
-        A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
-        the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
-        """
-    def __dlpack_device__(self) -> tuple[int, int]:
-        """
-        Give the device of the numbers to ``from_dlpack``: main memory.
-        """
     def __init__(
-        self: Image,
-        pixels: np.typing.ArrayLike,
-        *,
-        mipmaps: bool = False,
-        wrap: str = "repeat",
-        encoding: str | None = None,
+        self: Image, pixels: numpy.typing.ArrayLike, *, mipmaps: bool = False, wrap: str = "repeat"
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Image) -> str: ...
@@ -1587,14 +1576,9 @@ class Image:
         int: 1, 3 or 4.
         """
     @property
-    def dtype(self) -> np.dtype[typing.Any]:
+    def dtype(self) -> numpy.dtype[typing.Any]:
         """
         numpy.dtype: uint8, float16 or float32.
-        """
-    @property
-    def encoding(self) -> str:
-        """
-        str: "linear" or "srgb", what the numbers are.
         """
     @property
     def mipmaps(self) -> bool:
@@ -1602,7 +1586,7 @@ class Image:
         bool: whether lookups are trilinear.
         """
     @property
-    def pixels(self) -> np.ndarray:
+    def pixels(self) -> numpy.ndarray:
         """
         ndarray (H, W, C): a read-only view, row 0 on top.
         """
@@ -1661,7 +1645,57 @@ class Mesh:
     Mesh(24 vertices, 12 triangles)
     """
     @staticmethod
-    def box(size: float | np.typing.ArrayLike = 1.0) -> Mesh:
+    def arrow(
+        length: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        *,
+        radius: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        head_length: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        head_radius: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+    ) -> Mesh:
+        """
+        A closed arrow along +Z, from the origin to (0, 0, length): a cylinder with a cone as its head.
+
+        `Node.look_at` turns +Z, and so the arrow, towards a point. u runs round the shaft and the head as on
+        `cylinder`, and v along the arrow, from 0 to 1; the two flat faces show the round middle of a picture.
+
+        Parameters
+        ----------
+        length : float
+            Length from the tail to the tip, above 0.
+        radius : float, optional
+            Radius of the shaft. None: length / 20.
+        head_length : float, optional
+            Length of the head, below `length`. None: length / 4.
+        head_radius : float, optional
+            Radius of the head, above `radius`. None: length / 10.
+        segments : int
+            Segments round the axis, at least 3.
+
+        Returns
+        -------
+        Mesh
+            6 * segments triangles.
+
+        Raises
+        ------
+        ValueError
+            For a length that is not above 0, a head that is longer than the arrow or thinner than the shaft,
+            or too few or too many segments.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.arrow(2).bounds.round(6).tolist()
+        [[-0.2, -0.2, 0.0], [0.2, 0.2, 2.0]]
+        >>> scene = cc.Scene()
+        >>> wind = scene.add(cc.Mesh.arrow(), position=(0, 1, 0))
+        >>> wind.look_at((5, 1, 0))
+        >>> wind.world_bounds[1].round(6).tolist()
+        [1.0, 1.1, 0.1]
+        """
+    @staticmethod
+    def box(size: float | numpy.typing.ArrayLike = 1.0) -> Mesh:
         """
         A centred box with flat faces, each with uv from 0 to 1.
 
@@ -1753,6 +1787,41 @@ class Mesh:
         >>> import cubecam as cc
         >>> cc.Mesh.cylinder(1, 4).bounds[1].tolist()
         [1.0, 2.0, 1.0]
+        """
+    @staticmethod
+    def from_trimesh(mesh: typing.Any) -> Mesh:
+        """
+        Make a mesh from a mesh or a scene of trimesh.
+
+        Parameters
+        ----------
+        mesh : trimesh.Trimesh or trimesh.Scene
+            The objects of a scene become one mesh, each placed by its transform; those without triangles are
+            left out.
+
+        Returns
+        -------
+        Mesh
+            The vertices and faces in their order, normals as ``mesh.vertex_normals`` gives them (smooth ones
+            where these have length 0), and texture coordinates and vertex colours if there are any. Colours of
+            faces, and textures, are not read.
+
+        Raises
+        ------
+        TypeError
+            For another kind of object.
+        ValueError
+            For no triangles, positions that are not finite, or all vertices in one place.
+        IndexError
+            For an index outside the vertices.
+
+        Examples
+        --------
+        >>> import cubecam as cc, trimesh
+        >>> capsule = trimesh.creation.capsule(height=2, radius=0.5)
+        >>> mesh = cc.Mesh.from_trimesh(capsule)
+        >>> len(mesh.positions) == len(capsule.vertices), mesh.bounds.round(6).tolist()
+        (True, [[-0.5, -0.5, -1.5], [0.5, 0.5, 1.5]])
         """
     @staticmethod
     def icosphere(
@@ -1895,12 +1964,12 @@ class Mesh:
         """
     def __init__(
         self: Mesh,
-        positions: np.typing.ArrayLike,
-        indices: np.typing.ArrayLike,
+        positions: numpy.typing.ArrayLike,
+        indices: numpy.typing.ArrayLike,
         *,
-        normals: np.typing.ArrayLike | None = None,
-        uvs: np.typing.ArrayLike | None = None,
-        colors: np.typing.ArrayLike | None = None,
+        normals: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        colors: numpy.typing.ArrayLike | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Mesh) -> str: ...
@@ -1932,10 +2001,10 @@ class Mesh:
     def update(
         self: Mesh,
         *,
-        positions: np.typing.ArrayLike | None = None,
-        normals: np.typing.ArrayLike | None = None,
-        uvs: np.typing.ArrayLike | None = None,
-        colors: np.typing.ArrayLike | None = None,
+        positions: numpy.typing.ArrayLike | None = None,
+        normals: numpy.typing.ArrayLike | None = None,
+        uvs: numpy.typing.ArrayLike | None = None,
+        colors: numpy.typing.ArrayLike | None = None,
     ) -> None:
         """
         Replace several arrays of the vertices at once.
@@ -1985,35 +2054,35 @@ class Mesh:
         [1.0, 0.2, 1.0]
         """
     @property
-    def bounds(self) -> np.typing.NDArray[np.float64]:
+    def bounds(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.
         """
     @property
-    def colors(self) -> np.typing.NDArray[np.float32] | None:
+    def colors(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
         ndarray (V, 4) float32 or None: linear RGBA; a read-only view.
 
         Colours can be set. None: the mesh has none.
         """
     @colors.setter
-    def colors(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def colors(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
-    def indices(self) -> np.typing.NDArray[np.uint32]:
+    def indices(self) -> numpy.typing.NDArray[numpy.uint32]:
         """
         ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside; a read-only view.
         """
     @property
-    def normals(self) -> np.typing.NDArray[np.float32]:
+    def normals(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (V, 3) float32: unit vectors; a read-only view.
 
         Normals can be set. None: smooth normals, computed now and whenever positions are set without normals.
         """
     @normals.setter
-    def normals(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def normals(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
-    def positions(self) -> np.typing.NDArray[np.float32]:
+    def positions(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (V, 3) float32: the positions of the vertices; a read-only view.
 
@@ -2021,16 +2090,16 @@ class Mesh:
         values.
         """
     @positions.setter
-    def positions(self, arg1: np.typing.ArrayLike) -> None: ...
+    def positions(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def uvs(self) -> np.typing.NDArray[np.float32] | None:
+    def uvs(self) -> numpy.typing.NDArray[numpy.float32] | None:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
 
         Texture coordinates can be set. None: the mesh has none.
         """
     @uvs.setter
-    def uvs(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def uvs(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
 
 class Blend:
     """
@@ -2360,8 +2429,8 @@ class BasicMaterial(Material):
     def __init__(
         self: BasicMaterial,
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
-        map: Image | RenderTexture | np.typing.ArrayLike | None = None,
+        color: numpy.typing.ArrayLike = (1, 1, 1),
+        map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         cubemap: CubeMap | Probe | None = None,
         vertex_colors: bool = False,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -2373,12 +2442,12 @@ class BasicMaterial(Material):
         stencil: Stencil | None = None,
     ) -> None: ...
     @property
-    def color(self) -> np.typing.NDArray[np.float32]:
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def cubemap(self) -> CubeMap | Probe | None:
         """
@@ -2392,7 +2461,7 @@ class BasicMaterial(Material):
         Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
     @map.setter
-    def map(self, arg1: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
+    def map(self, arg1: Image | RenderTexture | numpy.typing.ArrayLike | None) -> None: ...
     @property
     def vertex_colors(self) -> bool:
         """
@@ -2438,7 +2507,7 @@ class GlassMaterial(Material):
         *,
         ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
-        tint: np.typing.ArrayLike = (1, 1, 1),
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
         blend: str | Blend | None = None,
@@ -2462,12 +2531,12 @@ class GlassMaterial(Material):
     @ior.setter
     def ior(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def tint(self) -> np.typing.NDArray[np.float32]:
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (4,) float32: linear RGBA, times what is refracted.
         """
     @tint.setter
-    def tint(self, arg1: np.typing.ArrayLike) -> None: ...
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
 
 class MirrorMaterial(Material):
     """
@@ -2508,9 +2577,9 @@ class MirrorMaterial(Material):
     def __init__(
         self: MirrorMaterial,
         *,
-        tint: np.typing.ArrayLike = (1, 1, 1),
+        tint: numpy.typing.ArrayLike = (1, 1, 1),
         env_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        color: np.typing.ArrayLike = (0, 0, 0),
+        color: numpy.typing.ArrayLike = (0, 0, 0),
         color_weight: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         f0: typing.SupportsFloat | typing.SupportsIndex | None = None,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
@@ -2522,12 +2591,12 @@ class MirrorMaterial(Material):
         stencil: Stencil | None = None,
     ) -> None: ...
     @property
-    def color(self) -> np.typing.NDArray[np.float32]:
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def color_weight(self) -> float:
         """
@@ -2550,12 +2619,12 @@ class MirrorMaterial(Material):
     @f0.setter
     def f0(self, arg1: typing.SupportsFloat | typing.SupportsIndex | None) -> None: ...
     @property
-    def tint(self) -> np.typing.NDArray[np.float32]:
+    def tint(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (4,) float32: linear RGBA, times what is reflected.
         """
     @tint.setter
-    def tint(self, arg1: np.typing.ArrayLike) -> None: ...
+    def tint(self, arg1: numpy.typing.ArrayLike) -> None: ...
 
 class PhongMaterial(Material):
     """
@@ -2600,12 +2669,12 @@ class PhongMaterial(Material):
     def __init__(
         self: PhongMaterial,
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
         ka: typing.SupportsFloat | typing.SupportsIndex = 0.2,
         kd: typing.SupportsFloat | typing.SupportsIndex = 0.7,
         ks: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shininess: typing.SupportsFloat | typing.SupportsIndex = 10.0,
-        map: Image | RenderTexture | np.typing.ArrayLike | None = None,
+        map: Image | RenderTexture | numpy.typing.ArrayLike | None = None,
         vertex_colors: bool = False,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
@@ -2616,12 +2685,12 @@ class PhongMaterial(Material):
         stencil: Stencil | None = None,
     ) -> None: ...
     @property
-    def color(self) -> np.typing.NDArray[np.float32]:
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (4,) float32: linear RGBA, read-only.
         """
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def ka(self) -> float:
         """
@@ -2649,7 +2718,7 @@ class PhongMaterial(Material):
         Image, RenderTexture or None: times the colour, by the mesh's uvs. An array (H, W, C) becomes an Image.
         """
     @map.setter
-    def map(self, arg1: Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
+    def map(self, arg1: Image | RenderTexture | numpy.typing.ArrayLike | None) -> None: ...
     @property
     def shininess(self) -> float:
         """
@@ -3101,12 +3170,12 @@ class Light:
     """
     def __reduce__(self) -> tuple: ...
     @property
-    def color(self) -> np.typing.NDArray[np.float32]:
+    def color(self) -> numpy.typing.NDArray[numpy.float32]:
         """
         ndarray (3,) float32: linear RGB, read-only.
         """
     @color.setter
-    def color(self, arg1: np.typing.ArrayLike) -> None: ...
+    def color(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def intensity(self) -> float:
         """
@@ -3148,9 +3217,9 @@ class PointLight(Light):
     """
     def __init__(
         self: PointLight,
-        position: np.typing.ArrayLike = (0, 0, 0),
+        position: numpy.typing.ArrayLike = (0, 0, 0),
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         shadow: Shadow | bool | None = None,
@@ -3165,12 +3234,12 @@ class PointLight(Light):
     @decay.setter
     def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> np.typing.NDArray[np.float64]:
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: world space, read-only.
         """
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -3218,12 +3287,12 @@ class SpotLight(Light):
     """
     def __init__(
         self: SpotLight,
-        position: np.typing.ArrayLike = (0, 0, 0),
-        direction: np.typing.ArrayLike = (0, -1, 0),
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        direction: numpy.typing.ArrayLike = (0, -1, 0),
         *,
         angle: typing.SupportsFloat | typing.SupportsIndex = 30.0,
         penumbra: typing.SupportsFloat | typing.SupportsIndex = 0.0,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         shadow: Shadow | bool | None = None,
@@ -3245,12 +3314,12 @@ class SpotLight(Light):
     @decay.setter
     def decay(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def direction(self) -> np.typing.NDArray[np.float64]:
+    def direction(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: the way the light travels, unit length, read-only.
         """
     @direction.setter
-    def direction(self, arg1: np.typing.ArrayLike) -> None: ...
+    def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def penumbra(self) -> float:
         """
@@ -3259,12 +3328,12 @@ class SpotLight(Light):
     @penumbra.setter
     def penumbra(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> np.typing.NDArray[np.float64]:
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: world space, read-only.
         """
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -3303,21 +3372,21 @@ class DirectionalLight(Light):
     """
     def __init__(
         self: DirectionalLight,
-        direction: np.typing.ArrayLike = (0, -1, 0),
+        direction: numpy.typing.ArrayLike = (0, -1, 0),
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: DirectionalLight) -> str: ...
     @property
-    def direction(self) -> np.typing.NDArray[np.float64]:
+    def direction(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: the way the light travels, unit length, read-only.
         """
     @direction.setter
-    def direction(self, arg1: np.typing.ArrayLike) -> None: ...
+    def direction(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -3352,7 +3421,7 @@ class AmbientLight(Light):
     def __init__(
         self: AmbientLight,
         *,
-        color: np.typing.ArrayLike = (1, 1, 1),
+        color: numpy.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
@@ -3388,13 +3457,51 @@ class Camera:
     0.5
     """
     def __init__(
-        self: Camera, *, view: np.typing.ArrayLike, projection: np.typing.ArrayLike
+        self: Camera, *, view: numpy.typing.ArrayLike, projection: numpy.typing.ArrayLike
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Camera) -> str: ...
+    def intrinsics(
+        self: Camera,
+        size: tuple[
+            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
+        ],
+    ) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        Make the camera matrix K of the pinhole model, in OpenCV's convention.
+
+        A point (x, y, z) in OpenCV's camera axes (x to the right, y down, z forwards; see `world_to_camera_cv`) is
+        seen at the pixel coordinates (u, v): ``K @ (x, y, z)`` is ``z * (u, v, 1)``. u counts from the left edge of
+        the picture and v from its upper edge, so that the middle of the pixel of row i and column j is at
+        (j + 0.5, i + 0.5). OpenCV's own functions count from the middle of the first pixel: subtract 0.5 from K[0, 2]
+        and K[1, 2] for these.
+
+        Parameters
+        ----------
+        size : tuple of int
+            The (width, height) of the picture in pixels.
+
+        Returns
+        -------
+        ndarray (3, 3) float64
+            ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels, read-only. The projection of a `Camera` may also
+            have a skew, K[0, 1].
+
+        Raises
+        ------
+        ValueError
+            For a camera of parallel rays, or a size below 1.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(fov=90)
+        >>> camera.intrinsics((640, 480)).tolist()
+        [[240.0, 0.0, 320.0], [0.0, 240.0, 240.0], [0.0, 0.0, 1.0]]
+        """
     def projection(
         self: Camera, aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0
-    ) -> np.typing.NDArray[np.float64]:
+    ) -> numpy.typing.NDArray[numpy.float64]:
         """
         Camera to clip space.
 
@@ -3414,12 +3521,22 @@ class Camera:
             For an aspect that is not above 0.
         """
     @property
-    def view(self) -> np.typing.NDArray[np.float64]:
+    def view(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
     @view.setter
-    def view(self, arg1: np.typing.ArrayLike) -> None: ...
+    def view(self, arg1: numpy.typing.ArrayLike) -> None: ...
+    @property
+    def world_to_camera_cv(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: world to camera in OpenCV's axes (x to the right, y down, z forwards), read-only: the extrinsics [R t].
+        """
+    @property
+    def world_to_camera_gl(self) -> numpy.typing.NDArray[numpy.float64]:
+        """
+        ndarray (4, 4) float64: world to camera in OpenGL's axes (x to the right, y up, z backwards), read-only; the same as `view`.
+        """
 
 class PerspectiveCamera(Camera):
     """
@@ -3441,6 +3558,9 @@ class PerspectiveCamera(Camera):
         How far the middle of the picture lies right of and above the camera's axis, in heights of the
         picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and vertical lines stay
         vertical, as with a shift lens for architecture.
+    pixel_aspect : float
+        The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
+        of calibrated cameras; see `from_intrinsics`.
 
     Raises
     ------
@@ -3460,20 +3580,122 @@ class PerspectiveCamera(Camera):
     >>> camera.target.tolist()
     [0.0, 0.0, 0.0]
     """
+    @staticmethod
+    def from_intrinsics(
+        K: numpy.typing.ArrayLike,
+        size: tuple[
+            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
+        ],
+        *,
+        world_to_camera_cv: numpy.typing.ArrayLike | None = None,
+        position: numpy.typing.ArrayLike | None = None,
+        target: numpy.typing.ArrayLike | None = None,
+        up: numpy.typing.ArrayLike | None = None,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+    ) -> PerspectiveCamera:
+        """
+        Make the camera whose `intrinsics` are K: the inverse of that function.
+
+        The field of view follows from the focal length fy, `shift` from the principal point (cx, cy), and
+        `pixel_aspect` from fy / fx, so that any calibrated camera without skew is drawn exactly. Lens distortion is
+        not drawn: undistort the photographs.
+
+        Parameters
+        ----------
+        K : array_like (3, 3)
+            ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels; the middle of the first pixel is at (0.5, 0.5). Add
+            0.5 to cx and cy of ``cv2.calibrateCamera``, which counts from there.
+        size : tuple of int
+            The (width, height) in pixels of the pictures to which K belongs.
+        world_to_camera_cv : array_like (4, 4), optional
+            The extrinsics in OpenCV's axes, a rotation and a translation, in place of position, target and up.
+        position, target, up, near, far
+            As for `PerspectiveCamera`.
+
+        Returns
+        -------
+        PerspectiveCamera
+            It draws pictures of any size; those of the same aspect show the same view.
+
+        Raises
+        ------
+        ValueError
+            For a K with skew (a `Camera` draws it), focal lengths that are not above 0, another last row than
+            (0, 0, 1), or a matrix with a scale, a shear or a mirror.
+
+        Examples
+        --------
+        >>> import cubecam as cc, numpy as np
+        >>> K = np.array([[525.0, 0, 319.5], [0, 525.5, 239.5], [0, 0, 1]])
+        >>> camera = cc.PerspectiveCamera.from_intrinsics(K, (640, 480), position=(0, 0, 2), target=(0, 0, 0))
+        >>> bool(np.allclose(camera.intrinsics((640, 480)), K, rtol=1e-12))
+        True
+        """
     def __init__(
         self: PerspectiveCamera,
         *,
         fov: typing.SupportsFloat | typing.SupportsIndex = 60.0,
-        position: np.typing.ArrayLike = (0, 0, 0),
-        target: np.typing.ArrayLike | None = None,
-        up: np.typing.ArrayLike = (0, 1, 0),
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        target: numpy.typing.ArrayLike | None = None,
+        up: numpy.typing.ArrayLike = (0, 1, 0),
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
-        shift: np.typing.ArrayLike = (0, 0),
+        shift: numpy.typing.ArrayLike = (0, 0),
+        pixel_aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: PerspectiveCamera) -> str: ...
-    def look(self, direction: np.typing.ArrayLike) -> None:
+    def fit(
+        self: PerspectiveCamera,
+        what: Scene | Node | numpy.typing.ArrayLike,
+        *,
+        size: tuple[
+            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
+        ]
+        | None = None,
+        aspect: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+    ) -> None:
+        """
+        Move the camera, without turning it, so that a scene or node fills the picture.
+
+        All corners of the bounds are in the picture, and two opposite borders are reached, up to the margin. The
+        target becomes the point on the line of sight nearest to the middle of the bounds, so that `orbit` goes
+        round it. An `OrthographicCamera` gets another `height` and moves back if anything is behind it. `near` and
+        `far` stay if the bounds lie between them; otherwise near becomes half the depth of the nearest corner, and
+        far twice that of the farthest one.
+
+        Parameters
+        ----------
+        what : Scene, Node or array_like (2, 3)
+            What fills the picture: `Scene.bounds`, `Node.world_bounds`, or a lowest and a highest corner.
+        size : tuple of int, optional
+            The (width, height) of the picture, as for `Renderer.render`.
+        aspect : float, optional
+            Width over height, in place of `size`. Without both: 1, a square, which fits wider pictures, too.
+        margin : float
+            The share of width and height that stays free at each border, at least 0 and below 0.5.
+
+        Raises
+        ------
+        TypeError
+            For another kind of object.
+        ValueError
+            For bounds of nothing or of a single point, or a number out of its range. The camera then stays as it
+            was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(2), position=(5, 0, 0))
+        >>> camera = cc.PerspectiveCamera(fov=90)
+        >>> camera.fit(scene, margin=0)
+        >>> camera.position.round(6).tolist(), camera.target.round(6).tolist()
+        ([5.0, 0.0, 2.0], [5.0, 0.0, 0.0])
+        """
+    def look(self, direction: numpy.typing.ArrayLike) -> None:
         """
         Turn the view along a direction of the world.
 
@@ -3501,6 +3723,36 @@ class PerspectiveCamera(Camera):
         >>> camera.look((0, 0, 2))
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
+        """
+    def look_at(
+        self: PerspectiveCamera,
+        target: numpy.typing.ArrayLike,
+        *,
+        up: numpy.typing.ArrayLike | None = None,
+    ) -> None:
+        """
+        Turn the camera, from where it is, towards a point.
+
+        Parameters
+        ----------
+        target : array_like (3,)
+            World space; it becomes the camera's `target`.
+        up : array_like (3,), optional
+            The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
+
+        Raises
+        ------
+        ValueError
+            For a target at the camera's position, or an up along the line of sight: a camera that looks straight
+            down needs another one, such as ``up=(0, 0, -1)``. The camera then stays as it was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 10, 0))
+        >>> camera.look_at((0, 0, 0), up=(0, 0, -1))
+        >>> camera.world_to_camera_cv[2].tolist()
+        [0.0, -1.0, 0.0, 10.0]
         """
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
@@ -3663,35 +3915,42 @@ class PerspectiveCamera(Camera):
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> np.typing.NDArray[np.float64]:
+    def pixel_aspect(self) -> float:
+        """
+        float: the width of a pixel over its height; 1 for pixels of every screen.
+        """
+    @pixel_aspect.setter
+    def pixel_aspect(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def shift(self) -> np.typing.NDArray[np.float64]:
+    def shift(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (2,) float64: how far the middle of the picture lies right of and above the axis, in heights of the picture, read-only.
         """
     @shift.setter
-    def shift(self, arg1: np.typing.ArrayLike) -> None: ...
+    def shift(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def target(self) -> np.typing.NDArray[np.float64] | None:
+    def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
         ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
     @target.setter
-    def target(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
-    def up(self) -> np.typing.NDArray[np.float64]:
+    def up(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
     @up.setter
-    def up(self, arg1: np.typing.ArrayLike) -> None: ...
+    def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def view(self) -> np.typing.NDArray[np.float64]:
+    def view(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
@@ -3736,15 +3995,64 @@ class OrthographicCamera(Camera):
         self: OrthographicCamera,
         *,
         height: typing.SupportsFloat | typing.SupportsIndex = 2.0,
-        position: np.typing.ArrayLike = (0, 0, 0),
-        target: np.typing.ArrayLike | None = None,
-        up: np.typing.ArrayLike = (0, 1, 0),
+        position: numpy.typing.ArrayLike = (0, 0, 0),
+        target: numpy.typing.ArrayLike | None = None,
+        up: numpy.typing.ArrayLike = (0, 1, 0),
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: OrthographicCamera) -> str: ...
-    def look(self, direction: np.typing.ArrayLike) -> None:
+    def fit(
+        self: OrthographicCamera,
+        what: Scene | Node | numpy.typing.ArrayLike,
+        *,
+        size: tuple[
+            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
+        ]
+        | None = None,
+        aspect: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+    ) -> None:
+        """
+        Move the camera, without turning it, so that a scene or node fills the picture.
+
+        All corners of the bounds are in the picture, and two opposite borders are reached, up to the margin. The
+        target becomes the point on the line of sight nearest to the middle of the bounds, so that `orbit` goes
+        round it. An `OrthographicCamera` gets another `height` and moves back if anything is behind it. `near` and
+        `far` stay if the bounds lie between them; otherwise near becomes half the depth of the nearest corner, and
+        far twice that of the farthest one.
+
+        Parameters
+        ----------
+        what : Scene, Node or array_like (2, 3)
+            What fills the picture: `Scene.bounds`, `Node.world_bounds`, or a lowest and a highest corner.
+        size : tuple of int, optional
+            The (width, height) of the picture, as for `Renderer.render`.
+        aspect : float, optional
+            Width over height, in place of `size`. Without both: 1, a square, which fits wider pictures, too.
+        margin : float
+            The share of width and height that stays free at each border, at least 0 and below 0.5.
+
+        Raises
+        ------
+        TypeError
+            For another kind of object.
+        ValueError
+            For bounds of nothing or of a single point, or a number out of its range. The camera then stays as it
+            was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(2), position=(5, 0, 0))
+        >>> camera = cc.PerspectiveCamera(fov=90)
+        >>> camera.fit(scene, margin=0)
+        >>> camera.position.round(6).tolist(), camera.target.round(6).tolist()
+        ([5.0, 0.0, 2.0], [5.0, 0.0, 0.0])
+        """
+    def look(self, direction: numpy.typing.ArrayLike) -> None:
         """
         Turn the view along a direction of the world.
 
@@ -3772,6 +4080,36 @@ class OrthographicCamera(Camera):
         >>> camera.look((0, 0, 2))
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
+        """
+    def look_at(
+        self: OrthographicCamera,
+        target: numpy.typing.ArrayLike,
+        *,
+        up: numpy.typing.ArrayLike | None = None,
+    ) -> None:
+        """
+        Turn the camera, from where it is, towards a point.
+
+        Parameters
+        ----------
+        target : array_like (3,)
+            World space; it becomes the camera's `target`.
+        up : array_like (3,), optional
+            The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
+
+        Raises
+        ------
+        ValueError
+            For a target at the camera's position, or an up along the line of sight: a camera that looks straight
+            down needs another one, such as ``up=(0, 0, -1)``. The camera then stays as it was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 10, 0))
+        >>> camera.look_at((0, 0, 0), up=(0, 0, -1))
+        >>> camera.world_to_camera_cv[2].tolist()
+        [0.0, -1.0, 0.0, 10.0]
         """
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
         """
@@ -3934,28 +4272,28 @@ class OrthographicCamera(Camera):
     @near.setter
     def near(self, arg1: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def position(self) -> np.typing.NDArray[np.float64]:
+    def position(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
         """
     @position.setter
-    def position(self, arg1: np.typing.ArrayLike) -> None: ...
+    def position(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def target(self) -> np.typing.NDArray[np.float64] | None:
+    def target(self) -> numpy.typing.NDArray[numpy.float64] | None:
         """
         ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
         """
     @target.setter
-    def target(self, arg1: np.typing.ArrayLike | None) -> None: ...
+    def target(self, arg1: numpy.typing.ArrayLike | None) -> None: ...
     @property
-    def up(self) -> np.typing.NDArray[np.float64]:
+    def up(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (3,) float64: the direction that is up in the picture, read-only.
         """
     @up.setter
-    def up(self, arg1: np.typing.ArrayLike) -> None: ...
+    def up(self, arg1: numpy.typing.ArrayLike) -> None: ...
     @property
-    def view(self) -> np.typing.NDArray[np.float64]:
+    def view(self) -> numpy.typing.NDArray[numpy.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
         """
@@ -4253,111 +4591,20 @@ class Frame:
     An output that ``outputs=`` does not request is None. Only opaque nodes write the outputs; `depth` and
     `stencil` are the contents of these buffers after the last node is drawn.
 
-    ``frame.save("x.png")`` writes the picture as a screen shows it, and a notebook shows it the same way.
-    ``np.asarray(frame)`` is `color`, and functions that take arrays, such as ``plt.imshow``, take the frame.
-
     Examples
     --------
     >>> import cubecam as cc
     >>> scene = cc.Scene(background=(1, 0, 0))
     >>> with cc.Renderer() as renderer:
     ...     frame = renderer.render(scene, cc.PerspectiveCamera(), size=(4, 2))
-    >>> frame
-    Frame(size=(4, 2), format='rgba8', encoding='linear')
     >>> frame.color.shape, frame.color[0, 0].tolist()
     ((2, 4, 4), [255, 0, 0, 255])
     """
-    def __array__(
-        self, dtype: np.dtype[np.generic] | None = None, copy: bool | None = None
-    ) -> np.ndarray[tuple[typing.Any, ...], np.dtype[np.generic]]:
-        """
-        Give the picture's numbers to ``numpy.asarray``: the colour of a frame, the faces of a cubemap.
-
-        Parameters
-        ----------
-        dtype : dtype, optional
-            None: that of the picture.
-        copy : bool, optional
-            True: always a copy. False: never; raises ValueError if `dtype` needs one. None: a copy if `dtype` needs one.
-
-        Returns
-        -------
-        ndarray (H, W, C), of a cubemap (6, N, N, C)
-            Without a copy, that of a cubemap or an image is read-only.
-
-        Raises
-        ------
-        ValueError
-            For a frame without a colour, or a copy that is not allowed.
-        """
-    def __dlpack__(
-        self,
-        *,
-        stream: object = None,
-        max_version: tuple[int, int] | None = None,
-        dl_device: tuple[int, int] | None = None,
-        copy: bool | None = None,
-    ) -> object:
-        """
-        Give the picture's numbers to ``from_dlpack`` of numpy, torch, jax and others (DLPack, array API 2023.12).
-
-        A frame's colour is shared. The numbers of a cubemap and an image must not change: they are shared as read-only if
-        the reader knows version 1 of DLPack, which can say so, and are copied otherwise.
-        """
-    def __dlpack_device__(self) -> tuple[int, int]:
-        """
-        Give the device of the numbers to ``from_dlpack``: main memory.
-        """
     def __reduce__(self: Frame) -> tuple: ...
     def __repr__(self: Frame) -> str: ...
     def _repr_png_(self) -> bytes | None:
         """
-        Give the picture that Jupyter shows: the file that `Frame.save` writes; None for a frame without a colour.
-        """
-    def save(
-        self,
-        path: str | os.PathLike[str],
-        *,
-        exposure: float = 0.0,
-        tonemap: typing.Literal["neutral", "reinhard", "aces"] | None = "neutral",
-        srgb: bool | None = None,
-        half: bool = False,
-    ) -> None:
-        """
-        Write the frame's colour as a picture. The method `Frame.save`.
-
-        A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-        sRGB-encoded. EXR and HDR hold linear numbers.
-
-        Parameters
-        ----------
-        path : str or os.PathLike
-            The extension names the kind of file, as in `save_image`.
-        exposure : float
-            Stops: colours are multiplied by ``2**exposure``.
-        tonemap : {"neutral", "reinhard", "aces"} or None
-            The curve for linear floats, see `to_screen`. None clips, with a warning.
-        srgb : bool, optional
-            False writes the numbers as they are; None and True as described above.
-        half : bool
-            True stores an EXR with 16 bits a number.
-
-        Raises
-        ------
-        OSError
-            If the folder does not exist or may not be written, or the disk is full. The old file stays as it was.
-        ValueError
-            For a frame without a colour, an extension that is not in the list, or an alpha that the file cannot hold.
-
-        Examples
-        --------
-        >>> import cubecam as cc, tempfile, pathlib
-        >>> path = pathlib.Path(tempfile.mkdtemp(), "frame.png")
-        >>> with cc.Renderer() as renderer:
-        ...     frame = renderer.render(cc.Scene(background=(0.2, 0.2, 0.2)), cc.PerspectiveCamera(), size=(2, 1))
-        >>> frame.save(path)
-        >>> cc.load_image(path)[0, 0].tolist()
-        [124, 124, 124, 255]
+        Give the picture that Jupyter shows: the colour, opaque, tone-mapped if the numbers are floats; None without.
         """
     @property
     def color(self) -> typing.Any:
@@ -4375,16 +4622,6 @@ class Frame:
         ndarray (H, W) float32: length of the ray, world units; +inf background. In an orthographic picture it counts from the near plane.
         """
     @property
-    def encoding(self) -> str:
-        """
-        str: "linear" or "srgb", what the numbers of `color` are.
-        """
-    @property
-    def format(self) -> typing.Any:
-        """
-        str: the format of `color`, as `Renderer.render` takes it; None without a colour.
-        """
-    @property
     def id(self) -> typing.Any:
         """
         ndarray (H, W) int32: ``Node.id`` of the visible node; 0 background.
@@ -4395,7 +4632,7 @@ class Frame:
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
         """
     @property
-    def outputs(self) -> dict[str, np.ndarray]:
+    def outputs(self) -> dict[str, numpy.ndarray]:
         """
         dict of str to ndarray: the outputs that were requested, by name.
 
@@ -4585,7 +4822,7 @@ class Renderer:
         >>> held.faces.shape, held.dtype.name
         ((6, 8, 8, 4), 'float16')
         """
-    def read_texture(self: Renderer, render_texture: RenderTexture) -> np.ndarray:
+    def read_texture(self: Renderer, render_texture: RenderTexture) -> numpy.ndarray:
         """
         Read the present contents of a render texture, in its format.
 
@@ -4613,7 +4850,6 @@ class Renderer:
         outputs: typing.Any = (),
         format: str | None = "rgba8",
         samples: typing.Any = 1,
-        exposure: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         tonemap: str | None = None,
         encode: str | None = None,
         effects: typing.Any = (),
@@ -4640,14 +4876,11 @@ class Renderer:
         samples : int
             Samples of each pixel's colour (MSAA): 1 for none, at most ``info.limits.max_samples``. The outputs are the same for
             every number of samples.
-        exposure : float
-            Stops: the colour is multiplied by ``2**exposure``, after effects and before the tone curve. Default 0.
         tonemap : str or None
             "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024), applied
             after multisamples are resolved. None: values stay as they are.
         encode : str or None
-            "srgb" encodes the colour (IEC 61966-2-1), for a screen. None: the colour stays as it is; `Frame.save`, notebooks
-            and :func:`to_screen` encode it when they need it.
+            "srgb" encodes the colour (IEC 61966-2-1). None: the colour stays linear.
         effects : sequence of ImageEffect
             Passes over the colour, one after the other, after multisamples are resolved and before tone mapping.
         depth_format : str or None
@@ -4659,14 +4892,13 @@ class Renderer:
         Returns
         -------
         Frame
-            Arrays of shape (height, width, ...), row 0 on top. ``frame.encoding`` is "srgb" with ``encode="srgb"``, and for an
-            unlit scene whose images and cubemaps are all "srgb"; else "linear".
+            Arrays of shape (height, width, ...), row 0 on top.
 
         Raises
         ------
         ValueError
             For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-            outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with ``format=None``, or a camera without a
+            outputs that ``depth_format`` does not allow, tone mapping or effects with ``format=None``, or a camera without a
             valid view.
         ContextError
             After :meth:`close`, or in a forked process.
@@ -4679,7 +4911,7 @@ class Renderer:
         >>> frame.color.tolist()
         [[[2.0, 0.0, 0.0, 1.0]]]
         """
-    def shadow_map(self: Renderer, scene: Scene, light: Light) -> np.ndarray:
+    def shadow_map(self: Renderer, scene: Scene, light: Light) -> numpy.ndarray:
         """
         Draw the shadow map of a light, as distances, to look at. A map that is up to date is not drawn again.
 
@@ -4765,8 +4997,8 @@ def _shaded_outputs() -> list[str]:
     """
 
 def axis_angle(
-    axis: np.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
-) -> np.typing.NDArray[np.float64]:
+    axis: numpy.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
+) -> numpy.typing.NDArray[numpy.float64]:
     """
     Make the quaternion of a rotation round an axis.
 

@@ -247,6 +247,7 @@ VALUES = {
     "PerspectiveCamera.far": number(3, 30),
     "PerspectiveCamera.fov": number(40, 90),
     "PerspectiveCamera.near": number(0.05, 1.5),
+    "PerspectiveCamera.pixel_aspect": number(0.7, 1.4),
     "PerspectiveCamera.position": vector(1.5, 3),
     "PerspectiveCamera.shift": lambda world, rng, thing: rng.uniform(-0.3, 0.3, 2),
     "PerspectiveCamera.target": lambda world, rng, thing: one(rng, None, rng.uniform(-0.5, 0.5, 3)),

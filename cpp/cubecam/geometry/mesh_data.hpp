@@ -10,13 +10,15 @@
 
 namespace cubecam {
 
-/// Axis-aligned bounds; `empty()` until a point was added.
+/// Axis-aligned bounds: the lowest and the highest corner.
 struct Bounds {
     glm::dvec3 low{0.0};
     glm::dvec3 high{0.0};
 
     glm::dvec3 center() const { return 0.5 * (low + high); }
     glm::dvec3 extent() const { return high - low; }
+
+    bool operator==(const Bounds&) const = default;
 };
 
 /// The box round a transformed box: |M| * half extents round M * center
