@@ -43,6 +43,8 @@ RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
+LABELS = ("tests/gl/test_labels.py",)
+FLAT = ("tests/gl/test_flat_shading.py",)
 SCENE_QUERIES = ("tests/unit/test_scene_queries.py",)
 
 CUBE_FACE = "cube_face.hpp"
@@ -1059,5 +1061,40 @@ MUTATIONS = [
         "0.5 * h * (1.0 + p[2][1])",
         "0.5 * h * (1.0 - p[2][1])",
         ("tests/unit/test_intrinsics.py",),
+    ),
+    Mutation(
+        "label: a change is not drawn",
+        "picture_key.cpp",
+        "a.world != b.world ||\n             a.label != b.label",
+        "a.world != b.world",
+        LABELS,
+    ),
+    Mutation(
+        "label: pictures without labels are drawn again",
+        DRAWN,
+        'outputs.has(output_row("label")) ? node.label : 0',
+        "node.label",
+        LABELS,
+    ),
+    Mutation(
+        "label: nodes drawn together have the id as label",
+        "node_record.cpp",
+        "record.id_and_label = {node.id, node.label};",
+        "record.id_and_label = {node.id, node.id};",
+        LABELS,
+    ),
+    Mutation(
+        "flat shading: an update goes unseen",
+        "geometry/mesh.cpp",
+        "if (flat_ && flat_of_ == data->revision()) return flat_;",
+        "if (flat_) return flat_;",
+        FLAT,
+    ),
+    Mutation(
+        "flat shading: new colours go unseen",
+        "mesh_data.cpp",
+        "if (before != nullptr && before->colors_.revision == colors_.revision) {",
+        "if (before != nullptr) {",
+        FLAT,
     ),
 ]

@@ -238,6 +238,13 @@ void bind_mesh(pybind11::module_& module) {
         },
         py::arg("size"), docs::resized);
 
+    mesh.def(
+        "flat_shaded",
+        [](const Mesh& self) {
+            const py::gil_scoped_release release;
+            return std::make_shared<Mesh>(MeshData(*self.flat_shaded(self.data())));
+        },
+        docs::flat_shaded);
     mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none(), docs::update);

@@ -170,6 +170,17 @@ void bind_contents(Class<Node>& node) {
             self.edit([&](NodeValue& next) { next.receive_shadow = value; });
         },
         "bool: whether shadows show on the node's own surface.");
+    node.def_property(
+        "label", [](const Node& self) { return self.value().label; },
+        [](Node& self, const OneOf<py::int_>& value) {
+            const std::int32_t label = to_label(value);
+            self.edit([&](NodeValue& next) { next.label = label; });
+        },
+        "int: a number of your own, such as a class or an instance, that the output label shows: "
+        "any "
+        "of 32 bits, 0 by default (as the background). Nodes may share a label; nodes below this "
+        "one "
+        "have labels of their own.");
 }
 
 }  // namespace

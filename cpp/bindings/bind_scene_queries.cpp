@@ -1,6 +1,7 @@
 // What cubecam.Scene says about its nodes: iteration, names and bounds.
 #include "bounds.hpp"
 #include "docs/scene_queries.hpp"
+#include "node_state.hpp"
 #include "objects.hpp"
 
 #include "cubecam/scene/scene.hpp"
@@ -9,7 +10,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/typing.h>
 
-#include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,6 +23,23 @@ using NodeList = std::vector<std::shared_ptr<Node>>;
 
 NodeList named(const Scene& scene, const std::string& name) {
     return scene.find([&](std::int32_t, const NodeValue& node) { return node.name == name; });
+}
+
+NodeList find_nodes(const Scene& scene, const OneOf<py::str, py::none>& name,
+                    const OneOf<py::int_, py::none>& label) {
+    if (name.is_none() && label.is_none()) {
+        throw py::type_error("Scene.find: expected a name or a label, got neither");
+    }
+    std::optional<std::string> wanted;
+    if (!name.is_none()) {
+        if (!py::isinstance<py::str>(name)) refuse(name, "name", "a str or None");
+        wanted = name.cast<std::string>();
+    }
+    std::optional<std::int32_t> number;
+    if (!label.is_none()) number = to_label(label);
+    return scene.find([&](std::int32_t, const NodeValue& node) {
+        return (!wanted || node.name == *wanted) && (!number || node.label == *number);
+    });
 }
 
 [[noreturn]] void refuse_name(const Scene& scene, const std::string& name) {
@@ -80,7 +98,8 @@ void bind_scene_queries(pybind11::module_& module) {
     scene.def("__contains__", &contains_thing, py::arg("thing"),
               "Whether a node, a light or a node of a name is in the scene.");
     scene.def("__getitem__", &get_item, py::arg("name"), docs::get_item);
-    scene.def("find", &named, py::arg("name"), docs::find);
+    scene.def("find", &find_nodes, py::arg("name") = py::none(), py::kw_only(),
+              py::arg("label") = py::none(), docs::find);
     scene.def_property_readonly(
         "bounds", [](const Scene& self) { return bounds_array(self.bounds()); },
         docs::scene_bounds);

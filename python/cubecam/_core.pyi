@@ -235,6 +235,13 @@ class Node:
     @in_captures.setter
     def in_captures(self, arg1: bool) -> None: ...
     @property
+    def label(self) -> int:
+        """
+        int: a number of your own, such as a class or an instance, that the output label shows: any of 32 bits, 0 by default (as the background). Nodes may share a label; nodes below this one have labels of their own.
+        """
+    @label.setter
+    def label(self, arg1: int) -> None: ...
+    @property
     def material(self) -> Material | None:
         """
         Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.
@@ -802,6 +809,7 @@ class Scene:
         render_order: int = 0,
         cast_shadow: bool = True,
         receive_shadow: bool = True,
+        label: int = 0,
     ) -> Node:
         """
         Add a mesh with a material, or a group.
@@ -838,6 +846,8 @@ class Scene:
             cast shadows.
         receive_shadow : bool
             Whether shadows show on the node's own surface.
+        label : int
+            A number of your own that the output "label" shows, such as a class; 32 bits. Nodes may share a label.
 
         Returns
         -------
@@ -865,19 +875,26 @@ class Scene:
         """
         Remove all nodes and lights.
         """
-    def find(self: Scene, name: str) -> list[Node]:
+    def find(self: Scene, name: str | None = None, *, label: int | None = None) -> list[Node]:
         """
-        Find all nodes of a name.
+        Find all nodes of a name, of a label, or of both.
 
         Parameters
         ----------
-        name : str
+        name : str, optional
             The exact name.
+        label : int, optional
+            The `Node.label`.
 
         Returns
         -------
         list of Node
-            In order of id; empty if no node has this name.
+            In order of id; empty if there is no such node.
+
+        Raises
+        ------
+        TypeError
+            Without a name and a label, or for values of other types.
 
         Examples
         --------
@@ -887,6 +904,9 @@ class Scene:
         ...     tree = scene.add(cc.Mesh.cone(), position=(x, 0, 0), name="tree")
         >>> [node.id for node in scene.find("tree")]
         [1, 2, 3]
+        >>> scene["tree"].label = 7
+        >>> [node.id for node in scene.find(label=7)]
+        [1]
         """
     def remove(self: Scene, thing: Node | Light) -> None:
         """
@@ -1487,6 +1507,11 @@ class CubeMap:
         ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.id`` of the visible node; 0 background.
         """
     @property
+    def label(self) -> typing.Any:
+        """
+        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.label`` of the visible node; 0 background.
+        """
+    @property
     def mipmaps(self) -> bool:
         """
         bool: whether lookups are trilinear.
@@ -1973,6 +1998,29 @@ class Mesh:
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: Mesh) -> str: ...
+    def flat_shaded(self: Mesh) -> Mesh:
+        """
+        Copy the mesh with flat faces: its triangles share no vertex.
+
+        Vertices 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, with the normal of its plane on the side
+        from which they are counter-clockwise. A triangle without area, which no picture shows, has the normal
+        (0, 1, 0). Texture coordinates and colours stay. The normals follow new positions (`update`).
+
+        Materials do the same with ``flat_shading=True`` when they are drawn; calls and pictures share the arrays
+        until this mesh changes.
+
+        Returns
+        -------
+        Mesh
+            3 * F vertices, F triangles.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> ball = cc.Mesh.icosphere(1, subdivisions=0)
+        >>> ball, ball.flat_shaded()
+        (Mesh(22 vertices, 20 triangles), Mesh(60 vertices, 20 triangles))
+        """
     def resized(self: Mesh, size: typing.SupportsFloat | typing.SupportsIndex) -> Mesh:
         """
         Copy the mesh, centred at the origin and scaled evenly.
@@ -2333,6 +2381,8 @@ class Material:
     color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
     stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
                             ``depth_format`` has one; None: it does neither
+    flat_shading=False      True shows each triangle with the normal of its plane, in place of the mesh's
+                            normals; see `Mesh.flat_shaded`
     ======================  =========================================================================
 
     A surface that is blended, or writes no depth, is drawn after the background, far to near; it writes
@@ -2381,6 +2431,13 @@ class Material:
     @double_sided.setter
     def double_sided(self, arg1: bool) -> None: ...
     @property
+    def flat_shading(self) -> bool:
+        """
+        bool: True shows each triangle with the normal of its plane, as `Mesh.flat_shaded` has them.
+        """
+    @flat_shading.setter
+    def flat_shading(self, arg1: bool) -> None: ...
+    @property
     def opacity(self) -> float:
         """
         float: from 0 to 1; multiplies the alpha of the colours.
@@ -2410,7 +2467,7 @@ class BasicMaterial(Material):
         sphere shows all of it, and turns it when it turns. The alpha of the cubemap does not count.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2440,6 +2497,7 @@ class BasicMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -2487,7 +2545,7 @@ class GlassMaterial(Material):
         False: F is 0, and only T shows.
     tint : array_like (3,) or (4,), or str
         Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2515,6 +2573,7 @@ class GlassMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def fresnel(self) -> bool:
@@ -2559,7 +2618,7 @@ class MirrorMaterial(Material):
         The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
         f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
         Rendering", 1994). None: env_weight is the same at all angles.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2589,6 +2648,7 @@ class MirrorMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -2646,7 +2706,7 @@ class PhongMaterial(Material):
         A picture that multiplies color, placed by the mesh's uvs.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2683,6 +2743,7 @@ class PhongMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def color(self) -> numpy.typing.NDArray[numpy.float32]:
@@ -2757,7 +2818,7 @@ class ShaderMaterial(Material):
     displacement : float, optional
         The greatest distance by which `vertex` moves a vertex, in the mesh's units. None: unknown; the node is
         never culled, and any change of it draws the whole picture again.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Attributes
@@ -2863,6 +2924,7 @@ class ShaderMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple: ...
     def __repr__(self: ShaderMaterial) -> str: ...
@@ -4627,6 +4689,11 @@ class Frame:
         ndarray (H, W) int32: ``Node.id`` of the visible node; 0 background.
         """
     @property
+    def label(self) -> typing.Any:
+        """
+        ndarray (H, W) int32: ``Node.label`` of the visible node; 0 background.
+        """
+    @property
     def normal(self) -> typing.Any:
         """
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
@@ -4748,8 +4815,8 @@ class Renderer:
         exclude : sequence of Node
             Nodes that are left out, with all nodes below them.
         outputs : sequence of str
-            What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth" and "stencil",
-            and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
+            What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "label", "depth" and
+            "stencil", and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
         format : str
             "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
         samples : int
@@ -4867,9 +4934,9 @@ class Renderer:
         size : (int, int)
             (width, height), pixels.
         outputs : sequence of str
-            What the frame holds besides colour: any of "distance", "z", "normal", "position" and "id"; any output that the GLSL
-            of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these buffers after
-            the last node is drawn.
+            What the frame holds besides colour: any of "distance", "z", "normal", "position", "id" and "label"; any output that
+            the GLSL of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these
+            buffers after the last node is drawn.
         format : str or None
             "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, scaled to
             uint8 from 0 to 255; alpha 255). None: there is no colour buffer, and only the outputs are drawn.

@@ -357,6 +357,29 @@ Examples
 [1.0, 1.1, 0.1]
 )doc";
 
+inline constexpr const char* flat_shaded =
+    R"doc(Copy the mesh with flat faces: its triangles share no vertex.
+
+Vertices 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, with the normal of its plane on the side
+from which they are counter-clockwise. A triangle without area, which no picture shows, has the normal
+(0, 1, 0). Texture coordinates and colours stay. The normals follow new positions (`update`).
+
+Materials do the same with ``flat_shading=True`` when they are drawn; calls and pictures share the arrays
+until this mesh changes.
+
+Returns
+-------
+Mesh
+    3 * F vertices, F triangles.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> ball = cc.Mesh.icosphere(1, subdivisions=0)
+>>> ball, ball.flat_shaded()
+(Mesh(15 vertices, 20 triangles), Mesh(60 vertices, 20 triangles))
+)doc";
+
 inline constexpr const char* from_trimesh = R"doc(Make a mesh from a mesh or a scene of trimesh.
 
 Parameters

@@ -32,17 +32,24 @@ Examples
 (True, True, ['lamp'], 1)
 )doc";
 
-inline constexpr const char* find = R"doc(Find all nodes of a name.
+inline constexpr const char* find = R"doc(Find all nodes of a name, of a label, or of both.
 
 Parameters
 ----------
-name : str
+name : str, optional
     The exact name.
+label : int, optional
+    The `Node.label`.
 
 Returns
 -------
 list of Node
-    In order of id; empty if no node has this name.
+    In order of id; empty if there is no such node.
+
+Raises
+------
+TypeError
+    Without a name and a label, or for values of other types.
 
 Examples
 --------
@@ -52,6 +59,9 @@ Examples
 ...     tree = scene.add(cc.Mesh.cone(), position=(x, 0, 0), name="tree")
 >>> [node.id for node in scene.find("tree")]
 [1, 2, 3]
+>>> scene["tree"].label = 7
+>>> [node.id for node in scene.find(label=7)]
+[1]
 )doc";
 
 inline constexpr const char* scene_bounds =

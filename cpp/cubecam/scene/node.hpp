@@ -49,11 +49,12 @@ struct NodeValue {
     std::int32_t render_order = 0;  ///< lower numbers are drawn first, whatever the distance
     bool cast_shadow = true;        ///< false: nodes below it cast none either
     bool receive_shadow = true;     ///< whether its own surface shows shadows
+    std::int32_t label = 0;         ///< a user's number, which the output "label" shows
 
     /// All members except `placing`.
     auto contents() const {
         return std::tie(mesh, material, environment, visible, in_captures, name, render_order,
-                        cast_shadow, receive_shadow);
+                        cast_shadow, receive_shadow, label);
     }
 };
 
