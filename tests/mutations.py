@@ -43,6 +43,9 @@ RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
+LABELS = ("tests/gl/test_labels.py",)
+FLAT = ("tests/gl/test_flat_shading.py",)
+SCENE_QUERIES = ("tests/unit/test_scene_queries.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -1022,5 +1025,76 @@ MUTATIONS = [
         "curve_for(pixels, tonemap), True)",
         "None, True)",
         ("tests/unit/test_screen.py", "tests/gl/test_encoding.py"),
+    ),
+    # What scenes, nodes and cameras say about their places.
+    Mutation(
+        "bounds: the highest corner forgotten",
+        "mesh_bounds.cpp",
+        "bounds.high = glm::max(bounds.high, p);",
+        "",
+        SCENE_QUERIES,
+    ),
+    Mutation(
+        "bounds: hidden nodes count",
+        "world_bounds.cpp",
+        "if (!below || !below->value_.visible) continue;",
+        "if (!below) continue;",
+        SCENE_QUERIES,
+    ),
+    Mutation(
+        "look_at: a mirrored axis points away",
+        "look_at.cpp",
+        "transform.scale.z < 0.0 ? -z : z;",
+        "z;",
+        ("tests/unit/test_look_at.py",),
+    ),
+    Mutation(
+        "fit: the shift of the lens forgotten",
+        "camera_fit.cpp",
+        "half * (2.0 * lens.shift.y - shown),",
+        "half * -shown,",
+        ("tests/unit/test_fit.py",),
+    ),
+    Mutation(
+        "intrinsics: v counts upwards",
+        "scene/intrinsics.cpp",
+        "0.5 * h * (1.0 + p[2][1])",
+        "0.5 * h * (1.0 - p[2][1])",
+        ("tests/unit/test_intrinsics.py",),
+    ),
+    Mutation(
+        "label: a change is not drawn",
+        "picture_key.cpp",
+        "a.world != b.world ||\n             a.label != b.label",
+        "a.world != b.world",
+        LABELS,
+    ),
+    Mutation(
+        "label: pictures without labels are drawn again",
+        DRAWN,
+        'outputs.has(output_row("label")) ? node.label : 0',
+        "node.label",
+        LABELS,
+    ),
+    Mutation(
+        "label: nodes drawn together have the id as label",
+        "node_record.cpp",
+        "record.id_and_label = {node.id, node.label};",
+        "record.id_and_label = {node.id, node.id};",
+        LABELS,
+    ),
+    Mutation(
+        "flat shading: an update goes unseen",
+        "geometry/mesh.cpp",
+        "if (flat_ && flat_of_ == data->revision()) return flat_;",
+        "if (flat_) return flat_;",
+        FLAT,
+    ),
+    Mutation(
+        "flat shading: new colours go unseen",
+        "mesh_data.cpp",
+        "if (before != nullptr && before->colors_.revision == colors_.revision) {",
+        "if (before != nullptr) {",
+        FLAT,
     ),
 ]

@@ -80,17 +80,21 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
     using C = CameraOf<Lens>;
     auto made = declare<C, Camera>(module, class_name, class_doc);
     if constexpr (std::is_same_v<Lens, PerspectiveLens>) {
-        made.def(
-            py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
-                        const ArrayLike& up, double near, double far, const ArrayLike& shift) {
-                return std::make_shared<C>(Lens{size, near, far, to_shift(shift)},
-                                           placement(position, target, up));
-            }),
-            py::kw_only(), py::arg(opening) = Lens{}.*field,
-            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
-            py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
-            py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0));
+        made.def(py::init([](double size, const ArrayLike& position,
+                             const OrNone<ArrayLike>& target, const ArrayLike& up, double near,
+                             double far, const ArrayLike& shift, double pixel_aspect) {
+                     return std::make_shared<C>(
+                         Lens{size, near, far, to_shift(shift), pixel_aspect},
+                         placement(position, target, up));
+                 }),
+                 py::kw_only(), py::arg(opening) = Lens{}.*field,
+                 py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
+                 py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
+                 py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0),
+                 py::arg("pixel_aspect") = Lens{}.pixel_aspect);
         bind_shift(made);
+        number<Lens>(made, "pixel_aspect", &Lens::pixel_aspect,
+                     "float: the width of a pixel over its height; 1 for pixels of every screen.");
     } else {
         made.def(
             py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
@@ -137,7 +141,9 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
     made.def("__reduce__", [opening](const py::object& self) {
         py::dict arguments =
             attributes_of(self, opening, "position", "target", "up", "near", "far");
-        if (py::hasattr(self, "shift")) arguments["shift"] = self.attr("shift");
+        for (const char* name : {"shift", "pixel_aspect"}) {
+            if (py::hasattr(self, name)) arguments[name] = self.attr(name);
+        }
         return reduced(self, arguments);
     });
 }

@@ -23,7 +23,7 @@ fresnel : bool
     False: F is 0, and only T shows.
 tint : array_like (3,) or (4,), or str
     Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
     The options of every `Material`.
 
 Raises

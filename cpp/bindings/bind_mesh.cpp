@@ -1,4 +1,5 @@
 // cubecam.Mesh
+#include "bounds.hpp"
 #include "docs/mesh.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
@@ -109,17 +110,6 @@ py::object rows(const MeshData::Array<Vector>& vectors) {
 using FloatRows = py::array_t<float>;
 using FloatRowsOrNone = OrNone<FloatRows>;
 
-py::array_t<double> bounds_array(const Mesh& mesh) {
-    const Bounds bounds = mesh.data()->bounds();
-    py::array_t<double> array({2, 3});
-    for (int i = 0; i < 3; ++i) {
-        array.mutable_at(0, i) = bounds.low[i];
-        array.mutable_at(1, i) = bounds.high[i];
-    }
-    array.attr("flags").attr("writeable") = false;
-    return array;
-}
-
 std::string represent(const Mesh& mesh) {
     const auto data = mesh.data();
     return "Mesh(" + std::to_string(data->positions()->size()) + " vertices, " +
@@ -156,6 +146,17 @@ void bind_primitives(Class<Mesh>& mesh) {
     mesh.def_static("torus", built_by(&make::torus), py::arg("radius") = 1.0,
                     py::arg("tube") = 0.25, py::arg("segments") = 64, py::arg("sides") = 32,
                     docs::torus);
+    mesh.def_static(
+        "arrow",
+        [](double length, std::optional<double> radius, std::optional<double> head_length,
+           std::optional<double> head_radius, int segments) {
+            return std::make_shared<Mesh>(make::arrow(
+                length, radius.value_or(0.05 * length), head_length.value_or(0.25 * length),
+                head_radius.value_or(0.1 * length), segments));
+        },
+        py::arg("length") = 1.0, py::kw_only(), py::arg("radius") = py::none(),
+        py::arg("head_length") = py::none(), py::arg("head_radius") = py::none(),
+        py::arg("segments") = 64, docs::arrow);
 }
 
 /// Defines the properties of the vertices. Setting one replaces the array, and arrays that were
@@ -222,6 +223,13 @@ void bind_mesh(pybind11::module_& module) {
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none());
     bind_primitives(mesh);
+    mesh.def_static(
+        "from_trimesh",
+        [](const py::object& other) {
+            const py::object read = py::module_::import("cubecam.io.meshes").attr("_from_trimesh");
+            return read(other).cast<std::shared_ptr<Mesh>>();
+        },
+        py::arg("mesh"), docs::from_trimesh);
     mesh.def(
         "resized",
         [](const Mesh& self, double size) {
@@ -230,12 +238,19 @@ void bind_mesh(pybind11::module_& module) {
         },
         py::arg("size"), docs::resized);
 
+    mesh.def(
+        "flat_shaded",
+        [](const Mesh& self) {
+            const py::gil_scoped_release release;
+            return std::make_shared<Mesh>(MeshData(*self.flat_shaded(self.data())));
+        },
+        docs::flat_shaded);
     mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none(), docs::update);
     bind_vertices(mesh);
     mesh.def_property_readonly(
-        "bounds", &bounds_array,
+        "bounds", [](const Mesh& self) { return bounds_array(self.data()->bounds()); },
         "ndarray (2, 3) float64: the least and the greatest x, y, z of the vertices.");
 
     mesh.def("__repr__", &represent);

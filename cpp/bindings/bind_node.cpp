@@ -1,4 +1,5 @@
 // cubecam.Node and cubecam.axis_angle
+#include "bounds.hpp"
 #include "docs/node.hpp"
 #include "node_state.hpp"
 
@@ -92,6 +93,15 @@ void bind_placing(Class<Node>& node) {
     node.def_property_readonly(
         "world_matrix", [](const Node& self) { return matrix_array(self.world_matrix()); },
         "ndarray (4, 4) float64: node to world, read-only.");
+    node.def_property_readonly(
+        "world_bounds", [](const Node& self) { return bounds_array(self.world_bounds()); },
+        docs::world_bounds);
+    node.def(
+        "look_at",
+        [](Node& self, const ArrayLike& target, const ArrayLike& up) {
+            self.look_at(to_point(target, "target"), to_point(up, "up"));
+        },
+        py::arg("target"), py::kw_only(), py::arg("up") = py::make_tuple(0, 1, 0), docs::look_at);
 }
 
 void bind_contents(Class<Node>& node) {
@@ -160,6 +170,17 @@ void bind_contents(Class<Node>& node) {
             self.edit([&](NodeValue& next) { next.receive_shadow = value; });
         },
         "bool: whether shadows show on the node's own surface.");
+    node.def_property(
+        "label", [](const Node& self) { return self.value().label; },
+        [](Node& self, const OneOf<py::int_>& value) {
+            const std::int32_t label = to_label(value);
+            self.edit([&](NodeValue& next) { next.label = label; });
+        },
+        "int: a number of your own, such as a class or an instance, that the output label shows: "
+        "any "
+        "of 32 bits, 0 by default (as the background). Nodes may share a label; nodes below this "
+        "one "
+        "have labels of their own.");
 }
 
 }  // namespace

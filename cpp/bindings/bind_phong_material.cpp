@@ -26,7 +26,7 @@ map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture that multiplies color, placed by the mesh's uvs.
 vertex_colors : bool
     Whether the mesh's colours multiply color.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
     The options of every `Material`.
 
 Raises

@@ -24,7 +24,8 @@ std::shared_ptr<CubeMap> to_environment(py::handle value) {
 Background to_background(py::handle value) {
     if (value.is_none()) return {};
     if (py::isinstance<CubeMap>(value)) return py::cast<std::shared_ptr<CubeMap>>(value);
-    if (!py::isinstance<py::sequence>(value)) {  // a str is a sequence, too: the name of a colour
+    // A str is a sequence, too: the name of a colour. So is a Scene.
+    if (!py::isinstance<py::sequence>(value) || py::isinstance<Scene>(value)) {
         refuse(value, "background", "a colour, a CubeMap or None");
     }
     return to_rgba(value, "background");
@@ -40,14 +41,13 @@ BackgroundNow from_background(const Background& background) {
     return py::none();
 }
 
-std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
-                               const OrNone<Material>& material, const OrNone<ArrayLike>& position,
-                               const OrNone<ArrayLike>& rotation,
-                               const OneOf<py::float_, ArrayLike, py::none>& scale,
-                               const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
-                               const CubeLike& environment, bool visible, bool in_captures,
-                               std::string name, const OneOf<py::int_>& render_order,
-                               bool cast_shadow, bool receive_shadow) {
+std::shared_ptr<Node>
+add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& material,
+         const OrNone<ArrayLike>& position, const OrNone<ArrayLike>& rotation,
+         const OneOf<py::float_, ArrayLike, py::none>& scale, const OrNone<ArrayLike>& matrix,
+         const OrNone<Node>& parent, const CubeLike& environment, bool visible, bool in_captures,
+         std::string name, const OneOf<py::int_>& render_order, bool cast_shadow,
+         bool receive_shadow, const OneOf<py::int_>& label) {
     NodeValue value{{},
                     to_mesh(mesh),
                     to_material(material),
@@ -57,7 +57,8 @@ std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
                     std::move(name),
                     to_render_order(render_order),
                     cast_shadow,
-                    receive_shadow};
+                    receive_shadow,
+                    to_label(label)};
     value.placing = to_placing(position, rotation, scale, matrix);
     value.render_order = to_render_order(render_order);
     return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
@@ -105,11 +106,6 @@ void set_matrices(Scene& scene, const Nodes& nodes, const ArrayLike& matrices) {
         }
         placing = matrix;
     });
-}
-
-bool contains_thing(const Scene& scene, py::handle thing) {
-    if (py::isinstance<Node>(thing)) return scene.contains(thing.cast<const Node&>());
-    return py::isinstance<Light>(thing) && scene.contains(thing.cast<const Light&>());
 }
 
 py::dict state_of(const Scene& scene) {
@@ -203,7 +199,7 @@ void bind_scene(pybind11::module_& module) {
               py::arg("parent") = py::none(), py::arg("environment") = py::none(),
               py::arg("visible") = true, py::arg("in_captures") = true, py::arg("name") = "",
               py::arg("render_order") = 0, py::arg("cast_shadow") = true,
-              py::arg("receive_shadow") = true, docs::add_node);
+              py::arg("receive_shadow") = true, py::arg("label") = 0, docs::add_node);
     scene.def("set_positions", &set_positions, py::arg("nodes"), py::arg("positions"),
               docs::set_positions);
     scene.def("set_matrices", &set_matrices, py::arg("nodes"), py::arg("matrices"),
@@ -222,8 +218,6 @@ void bind_scene(pybind11::module_& module) {
             return py::tuple(py::cast(self.lights()));
         },
         "tuple of Light: all lights of the scene, in order of add.");
-    scene.def("__contains__", &contains_thing, py::arg("thing"),
-              "Whether a node or a light is in the scene.");
     scene.def("__repr__", [](const Scene& self) {
         const std::size_t nodes = self.nodes().size();
         const std::size_t lights = self.lights().size();

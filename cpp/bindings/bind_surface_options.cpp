@@ -81,6 +81,13 @@ void bind_surface_options(Class<Material>& material) {
         "Stencil or None: how the surface tests and changes the stencil buffer, if "
         "``depth_format`` "
         "has one. None: it does neither.");
+    surface_property(
+        material, "flat_shading", [](const SurfaceOptions& s) { return s.flat_shading; },
+        [](Material& self, bool value) {
+            edit_surface(self, [&](SurfaceOptions& s) { s.flat_shading = value; });
+        },
+        "bool: True shows each triangle with the normal of its plane, as `Mesh.flat_shaded` has "
+        "them.");
 }
 
 }  // namespace cubecam::bindings

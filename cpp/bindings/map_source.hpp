@@ -7,6 +7,7 @@
 #include "cubecam/image/image.hpp"
 #include "cubecam/materials/texture_source.hpp"
 #include "cubecam/scene/render_texture.hpp"
+#include "cubecam/scene/scene.hpp"
 
 #include <memory>
 
@@ -20,7 +21,9 @@ inline MapSource to_map_source(py::handle value, const char* name) {
     if (value.is_none()) return {};
     if (py::isinstance<RenderTexture>(value))
         return py::cast<std::shared_ptr<RenderTexture>>(value);
-    if (py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value)) {
+    // numpy would make an array of a Scene's nodes.
+    if (py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value) ||
+        py::isinstance<Scene>(value)) {
         refuse(value, name,
                "an Image, an array (H, W, C), a RenderTexture or None (see cubecam.load_image)");
     }

@@ -25,11 +25,13 @@ void bind_image_effect(pybind11::module_& module);
 void bind_shadow(pybind11::module_& module);
 void bind_light(pybind11::module_& module);
 void bind_camera(pybind11::module_& module);
+void bind_camera_views(pybind11::module_& module);
 void bind_stereo(pybind11::module_& module);
 void bind_probe(pybind11::module_& module);
 void bind_render_texture(pybind11::module_& module);
 void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
+void bind_scene_queries(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
 
 /// Makes every class without a `__reduce__` of its own raise TypeError when it is pickled. Without
@@ -93,11 +95,13 @@ PYBIND11_MODULE(_core, module) {
     bind_shadow(module);
     bind_light(module);
     bind_camera(module);
+    bind_camera_views(module);
     bind_stereo(module);
     bind_probe(module);
     bind_render_texture(module);
     bind_node(module);
     bind_scene(module);
+    bind_scene_queries(module);
     bind_renderer(module);
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);

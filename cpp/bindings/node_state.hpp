@@ -33,6 +33,12 @@ inline std::int32_t to_render_order(py::handle value) {
                                             std::numeric_limits<std::int32_t>::max()));
 }
 
+inline std::int32_t to_label(py::handle value) {
+    return static_cast<std::int32_t>(to_int(value, "label",
+                                            std::numeric_limits<std::int32_t>::min(),
+                                            std::numeric_limits<std::int32_t>::max()));
+}
+
 /// The place of a node from the arguments of scene.add or from a pickle: a matrix, or any of
 /// position, rotation and scale.
 inline Placing to_placing(py::handle position, py::handle rotation, py::handle scale,
@@ -52,7 +58,7 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
 }
 
 /// The state of a node in a pickle: (mesh, material, position, rotation, scale, matrix,
-/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow).
+/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow, label).
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
     return py::make_tuple(
@@ -61,9 +67,10 @@ inline py::tuple state_of_node(const NodeValue& value) {
         parts ? py::object(point_array(parts->scale)) : py::none(),
         parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
         from_cube_source(value.environment), value.visible, value.in_captures, value.name,
-        value.render_order, value.cast_shadow, value.receive_shadow);
+        value.render_order, value.cast_shadow, value.receive_shadow, value.label);
 }
 
+/// Pickles of 0.2 have no label.
 inline NodeValue node_from_state(const py::tuple& state) {
     return {to_placing(state[2], state[3], state[4], state[5]),
             to_mesh(state[0]),
@@ -74,7 +81,8 @@ inline NodeValue node_from_state(const py::tuple& state) {
             state[9].cast<std::string>(),
             to_render_order(state[10]),
             state[11].cast<bool>(),
-            state[12].cast<bool>()};
+            state[12].cast<bool>(),
+            state.size() > 13 ? to_label(state[13]) : 0};
 }
 
 }  // namespace cubecam::bindings

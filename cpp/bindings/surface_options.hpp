@@ -81,7 +81,8 @@ void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
               const Named&... named) {
     made.def(py::init([make](Own... own, float opacity, bool double_sided, const BlendLike& blend,
                              const DepthWriteLike& depth_write, bool depth_test,
-                             const ColorWriteLike& color_write, const OrNone<Stencil>& stencil) {
+                             const ColorWriteLike& color_write, const OrNone<Stencil>& stencil,
+                             bool flat_shading) {
                  SurfaceOptions surface;
                  surface.opacity = opacity;
                  surface.double_sided = double_sided;
@@ -90,19 +91,20 @@ void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
                  surface.depth_test = depth_test;
                  surface.color_write = to_color_write(color_write);
                  surface.stencil = to_stencil(stencil);
+                 surface.flat_shading = flat_shading;
                  return std::make_shared<MaterialOf<Kind>>(make(own...), surface);
              }),
              named..., py::arg("opacity") = 1.0F, py::arg("double_sided") = false,
              py::arg("blend") = py::none(), py::arg("depth_write") = py::none(),
              py::arg("depth_test") = true, py::arg("color_write") = true,
-             py::arg("stencil") = py::none());
+             py::arg("stencil") = py::none(), py::arg("flat_shading") = false);
 }
 
 /// The options of a material by name, for pickling.
 inline py::dict surface_state(py::handle material) {
     py::dict state;
     for (const char* name : {"opacity", "double_sided", "blend", "depth_write", "depth_test",
-                             "color_write", "stencil"}) {
+                             "color_write", "stencil", "flat_shading"}) {
         state[name] = material.attr(name);
     }
     return state;

@@ -198,6 +198,40 @@ class Node:
         For unpickling.
         """
 
+    def look_at(
+        self: Node, target: np.typing.ArrayLike, *, up: np.typing.ArrayLike = (0, 1, 0)
+    ) -> None:
+        """
+        Turn the node round its own position, so that its +Z axis points at a point of the world.
+
+        As in three.js and glTF, an object's front is +Z (and the front of a camera is -Z). The parents may have
+        any transforms. Position and scale stay.
+
+        Parameters
+        ----------
+        target : array_like (3,)
+            World space.
+        up : array_like (3,)
+            World space: +Y of the node lies in the plane of `up` and the direction, on the side of `up`. An
+            `up` along the direction is replaced: by +Y or, if the direction is vertical, by -Z for a target
+            above the node and +Z for one below it.
+
+        Raises
+        ------
+        ValueError
+            For a target at the node's position, an `up` of length 0, numbers that are not finite, or a `matrix`
+            with a shear.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> head = scene.add(cc.Mesh.box(), position=(0, 1, 0))
+        >>> head.look_at((4, 1, 0))
+        >>> head.world_matrix[:3, 2].round(12).tolist()
+        [1.0, 0.0, 0.0]
+        """
+
     @property
     def cast_shadow(self) -> bool:
         """
@@ -234,6 +268,14 @@ class Node:
 
     @in_captures.setter
     def in_captures(self, value: bool) -> None: ...
+    @property
+    def label(self) -> int:
+        """
+        int: a number of your own, such as a class or an instance, that the output label shows: any of 32 bits, 0 by default (as the background). Nodes may share a label; nodes below this one have labels of their own.
+        """
+
+    @label.setter
+    def label(self, value: int) -> None: ...
     @property
     def material(self) -> Material | None:
         """
@@ -322,6 +364,25 @@ class Node:
 
     @visible.setter
     def visible(self, value: bool) -> None: ...
+    @property
+    def world_bounds(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (2, 3) float64: the lowest and the highest corner of the node and all nodes below it, read-only.
+
+        The numbers are world units and exact for the vertices, as `Scene.bounds`. Hidden nodes below the node do
+        not count; whether the node itself is visible does not matter. Without a mesh the bounds are those of
+        nothing, ``[[inf, inf, inf], [-inf, -inf, -inf]]``.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> cart = scene.add(position=(0, 5, 0))
+        >>> box = scene.add(cc.Mesh.box(2), parent=cart, rotation=cc.axis_angle((0, 1, 0), 45))
+        >>> cart.world_bounds.round(3).tolist()
+        [[-1.414, 4.0, -1.414], [1.414, 6.0, 1.414]]
+        """
+
     @property
     def world_matrix(self) -> np.typing.NDArray[np.float64]:
         """
@@ -725,9 +786,44 @@ class Scene:
         For unpickling: an empty node that is in no scene.
         """
 
+    def __bool__(self: Scene) -> bool:
+        """
+        True, also for a scene without nodes, so that ``scene or other`` is the scene.
+        """
+
     def __contains__(self: Scene, thing: object) -> bool:
         """
-        Whether a node or a light is in the scene.
+        Whether a node, a light or a node of a name is in the scene.
+        """
+
+    def __getitem__(self: Scene, name: str) -> Node:
+        """
+        Get a node by its name; of several, the one of the lowest id.
+
+        Parameters
+        ----------
+        name : str
+            The exact name of the node.
+
+        Returns
+        -------
+        Node
+            The node; `find` gives all nodes of a name.
+
+        Raises
+        ------
+        KeyError
+            If no node has this name; the message suggests similar names.
+        TypeError
+            For a name that is not a str.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> lamp = scene.add(cc.Mesh.sphere(.1), name="lamp")
+        >>> scene["lamp"] is lamp, "lamp" in scene, [node.name for node in scene], len(scene)
+        (True, True, ['lamp'], 1)
         """
 
     def __init__(
@@ -736,6 +832,16 @@ class Scene:
         environment: CubeMap | None = None,
         background: str | np.typing.ArrayLike | CubeMap | None = None,
     ) -> None: ...
+    def __iter__(self: Scene) -> collections.abc.Iterator[Node]:
+        """
+        Iterate over all nodes, in order of id, as they are at this moment.
+        """
+
+    def __len__(self: Scene) -> int:
+        """
+        The number of nodes.
+        """
+
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Scene) -> str: ...
     def __setstate__(self: Scene, state: object) -> None:
@@ -787,6 +893,7 @@ class Scene:
         render_order: int = 0,
         cast_shadow: bool = True,
         receive_shadow: bool = True,
+        label: int = 0,
     ) -> Node:
         """
         Add a mesh with a material, or a group.
@@ -823,6 +930,8 @@ class Scene:
             cast shadows.
         receive_shadow : bool
             Whether shadows show on the node's own surface.
+        label : int
+            A number of your own that the output "label" shows, such as a class; 32 bits. Nodes may share a label.
 
         Returns
         -------
@@ -850,6 +959,40 @@ class Scene:
     def clear(self: Scene) -> None:
         """
         Remove all nodes and lights.
+        """
+
+    def find(self: Scene, name: str | None = None, *, label: int | None = None) -> list[Node]:
+        """
+        Find all nodes of a name, of a label, or of both.
+
+        Parameters
+        ----------
+        name : str, optional
+            The exact name.
+        label : int, optional
+            The `Node.label`.
+
+        Returns
+        -------
+        list of Node
+            In order of id; empty if there is no such node.
+
+        Raises
+        ------
+        TypeError
+            Without a name and a label, or for values of other types.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> for x in range(3):
+        ...     tree = scene.add(cc.Mesh.cone(), position=(x, 0, 0), name="tree")
+        >>> [node.id for node in scene.find("tree")]
+        [1, 2, 3]
+        >>> scene["tree"].label = 7
+        >>> [node.id for node in scene.find(label=7)]
+        [1]
         """
 
     def remove(self: Scene, thing: Node | Light) -> None:
@@ -945,6 +1088,26 @@ class Scene:
 
     @background.setter
     def background(self, value: str | np.typing.ArrayLike | CubeMap | None) -> None: ...
+    @property
+    def bounds(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (2, 3) float64: the lowest and the highest corner of all visible nodes, read-only.
+
+        The numbers are world units and exact for the vertices: the bounds of the transformed vertices, not of
+        transformed boxes. The ``vertex`` function of a `ShaderMaterial` is not taken into account. Without a
+        visible mesh the bounds are those of nothing, ``[[inf, inf, inf], [-inf, -inf, -inf]]``: the minimum of the
+        first rows and the maximum of the second rows unites any bounds.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(2), position=(3, 0, 0))
+        >>> ball = scene.add(cc.Mesh.sphere(.5), position=(0, 2, 0))
+        >>> scene.bounds.tolist()
+        [[-0.5, -1.0, -1.0], [4.0, 2.5, 1.0]]
+        """
+
     @property
     def environment(self) -> CubeMap | None:
         """
@@ -1564,6 +1727,12 @@ class CubeMap:
         """
 
     @property
+    def label(self) -> np.typing.NDArray[np.int32]:
+        """
+        ndarray (6, N, N) int32, read-only, of a capture that requested it, or None: ``Node.label`` of the visible node; 0 background.
+        """
+
+    @property
     def mipmaps(self) -> bool:
         """
         bool: whether lookups are trilinear.
@@ -1794,6 +1963,57 @@ class Mesh:
     """
 
     @staticmethod
+    def arrow(
+        length: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        *,
+        radius: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        head_length: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        head_radius: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+    ) -> Mesh:
+        """
+        A closed arrow along +Z, from the origin to (0, 0, length): a cylinder with a cone as its head.
+
+        `Node.look_at` turns +Z, and so the arrow, towards a point. u runs round the shaft and the head as on
+        `cylinder`, and v along the arrow, from 0 to 1; the two flat faces show the round middle of a picture.
+
+        Parameters
+        ----------
+        length : float
+            Length from the tail to the tip, above 0.
+        radius : float, optional
+            Radius of the shaft. None: length / 20.
+        head_length : float, optional
+            Length of the head, below `length`. None: length / 4.
+        head_radius : float, optional
+            Radius of the head, above `radius`. None: length / 10.
+        segments : int
+            Segments round the axis, at least 3.
+
+        Returns
+        -------
+        Mesh
+            6 * segments triangles.
+
+        Raises
+        ------
+        ValueError
+            For a length that is not above 0, a head that is longer than the arrow or thinner than the shaft,
+            or too few or too many segments.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.arrow(2).bounds.round(6).tolist()
+        [[-0.2, -0.2, 0.0], [0.2, 0.2, 2.0]]
+        >>> scene = cc.Scene()
+        >>> wind = scene.add(cc.Mesh.arrow(), position=(0, 1, 0))
+        >>> wind.look_at((5, 1, 0))
+        >>> wind.world_bounds[1].round(6).tolist()
+        [1.0, 1.1, 0.1]
+        """
+
+    @staticmethod
     def box(size: float | np.typing.ArrayLike = 1.0) -> Mesh:
         """
         A centred box with flat faces, each with uv from 0 to 1.
@@ -1888,6 +2108,42 @@ class Mesh:
         >>> import cubecam as cc
         >>> cc.Mesh.cylinder(1, 4).bounds[1].tolist()
         [1.0, 2.0, 1.0]
+        """
+
+    @staticmethod
+    def from_trimesh(mesh: object) -> Mesh:
+        """
+        Make a mesh from a mesh or a scene of trimesh.
+
+        Parameters
+        ----------
+        mesh : trimesh.Trimesh or trimesh.Scene
+            The objects of a scene become one mesh, each placed by its transform; those without triangles are
+            left out.
+
+        Returns
+        -------
+        Mesh
+            The vertices and faces in their order, normals as ``mesh.vertex_normals`` gives them (smooth ones
+            where these have length 0), and texture coordinates and vertex colours if there are any. Colours of
+            faces, and textures, are not read.
+
+        Raises
+        ------
+        TypeError
+            For another kind of object.
+        ValueError
+            For no triangles, positions that are not finite, or all vertices in one place.
+        IndexError
+            For an index outside the vertices.
+
+        Examples
+        --------
+        >>> import cubecam as cc, trimesh
+        >>> capsule = trimesh.creation.capsule(height=2, radius=0.5)
+        >>> mesh = cc.Mesh.from_trimesh(capsule)
+        >>> len(mesh.positions) == len(capsule.vertices), mesh.bounds.round(6).tolist()
+        (True, [[-0.5, -0.5, -1.5], [0.5, 0.5, 1.5]])
         """
 
     @staticmethod
@@ -2044,6 +2300,30 @@ class Mesh:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
+    def flat_shaded(self: Mesh) -> Mesh:
+        """
+        Copy the mesh with flat faces: its triangles share no vertex.
+
+        Vertices 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, with the normal of its plane on the side
+        from which they are counter-clockwise. A triangle without area, which no picture shows, has the normal
+        (0, 1, 0). Texture coordinates and colours stay. The normals follow new positions (`update`).
+
+        Materials do the same with ``flat_shading=True`` when they are drawn; calls and pictures share the arrays
+        until this mesh changes.
+
+        Returns
+        -------
+        Mesh
+            3 * F vertices, F triangles.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> ball = cc.Mesh.icosphere(1, subdivisions=0)
+        >>> ball, ball.flat_shaded()
+        (Mesh(15 vertices, 20 triangles), Mesh(60 vertices, 20 triangles))
+        """
+
     def resized(self: Mesh, size: typing.SupportsFloat | typing.SupportsIndex) -> Mesh:
         """
         Copy the mesh, centred at the origin and scaled evenly.
@@ -2425,6 +2705,8 @@ class Material:
     color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
     stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
                             ``depth_format`` has one; None: it does neither
+    flat_shading=False      True shows each triangle with the normal of its plane, in place of the mesh's
+                            normals; see `Mesh.flat_shaded`
     ======================  =========================================================================
 
     A surface that is blended, or writes no depth, is drawn after the background, far to near; it writes
@@ -2480,6 +2762,14 @@ class Material:
     @double_sided.setter
     def double_sided(self, value: bool) -> None: ...
     @property
+    def flat_shading(self) -> bool:
+        """
+        bool: True shows each triangle with the normal of its plane, as `Mesh.flat_shaded` has them.
+        """
+
+    @flat_shading.setter
+    def flat_shading(self, value: bool) -> None: ...
+    @property
     def opacity(self) -> float:
         """
         float: from 0 to 1; multiplies the alpha of the colours.
@@ -2511,7 +2801,7 @@ class BasicMaterial(Material):
         sphere shows all of it, and turns it when it turns. The alpha of the cubemap does not count.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2542,6 +2832,7 @@ class BasicMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
@@ -2593,7 +2884,7 @@ class GlassMaterial(Material):
         False: F is 0, and only T shows.
     tint : array_like (3,) or (4,), or str
         Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2622,6 +2913,7 @@ class GlassMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def fresnel(self) -> bool:
@@ -2669,7 +2961,7 @@ class MirrorMaterial(Material):
         The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
         f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
         Rendering", 1994). None: env_weight is the same at all angles.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2700,6 +2992,7 @@ class MirrorMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
@@ -2762,7 +3055,7 @@ class PhongMaterial(Material):
         A picture that multiplies color, placed by the mesh's uvs.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Raises
@@ -2800,6 +3093,7 @@ class PhongMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
@@ -2881,7 +3175,7 @@ class ShaderMaterial(Material):
     displacement : float, optional
         The greatest distance by which `vertex` moves a vertex, in the mesh's units. None: unknown; the node is
         never culled, and any change of it draws the whole picture again.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
     Attributes
@@ -2991,6 +3285,7 @@ class ShaderMaterial(Material):
         depth_test: bool = True,
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
+        flat_shading: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: ShaderMaterial) -> str: ...
@@ -3641,6 +3936,40 @@ class Camera:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Camera) -> str: ...
+    def intrinsics(self: Camera, size: tuple[int, int]) -> np.typing.NDArray[np.float64]:
+        """
+        Make the camera matrix K of the pinhole model, in OpenCV's convention.
+
+        A point (x, y, z) in OpenCV's camera axes (x to the right, y down, z forwards; see `world_to_camera_cv`) is
+        seen at the pixel coordinates (u, v): ``K @ (x, y, z)`` is ``z * (u, v, 1)``. u counts from the left edge of
+        the picture and v from its upper edge, so that the middle of the pixel of row i and column j is at
+        (j + 0.5, i + 0.5). OpenCV's own functions count from the middle of the first pixel: subtract 0.5 from K[0, 2]
+        and K[1, 2] for these.
+
+        Parameters
+        ----------
+        size : tuple of int
+            The (width, height) of the picture in pixels.
+
+        Returns
+        -------
+        ndarray (3, 3) float64
+            ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels, read-only. The projection of a `Camera` may also
+            have a skew, K[0, 1].
+
+        Raises
+        ------
+        ValueError
+            For a camera of parallel rays, or a size below 1.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(fov=90)
+        >>> camera.intrinsics((640, 480)).tolist()
+        [[240.0, 0.0, 320.0], [0.0, 240.0, 240.0], [0.0, 0.0, 1.0]]
+        """
+
     def projection(
         self: Camera, aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0
     ) -> np.typing.NDArray[np.float64]:
@@ -3671,6 +4000,17 @@ class Camera:
 
     @view.setter
     def view(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def world_to_camera_cv(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (4, 4) float64: world to camera in OpenCV's axes (x to the right, y down, z forwards), read-only: the extrinsics [R t].
+        """
+
+    @property
+    def world_to_camera_gl(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (4, 4) float64: world to camera in OpenGL's axes (x to the right, y up, z backwards), read-only; the same as `view`.
+        """
 
 class PerspectiveCamera(Camera):
     """
@@ -3692,6 +4032,9 @@ class PerspectiveCamera(Camera):
         How far the middle of the picture lies right of and above the camera's axis, in heights of the
         picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and vertical lines stay
         vertical, as with a shift lens for architecture.
+    pixel_aspect : float
+        The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
+        of calibrated cameras; see `from_intrinsics`.
 
     Raises
     ------
@@ -3712,6 +4055,57 @@ class PerspectiveCamera(Camera):
     [0.0, 0.0, 0.0]
     """
 
+    @staticmethod
+    def from_intrinsics(
+        K: np.typing.ArrayLike,
+        size: tuple[int, int],
+        *,
+        world_to_camera_cv: np.typing.ArrayLike | None = None,
+        position: np.typing.ArrayLike | None = None,
+        target: np.typing.ArrayLike | None = None,
+        up: np.typing.ArrayLike | None = None,
+        near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
+        far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+    ) -> PerspectiveCamera:
+        """
+        Make the camera whose `intrinsics` are K: the inverse of that function.
+
+        The field of view follows from the focal length fy, `shift` from the principal point (cx, cy), and
+        `pixel_aspect` from fy / fx, so that any calibrated camera without skew is drawn exactly. Lens distortion is
+        not drawn: undistort the photographs.
+
+        Parameters
+        ----------
+        K : array_like (3, 3)
+            ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels; the middle of the first pixel is at (0.5, 0.5). Add
+            0.5 to cx and cy of ``cv2.calibrateCamera``, which counts from there.
+        size : tuple of int
+            The (width, height) in pixels of the pictures to which K belongs.
+        world_to_camera_cv : array_like (4, 4), optional
+            The extrinsics in OpenCV's axes, a rotation and a translation, in place of position, target and up.
+        position, target, up, near, far
+            As for `PerspectiveCamera`.
+
+        Returns
+        -------
+        PerspectiveCamera
+            It draws pictures of any size; those of the same aspect show the same view.
+
+        Raises
+        ------
+        ValueError
+            For a K with skew (a `Camera` draws it), focal lengths that are not above 0, another last row than
+            (0, 0, 1), or a matrix with a scale, a shear or a mirror.
+
+        Examples
+        --------
+        >>> import cubecam as cc, numpy as np
+        >>> K = np.array([[525.0, 0, 319.5], [0, 525.5, 239.5], [0, 0, 1]])
+        >>> camera = cc.PerspectiveCamera.from_intrinsics(K, (640, 480), position=(0, 0, 2), target=(0, 0, 0))
+        >>> bool(np.allclose(camera.intrinsics((640, 480)), K, rtol=1e-12))
+        True
+        """
+
     def __init__(
         self: PerspectiveCamera,
         *,
@@ -3722,9 +4116,60 @@ class PerspectiveCamera(Camera):
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         shift: np.typing.ArrayLike = (0, 0),
+        pixel_aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: PerspectiveCamera) -> str: ...
+    def fit(
+        self: PerspectiveCamera,
+        what: Scene | Node | np.typing.ArrayLike,
+        *,
+        size: tuple[
+            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
+        ]
+        | None = None,
+        aspect: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+    ) -> None:
+        """
+        Move the camera, without turning it, so that a scene or node fills the picture.
+
+        All corners of the bounds are in the picture, and two opposite borders are reached, up to the margin. The
+        target becomes the point on the line of sight nearest to the middle of the bounds, so that `orbit` goes
+        round it. An `OrthographicCamera` gets another `height` and moves back if anything is behind it. `near` and
+        `far` stay if the bounds lie between them; otherwise near becomes half the depth of the nearest corner, and
+        far twice that of the farthest one.
+
+        Parameters
+        ----------
+        what : Scene, Node or array_like (2, 3)
+            What fills the picture: `Scene.bounds`, `Node.world_bounds`, or a lowest and a highest corner.
+        size : tuple of int, optional
+            The (width, height) of the picture, as for `Renderer.render`.
+        aspect : float, optional
+            Width over height, in place of `size`. Without both: 1, a square, which fits wider pictures, too.
+        margin : float
+            The share of width and height that stays free at each border, at least 0 and below 0.5.
+
+        Raises
+        ------
+        TypeError
+            For another kind of object.
+        ValueError
+            For bounds of nothing or of a single point, or a number out of its range. The camera then stays as it
+            was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(2), position=(5, 0, 0))
+        >>> camera = cc.PerspectiveCamera(fov=90)
+        >>> camera.fit(scene, margin=0)
+        >>> camera.position.round(6).tolist(), camera.target.round(6).tolist()
+        ([5.0, 0.0, 2.0], [5.0, 0.0, 0.0])
+        """
+
     def look(self, direction: np.typing.ArrayLike) -> None:
         """
         Turn the view along a direction of the world.
@@ -3753,6 +4198,37 @@ class PerspectiveCamera(Camera):
         >>> camera.look((0, 0, 2))
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
+        """
+
+    def look_at(
+        self: PerspectiveCamera,
+        target: np.typing.ArrayLike,
+        *,
+        up: np.typing.ArrayLike | None = None,
+    ) -> None:
+        """
+        Turn the camera, from where it is, towards a point.
+
+        Parameters
+        ----------
+        target : array_like (3,)
+            World space; it becomes the camera's `target`.
+        up : array_like (3,), optional
+            The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
+
+        Raises
+        ------
+        ValueError
+            For a target at the camera's position, or an up along the line of sight: a camera that looks straight
+            down needs another one, such as ``up=(0, 0, -1)``. The camera then stays as it was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 10, 0))
+        >>> camera.look_at((0, 0, 0), up=(0, 0, -1))
+        >>> camera.world_to_camera_cv[2].tolist()
+        [0.0, -1.0, 0.0, 10.0]
         """
 
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
@@ -3924,6 +4400,14 @@ class PerspectiveCamera(Camera):
     @near.setter
     def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def pixel_aspect(self) -> float:
+        """
+        float: the width of a pixel over its height; 1 for pixels of every screen.
+        """
+
+    @pixel_aspect.setter
+    def pixel_aspect(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
@@ -4010,6 +4494,56 @@ class OrthographicCamera(Camera):
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: OrthographicCamera) -> str: ...
+    def fit(
+        self: OrthographicCamera,
+        what: Scene | Node | np.typing.ArrayLike,
+        *,
+        size: tuple[
+            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
+        ]
+        | None = None,
+        aspect: typing.SupportsFloat | typing.SupportsIndex | None = None,
+        margin: typing.SupportsFloat | typing.SupportsIndex = 0.05,
+    ) -> None:
+        """
+        Move the camera, without turning it, so that a scene or node fills the picture.
+
+        All corners of the bounds are in the picture, and two opposite borders are reached, up to the margin. The
+        target becomes the point on the line of sight nearest to the middle of the bounds, so that `orbit` goes
+        round it. An `OrthographicCamera` gets another `height` and moves back if anything is behind it. `near` and
+        `far` stay if the bounds lie between them; otherwise near becomes half the depth of the nearest corner, and
+        far twice that of the farthest one.
+
+        Parameters
+        ----------
+        what : Scene, Node or array_like (2, 3)
+            What fills the picture: `Scene.bounds`, `Node.world_bounds`, or a lowest and a highest corner.
+        size : tuple of int, optional
+            The (width, height) of the picture, as for `Renderer.render`.
+        aspect : float, optional
+            Width over height, in place of `size`. Without both: 1, a square, which fits wider pictures, too.
+        margin : float
+            The share of width and height that stays free at each border, at least 0 and below 0.5.
+
+        Raises
+        ------
+        TypeError
+            For another kind of object.
+        ValueError
+            For bounds of nothing or of a single point, or a number out of its range. The camera then stays as it
+            was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> box = scene.add(cc.Mesh.box(2), position=(5, 0, 0))
+        >>> camera = cc.PerspectiveCamera(fov=90)
+        >>> camera.fit(scene, margin=0)
+        >>> camera.position.round(6).tolist(), camera.target.round(6).tolist()
+        ([5.0, 0.0, 2.0], [5.0, 0.0, 0.0])
+        """
+
     def look(self, direction: np.typing.ArrayLike) -> None:
         """
         Turn the view along a direction of the world.
@@ -4038,6 +4572,37 @@ class OrthographicCamera(Camera):
         >>> camera.look((0, 0, 2))
         >>> camera.target.tolist()
         [1.0, 0.0, 1.0]
+        """
+
+    def look_at(
+        self: OrthographicCamera,
+        target: np.typing.ArrayLike,
+        *,
+        up: np.typing.ArrayLike | None = None,
+    ) -> None:
+        """
+        Turn the camera, from where it is, towards a point.
+
+        Parameters
+        ----------
+        target : array_like (3,)
+            World space; it becomes the camera's `target`.
+        up : array_like (3,), optional
+            The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
+
+        Raises
+        ------
+        ValueError
+            For a target at the camera's position, or an up along the line of sight: a camera that looks straight
+            down needs another one, such as ``up=(0, 0, -1)``. The camera then stays as it was.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> camera = cc.PerspectiveCamera(position=(0, 10, 0))
+        >>> camera.look_at((0, 0, 0), up=(0, 0, -1))
+        >>> camera.world_to_camera_cv[2].tolist()
+        [0.0, -1.0, 0.0, 10.0]
         """
 
     def orbit(self, *, yaw: float = 0.0, pitch: float = 0.0) -> None:
@@ -4711,6 +5276,12 @@ class Frame:
         """
 
     @property
+    def label(self) -> np.typing.NDArray[np.int32]:
+        """
+        ndarray (H, W) int32: ``Node.label`` of the visible node; 0 background.
+        """
+
+    @property
     def normal(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (H, W, 3) float32: world shading normal, unit length, towards the viewer; 0 background.
@@ -4838,8 +5409,8 @@ class Renderer:
         exclude : sequence of Node
             Nodes that are left out, with all nodes below them.
         outputs : sequence of str
-            What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth" and "stencil",
-            and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
+            What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "label", "depth" and
+            "stencil", and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
         format : str
             "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
         samples : int
@@ -4964,9 +5535,9 @@ class Renderer:
         size : (int, int)
             (width, height), pixels.
         outputs : sequence of str
-            What the frame holds besides colour: any of "distance", "z", "normal", "position" and "id"; any output that the GLSL
-            of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these buffers after
-            the last node is drawn.
+            What the frame holds besides colour: any of "distance", "z", "normal", "position", "id" and "label"; any output that
+            the GLSL of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these
+            buffers after the last node is drawn.
         format : str or None
             "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, scaled to
             uint8 from 0 to 255; alpha 255). None: there is no colour buffer, and only the outputs are drawn.

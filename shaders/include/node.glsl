@@ -9,8 +9,9 @@ layout(location = 11) in vec4 a_material[MATERIAL_SIZE];
 #define u_material a_material
 #endif
 #ifdef OUTPUTS
-layout(location = 13) in int a_node_id;
-#define u_node_id a_node_id
+layout(location = 13) in ivec2 a_id_and_label;
+#define u_node_id a_id_and_label.x
+#define u_label a_id_and_label.y
 #endif
 #define u_model mat4(vec4(a_model[0].xyz, 0.0), vec4(a_model[1].xyz, 0.0), vec4(a_model[2].xyz, 0.0), \
                      vec4(a_model[3].xyz, 1.0))
@@ -22,6 +23,7 @@ layout(std140, binding = 0) uniform Node {
     mat4 u_normal_matrix;  // inverse transpose of u_model, upper 3x3
     float u_alpha;         // opacity and the colours' alpha; shade() returns all other factors
     int u_node_id;
+    int u_label;
     vec4 u_origin;         // xyz: world position of the view; near it positions are small, so floats are precise
 };
 #endif

@@ -35,7 +35,7 @@ flat STAGE float v_alpha;
 flat STAGE vec4 v_view_position;
 flat STAGE vec3 v_view_forward;
 flat STAGE vec3 v_origin;
-flat STAGE int v_node_id;
+flat STAGE ivec2 v_id_and_label;
 #endif
 #if FLAT_LIGHT_COUNT > 0 && !defined(VERTEX_STAGE)
 

@@ -97,6 +97,7 @@ void main() {
     o_distance = v_eye.w == 0.0 ? length(from_view) : z - v_view_position.w;
     o_normal = surface.normal;
     o_position = v_position + v_origin;
-    o_id = v_node_id;
+    o_id = v_id_and_label.x;
+    o_label = v_id_and_label.y;
 #endif
 }

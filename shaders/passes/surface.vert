@@ -73,7 +73,7 @@ void main() {
 #ifdef OUTPUTS
     v_view_position = a_view_position;
     v_view_forward = a_view_forward.xyz;
-    v_node_id = u_node_id;
+    v_id_and_label = ivec2(u_node_id, u_label);
     v_origin = u_origin.xyz;
 #endif
 }

@@ -95,7 +95,7 @@ def masked_crowd(rng):
 def small_edit(scene, rng):
     """Change one random node a little, as an animation does."""
     node = scene.nodes[rng.integers(1, len(scene.nodes))]
-    kind = rng.integers(5)
+    kind = rng.integers(7)
     if kind == 0:
         node.position = np.array(node.position) + rng.normal(size=3) * 0.3
     elif kind == 1:
@@ -104,6 +104,10 @@ def small_edit(scene, rng):
         node.scale = rng.uniform(0.02, 1.5, 3) * rng.choice([-1, 1])
     elif kind == 3:
         node.visible = not node.visible
+    elif kind == 4:
+        node.label = rng.integers(-2, 3)
+    elif kind == 5 and node.material is not None:
+        node.material.flat_shading = not node.material.flat_shading
     else:
         node.position = rng.uniform(-3, 3, 3)
 

@@ -198,14 +198,16 @@ def pictures(renderer, world):
 
     def add_frame(name, eye, **options):
         frame = refused(lambda: renderer.render(scene, eye, SIZE, **options))
-        for output in () if isinstance(frame, str) else ("color", "distance", "id", "stencil"):
+        for output in (
+            () if isinstance(frame, str) else ("color", "distance", "id", "label", "stencil")
+        ):
             if getattr(frame, output) is not None:
                 found[f"{name} {output}"] = getattr(frame, output)
         if isinstance(frame, str):
             found[name] = frame
 
     stencils = {"depth_format": "depth32f_stencil8"}
-    outputs = ("distance", "id", "stencil")
+    outputs = ("distance", "id", "label", "stencil")
     add_frame("frame", camera, format="rgba32f", outputs=outputs, **stencils)
     add_frame("effects", flat, effects=world.effects, samples=4)
     add_frame("matrices", matrices, tonemap="aces", **stencils)

@@ -5,7 +5,16 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.gl.world import OUTPUTS, Sphere, World, capture_hits, inner, inner_smooth, room
+from tests.gl.world import (
+    OUTPUTS,
+    Sphere,
+    World,
+    capture_hits,
+    inner,
+    inner_smooth,
+    label_of,
+    room,
+)
 from tests.helpers import faces
 from tests.reference.cube_faces import texel_directions
 from tests.reference.raycast import interior
@@ -31,6 +40,13 @@ def test_every_face_sees_something_and_its_own(seen, face):
     assert_close(
         cube.id[face], hits.id[face], "exact", mask=interior(hits.id)[face], name=f"id {face}"
     )
+
+
+def test_label(seen):
+    cube, hits, _ = seen
+    assert (cube.label.shape, cube.label.dtype) == ((6, SIZE, SIZE), np.int32)
+    assert_close(cube.label, label_of(hits.id), "exact", mask=interior(hits.id))
+    np.testing.assert_array_equal(cube.label, label_of(cube.id))
 
 
 def test_color(seen):

@@ -54,7 +54,9 @@ def sky(rng):
 def test_a_crowd_has_the_pixels_of_its_nodes(any_path, rng, kind):
     scene, nodes = scene_of(rng, 60, KINDS[kind])
     scene.environment = sky(rng)
-    outputs = ("distance", "z", "normal", "position", "id")
+    outputs = ("distance", "z", "normal", "position", "id", "label")
+    for node in nodes:
+        node.label = int(rng.integers(-(2**31), 2**31))
     crowd = any_path.render(scene, CAMERA, SIZE, outputs=outputs, format="rgba32f")
     calls = any_path.stats.draw_calls
     one_by_one(scene, nodes)

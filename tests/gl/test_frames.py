@@ -5,7 +5,16 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close
-from tests.gl.world import OUTPUTS, View, inner, inner_smooth, orthographic, perspective, room
+from tests.gl.world import (
+    OUTPUTS,
+    View,
+    inner,
+    inner_smooth,
+    label_of,
+    orthographic,
+    perspective,
+    room,
+)
 from tests.reference import transforms as ref
 from tests.reference.raycast import interior
 
@@ -56,6 +65,7 @@ def test_id_and_color(seen):
     frame, hits, world, _ = seen
     mask = interior(hits.id)
     assert_close(frame.id, hits.id, "exact", mask=mask)
+    assert_close(frame.label, label_of(hits.id), "exact", mask=mask)
     assert_close(frame.color, world.paint(hits), "float32_maths", mask=mask)
 
 

@@ -11,7 +11,7 @@ from tests.reference.cube_faces import FORWARD
 from tests.reference.pattern import face_pattern
 from tests.reference.raycast import Box, Quad, Sphere, Triangles, interior
 
-OUTPUTS = ("distance", "z", "normal", "position", "id")
+OUTPUTS = ("distance", "z", "normal", "position", "id", "label")
 
 
 @dataclass
@@ -29,6 +29,7 @@ class World:
         node = self.scene.add(
             mesh, material or cc.BasicMaterial(color=color), matrix=matrix, parent=parent
         )
+        node.label = label_of(node.id)
         shape.id, shape.matrix, shape.double_sided = node.id, matrix, double_sided
         if parent is not None:
             shape.matrix = np.asarray(parent.world_matrix) @ matrix
@@ -62,6 +63,11 @@ class World:
         for id_, value in self.colors.items():
             color[hits.id == id_] = value
         return color
+
+
+def label_of(id_):
+    """A label for each id: negative and great ones, some of them shared; 0 for the background."""
+    return np.where(id_ == 0, 0, np.where(id_ % 3 == 0, 2**31 - 1, -5 * id_)).astype(np.int32)[()]
 
 
 def matrix_of(position=(0, 0, 0), axis=(0, 1, 0), degrees=0.0, scale=1.0):

@@ -17,6 +17,10 @@ CLOSED = {
     "cylinder": (lambda: cc.Mesh.cylinder(0.5, 2), np.pi / 2),
     "cone": (lambda: cc.Mesh.cone(0.5, 3), np.pi / 4),
     "torus": (lambda: cc.Mesh.torus(1, 0.25), 2 * np.pi**2 / 16),
+    "arrow": (
+        lambda: cc.Mesh.arrow(3, radius=0.2, head_length=1, head_radius=0.5),
+        np.pi * (0.04 * 2 + 0.25 / 3),
+    ),
 }
 closed = pytest.mark.parametrize(("make", "volume"), CLOSED.values(), ids=CLOSED)
 every = pytest.mark.parametrize(
@@ -81,6 +85,8 @@ def test_uvs_fill_the_unit_square_and_jump_nowhere(make):
 
 @every
 def test_bounds_are_centered(make):
+    if make is CLOSED["arrow"][0]:
+        return  # it starts at the origin: test_an_arrow_goes_from_the_origin_along_z
     positions = make().positions
     np.testing.assert_allclose(positions.min(0) + positions.max(0), 0, atol=2e-2)
 
@@ -103,6 +109,27 @@ def test_sizes():
 def test_cone_points_up():
     positions = cc.Mesh.cone(0.5, 3).positions
     assert np.abs(positions[positions[:, 1] > 1.49][:, [0, 2]]).max() < 1e-5
+
+
+def test_an_arrow_goes_from_the_origin_along_z():
+    p = cc.Mesh.arrow(3, radius=0.2, head_length=1, head_radius=0.5).positions
+    radius, height = np.hypot(p[:, 0], p[:, 1]), p[:, 2]
+    circles = {
+        (round(float(r), 5), round(float(z), 5)) for r, z in zip(radius, height, strict=True)
+    }
+    assert circles == {(0, 0), (0.2, 0), (0.2, 2), (0.5, 2), (0, 3)}
+    mesh = cc.Mesh.arrow(3)
+    np.testing.assert_allclose(mesh.bounds, [[-0.3, -0.3, 0], [0.3, 0.3, 3]], atol=1e-6)
+    assert len(cc.Mesh.arrow(segments=16).indices) == 6 * 16
+
+
+def test_the_uvs_of_an_arrow_run_round_and_along_it():
+    mesh = cc.Mesh.arrow(2, segments=8)
+    side = np.abs(mesh.normals[:, 2]) < 0.9  # the shaft and the head; the rest is flat
+    np.testing.assert_allclose(mesh.uvs[side, 1], mesh.positions[side, 2] / 2, atol=1e-6)
+    flat = cc.Mesh.cylinder(0.1, 2, segments=8)
+    shaft = side & (np.abs(mesh.normals[:, 2]) < 1e-6)
+    np.testing.assert_allclose(np.unique(mesh.uvs[shaft, 0]), np.unique(flat.uvs[:18, 0]))
 
 
 def test_plane_faces_up_with_uv_0_0_where_a_picture_reads_upright():
@@ -188,6 +215,11 @@ def test_copies(make_copy):
         (lambda: cc.Mesh.box(-1), "size"),
         (lambda: cc.Mesh.plane(np.inf, 1), "width"),
         (lambda: cc.Mesh.torus(1, 0), "tube"),
+        (lambda: cc.Mesh.arrow(0), "length"),
+        (lambda: cc.Mesh.arrow(1, radius=-1), "radius"),
+        (lambda: cc.Mesh.arrow(1, head_length=1), "a head shorter than the arrow, got head_length"),
+        (lambda: cc.Mesh.arrow(1, radius=0.2, head_radius=0.2), "a head wider than the shaft"),
+        (lambda: cc.Mesh.arrow(1, segments=2), "segments"),
         (lambda: cc.Mesh.icosphere(1, subdivisions=-1), "subdivisions"),
         (lambda: cc.Mesh.icosphere(1, subdivisions=30), "subdivisions"),
     ],

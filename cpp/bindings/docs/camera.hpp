@@ -51,6 +51,9 @@ shift : array_like (2,)
     How far the middle of the picture lies right of and above the camera's axis, in heights of the
     picture: an off-axis frustum. With (0, .5) the horizon is at the lower edge, and vertical lines stay
     vertical, as with a shift lens for architecture.
+pixel_aspect : float
+    The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
+    of calibrated cameras; see `from_intrinsics`.
 
 Raises
 ------

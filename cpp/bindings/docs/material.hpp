@@ -33,6 +33,8 @@ depth_test=True         False: the surface is drawn over nearer ones, too
 color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
 stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
                         ``depth_format`` has one; None: it does neither
+flat_shading=False      True shows each triangle with the normal of its plane, in place of the mesh's
+                        normals; see `Mesh.flat_shaded`
 ======================  =========================================================================
 
 A surface that is blended, or writes no depth, is drawn after the background, far to near; it writes

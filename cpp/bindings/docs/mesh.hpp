@@ -315,6 +315,104 @@ Examples
 [1.25, 0.25, 1.25]
 )doc";
 
+inline constexpr const char* arrow =
+    R"doc(A closed arrow along +Z, from the origin to (0, 0, length): a cylinder with a cone as its head.
+
+`Node.look_at` turns +Z, and so the arrow, towards a point. u runs round the shaft and the head as on
+`cylinder`, and v along the arrow, from 0 to 1; the two flat faces show the round middle of a picture.
+
+Parameters
+----------
+length : float
+    Length from the tail to the tip, above 0.
+radius : float, optional
+    Radius of the shaft. None: length / 20.
+head_length : float, optional
+    Length of the head, below `length`. None: length / 4.
+head_radius : float, optional
+    Radius of the head, above `radius`. None: length / 10.
+segments : int
+    Segments round the axis, at least 3.
+
+Returns
+-------
+Mesh
+    6 * segments triangles.
+
+Raises
+------
+ValueError
+    For a length that is not above 0, a head that is longer than the arrow or thinner than the shaft,
+    or too few or too many segments.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.arrow(2).bounds.round(6).tolist()
+[[-0.2, -0.2, 0.0], [0.2, 0.2, 2.0]]
+>>> scene = cc.Scene()
+>>> wind = scene.add(cc.Mesh.arrow(), position=(0, 1, 0))
+>>> wind.look_at((5, 1, 0))
+>>> wind.world_bounds[1].round(6).tolist()
+[1.0, 1.1, 0.1]
+)doc";
+
+inline constexpr const char* flat_shaded =
+    R"doc(Copy the mesh with flat faces: its triangles share no vertex.
+
+Vertices 3 i, 3 i + 1 and 3 i + 2 are the corners of triangle i, with the normal of its plane on the side
+from which they are counter-clockwise. A triangle without area, which no picture shows, has the normal
+(0, 1, 0). Texture coordinates and colours stay. The normals follow new positions (`update`).
+
+Materials do the same with ``flat_shading=True`` when they are drawn; calls and pictures share the arrays
+until this mesh changes.
+
+Returns
+-------
+Mesh
+    3 * F vertices, F triangles.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> ball = cc.Mesh.icosphere(1, subdivisions=0)
+>>> ball, ball.flat_shaded()
+(Mesh(15 vertices, 20 triangles), Mesh(60 vertices, 20 triangles))
+)doc";
+
+inline constexpr const char* from_trimesh = R"doc(Make a mesh from a mesh or a scene of trimesh.
+
+Parameters
+----------
+mesh : trimesh.Trimesh or trimesh.Scene
+    The objects of a scene become one mesh, each placed by its transform; those without triangles are
+    left out.
+
+Returns
+-------
+Mesh
+    The vertices and faces in their order, normals as ``mesh.vertex_normals`` gives them (smooth ones
+    where these have length 0), and texture coordinates and vertex colours if there are any. Colours of
+    faces, and textures, are not read.
+
+Raises
+------
+TypeError
+    For another kind of object.
+ValueError
+    For no triangles, positions that are not finite, or all vertices in one place.
+IndexError
+    For an index outside the vertices.
+
+Examples
+--------
+>>> import cubecam as cc, trimesh
+>>> capsule = trimesh.creation.capsule(height=2, radius=0.5)
+>>> mesh = cc.Mesh.from_trimesh(capsule)
+>>> len(mesh.positions) == len(capsule.vertices), mesh.bounds.round(6).tolist()
+(True, [[-0.5, -0.5, -1.5], [0.5, 0.5, 1.5]])
+)doc";
+
 inline constexpr const char* resized =
     R"doc(Copy the mesh, centred at the origin and scaled evenly.
 

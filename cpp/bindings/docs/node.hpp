@@ -22,6 +22,54 @@ Examples
 [0.0, 3.0, 0.0]
 )doc";
 
+inline constexpr const char* world_bounds =
+    R"doc(ndarray (2, 3) float64: the lowest and the highest corner of the node and all nodes below it, read-only.
+
+The numbers are world units and exact for the vertices, as `Scene.bounds`. Hidden nodes below the node do
+not count; whether the node itself is visible does not matter. Without a mesh the bounds are those of
+nothing, ``[[inf, inf, inf], [-inf, -inf, -inf]]``.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> cart = scene.add(position=(0, 5, 0))
+>>> box = scene.add(cc.Mesh.box(2), parent=cart, rotation=cc.axis_angle((0, 1, 0), 45))
+>>> cart.world_bounds.round(3).tolist()
+[[-1.414, 4.0, -1.414], [1.414, 6.0, 1.414]]
+)doc";
+
+inline constexpr const char* look_at =
+    R"doc(Turn the node round its own position, so that its +Z axis points at a point of the world.
+
+As in three.js and glTF, an object's front is +Z (and the front of a camera is -Z). The parents may have
+any transforms. Position and scale stay.
+
+Parameters
+----------
+target : array_like (3,)
+    World space.
+up : array_like (3,)
+    World space: +Y of the node lies in the plane of `up` and the direction, on the side of `up`. An
+    `up` along the direction is replaced: by +Y or, if the direction is vertical, by -Z for a target
+    above the node and +Z for one below it.
+
+Raises
+------
+ValueError
+    For a target at the node's position, an `up` of length 0, numbers that are not finite, or a `matrix`
+    with a shear.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> head = scene.add(cc.Mesh.box(), position=(0, 1, 0))
+>>> head.look_at((4, 1, 0))
+>>> head.world_matrix[:3, 2].round(12).tolist()
+[1.0, 0.0, 0.0]
+)doc";
+
 inline constexpr const char* axis_angle =
     R"doc(Make the quaternion of a rotation round an axis.
 

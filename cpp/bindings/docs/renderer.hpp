@@ -59,9 +59,9 @@ camera : Camera or StereoCamera
 size : (int, int)
     (width, height), pixels.
 outputs : sequence of str
-    What the frame holds besides colour: any of "distance", "z", "normal", "position" and "id"; any output that the GLSL
-    of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these buffers after
-    the last node is drawn.
+    What the frame holds besides colour: any of "distance", "z", "normal", "position", "id" and "label"; any output that
+    the GLSL of a :class:`ShaderMaterial` of a visible node declares; "depth" and "stencil", the contents of these
+    buffers after the last node is drawn.
 format : str or None
     "rgba8" (uint8, clamped to 0..1), "rgba16f" (float16), "rgba32f" (float32) or "rgb565" (5, 6 and 5 bits, scaled to
     uint8 from 0 to 255; alpha 255). None: there is no colour buffer, and only the outputs are drawn.
@@ -123,8 +123,8 @@ near, far : float
 exclude : sequence of Node
     Nodes that are left out, with all nodes below them.
 outputs : sequence of str
-    What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "depth" and "stencil",
-    and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
+    What the cubemap holds besides ``faces``: any of "distance", "z", "normal", "position", "id", "label", "depth" and
+    "stencil", and any output that the GLSL of a :class:`ShaderMaterial` of a visible node declares.
 format : str
     "rgba32f" (float32), "rgba16f" (float16), "rgba8" (uint8, clamped) or "rgb565" (uint8).
 samples : int

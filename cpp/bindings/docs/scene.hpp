@@ -86,6 +86,8 @@ cast_shadow : bool
     cast shadows.
 receive_shadow : bool
     Whether shadows show on the node's own surface.
+label : int
+    A number of your own that the output "label" shows, such as a class; 32 bits. Nodes may share a label.
 
 Returns
 -------

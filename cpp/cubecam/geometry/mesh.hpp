@@ -3,6 +3,7 @@
 #include "cubecam/core/revision.hpp"
 #include "cubecam/geometry/mesh_data.hpp"
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 
@@ -21,6 +22,10 @@ public:
     /// The revision of the data; reading it never waits for another thread.
     const Revision& revision() const { return revision_; }
 
+    /// The mesh with flat faces, as MeshData::flat_shaded makes it. `data` are the data of this
+    /// mesh at some moment. The result is kept until the mesh changes, so that all users share it.
+    std::shared_ptr<const MeshData> flat_shaded(const std::shared_ptr<const MeshData>& data) const;
+
     /// Replaces the vertex values that the update contains and keeps the others. An empty update
     /// changes nothing.
     /// @throws the exceptions of MeshData::updated; the mesh then stays as it was.
@@ -31,6 +36,10 @@ private:
     mutable std::mutex mutex_;  ///< of data_, held for a moment only
     std::shared_ptr<const MeshData> data_;
     Revision revision_;
+
+    mutable std::mutex flat_mutex_;                 ///< of the next two
+    mutable std::shared_ptr<const MeshData> flat_;  ///< null until it is needed
+    mutable std::uint64_t flat_of_ = 0;             ///< the revision of the data of `flat_`
 };
 
 }  // namespace cubecam

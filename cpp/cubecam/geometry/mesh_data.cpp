@@ -123,6 +123,17 @@ Bounds bounds_of(const std::vector<glm::vec3>& positions) {
     return {glm::dvec3(lowest), glm::dvec3(highest)};
 }
 
+/// The values of the triangles' corners, one after the other.
+template <class T>
+std::vector<T> unshared(const std::vector<T>& values, const std::vector<glm::uvec3>& triangles) {
+    std::vector<T> corners;
+    corners.reserve(3 * triangles.size());
+    for (const glm::uvec3& triangle : triangles) {
+        for (int i = 0; i < 3; ++i) corners.push_back(values[triangle[i]]);
+    }
+    return corners;
+}
+
 template <class T>
 VertexStream<T> stream_of(std::vector<T>&& values, std::uint64_t revision) {
     if (values.empty()) return {nullptr, revision};
@@ -192,6 +203,45 @@ MeshData MeshData::updated(MeshUpdate update) const {
     if (update.uvs) next.set_uvs(std::move(*update.uvs));
     if (update.colors) next.set_colors(std::move(*update.colors));
     return next;
+}
+
+MeshData MeshData::flat_shaded(const MeshData* before) const {
+    MeshData flat = *this;
+    flat.revision_ = next_revision();
+    if (before != nullptr) {
+        flat.identity_ = before->identity_;
+        flat.triangles_ = before->triangles_;
+    } else {
+        flat.identity_ = std::make_shared<const MeshIdentity>();
+        std::vector<glm::uvec3> triangles(triangles_->size());
+        for (std::size_t i = 0; i < triangles.size(); ++i) {
+            const auto first = static_cast<std::uint32_t>(3 * i);
+            triangles[i] = {first, first + 1, first + 2};
+        }
+        flat.triangles_ = std::make_shared<const std::vector<glm::uvec3>>(std::move(triangles));
+    }
+    // Each stream has the revision of the stream from which it was made.
+    if (before != nullptr && before->positions_.revision == positions_.revision) {
+        flat.positions_ = before->positions_;
+        flat.normals_ = before->normals_;
+        flat.bounds_ = before->bounds_;
+        flat.smooth_ = true;
+    } else {
+        flat.set_positions(unshared(*positions(), *triangles()));
+        flat.set_normals({});
+        flat.positions_.revision = flat.normals_.revision = positions_.revision;
+    }
+    if (before != nullptr && before->uvs_.revision == uvs_.revision) {
+        flat.uvs_ = before->uvs_;
+    } else if (uvs()) {
+        flat.uvs_ = stream_of(unshared(*uvs(), *triangles()), uvs_.revision);
+    }
+    if (before != nullptr && before->colors_.revision == colors_.revision) {
+        flat.colors_ = before->colors_;
+    } else if (colors()) {
+        flat.colors_ = stream_of(unshared(*colors(), *triangles()), colors_.revision);
+    }
+    return flat;
 }
 
 MeshData MeshData::of_new_mesh() && {

@@ -10,13 +10,15 @@
 
 namespace cubecam {
 
-/// Axis-aligned bounds; `empty()` until a point was added.
+/// Axis-aligned bounds: the lowest and the highest corner.
 struct Bounds {
     glm::dvec3 low{0.0};
     glm::dvec3 high{0.0};
 
     glm::dvec3 center() const { return 0.5 * (low + high); }
     glm::dvec3 extent() const { return high - low; }
+
+    bool operator==(const Bounds&) const = default;
 };
 
 /// The box round a transformed box: |M| * half extents round M * center
@@ -97,6 +99,12 @@ public:
     /// smooth normals are computed again.
     /// @throws std::invalid_argument for another number of vertices, or a value that is not finite.
     MeshData updated(MeshUpdate update) const;
+
+    /// The same triangles without shared vertices, so that their smooth normals are those of their
+    /// planes. The vertices of triangle i are 3 i, 3 i + 1 and 3 i + 2.
+    /// @param before the result for an earlier moment of this mesh: the new one is the same mesh
+    /// after an update, so that the GPU gets only the arrays that changed. Null: none.
+    MeshData flat_shaded(const MeshData* before = nullptr) const;
 
     /// The same data as a new mesh, with an identity of its own.
     MeshData of_new_mesh() &&;

@@ -63,6 +63,14 @@ public:
 
     MeshData mesh() { return MeshData(std::move(arrays_)); }
 
+    /// The mesh after a quarter turn round X that takes +Y to +Z.
+    MeshData turned_to_z() {
+        for (auto* vectors : {&arrays_.positions, &arrays_.normals}) {
+            for (glm::vec3& v : *vectors) v = {v.x, 0.0F - v.z, v.y};
+        }
+        return mesh();
+    }
+
 private:
     MeshData::Arrays arrays_;
 };
@@ -73,6 +81,51 @@ glm::dvec3 around(int step, int steps) {
     // Step 0 is -Z; with growing u the direction turns to -X, then +Z, then +X.
     const glm::dvec2 t = turn(step, steps);
     return {0.0 - t.x, 0.0, 0.0 - t.y};
+}
+
+/// A band round the Y axis between two circles. Its normals have `rise` as their y for 1 outwards.
+void add_band(Builder& builder, glm::dvec2 low, glm::dvec2 high, double rise, glm::dvec2 v,
+              int segments) {
+    std::uint32_t a = 0;
+    std::uint32_t d = 0;
+    for (int i = 0; i <= segments; ++i) {
+        const glm::dvec3 outward = around(i, segments);
+        const glm::dvec3 normal = outward + glm::dvec3(0.0, rise, 0.0);
+        const double u = double(i) / segments;
+        const auto on = [&](const glm::dvec2& circle, double along) {
+            return builder.vertex({circle.x * outward.x, circle.y, circle.x * outward.z}, normal,
+                                  {u, along});
+        };
+        const auto b = on(low, v.x);
+        const auto c = on(high, v.y);
+        if (i > 0) builder.quad(a, b, c, d);
+        a = b;
+        d = c;
+    }
+}
+
+/// A cone's side from a circle (radius, height) to its apex on the Y axis.
+void add_cone_side(Builder& builder, glm::dvec2 circle, double apex_height, glm::dvec2 v,
+                   int segments) {
+    const double rise = apex_height - circle.y;
+    const auto slope = [&](const glm::dvec3& outward) {
+        return rise * outward + glm::dvec3(0.0, circle.x, 0.0);
+    };
+    std::uint32_t a = 0;
+    for (int i = 0; i <= segments; ++i) {
+        const glm::dvec3 outward = around(i, segments);
+        const auto b = builder.vertex({circle.x * outward.x, circle.y, circle.x * outward.z},
+                                      slope(outward), {double(i) / segments, v.x});
+        if (i > 0) {
+            // Each triangle has an apex vertex of its own, with the normal of the triangle's
+            // middle.
+            const glm::dvec3 middle = around(2 * i - 1, 2 * segments);
+            const auto apex =
+                builder.vertex({0.0, apex_height, 0.0}, slope(middle), {(i - 0.5) / segments, v.y});
+            builder.triangle(a, b, apex);
+        }
+        a = b;
+    }
 }
 
 /// A disc across the Y axis at `height`, looking along `side` (+1 or -1) Y.
@@ -88,6 +141,26 @@ void add_disc(Builder& builder, double radius, double height, double side, int s
         if (i > 0 && side > 0.0) builder.triangle(center, last, rim);
         if (i > 0 && side < 0.0) builder.triangle(center, rim, last);
         last = rim;
+    }
+}
+
+/// A disc with a hole, which looks along -Y.
+void add_ring(Builder& builder, double inner, double outer, double height, int segments) {
+    std::uint32_t a = 0;
+    std::uint32_t d = 0;
+    for (int i = 0; i <= segments; ++i) {
+        const glm::dvec3 outward = around(i % segments, segments);
+        const auto on = [&](double radius) {
+            const double share = 0.5 * radius / outer;
+            return builder.vertex({radius * outward.x, height, radius * outward.z},
+                                  {0.0, -1.0, 0.0},
+                                  {0.5 + share * outward.x, 0.5 + share * outward.z});
+        };
+        const auto b = on(inner);
+        const auto c = on(outer);
+        if (i > 0) builder.quad(d, a, b, c);
+        a = b;
+        d = c;
     }
 }
 
@@ -186,18 +259,7 @@ MeshData cylinder(double radius, double height, int segments) {
     expect_vertices(std::int64_t{segments} + 1, 4);
     const double half = 0.5 * height;
     Builder builder;
-    std::uint32_t a = 0;
-    std::uint32_t d = 0;
-    for (int i = 0; i <= segments; ++i) {
-        const glm::dvec3 outward = around(i, segments);
-        const glm::dvec3 foot = radius * outward;
-        const double u = double(i) / segments;
-        const auto b = builder.vertex({foot.x, -half, foot.z}, outward, {u, 0.0});
-        const auto c = builder.vertex({foot.x, half, foot.z}, outward, {u, 1.0});
-        if (i > 0) builder.quad(a, b, c, d);
-        a = b;
-        d = c;
-    }
+    add_band(builder, {radius, -half}, {radius, half}, 0.0, {0.0, 1.0}, segments);
     add_disc(builder, radius, half, 1.0, segments);
     add_disc(builder, radius, -half, -1.0, segments);
     return builder.mesh();
@@ -209,25 +271,8 @@ MeshData cone(double radius, double height, int segments) {
     expect_count(segments, 3, "segments");
     expect_vertices(std::int64_t{segments} + 1, 3);
     const double half = 0.5 * height;
-    const auto slope = [&](glm::dvec3 outward) {
-        return height * outward + glm::dvec3(0.0, radius, 0.0);
-    };
     Builder builder;
-    std::uint32_t a = 0;
-    for (int i = 0; i <= segments; ++i) {
-        const glm::dvec3 outward = around(i, segments);
-        const auto b = builder.vertex({radius * outward.x, -half, radius * outward.z},
-                                      slope(outward), {double(i) / segments, 0.0});
-        if (i > 0) {
-            // Each triangle has an apex vertex of its own, with the normal of the triangle's
-            // middle.
-            const glm::dvec3 middle = around(2 * i - 1, 2 * segments);
-            const auto apex =
-                builder.vertex({0.0, half, 0.0}, slope(middle), {(i - 0.5) / segments, 1.0});
-            builder.triangle(a, b, apex);
-        }
-        a = b;
-    }
+    add_cone_side(builder, {radius, -half}, half, {0.0, 1.0}, segments);
     add_disc(builder, radius, -half, -1.0, segments);
     return builder.mesh();
 }
@@ -260,6 +305,27 @@ MeshData torus(double radius, double tube, int segments, int sides) {
         }
     }
     return builder.mesh();
+}
+
+MeshData arrow(double length, double radius, double head_length, double head_radius, int segments) {
+    expect_positive(length, "length");
+    expect_positive(radius, "radius");
+    expect_positive(head_length, "head_length");
+    expect_positive(head_radius, "head_radius");
+    expect(head_length < length, "a head shorter than the arrow",
+           "head_length " + describe(head_length) + ", length " + describe(length));
+    expect(head_radius > radius, "a head wider than the shaft",
+           "head_radius " + describe(head_radius) + ", radius " + describe(radius));
+    expect_count(segments, 3, "segments");
+    expect_vertices(std::int64_t{segments} + 1, 7);
+    const double neck = length - head_length;
+    // Along +Y first, as the other shapes; z is the height above the origin in the end.
+    Builder builder;
+    add_disc(builder, radius, 0.0, -1.0, segments);
+    add_band(builder, {radius, 0.0}, {radius, neck}, 0.0, {0.0, neck / length}, segments);
+    add_ring(builder, radius, head_radius, neck, segments);
+    add_cone_side(builder, {head_radius, neck}, length, {neck / length, 1.0}, segments);
+    return builder.turned_to_z();
 }
 
 }  // namespace cubecam::primitives

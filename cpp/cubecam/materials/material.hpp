@@ -23,6 +23,7 @@ struct SurfaceOptions {
     bool depth_test = true;           ///< nearer surfaces hide it
     glm::bvec4 color_write{true};     ///< channels of the colour that are written
     std::optional<Stencil> stencil;   ///< none: neither tested nor written
+    bool flat_shading = false;        ///< shows each triangle with the normal of its plane
 
     bool operator==(const SurfaceOptions&) const = default;
 };

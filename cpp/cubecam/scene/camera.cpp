@@ -10,10 +10,6 @@ namespace cubecam {
 
 namespace {
 
-glm::dvec3 forward_of(const Placement& placement) {
-    return placement.target ? *placement.target - placement.position : glm::dvec3(0.0, 0.0, -1.0);
-}
-
 void check_placement(const Placement& placement) {
     expect_finite(placement.position, "position");
     expect_finite(placement.up, "up");
@@ -48,6 +44,7 @@ void check_lens(const PerspectiveLens& lens) {
     expect_positive(lens.near, "near");
     check_range(lens.near, lens.far);
     expect_finite(glm::dvec3(lens.shift, 0.0), "shift");
+    expect_positive(lens.pixel_aspect, "pixel_aspect");
 }
 
 void check_lens(const OrthographicLens& lens) {
@@ -73,7 +70,8 @@ void check_value(const Matrices& given) {
            "a singular one");
 }
 
-glm::dmat4 projection_of(const PerspectiveLens& lens, double aspect) {
+glm::dmat4 projection_of(const PerspectiveLens& lens, double pixels_aspect) {
+    const double aspect = pixels_aspect * lens.pixel_aspect;
     glm::dmat4 projection = perspective(lens.fov, aspect, lens.near, lens.far);
     // The frustum is sheared: points on the axis move relative to the window.
     projection[2][0] = 2.0 * lens.shift.x / aspect;
@@ -94,6 +92,10 @@ Matrices matrices_of(const Placed<Lens>& placed, double aspect) {
 }
 
 }  // namespace
+
+glm::dvec3 forward_of(const Placement& placement) {
+    return placement.target ? *placement.target - placement.position : glm::dvec3(0.0, 0.0, -1.0);
+}
 
 void check(const CameraValue& value) {
     std::visit([](const auto& kind) { check_value(kind); }, value);

@@ -25,6 +25,7 @@ struct PerspectiveLens {
     /// How far the window lies to the right of and above the camera's axis, in heights of the
     /// picture.
     glm::dvec2 shift{0.0};
+    double pixel_aspect = 1.0;  ///< the width of a pixel over its height
 
     bool operator==(const PerspectiveLens&) const = default;
 };
@@ -57,12 +58,15 @@ using CameraValue = std::variant<Matrices, Placed<PerspectiveLens>, Placed<Ortho
 
 /// Throws std::invalid_argument for matrices that are singular or not finite, a target at the
 /// position, an up direction along the line of sight, fov outside (0, 180), near >= far, and near
-/// <= 0 for a perspective.
+/// <= 0 or a pixel aspect <= 0 for a perspective.
 void check(const CameraValue& value);
 
 /// Returns the matrices for a picture of `aspect` = width / height. Clip space is GL's: -1..1 in x,
 /// y and z.
 Matrices matrices(const CameraValue& value, double aspect);
+
+/// The direction in which a camera looks, of any length.
+glm::dvec3 forward_of(const Placement& placement);
 
 class Camera {
 public:
@@ -98,6 +102,15 @@ public:
     template <class Change>
     void edit_placed(Change&& change) {
         edit([&](CameraValue& value) { change(std::get<Placed<Lens>>(value)); });
+    }
+
+    /// Turns the camera towards a point of the world. No `up`: the camera keeps its own.
+    /// @throws std::invalid_argument for a target at the position or an up along the line of sight.
+    void look_at(const glm::dvec3& target, const std::optional<glm::dvec3>& up = std::nullopt) {
+        edit_placed([&](Placed<Lens>& placed) {
+            placed.placement.target = target;
+            if (up) placed.placement.up = *up;
+        });
     }
 };
 

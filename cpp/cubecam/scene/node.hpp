@@ -2,6 +2,7 @@
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/geometry/mesh.hpp"
+#include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/materials/material.hpp"
 #include "cubecam/materials/texture_source.hpp"
 
@@ -48,11 +49,12 @@ struct NodeValue {
     std::int32_t render_order = 0;  ///< lower numbers are drawn first, whatever the distance
     bool cast_shadow = true;        ///< false: nodes below it cast none either
     bool receive_shadow = true;     ///< whether its own surface shows shadows
+    std::int32_t label = 0;         ///< a user's number, which the output "label" shows
 
     /// All members except `placing`.
     auto contents() const {
         return std::tie(mesh, material, environment, visible, in_captures, name, render_order,
-                        cast_shadow, receive_shadow);
+                        cast_shadow, receive_shadow, label);
     }
 };
 
@@ -104,6 +106,12 @@ struct NodeGraph {
     std::uint64_t newest_seen = 0;  ///< newest_revision() when `snapshot` was last found valid
 };
 
+/// A mesh at a place in the world.
+struct PlacedMesh {
+    std::shared_ptr<Mesh> mesh;
+    glm::dmat4 world;
+};
+
 /// An object in a scene: a placed mesh with a material, or a group that other nodes belong to.
 ///
 /// Scene::add makes nodes. Every member function may be called from any thread.
@@ -123,6 +131,17 @@ public:
     std::vector<std::shared_ptr<Node>> children() const;  ///< in the order of their ids
     glm::dmat4 world_matrix() const;
     std::shared_ptr<Scene> scene() const;  ///< null: in no scene
+    /// The exact bounds, in the world, of the vertices of the node and of all visible nodes below
+    /// it, as if the node itself and those above it were visible; see no_bounds().
+    Bounds world_bounds() const;
+
+    /// Turns the node round its origin until its +Z axis points at `target`, a point of the world,
+    /// and its +Y axis lies on the side of `up`, in the plane of `up` and the direction. An `up`
+    /// along the direction is replaced by +Y of the world; if the direction lies along Y, by -Z for
+    /// a target above the node and +Z for one below it. Position and scale stay.
+    /// @throws std::invalid_argument for a target at the node's origin, an up of length 0, numbers
+    /// that are not finite, or a matrix with a shear.
+    void look_at(const glm::dvec3& target, const glm::dvec3& up = {0.0, 1.0, 0.0});
 
     /// Calls `change` with a copy of the NodeValue, then checks the copy. The old value stays if
     /// anything throws.
@@ -182,6 +201,8 @@ private:
     void attach(const std::shared_ptr<Node>& parent);
     void detach();
     glm::dmat4 locked_world_matrix() const;
+    /// Finds the meshes of the node and of all visible nodes below it.
+    void find_meshes(std::vector<PlacedMesh>& to) const;
     /// This node and all below it.
     std::vector<std::shared_ptr<Node>> subtree();
 

@@ -194,6 +194,16 @@ std::vector<std::shared_ptr<Node>> Scene::nodes() const {
     return nodes;
 }
 
+std::vector<std::shared_ptr<Node>>
+Scene::find(const std::function<bool(std::int32_t, const NodeValue&)>& fits) const {
+    const std::lock_guard lock(graph_->mutex);
+    std::vector<std::shared_ptr<Node>> found;
+    for (const auto& node : nodes_) {
+        if (node && fits(node->id(), node->value_)) found.push_back(node);
+    }
+    return found;
+}
+
 std::vector<std::shared_ptr<Light>> Scene::lights() const {
     const std::lock_guard lock(graph_->mutex);
     return lights_;

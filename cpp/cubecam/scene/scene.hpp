@@ -61,6 +61,11 @@ public:
     bool contains(const Light& light) const;
     std::vector<std::shared_ptr<Node>> nodes() const;  ///< in the order of add and of ids
     std::vector<std::shared_ptr<Light>> lights() const;
+    /// The nodes that `fits` accepts, in the order of ids. `fits` gets each node's id and value.
+    std::vector<std::shared_ptr<Node>>
+    find(const std::function<bool(std::int32_t, const NodeValue&)>& fits) const;
+    /// The exact bounds, in the world, of the vertices of all visible nodes; see no_bounds().
+    Bounds bounds() const;
 
     /// The id that the next node will get.
     std::int32_t next_id() const;

@@ -85,6 +85,13 @@ public:
         return data;
     }
 
+    /// The data of a mesh with flat faces, made from the same moment of the mesh.
+    const std::shared_ptr<const MeshData>& flat_data_of(const std::shared_ptr<Mesh>& mesh) {
+        auto& data = flat_meshes_[mesh];
+        if (!data) data = mesh->flat_shaded(data_of(mesh));
+        return data;
+    }
+
     LightValue value_of(const Light& light) {
         Light::State state = light.state();
         seen_.push_back({&light.revision(), state.revision});
@@ -162,6 +169,7 @@ private:
 
     std::unordered_map<std::shared_ptr<Material>, Material::State> materials_;
     std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> meshes_;
+    std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> flat_meshes_;
     std::unordered_map<std::shared_ptr<CubeMap>, std::shared_ptr<const CubeMapData>> cubes_;
     std::unordered_map<const RenderTexture*, std::size_t> indices_;  // into `textures`
     std::unordered_map<const Scene*, std::size_t> numbers_;
@@ -245,9 +253,10 @@ private:
     void add(const Node& node, const Place& place) {
         const NodeValue& value = node.value_;
         const Material::State& material = shared_.state_of(value.material);
-        const std::shared_ptr<const MeshData>& mesh = shared_.data_of(value.mesh);
         const MaterialTraits& traits = material.value.traits();
         const SurfaceOptions& surface = material.value.surface;
+        const std::shared_ptr<const MeshData>& mesh =
+            surface.flat_shading ? shared_.flat_data_of(value.mesh) : shared_.data_of(value.mesh);
         const Blend blend = surface.blend.value_or(
             shows_through(material.value, *mesh) ? Blend::alpha : Blend::opaque);
         const bool moved = traits.moves_vertices();
@@ -283,6 +292,7 @@ private:
             snapshot.ancestors.push_back(above->id());
         }
         snapshot.render_order = value.render_order;
+        snapshot.label = value.label;
         to_.nodes.push_back(std::move(snapshot));
     }
 

@@ -65,6 +65,7 @@ struct NodeSnapshot {
     bool cast_shadow;                     ///< opaque, and set for it and all nodes above it
     bool receive_shadow;
     std::int32_t render_order = 0;
+    std::int32_t label = 0;
     /// The number of the node's crowd, from 1 in the order of the first ids; 0: no crowd. Opaque
     /// nodes of one crowd differ only in their matrices and the numbers of their materials, so they
     /// are drawn together.

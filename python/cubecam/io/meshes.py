@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import math
 import re
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -103,6 +104,24 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
         raise MeshError(f"{found}: {error}") from error
 
 
+def _from_trimesh(mesh: object) -> Mesh:
+    """Make a mesh from a mesh or a scene of trimesh: `Mesh.from_trimesh`, which has the documentation."""
+    # Whoever has an object of trimesh has imported it.
+    trimesh = sys.modules.get("trimesh")
+    if trimesh is None or not isinstance(mesh, (trimesh.Trimesh, trimesh.Scene)):
+        raise TypeError(
+            f"mesh: expected a trimesh.Trimesh or a trimesh.Scene, got {type(mesh).__name__}"
+        )
+    scene: Any = trimesh.Scene([mesh]) if isinstance(mesh, trimesh.Trimesh) else mesh
+    for geometry in scene.geometry.values():
+        if isinstance(geometry, trimesh.Trimesh) and len(geometry.faces):
+            geometry.vertex_normals  # noqa: B018 - so that the cache of trimesh has them, as _placed expects
+    parts = _parts(scene)
+    if not parts:
+        raise ValueError("mesh: expected triangles, got none")
+    return _joined(parts, None)
+
+
 def _read(path: Path, extension: str) -> list[_Part]:
     import trimesh
 
@@ -121,6 +140,22 @@ def _read(path: Path, extension: str) -> list[_Part]:
         raise MeshError(
             f"{path}: cannot be read as {extension[1:]}: {type(error).__name__}: {error}"
         ) from error
+    try:
+        parts = _parts(scene)
+    except ValueError as error:
+        raise MeshError(f"{path}: {error}") from error
+    if not parts:
+        kinds = sorted({type(geometry).__name__ for geometry in scene.geometry.values()})
+        raise MeshError(
+            f"{path}: expected triangles, got {', '.join(kinds) or 'nothing'} without any"
+        )
+    return parts
+
+
+def _parts(scene: Any) -> list[_Part]:
+    """Read each mesh of a trimesh scene that has triangles."""
+    import trimesh
+
     parts = []
     for name in scene.graph.nodes_geometry:
         matrix, key = scene.graph[name]
@@ -128,13 +163,8 @@ def _read(path: Path, extension: str) -> list[_Part]:
         if isinstance(geometry, trimesh.Trimesh) and len(geometry.faces):
             if geometry.vertices.shape[1] != 3:
                 got = geometry.vertices.shape[1]
-                raise MeshError(f"{path}: expected vertices of three numbers, got {got}")
+                raise ValueError(f"expected vertices of three numbers, got {got}")
             parts.append(_placed(geometry, np.asarray(matrix, dtype=np.float64)))
-    if not parts:
-        kinds = sorted({type(geometry).__name__ for geometry in scene.geometry.values()})
-        raise MeshError(
-            f"{path}: expected triangles, got {', '.join(kinds) or 'nothing'} without any"
-        )
     return parts
 
 

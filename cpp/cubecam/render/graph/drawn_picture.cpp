@@ -47,7 +47,8 @@ std::vector<NodeTextures> DrawnPicture::look_up_all() {
     return lookups;
 }
 
-std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& lookups) {
+std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& lookups,
+                                              const Outputs& outputs) {
     Key common;
     common.add(post_process.gain);
     common.add(post_process.tonemap);
@@ -81,6 +82,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
         const NodeSnapshot& node = scene.nodes[planned.node];
         const NodeTextures& found = lookups[planned.node];
         NodeKey key{node.id,
+                    outputs.has(output_row("label")) ? node.label : 0,
                     !shadows.empty() && receive_shadow(node),
                     {},
                     node.revision,
@@ -107,7 +109,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
 
 std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> budget) {
     const std::vector<NodeTextures> lookups = look_up_all();
-    std::vector<PictureKey> keys = keys_of(lookups);
+    std::vector<PictureKey> keys = keys_of(lookups, target.description().outputs);
     const Rect whole{0, 0, target.description().width, target.description().height};
     std::vector<std::vector<Rect>> damaged(views.size());
     std::size_t count = 0;

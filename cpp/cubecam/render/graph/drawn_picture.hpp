@@ -34,7 +34,8 @@ struct DrawnPicture {
 
 private:
     std::vector<NodeTextures> look_up_all();
-    std::vector<PictureKey> keys_of(const std::vector<NodeTextures>& lookups);
+    std::vector<PictureKey> keys_of(const std::vector<NodeTextures>& lookups,
+                                    const Outputs& outputs);
 };
 
 }  // namespace cubecam

@@ -99,10 +99,10 @@ void set_node_attributes(const GladGLContext& gl, GLuint array) {
     columns(attribute::model, 4, offsetof(NodeRecord, model));
     columns(attribute::normal_matrix, 3, offsetof(NodeRecord, normal_matrix));
     columns(attribute::material, most_flat_constants, offsetof(NodeRecord, material));
-    gl.EnableVertexArrayAttrib(array, attribute::node_id);
-    gl.VertexArrayAttribIFormat(array, attribute::node_id, 1, GL_INT,
-                                offsetof(NodeRecord, node_id));
-    gl.VertexArrayAttribBinding(array, attribute::node_id, vertex_buffer::records);
+    gl.EnableVertexArrayAttrib(array, attribute::id_and_label);
+    gl.VertexArrayAttribIFormat(array, attribute::id_and_label, 2, GL_INT,
+                                offsetof(NodeRecord, id_and_label));
+    gl.VertexArrayAttribBinding(array, attribute::id_and_label, vertex_buffer::records);
     gl.VertexArrayBindingDivisor(array, vertex_buffer::records, 1);
 }
 

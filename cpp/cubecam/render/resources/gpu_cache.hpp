@@ -30,7 +30,7 @@ inline constexpr GLuint view_forward = 10;
 inline constexpr GLuint model = 4;          ///< four columns
 inline constexpr GLuint normal_matrix = 8;  ///< three columns
 inline constexpr GLuint material = 11;      ///< two vectors
-inline constexpr GLuint node_id = 13;
+inline constexpr GLuint id_and_label = 13;
 }  // namespace attribute
 
 /// Binding points of vertex buffers in every vertex array.

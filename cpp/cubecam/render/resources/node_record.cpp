@@ -38,6 +38,7 @@ NodeBlock make_node_block(const NodeSnapshot& node, const glm::dvec3& origin) {
     block.origin = glm::vec4(origin, 0.0F);
     block.normal_matrix = glm::mat4(normal_matrix(node.world));
     block.node_id = node.id;
+    block.label = node.label;
     block.alpha = alpha_of(node.material.value);
     return block;
 }
@@ -52,7 +53,7 @@ NodeRecord make_node_record(const NodeSnapshot& node, const glm::dvec3& origin,
     for (int column = 0; column < 3; ++column) {
         record.normal_matrix[column] = glm::vec4(normals[column], 0.0F);
     }
-    record.node_id = node.id;
+    record.id_and_label = {node.id, node.label};
     const MaterialModel& material = *node.material.value.model;
     const std::size_t constants = material.traits().kind->constants;
     if (constants <= most_flat_constants) {

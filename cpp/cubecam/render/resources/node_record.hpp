@@ -26,7 +26,8 @@ struct NodeBlock {
     glm::mat4 normal_matrix;
     float alpha;  ///< the product of opacity and the colours' alpha
     std::int32_t node_id;
-    std::int32_t padding[2] = {0, 0};
+    std::int32_t label;
+    std::int32_t padding = 0;
     glm::vec4 origin;  ///< xyz: world position of the origin of positions in the shaders
 };
 static_assert(sizeof(NodeBlock) == 160);
@@ -37,8 +38,8 @@ struct NodeRecord {
     glm::vec4 model[4];                       ///< columns; [0].w: alpha, as above
     glm::vec4 normal_matrix[3];               ///< columns
     glm::vec4 material[most_flat_constants];  ///< the material's constants, if they fit
-    std::int32_t node_id;
-    std::int32_t padding[3] = {0, 0, 0};
+    glm::ivec2 id_and_label;
+    std::int32_t padding[2] = {0, 0};
 };
 static_assert(sizeof(NodeRecord) == 160);
 

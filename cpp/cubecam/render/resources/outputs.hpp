@@ -47,6 +47,8 @@ inline constexpr std::array output_table = {
               std::numeric_limits<float>::quiet_NaN(), "world position; NaN background"},
     OutputRow{"id", OutputSource::shader, 1, OutputType::int32, 0.0F,
               "``Node.id`` of the visible node; 0 background"},
+    OutputRow{"label", OutputSource::shader, 1, OutputType::int32, 0.0F,
+              "``Node.label`` of the visible node; 0 background"},
     OutputRow{
         "depth", OutputSource::depth, 1, OutputType::float32, 1.0F,
         "OpenGL's window-space z with the precision of ``depth_format``, 0 at the near plane, 1 at "
@@ -54,6 +56,13 @@ inline constexpr std::array output_table = {
     OutputRow{"stencil", OutputSource::stencil, 1, OutputType::uint8, 0.0F,
               "the stencil buffer after all drawing; 0 background"},
 };
+
+/// The index of a row of the table.
+consteval std::size_t output_row(std::string_view name) {
+    std::size_t row = 0;
+    while (output_table.at(row).name != name) ++row;
+    return row;
+}
 
 /// An output that a user's own GLSL declares: `out vec3 heat;` has three channels. These outputs
 /// are float32, and 0 where nothing wrote them.

@@ -85,8 +85,8 @@ struct Comparison {
     bool same(const NodeKey& a, const NodeKey& b) const {
         if (a.bounds != b.bounds || a.receive_shadow != b.receive_shadow) return false;
         if (a.receive_shadow && !same_shadows) return false;
-        if (a.revision != b.revision &&
-            (a.mesh != b.mesh || a.material != b.material || a.world != b.world)) {
+        if (a.revision != b.revision && (a.mesh != b.mesh || a.material != b.material ||
+                                         a.world != b.world || a.label != b.label)) {
             return false;
         }
         const auto textures_a = before.textures_of(a);

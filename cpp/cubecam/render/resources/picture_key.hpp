@@ -18,6 +18,7 @@ namespace cubecam {
 /// textures that it looks up are in the picture's list.
 struct NodeKey {
     std::int32_t id;
+    std::int32_t label;  ///< 0 in pictures without the output "label"
     bool receive_shadow;
     Rect bounds;
     std::uint64_t revision;  ///< NodeSnapshot::revision; equal revisions need no further comparison
