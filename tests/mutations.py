@@ -750,15 +750,22 @@ MUTATIONS = [
     Mutation(
         "errors: the old name is not known",
         "_arguments.py",
-        "answer = renamed(function, name)",
-        "answer = None",
+        "return renamed_argument(function, call, name) or unknown_name(",
+        "return unknown_name(",
         ("tests/unit/test_old_names.py",),
     ),
     Mutation(
         "errors: arguments that are missing go unnoticed",
-        "_arguments.py",
+        "_calls.py",
         "if p.required and p.name not in have]",
         "if False]",
+        ("tests/unit/test_signatures.py",),
+    ),
+    Mutation(
+        "errors: a TypeError from inside a function is reworded",
+        "_calls.py",
+        "if error.__traceback__ is None or error.__traceback__.tb_next is not None:",
+        "if error.__traceback__ is None:",
         ("tests/unit/test_signatures.py",),
     ),
     Mutation(

@@ -47,6 +47,8 @@ def _image_repr_png(self: Image) -> bytes:
 
 
 def _attach(target: type, name: str, method: Callable[..., Any] | property) -> None:
+    if not isinstance(method, property):
+        method.__name__ = name  # errors and pickles of bound methods give this name
     setattr(target, name, method)
 
 

@@ -33,6 +33,7 @@ PYTHON_ORDER = (
     "_array_types",  # needs numpy
     "typing",
     "_core",
+    "_calls",  # errors of wrong calls, in words
     "data",  # the packaged files and their list
     "io",
     "pictures",
@@ -49,7 +50,12 @@ PYTHON_ORDER = (
     "cli",
     "__main__",
 )
-PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}, "_pickling": {"_core"}}
+PYTHON_KNOWS = {
+    "_calls": set(),
+    "navigation": {"_core", "_calls"},
+    "_shader_inputs": {"_core"},
+    "_pickling": {"_core"},
+}
 
 
 def allowed(part, order, knows):
