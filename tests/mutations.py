@@ -762,6 +762,20 @@ MUTATIONS = [
         ("tests/unit/test_signatures.py",),
     ),
     Mutation(
+        "optics: refract without total reflection",
+        "optics.py",
+        "np.where(k[..., None] < 0, np.zeros((), bent.dtype), bent)",
+        "bent",
+        ("tests/unit/test_optics.py",),
+    ),
+    Mutation(
+        "optics: the sum of both polarisations",
+        "optics.py",
+        "share = (r_s * r_s + r_p * r_p) / 2",
+        "share = r_s * r_s + r_p * r_p",
+        ("tests/unit/test_optics.py",),
+    ),
+    Mutation(
         "errors: a TypeError from inside a function is reworded",
         "_calls.py",
         "if error.__traceback__ is None or error.__traceback__.tb_next is not None:",

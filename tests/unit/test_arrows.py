@@ -34,11 +34,13 @@ PYTHON_ORDER = (
     "typing",
     "_core",
     "_calls",  # errors of wrong calls, in words
+    "_late",
     "data",  # the packaged files and their list
     "io",
     "pictures",
     "_array_protocol",
     "navigation",
+    "optics",
     "_shader_inputs",
     "_pickling",
     "_old_names",
@@ -52,7 +54,9 @@ PYTHON_ORDER = (
 )
 PYTHON_KNOWS = {
     "_calls": set(),
+    "_late": set(),
     "navigation": {"_core", "_calls"},
+    "optics": {"_calls"},
     "_shader_inputs": {"_core"},
     "_pickling": {"_core"},
 }

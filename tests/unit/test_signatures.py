@@ -74,6 +74,10 @@ BY_POSITION = {
     "Renderer.shadow_map": ["scene", "light"],
     "Camera.projection": ["aspect"],
     "sample_data": ["name"],
+    "reflect": ["incident", "normal"],
+    "refract": ["incident", "normal", "eta"],
+    "fresnel": ["incident", "normal", "eta"],
+    "schlick": ["incident", "normal", "f0"],
     **{
         f"{camera}.{verb}": [argument]
         for camera in CAMERAS
@@ -137,11 +141,12 @@ def of_the_stub():
 
 def of_python():
     """Yield the same for functions written in Python: those that cubecam exports and those that its modules define."""
-    functions = {name: thing for name, thing in vars(cc).items() if inspect.isfunction(thing)}
+    exports = {name: getattr(cc, name) for name in cc.__all__}
+    functions = {name: thing for name, thing in exports.items() if inspect.isfunction(thing)}
     for module in MODULES:
         short = module.__name__.rpartition(".")[2]
         for name, thing in vars(module).items():
-            exported = name in vars(cc)
+            exported = name in exports
             if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not exported:
                 functions[f"{short}.{name}"] = thing
     functions["DemoScene.turn"] = demo.DemoScene.turn
