@@ -762,6 +762,20 @@ MUTATIONS = [
         ("tests/unit/test_signatures.py",),
     ),
     Mutation(
+        "command: a closed pipe is an error like any other",
+        "terminal.py",
+        "if isinstance(error, BrokenPipeError):",
+        "if False:",
+        ("tests/unit/test_cli.py",),
+    ),
+    Mutation(
+        "command: capture places the mesh at its origin",
+        "capture.py",
+        "return _Place((0, 0, 0), (0, 0, -distance), mesh,",
+        "return _Place((0, 0, 0), (0, 0, 0), mesh,",
+        ("tests/unit/test_cli.py",),
+    ),
+    Mutation(
         "optics: refract without total reflection",
         "optics.py",
         "np.where(k[..., None] < 0, np.zeros((), bent.dtype), bent)",

@@ -7,8 +7,8 @@ import sys
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from PIL import Image
-from typer.testing import CliRunner
 
 import cubecam as cc
 from cubecam import examples

@@ -17,7 +17,7 @@ def test_import_opens_nothing_and_loads_nothing_heavy():
         maps = open("/proc/self/maps").read()
         for library in ("libEGL", "libGL", "libX11", "libGLX", "swrast"):
             assert library not in maps, library
-        for module in ("numpy", "OpenImageIO", "trimesh", "matplotlib", "PIL", "typer", "rich", "IPython"):
+        for module in ("numpy", "OpenImageIO", "trimesh", "matplotlib", "PIL", "click", "rich", "IPython"):
             assert module not in sys.modules, module
         devices = [os.readlink(f"/proc/self/fd/{fd}") for fd in os.listdir("/proc/self/fd")
                    if os.path.exists(f"/proc/self/fd/{fd}")]
