@@ -51,9 +51,7 @@ def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str
         call = (
             f"{function}()"  # a class, a function, or a static method, which is called by its class
         )
-    if any(overloads) and isinstance(
-        getattr(getattr(_core, owner, None), member, None), property
-    ):
+    if any(overloads) and isinstance(getattr(getattr(_core, owner, None), member, None), property):
         return f"{function}: {_wrong_value(overloads, given)}"
     names = list(dict.fromkeys(p.name for parameters in overloads for p in parameters))
     for name in named:

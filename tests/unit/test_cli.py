@@ -243,6 +243,82 @@ def test_one_broken_file_of_many_is_told_and_the_others_are_done(tmp_path):
     assert [path.name[:4] for path in out.iterdir()] == ["good"]
 
 
+@pytest.fixture
+def lamps(tmp_path):
+    """A cubemap of floats with numbers up to 4."""
+    cube = cc.CubeMap((direction_pattern(8)[..., :3] + 1).astype(np.float32) * 2)
+    cube.save(tmp_path / "lamps.exr", layout="row")
+    return tmp_path / "lamps.exr", cube
+
+
+@pytest.mark.parametrize(
+    ("options", "look"),
+    [
+        ([], {}),
+        (["--exposure", "-1.5"], {"exposure": -1.5}),
+        (["--tonemap", "reinhard", "--exposure", "1"], {"tonemap": "reinhard", "exposure": 1}),
+        (["--tonemap", "none", "--exposure", "-3"], {"tonemap": None, "exposure": -3}),
+    ],
+)
+def test_convert_shows_light_as_save_does(lamps, options, look, tmp_path):
+    path, cube = lamps
+    result = cubecam("convert", path, "-o", tmp_path / "out.png", "-l", "row", *options)
+    assert result.exit_code == 0, result.output
+    assert result.stderr == ""
+    want = cc.to_screen(cube.to_layout("row"), **look)
+    assert_identical(cc.load_image(tmp_path / "out.png"), want)
+
+
+def test_convert_keeps_light_in_float_files(lamps, tmp_path):
+    path, cube = lamps
+    result = cubecam("convert", path, "-o", tmp_path / "out.exr", "-l", "row", "--exposure", 1)
+    assert result.exit_code == 0, result.output
+    assert result.stderr == ""
+    assert_identical(cc.load_image(tmp_path / "out.exr"), cube.to_layout("row") * 2)
+
+
+def test_convert_warns_once_when_it_clips(lamps, tmp_path):
+    path, _ = lamps
+    for output in (tmp_path / "out.png", tmp_path / "{face}.png"):
+        result = cubecam("convert", path, "-o", output, "--tonemap", "none")
+        assert result.exit_code == 0, result.output
+        assert re.fullmatch(
+            rf"warning: {re.escape(str(output))}: \d+ of \d+ numbers are above 1 and are clipped, the largest is "
+            r"[34][.\d]*; --tonemap neutral keeps highlights, --exposure -1 makes the picture darker\n",
+            result.stderr,
+        ), result.stderr
+    done = run("convert", path, "-o", tmp_path / "out.png", "--tonemap", "none")
+    assert done.returncode == 0
+    assert done.stderr.count("\n") == 1
+
+
+def test_srgb_decodes_and_gives_the_same_numbers_back(cross, tmp_path):
+    """What a screen shows has no highlights: no curve changes it unless one is given."""
+    same, curved, light = tmp_path / "same.png", tmp_path / "curved.png", tmp_path / "light.exr"
+    assert cubecam("convert", cross, "--srgb", "-o", same).exit_code == 0
+    assert_identical(cc.load_image(same), cc.load_image(cross))
+    assert cubecam("convert", cross, "--srgb", "--tonemap", "neutral", "-o", curved).exit_code == 0
+    assert not np.array_equal(cc.load_image(curved), cc.load_image(cross))
+    assert cubecam("convert", cross, "--srgb", "-o", light).exit_code == 0
+    assert_identical(cc.to_screen(cc.load_image(light), tonemap=None), cc.load_image(cross))
+
+
+def test_capture_writes_what_save_writes(tmp_path):
+    given = ["capture", cc.sample_data("bunny.obj"), "-s", 32]
+    assert cubecam(*given, "-o", tmp_path / "a.exr").exit_code == 0
+    linear = cc.load_image(tmp_path / "a.exr")
+    for options, look in (
+        ([], {}),
+        (["--exposure", "1", "--tonemap", "aces"], {"exposure": 1, "tonemap": "aces"}),
+    ):
+        result = cubecam(*given, *options, "-o", tmp_path / "a.png")
+        assert result.exit_code == 0, result.output
+        assert_identical(cc.load_image(tmp_path / "a.png"), cc.to_screen(linear, **look))
+    result = cubecam(*given, "--exposure", 3, "--tonemap", "none", "-o", tmp_path / "a.png")
+    assert "warning: " in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
 BAD = {
     "missing file": (["convert", "nowhere.png"], 1, "nowhere.png"),
     "unknown layout": (["convert", "nowhere.png", "--layout", "spiral"], 2, "spiral"),

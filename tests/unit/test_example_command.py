@@ -145,6 +145,17 @@ def test_kinds_of_file(ending, tmp_path):
             assert picture.size == (16, 16)
 
 
+def test_an_exr_looks_like_the_png(tmp_path):
+    """The programs' numbers are those of a screen; an EXR holds linear numbers."""
+    for ending in ("png", "exr"):
+        result = example("P4", "--frames", 1, "--size", 48, "-o", tmp_path / f"a.{ending}")
+        assert result.exit_code == 0, result.output
+    shown = cc.load_image(tmp_path / "a.png").astype(int)
+    assert 50 < shown.mean() < 205
+    linear = cc.load_image(tmp_path / "a.exr")[..., :3]
+    assert abs(cc.to_screen(linear, tonemap=None).astype(int) - shown).max() <= 1
+
+
 @pytest.mark.parametrize("ending", ["jpg", "exr"])
 def test_endings_that_hold_one_picture_get_one(ending, tmp_path):
     result = example("P1", "--size", 16, "-o", tmp_path / f"a.{ending}")

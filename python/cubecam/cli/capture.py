@@ -19,17 +19,18 @@ from .. import (
     Scene,
 )
 from .._core import _shaded_outputs
+from ..typing import Center, Convention, FileLayout
 from .common import (
     FILE,
     NUMBER,
-    Center,
-    Convention,
-    Layout,
+    Curve,
     Triple,
     WholeNumber,
     choice,
+    clipping_told,
     device_option,
     failures_reported,
+    look_options,
     parse_device,
     words,
 )
@@ -126,8 +127,8 @@ _SAMPLE = "forest.exr"  # what a mirror shows without --environment
 @option(
     "--layout",
     "-l",
-    **choice(Layout),
-    help=f"{words(Layout)}.",
+    **choice(FileLayout),
+    help=f"{words(FileLayout)}.",
     note="cross; faces for an output with {face}",
 )
 @option("--convention", "-c", **choice(Convention), help=f"{words(Convention)}.", note="gl")
@@ -153,7 +154,8 @@ _SAMPLE = "forest.exr"  # what a mirror shows without --environment
 )
 @option("--near", type=NUMBER, metavar="NUMBER", default=0.05, help="Nearest distance drawn.")
 @option("--far", type=NUMBER, metavar="NUMBER", default=1000.0, help="Farthest distance drawn.")
-@option("--srgb", is_flag=True, help="8 bit files that are read or written are sRGB-encoded.")
+@look_options()
+@option("--srgb", is_flag=True, help="Decode an --environment of 8 or 16 bits to linear floats.")
 @device_option
 def capture(
     mesh: str,
@@ -167,13 +169,15 @@ def capture(
     color: Triple,
     size: int,
     samples: int,
-    layout: Layout | None,
+    layout: FileLayout | None,
     convention: Convention | None,
     center: Center,
     width: int | None,
     outputs: str,
     near: float,
     far: float,
+    exposure: float,
+    tonemap: Curve | None,
     srgb: bool,
     device: str | None,
 ) -> None:
@@ -205,7 +209,16 @@ def capture(
             )
             drawn_by = str(renderer.info.renderer)
         written = [output]
-        cube.save(output, layout=wanted, convention=convention, width=width, center=center)
+        with clipping_told(output):
+            cube.save(
+                output,
+                layout=wanted,
+                convention=convention,
+                width=width,
+                center=center,
+                exposure=exposure,
+                tonemap=None if tonemap == "none" else tonemap or "neutral",
+            )
         for name in more:
             written += _save_output(cube, name, output, wanted, convention or "gl")
         for path in written:

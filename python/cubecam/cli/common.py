@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import warnings
 from collections.abc import Callable, Iterator
 from typing import Any, Literal, NoReturn, TypeAlias, TypeVar, get_args
 
@@ -11,13 +12,10 @@ import click
 from click.shell_completion import CompletionItem
 
 from .. import Error
+from ..typing import Tonemap
 from .help import option
 
-Layout: TypeAlias = Literal[
-    "cross", "vertical_cross", "row", "column", "equirect", "openexr", "faces"
-]
-Convention: TypeAlias = Literal["gl", "inside", "three"]
-Center: TypeAlias = Literal["-z", "+z", "+x", "-x"]
+Curve: TypeAlias = Literal[Tonemap, "none"]
 Triple: TypeAlias = tuple[float, float, float]
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -89,6 +87,48 @@ def device_option(function: F) -> F:
         help="auto, software, gpu, an index, part of a name, or a UUID.",
         note="CUBECAM_DEVICE, else auto",
     )(function)
+
+
+def look_options(note: str = "neutral", group: str = "Options") -> Callable[[F], F]:
+    """Declare how linear floats become 8 bits: the options of `CubeMap.save`."""
+
+    def declare(function: F) -> F:
+        exposure = option(
+            "--exposure",
+            type=NUMBER,
+            metavar="STOPS",
+            default=0.0,
+            group=group,
+            help="Make the picture brighter (above 0) or darker by powers of two.",
+        )
+        tonemap = option(
+            "--tonemap",
+            **choice(Curve),
+            group=group,
+            help=f"The curve that brings linear floats into 8 or 16 bits: {words(Curve)}, which clips.",
+            note=note,
+        )
+        return exposure(tonemap(function))
+
+    return declare
+
+
+@contextlib.contextmanager
+def clipping_told(path: str) -> Iterator[None]:
+    """Tell in one line that numbers were clipped on their way into a file, and which options help."""
+    from ..io.screen import ClippingWarning
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ClippingWarning)
+        yield
+    clipped = [item for item in caught if issubclass(item.category, ClippingWarning)]
+    if clipped:
+        what = str(clipped[0].message).partition(";")[0]
+        hint = "--tonemap neutral keeps highlights, --exposure -1 makes the picture darker"
+        complain(f"{path}: {what}; {hint}", kind="warning")
+    for item in caught:
+        if item not in clipped:
+            warnings.warn_explicit(item.message, item.category, item.filename, item.lineno)
 
 
 @contextlib.contextmanager

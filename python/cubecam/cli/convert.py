@@ -5,23 +5,27 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 
 from .. import Error
+from ..typing import Center, Convention, FileLayout, Tonemap
 from .common import (
     FILE,
-    Center,
-    Convention,
-    Layout,
+    Curve,
     WholeNumber,
     choice,
+    clipping_told,
     complain,
     describe,
+    look_options,
     words,
 )
 from .help import Command, argument, option
+
+if TYPE_CHECKING:
+    from .. import CubeMap
 
 _FROM = "Options for reading"
 _TO = "Options for writing"
@@ -50,9 +54,9 @@ T = TypeVar("T")
 @option(
     "--layout",
     "-l",
-    **choice(Layout),
+    **choice(FileLayout),
     group=_TO,
-    help=f"{words(Layout)}.",
+    help=f"{words(FileLayout)}.",
     note="cross; faces for an output with {face}",
 )
 @option(
@@ -82,12 +86,13 @@ T = TypeVar("T")
     help="Width of an equirect.",
     note="4 times the texels along a face",
 )
+@look_options("neutral; none for 8 and 16 bit files read with --srgb", _TO)
 @option("--half", is_flag=True, group=_TO, help="Store EXR with 16 bits a number.")
 @option(
     "--from-layout",
-    **choice(Layout),
+    **choice(FileLayout),
     group=_FROM,
-    help=f"{words(Layout)}.",
+    help=f"{words(FileLayout)}.",
     note="by the shape of the picture",
 )
 @option(
@@ -97,19 +102,22 @@ T = TypeVar("T")
 @option(
     "--srgb",
     is_flag=True,
-    help="8 and 16 bit files are sRGB: decode them when reading, encode them when writing.",
+    group=_FROM,
+    help="Decode files of 8 and 16 bits to linear floats, so that they are resampled as light.",
 )
 def convert(
     inputs: tuple[str, ...],
     output: str | None,
-    layout: Layout | None,
+    layout: FileLayout | None,
     convention: Convention | None,
     center: Center,
     to: str | None,
     size: int | None,
     width: int | None,
+    exposure: float,
+    tonemap: Curve | None,
     half: bool,
-    from_layout: Layout | None,
+    from_layout: FileLayout | None,
     from_convention: Convention | None,
     from_center: Center | None,
     srgb: bool,
@@ -145,14 +153,17 @@ def convert(
                 srgb=srgb,
             )
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
-            cube.save(
-                item.path,
-                layout=item.layout,
-                convention=convention,
-                width=width,
-                center=center,
-                half=half,
-            )
+            with clipping_told(item.path):
+                cube.save(
+                    item.path,
+                    layout=item.layout,
+                    convention=convention,
+                    width=width,
+                    center=center,
+                    exposure=exposure,
+                    tonemap=_curve(tonemap, cube, srgb),
+                    half=half,
+                )
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:
             failed += 1
             text = describe(error)
@@ -163,6 +174,13 @@ def convert(
         if len(names) > 1:
             click.echo(f"{failed} of {len(names)} not converted", err=True)
         raise SystemExit(1)
+
+
+def _curve(name: Curve | None, cube: CubeMap, decoded: bool) -> Tonemap | None:
+    """Give the tone curve; decoded numbers of a screen have no highlights, so that none keeps them as they are."""
+    if name is None and decoded and float(cube.faces[..., :3].max()) <= 1:
+        return None
+    return None if name == "none" else name or "neutral"
 
 
 def _with_progress(items: list[T]) -> Iterable[T]:

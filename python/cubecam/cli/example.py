@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.shell_completion import CompletionItem
 
-from .. import Renderer, examples
+from .. import Image, Renderer, examples
 from .common import FILE, NUMBER, WholeNumber, device_option, failures_reported, parse_device
 from .help import Command, argument, option
 
@@ -203,12 +203,10 @@ def _save(
     program = module.build()
     if count == 1 and ending not in _ONLY_MOVING:
         if ending == ".exr":
-            save_image(
-                path,
-                module.draw(
-                    program, renderer, first, size=(width, height), format="rgba32f", **options
-                ),
-            )
+            options["format"] = "rgba32f"
+            picture = module.draw(program, renderer, first, size=(width, height), **options)
+            # The numbers are those of a screen, as in the 8-bit files; an EXR holds the light that looks like them.
+            save_image(path, Image(picture, encoding="srgb"))
         else:
             picture = module.draw(program, renderer, first, size=(width, height), **options)
             save_image(path, picture[..., :3])
