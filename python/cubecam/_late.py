@@ -59,10 +59,16 @@ class LateMethod:
         """Remember the name that the method has in its class."""
         self._name = name
 
-    def __get__(self, instance: Any, owner: type) -> Any:
-        """Load the module, and give what a plain function gives."""
+    @property
+    def __wrapped__(self) -> Any:
+        """The function, for `inspect` and for programs that write documentation from a class's `__dict__`."""
         function = getattr(importlib.import_module(f"{_PACKAGE}.{self._module}"), self._function)
         function.__name__ = self._name  # errors and pickles of bound methods give this name
+        return function
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        """Load the module, and give what a plain function gives."""
+        function = self.__wrapped__
         for kind in owner.__mro__:
             if vars(kind).get(self._name) is self:
                 setattr(kind, self._name, function)

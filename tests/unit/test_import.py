@@ -26,6 +26,31 @@ def test_import_opens_nothing_and_loads_nothing_heavy():
     )
 
 
+def test_what_is_loaded_late_looks_as_if_it_were_there():
+    run_python(
+        """
+        import inspect, sys
+        import cubecam as cc
+        assert {"load_mesh", "to_screen", "demo", "navigation"} <= set(dir(cc))
+        try:
+            cc.lode_mesh
+        except AttributeError as error:
+            assert (str(error), error.name) == ("module 'cubecam' has no attribute 'lode_mesh'", "lode_mesh")
+        late = vars(cc.CubeMap)["save"]
+        assert not inspect.isfunction(late)
+        assert "io.cubemap_save" not in " ".join(sys.modules)
+        # Programs that write documentation unwrap what a class's __dict__ holds.
+        assert inspect.unwrap(late).__doc__.startswith("Write a cubemap")
+        assert cc.CubeMap.save is vars(cc.CubeMap)["save"]
+        assert list(inspect.signature(cc.CubeMap.save).parameters)[:2] == ["cube", "path"]
+        names = {}
+        exec("from cubecam import *", names)
+        assert names["load_mesh"] is cc.load_mesh is vars(cc)["load_mesh"]
+        assert cc.io.meshes.load_mesh is cc.load_mesh
+        """
+    )
+
+
 def test_cpu_work_needs_no_context():
     """CubeMaps, meshes and scenes do not need EGL at all."""
     run_python(

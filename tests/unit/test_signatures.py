@@ -341,8 +341,8 @@ def test_one_line_tells_what_is_wrong(call, message):
     assert str(caught.value) == message
 
 
-#: Modules whose functions users do not call, except those that cubecam exports or that are attached to classes.
-INNER = ("pictures.", "cubemap_save.")
+#: Modules whose functions users call by names of cubecam or as methods only.
+INNER = ("pictures.", "images.", "cubemaps.", "meshes.", "cubemap_save.")
 ANSWERING = sorted({name for name, _ in FOUND if not name.startswith(INNER)})
 
 
