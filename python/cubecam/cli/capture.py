@@ -196,7 +196,8 @@ def capture(
         scene = Scene()
         scene.add(place.mesh, _material(material, color), position=place.position)
         told = [*place.told, *_surround(scene, environment, srgb, material, light)]
-        told += _light(scene, place, light, environment)
+        if material == "phong":  # a mirror and glass show their surroundings alone
+            told += _light(scene, place, light, environment)
         with Renderer(device=parse_device(device)) as renderer:
             cube = renderer.capture(
                 scene,
