@@ -38,6 +38,8 @@ def make_describable() -> None:
     for name, thing in vars(_core).items():
         if getattr(thing, "__module__", None) != "cubecam":
             continue
+        if isinstance(thing, type):
+            unwrap_methods(thing)
         thing.__module__ = _core.__name__
         # Signatures name every class as cubecam.Name, those that cubecam does not export as well.
         if not hasattr(cubecam, name):
@@ -50,6 +52,14 @@ def make_describable() -> None:
                     methods.add(function)
     for method in methods:
         make_method(method)
+
+
+def unwrap_methods(kind: type) -> None:
+    """Load the methods that are loaded at their first use, and set the functions below their wrappers instead."""
+    for name in list(vars(kind)):
+        member = getattr(kind, name, None)  # an old name raises AttributeError
+        if isinstance(member, types.FunctionType):
+            setattr(kind, name, inspect.unwrap(member))
 
 
 def make_method(function: types.FunctionType) -> None:

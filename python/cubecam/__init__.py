@@ -9,31 +9,54 @@
 (6, 64, 64, 4)
 
 Conventions (axes, faces, rows, colour, depth) are in docs/conventions.md. The import makes no OpenGL context and loads
-no library for files; both happen at their first use.
+neither numpy nor a library for files; each happens at its first use.
 """
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
 
 from . import _attach, _core
 from . import typing as typing
 from ._core import *  # noqa: F403 - what _core.__all__ lists, so that a new class is exported at once
 from ._core import __version__
-from .data import sample_data
-from .io.cubemaps import load_cubemap, load_environment
-from .io.images import load_image, save_animation, save_image
-from .io.meshes import load_mesh
-from .io.screen import ClippingWarning, to_screen
+from ._late import late_names
+
+if TYPE_CHECKING:
+    from .data import sample_data
+    from .io.cubemaps import load_cubemap, load_environment
+    from .io.images import load_image, save_animation, save_image
+    from .io.meshes import load_mesh
+    from .io.screen import ClippingWarning, to_screen
+    from .optics import fresnel, reflect, refract, schlick
+else:
+    # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
+    __getattr__, __dir__ = late_names(
+        {
+            "data": ["sample_data"],
+            "io.cubemaps": ["load_cubemap", "load_environment"],
+            "io.images": ["load_image", "save_animation", "save_image"],
+            "io.meshes": ["load_mesh"],
+            "io.screen": ["ClippingWarning", "to_screen"],
+            "optics": ["fresnel", "reflect", "refract", "schlick"],
+        },
+        modules=["demo", "examples", "io", "navigation", "pictures", "typing"],
+    )
 
 __all__ = [
     "ClippingWarning",
     "__version__",
+    "fresnel",
     "load_cubemap",
     "load_environment",
     "load_image",
     "load_mesh",
+    "reflect",
+    "refract",
     "sample_data",
     "save_animation",
     "save_image",
+    "schlick",
     "to_screen",
 ]
 __all__ += _core.__all__

@@ -6,14 +6,13 @@ calls `explain` after such an error (cpp/bindings/arguments.cpp); a call that su
 
 from __future__ import annotations
 
-import difflib
 import re
 import reprlib
-from dataclasses import dataclass
 from typing import Any
 
 from . import _core
-from ._old_names import PICKLED_ARGUMENTS, renamed
+from ._calls import Parameter, unknown_name, wrong_number
+from ._old_names import PICKLED_ARGUMENTS, renamed_argument
 
 __all__ = ["explain"]
 
@@ -21,16 +20,6 @@ _OLD_PICKLE = (
     "; if a pickle was being read: this pickle was made by cubecam 0.1, expected one of 0.2 or later: "
     "rebuild the scene, or read it with cubecam 0.1"
 )
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """One parameter of a signature."""
-
-    name: str
-    kind: str
-    required: bool
-    by_name_only: bool
 
 
 def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
@@ -51,23 +40,37 @@ def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str
         One line.
     """
     overloads = [_parameters(text) for text in _signatures(message)]
+    owner, _, member = function.rpartition(".")
     if any(parameters and parameters[0].name == "self" for parameters in overloads):
         overloads = [parameters[1:] for parameters in overloads]
         given = given[1:]
-    elif "constructor" in message:
-        given = given[1:]
+        call = f"{member}()"
+    else:
+        if "constructor" in message:
+            given = given[1:]
+        call = (
+            f"{function}()"  # a class, a function, or a static method, which is called by its class
+        )
+    if any(overloads) and isinstance(getattr(getattr(_core, owner, None), member, None), property):
+        return f"{function}: {_wrong_value(overloads, given)}"
     names = list(dict.fromkeys(p.name for parameters in overloads for p in parameters))
     for name in named:
         if name not in names:
-            return _unknown(function, name, names)
+            return renamed_argument(function, call, name) or unknown_name(call, name, names)
     if not overloads:
-        return f"{function}: expected other arguments, got {_values(given, named)}"
+        return f"{call}: expected other arguments, got {_values(given, named)}"
     # Of several signatures, the best has the most of the given names, and among these the most parameters.
     parameters = max(overloads, key=lambda p: (len({q.name for q in p} & set(named)), len(p)))
-    return (
-        _wrong_number(function, parameters, given, named)
-        or _wrong_type(function, parameters, given, named)
-        or f"{function}: expected ({', '.join(_described(p) for p in parameters)}), "
+    number = wrong_number(call, parameters, given, named)
+    if number is not None:
+        old = (
+            PICKLED_ARGUMENTS.get(function)
+            == len(given)
+            > sum(not p.by_name_only for p in parameters)
+        )
+        return number + _OLD_PICKLE * old
+    return _wrong_type(call, parameters, given, named) or (
+        f"{call}: expected ({', '.join(_described(p) for p in parameters)}), "
         f"got {_values(given, named)}"
     )
 
@@ -123,51 +126,22 @@ def _parameters(text: str) -> list[Parameter]:
     return parameters
 
 
-def _unknown(function: str, name: str, names: list[str]) -> str:
-    answer = renamed(function, name)
-    if answer is not None:
-        return answer
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
-    hint = f"; did you mean {near[0]!r}?" if near else ";"
-    takes = f"it takes {', '.join(names)}" if names else "it takes none"
-    return f"{function}: no argument {name!r}{hint} {takes}"
-
-
-def _wrong_number(
-    function: str, parameters: list[Parameter], given: tuple[Any, ...], named: dict[str, Any]
-) -> str | None:
-    by_position = [p.name for p in parameters if not p.by_name_only]
-    if len(given) > len(by_position):
-        rest = [p.name for p in parameters if p.by_name_only and p.name not in named]
-        count = f"{len(by_position)} argument{'s' * (len(by_position) != 1)}"
-        most = f"at most {count} by position ({', '.join(by_position)})"
-        old = _OLD_PICKLE if PICKLED_ARGUMENTS.get(function) == len(given) else ""
-        return (
-            f"{function}: expected {most if by_position else 'arguments by name'}, got {len(given)} by position"
-            + (f"; name the others: {', '.join(rest)}" if rest else "")
-            + old
-        )
-    for name in by_position[: len(given)]:
-        if name in named:
-            return f"{function}: {name}: expected it once, got it by position and by name"
-    have = {*by_position[: len(given)], *named}
-    missing = [p.name for p in parameters if p.required and p.name not in have]
-    if missing:
-        takes = ", ".join(p.name for p in parameters)
-        return f"{function}: expected {' and '.join(missing)}, got none; it takes {takes}"
-    return None
+def _wrong_value(overloads: list[list[Parameter]], given: tuple[Any, ...]) -> str:
+    """Say what a property expected; its setter has one parameter, whose name nobody writes."""
+    kinds = [_readable(parameters[-1].kind) for parameters in overloads if parameters]
+    return f"expected {' or '.join(kinds)}, got {_value(given[-1] if given else None)}"
 
 
 def _wrong_type(
-    function: str, parameters: list[Parameter], given: tuple[Any, ...], named: dict[str, Any]
+    call: str, parameters: list[Parameter], given: tuple[Any, ...], named: dict[str, Any]
 ) -> str | None:
     values = dict(zip((p.name for p in parameters), given, strict=False)) | named
     for parameter in parameters:
         if parameter.name in values and not _fits(parameter.kind, values[parameter.name]):
-            # A setter's parameter has no name of its own.
-            what = "" if parameter.name == "arg1" else f"{parameter.name}: "
             got = values[parameter.name]
-            return f"{function}: {what}expected {_readable(parameter.kind)}, got {_value(got)}"
+            return (
+                f"{call}: {parameter.name}: expected {_readable(parameter.kind)}, got {_value(got)}"
+            )
     return None
 
 

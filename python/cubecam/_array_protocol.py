@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ._calls import checked_call
 from ._core import CubeMap, Frame, Image
 from .io.screen import numbers_of
 
@@ -48,6 +49,7 @@ def as_array(
     return np.asarray(values, dtype)
 
 
+@checked_call
 def cube_numpy(self: CubeMap, *, writable: bool = False) -> Pixels:
     """Give the faces as an array.
 

@@ -1,14 +1,15 @@
 """Gives the core's classes the methods that are better written in Python.
 
 The methods are set on the core's own classes and not on subclasses, so that objects that the core returns have them,
-too. No other module does this. The methods import what they need when they are called, so that attaching costs no time.
+too. No other module does this. Modules that need numpy are loaded when a method is first used, so that attaching costs
+no time.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _array_protocol, _old_names, _shader_inputs, navigation
+from . import _old_names, _shader_inputs
 from ._core import (
     CubeMap,
     Frame,
@@ -18,8 +19,7 @@ from ._core import (
     PerspectiveCamera,
     ShaderMaterial,
 )
-from .io.cubemap_save import save_cubemap
-from .io.images import save_frame
+from ._late import LateMethod
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -46,22 +46,24 @@ def _image_repr_png(self: Image) -> bytes:
     return image_png(self)
 
 
-def _attach(target: type, name: str, method: Callable[..., Any] | property) -> None:
+def _attach(target: type, name: str, method: Callable[..., Any] | property | LateMethod) -> None:
+    if isinstance(method, LateMethod):
+        method.__set_name__(target, name)
     setattr(target, name, method)
 
 
 def attach() -> None:
     """Attach every method; called once, by `cubecam/__init__.py`."""
-    _attach(CubeMap, "save", save_cubemap)
+    _attach(CubeMap, "save", LateMethod("io.cubemap_save", "save_cubemap"))
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
-    _attach(CubeMap, "numpy", _array_protocol.cube_numpy)
-    _attach(Frame, "save", save_frame)
+    _attach(CubeMap, "numpy", LateMethod("_array_protocol", "cube_numpy"))
+    _attach(Frame, "save", LateMethod("io.images", "save_frame"))
     _attach(Frame, "_repr_png_", _frame_repr_png)
     _attach(Image, "_repr_png_", _image_repr_png)
     for picture in (CubeMap, Frame, Image):
-        _attach(picture, "__array__", _array_protocol.as_array)
-        _attach(picture, "__dlpack__", _array_protocol.dlpack)
-        _attach(picture, "__dlpack_device__", _array_protocol.dlpack_device)
+        _attach(picture, "__array__", LateMethod("_array_protocol", "as_array"))
+        _attach(picture, "__dlpack__", LateMethod("_array_protocol", "dlpack"))
+        _attach(picture, "__dlpack_device__", LateMethod("_array_protocol", "dlpack_device"))
     inputs = {
         "uniforms": property(_shader_inputs.uniforms, _shader_inputs.set_uniforms),
         "textures": property(_shader_inputs.textures, _shader_inputs.set_textures),
@@ -71,5 +73,5 @@ def attach() -> None:
             _attach(shader, name, mapping)
     for camera in (PerspectiveCamera, OrthographicCamera):
         for name in ("yaw", "pitch", "walk", "strafe", "orbit", "look"):
-            _attach(camera, name, getattr(navigation, name))
+            _attach(camera, name, LateMethod("navigation", name))
     _old_names.answer_old_names()

@@ -6,7 +6,7 @@ from typing import Any, NoReturn
 
 from . import _core
 
-__all__ = ["OLD_NAMES", "PICKLED_ARGUMENTS", "answer_old_names", "renamed"]
+__all__ = ["OLD_NAMES", "PICKLED_ARGUMENTS", "answer_old_names", "renamed", "renamed_argument"]
 
 #: Owner and old name: the new name. An owner is a class, for its attributes and the arguments of its constructor, or a
 #: method, for its arguments.
@@ -47,13 +47,15 @@ PICKLED_ARGUMENTS = {
 
 
 def renamed(owner: str, name: str) -> str | None:
-    """Give the sentence that names the new name of an old one; None if the name never existed."""
+    """Give the sentence that names the new name of an attribute; None if there never was one of the old name."""
     new = OLD_NAMES.get(owner, {}).get(name)
-    if new is None:
-        return None
-    return (
-        f"{owner}: {name} is now {new}" if "." in owner else f"{owner}.{name} is now {owner}.{new}"
-    )
+    return None if new is None else f"{owner}.{name} is now {owner}.{new}"
+
+
+def renamed_argument(function: str, call: str, name: str) -> str | None:
+    """Give the sentence that names the new name of an argument; `call` is the function in messages, as in "add()"."""
+    new = OLD_NAMES.get(function, {}).get(name)
+    return None if new is None else f"{call}: {name} is now {new}"
 
 
 class OldName:

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ._calls import checked_call
 from ._core import (
     CubeMap,
     Mesh,
@@ -45,7 +46,7 @@ _START = 320.0  # degrees: where the bunny stands in still pictures
 _ORBIT = 1.4  # world units from the ball's center to the bunny and the teapot
 
 
-@dataclass
+@dataclass(slots=True)
 class DemoScene:
     """The scene with the objects that a program moves or looks at."""
 
@@ -55,6 +56,7 @@ class DemoScene:
     bunny: Node
     teapot: Node
 
+    @checked_call
     def turn(self, angle: float) -> None:
         """Place bunny and teapot on opposite sides of their circle round the ball, turned with it.
 
@@ -69,6 +71,7 @@ class DemoScene:
             node.rotation = axis_angle((0, 1, 0), own)
 
 
+@checked_call
 def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) -> DemoScene:
     """Build the scene: a ground, a bunny, a teapot, and a mirror ball that follows both.
 
@@ -120,6 +123,7 @@ class Step:
     seconds: float
 
 
+@checked_call
 def run(
     out: PathLike = "out",
     *,

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from ._calls import checked_call
 from ._core import OrthographicCamera, PerspectiveCamera
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ __all__ = ["POLE_MARGIN", "look", "orbit", "pitch", "strafe", "walk", "yaw"]
 POLE_MARGIN = 1.0
 
 
+@checked_call
 def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     """Turn the view to the left, round the camera's `up` through its position.
 
@@ -60,6 +62,7 @@ def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     camera.target = standing.ahead(_turned(standing.direction, standing.up, angle))
 
 
+@checked_call
 def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     """Turn the view up, round the camera's right.
 
@@ -94,6 +97,7 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
     camera.target = standing.ahead(_raised(standing.direction, standing.up, change))
 
 
+@checked_call
 def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> None:
     """Move position and target along the view direction.
 
@@ -122,6 +126,7 @@ def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> Non
     standing.move(_number(distance, "distance") * standing.direction)
 
 
+@checked_call
 def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> None:
     """Move position and target to the right.
 
@@ -149,6 +154,7 @@ def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> N
     standing.move(_number(distance, "distance") * right)
 
 
+@checked_call
 def orbit(
     camera: PerspectiveCamera | OrthographicCamera, *, yaw: float = 0.0, pitch: float = 0.0
 ) -> None:
@@ -198,6 +204,7 @@ def orbit(
         camera.position = standing.target + standing.distance * outward
 
 
+@checked_call
 def look(camera: PerspectiveCamera | OrthographicCamera, direction: npt.ArrayLike) -> None:
     """Turn the view along a direction of the world.
 

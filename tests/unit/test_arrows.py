@@ -33,11 +33,14 @@ PYTHON_ORDER = (
     "_array_types",  # needs numpy
     "typing",
     "_core",
+    "_calls",  # errors of wrong calls, in words
+    "_late",
     "data",  # the packaged files and their list
     "io",
     "pictures",
     "_array_protocol",
     "navigation",
+    "optics",
     "_shader_inputs",
     "_pickling",
     "_old_names",
@@ -49,7 +52,14 @@ PYTHON_ORDER = (
     "cli",
     "__main__",
 )
-PYTHON_KNOWS = {"navigation": {"_core"}, "_shader_inputs": {"_core"}, "_pickling": {"_core"}}
+PYTHON_KNOWS = {
+    "_calls": set(),
+    "_late": set(),
+    "navigation": {"_core", "_calls"},
+    "optics": {"_calls"},
+    "_shader_inputs": {"_core"},
+    "_pickling": {"_core"},
+}
 
 
 def allowed(part, order, knows):

@@ -7,8 +7,8 @@ import sys
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from PIL import Image
-from typer.testing import CliRunner
 
 import cubecam as cc
 from cubecam import examples
@@ -143,6 +143,17 @@ def test_kinds_of_file(ending, tmp_path):
     else:
         with Image.open(path) as picture:
             assert picture.size == (16, 16)
+
+
+def test_an_exr_looks_like_the_png(tmp_path):
+    """The programs' numbers are those of a screen; an EXR holds linear numbers."""
+    for ending in ("png", "exr"):
+        result = example("P4", "--frames", 1, "--size", 48, "-o", tmp_path / f"a.{ending}")
+        assert result.exit_code == 0, result.output
+    shown = cc.load_image(tmp_path / "a.png").astype(int)
+    assert 50 < shown.mean() < 205
+    linear = cc.load_image(tmp_path / "a.exr")[..., :3]
+    assert abs(cc.to_screen(linear, tonemap=None).astype(int) - shown).max() <= 1
 
 
 @pytest.mark.parametrize("ending", ["jpg", "exr"])

@@ -17,11 +17,36 @@ def test_import_opens_nothing_and_loads_nothing_heavy():
         maps = open("/proc/self/maps").read()
         for library in ("libEGL", "libGL", "libX11", "libGLX", "swrast"):
             assert library not in maps, library
-        for module in ("OpenImageIO", "trimesh", "matplotlib", "PIL", "typer", "rich", "IPython"):
+        for module in ("numpy", "OpenImageIO", "trimesh", "matplotlib", "PIL", "click", "rich", "IPython"):
             assert module not in sys.modules, module
         devices = [os.readlink(f"/proc/self/fd/{fd}") for fd in os.listdir("/proc/self/fd")
                    if os.path.exists(f"/proc/self/fd/{fd}")]
         assert not [d for d in devices if d.startswith("/dev/dri") or "nvidia" in d], devices
+        """
+    )
+
+
+def test_what_is_loaded_late_looks_as_if_it_were_there():
+    run_python(
+        """
+        import inspect, sys
+        import cubecam as cc
+        assert {"load_mesh", "to_screen", "demo", "navigation"} <= set(dir(cc))
+        try:
+            cc.lode_mesh
+        except AttributeError as error:
+            assert (str(error), error.name) == ("module 'cubecam' has no attribute 'lode_mesh'", "lode_mesh")
+        late = vars(cc.CubeMap)["save"]
+        assert not inspect.isfunction(late)
+        assert "io.cubemap_save" not in " ".join(sys.modules)
+        # Programs that write documentation unwrap what a class's __dict__ holds.
+        assert inspect.unwrap(late).__doc__.startswith("Write a cubemap")
+        assert cc.CubeMap.save is vars(cc.CubeMap)["save"]
+        assert list(inspect.signature(cc.CubeMap.save).parameters)[:2] == ["cube", "path"]
+        names = {}
+        exec("from cubecam import *", names)
+        assert names["load_mesh"] is cc.load_mesh is vars(cc)["load_mesh"]
+        assert cc.io.meshes.load_mesh is cc.load_mesh
         """
     )
 

@@ -54,8 +54,15 @@ def test_attributes(owner, old, new):
 
 @pytest.mark.parametrize(("old", "new"), OLD_NAMES["Scene.add"].items())
 def test_keywords_of_a_method(old, new):
-    with pytest.raises(TypeError, match=rf"^Scene\.add: {old} is now {new}$"):
+    with pytest.raises(TypeError, match=rf"^add\(\): {old} is now {new}$"):
         cc.Scene().add(**{old: True})
+
+
+@pytest.mark.parametrize("owner", ["GlassMaterial", "MirrorMaterial"])
+def test_keywords_of_a_class(owner):
+    for old, new in OLD_NAMES[owner].items():
+        with pytest.raises(TypeError, match=rf"^{owner}\(\): {old} is now {new}$"):
+            getattr(cc, owner)(**{old: 0.5})
 
 
 def test_a_class_below_answers_as_well():

@@ -3,21 +3,132 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator
-from typing import Annotated
+import math
+import warnings
+from collections.abc import Callable, Iterator
+from typing import Any, Literal, NoReturn, TypeAlias, TypeVar, get_args
 
-import typer
-from rich.console import Console
-from rich.markup import escape
+import click
+from click.shell_completion import CompletionItem
 
 from .. import Error
+from ..typing import Tonemap
+from .help import option
 
-DeviceOption = Annotated[
-    str | None,
-    typer.Option(
-        help="auto, software, gpu, an index, part of a name, or a UUID. Default: CUBECAM_DEVICE, else auto."
-    ),
-]
+Curve: TypeAlias = Literal[Tonemap, "none"]
+Triple: TypeAlias = tuple[float, float, float]
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+class WholeNumber(click.ParamType):
+    """A whole number from `least` on."""
+
+    name = "whole number"
+
+    def __init__(self, least: int) -> None:
+        self.least = least
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> int:
+        """Parse what was written; a default is an int already."""
+        try:
+            number = int(value)
+        except ValueError:
+            number = self.least - 1
+        if number < self.least:
+            self.fail(
+                f"expected a whole number of at least {self.least}, got {str(value)!r}", param, ctx
+            )
+        return number
+
+
+class Number(click.ParamType):
+    """A finite number."""
+
+    name = "number"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+        """Parse what was written; a default is a number already."""
+        try:
+            number = float(value)
+        except ValueError:
+            number = math.nan
+        if not math.isfinite(number):
+            self.fail(f"expected a number, got {str(value)!r}", param, ctx)
+        return number
+
+
+NUMBER = Number()
+#: Files are checked where they are read or written; the type lets a shell complete their names.
+FILE = click.Path(readable=False)
+
+
+def choice(kind: Any) -> dict[str, Any]:
+    """Give the arguments of an option that takes one of the words of a Literal."""
+    return {"type": click.Choice(get_args(kind)), "metavar": "NAME"}
+
+
+def words(kind: Any) -> str:
+    """List the words of a Literal: "a, b or c"."""
+    *most, last = get_args(kind)
+    return f"{', '.join(most)} or {last}"
+
+
+def _device_names(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
+    names = ("auto", "software", "gpu")
+    return [CompletionItem(name) for name in names if name.startswith(incomplete)]
+
+
+def device_option(function: F) -> F:
+    """Declare the option of commands that draw."""
+    return option(
+        "--device",
+        metavar="DEVICE",
+        shell_complete=_device_names,
+        help="auto, software, gpu, an index, part of a name, or a UUID.",
+        note="CUBECAM_DEVICE, else auto",
+    )(function)
+
+
+def look_options(note: str = "neutral", group: str = "Options") -> Callable[[F], F]:
+    """Declare how linear floats become 8 bits: the options of `CubeMap.save`."""
+
+    def declare(function: F) -> F:
+        exposure = option(
+            "--exposure",
+            type=NUMBER,
+            metavar="STOPS",
+            default=0.0,
+            group=group,
+            help="Make the picture brighter (above 0) or darker by powers of two.",
+        )
+        tonemap = option(
+            "--tonemap",
+            **choice(Curve),
+            group=group,
+            help=f"The curve that brings linear floats into 8 or 16 bits: {words(Curve)}, which clips.",
+            note=note,
+        )
+        return exposure(tonemap(function))
+
+    return declare
+
+
+@contextlib.contextmanager
+def clipping_told(path: str) -> Iterator[None]:
+    """Tell in one line that numbers were clipped on their way into a file, and which options help."""
+    from ..io.screen import ClippingWarning
+
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", ClippingWarning)
+        yield
+    clipped = [item for item in caught if issubclass(item.category, ClippingWarning)]
+    if clipped:
+        what = str(clipped[0].message).partition(";")[0]
+        hint = "--tonemap neutral keeps highlights, --exposure -1 makes the picture darker"
+        complain(f"{path}: {what}; {hint}", kind="warning")
+    for item in caught:
+        if item not in clipped:
+            warnings.warn_explicit(item.message, item.category, item.filename, item.lineno)
 
 
 @contextlib.contextmanager
@@ -29,12 +140,16 @@ def failures_reported() -> Iterator[None]:
         fail(error)
 
 
-def fail(error: Exception) -> None:
+def fail(error: Exception) -> NoReturn:
     """Print the error on standard error, and exit."""
-    Console(stderr=True, soft_wrap=True).print(
-        f"[bold red]error:[/] {escape(describe(error))}", highlight=False
-    )
-    raise typer.Exit(1) from error
+    complain(describe(error))
+    raise SystemExit(1) from error
+
+
+def complain(text: str, kind: str = "error") -> None:
+    """Print an error or a warning on standard error."""
+    color = "red" if kind == "error" else "yellow"
+    click.echo(f"{click.style(f'{kind}:', fg=color, bold=True)} {text}", err=True)
 
 
 def describe(error: Exception) -> str:

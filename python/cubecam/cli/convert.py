@@ -2,115 +2,147 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, TypeVar
 
-import typer
-from rich.console import Console
-from rich.markup import escape
-from rich.progress import track
+import click
 
 from .. import Error
-from ..io.cubemaps import load_cubemap
-from ..typing import Center, Convention, FileLayout
-from .common import describe
+from ..typing import Center, Convention, FileLayout, Tonemap
+from .common import (
+    FILE,
+    Curve,
+    WholeNumber,
+    choice,
+    clipping_told,
+    complain,
+    describe,
+    look_options,
+    words,
+)
+from .help import Command, argument, option
+
+if TYPE_CHECKING:
+    from .. import CubeMap
 
 _FROM = "Options for reading"
 _TO = "Options for writing"
 
+T = TypeVar("T")
 
+
+@click.command(cls=Command)
+@argument(
+    "inputs",
+    nargs=-1,
+    required=True,
+    type=FILE,
+    metavar="FILE...",
+    help="Files to read; for six files, one name with {face}, such as 'sky/{face}.png'.",
+)
+@option(
+    "--output",
+    "-o",
+    type=FILE,
+    metavar="FILE",
+    group=_TO,
+    help="A file name, a folder, or a name with {name} (the input's) and {face}.",
+    note="beside the input, with the layout in the name",
+)
+@option(
+    "--layout",
+    "-l",
+    **choice(FileLayout),
+    group=_TO,
+    help=f"{words(FileLayout)}.",
+    note="cross; faces for an output with {face}",
+)
+@option(
+    "--convention", "-c", **choice(Convention), group=_TO, help=f"{words(Convention)}.", note="gl"
+)
+@option(
+    "--center",
+    **choice(Center),
+    group=_TO,
+    default="-z",
+    help=f"The middle of an equirect: {words(Center)}.",
+)
+@option("--to", metavar="EXTENSION", group=_TO, help="exr, hdr, png, jpg, ...", note="as the input")
+@option(
+    "--size",
+    type=WholeNumber(1),
+    metavar="TEXELS",
+    group=_TO,
+    help="Texels along a face.",
+    note="as in the input",
+)
+@option(
+    "--width",
+    type=WholeNumber(2),
+    metavar="PIXELS",
+    group=_TO,
+    help="Width of an equirect.",
+    note="4 times the texels along a face",
+)
+@look_options("neutral; none for 8 and 16 bit files read with --srgb", _TO)
+@option("--half", is_flag=True, group=_TO, help="Store EXR with 16 bits a number.")
+@option(
+    "--from-layout",
+    **choice(FileLayout),
+    group=_FROM,
+    help=f"{words(FileLayout)}.",
+    note="by the shape of the picture",
+)
+@option(
+    "--from-convention", **choice(Convention), group=_FROM, help=f"{words(Convention)}.", note="gl"
+)
+@option("--from-center", **choice(Center), group=_FROM, help=f"{words(Center)}.", note="-z")
+@option(
+    "--srgb",
+    is_flag=True,
+    group=_FROM,
+    help="Decode files of 8 and 16 bits to linear floats, so that they are resampled as light.",
+)
 def convert(
-    inputs: Annotated[
-        list[str],
-        typer.Argument(
-            help="Files; for six files, one name with {face}, such as 'sky/{face}.png'."
-        ),
-    ],
-    output: Annotated[
-        str | None,
-        typer.Option(
-            "--output",
-            "-o",
-            help="A file name, a folder, or a name with {name} (the input's) and {face}. "
-            "Default: beside the input, with the layout in the name.",
-            rich_help_panel=_TO,
-        ),
-    ] = None,
-    layout: Annotated[
-        FileLayout | None,
-        typer.Option(
-            "--layout",
-            "-l",
-            help="Default: cross; faces for an output with {face}.",
-            rich_help_panel=_TO,
-        ),
-    ] = None,
-    convention: Annotated[
-        Convention | None,
-        typer.Option("--convention", "-c", help="Default: gl.", rich_help_panel=_TO),
-    ] = None,
-    center: Annotated[
-        Center, typer.Option(help="The middle of an equirect.", rich_help_panel=_TO)
-    ] = "-z",
-    to: Annotated[
-        str | None,
-        typer.Option(
-            "--to",
-            help="Extension, such as exr or png. Default: that of the input.",
-            rich_help_panel=_TO,
-        ),
-    ] = None,
-    size: Annotated[
-        int | None, typer.Option(min=1, help="Texels along a face.", rich_help_panel=_TO)
-    ] = None,
-    width: Annotated[
-        int | None,
-        typer.Option(min=2, help="Width of an equirect, in pixels.", rich_help_panel=_TO),
-    ] = None,
-    half: Annotated[
-        bool, typer.Option("--half", help="Store EXR with 16 bits a number.", rich_help_panel=_TO)
-    ] = False,
-    from_layout: Annotated[
-        FileLayout | None,
-        typer.Option(help="Default: by the shape of the picture.", rich_help_panel=_FROM),
-    ] = None,
-    from_convention: Annotated[
-        Convention | None, typer.Option(help="Default: gl.", rich_help_panel=_FROM)
-    ] = None,
-    from_center: Annotated[
-        Center | None, typer.Option(help="Default: -z.", rich_help_panel=_FROM)
-    ] = None,
-    srgb: Annotated[
-        bool,
-        typer.Option(
-            "--srgb",
-            help="8 and 16 bit files are sRGB: decode them when reading, encode them when writing.",
-        ),
-    ] = False,
+    inputs: tuple[str, ...],
+    output: str | None,
+    layout: FileLayout | None,
+    convention: Convention | None,
+    center: Center,
+    to: str | None,
+    size: int | None,
+    width: int | None,
+    exposure: float,
+    tonemap: Curve | None,
+    half: bool,
+    from_layout: FileLayout | None,
+    from_convention: Convention | None,
+    from_center: Center | None,
+    srgb: bool,
 ) -> None:
-    """Convert cubemaps and panoramas between layouts, conventions and formats of files.
+    """Convert cubemaps and panoramas to other layouts and files.
 
     The format of an output follows from its extension, and the layout of an input from its shape. The convention of an
     input does not follow from the file: give --from-convention if it is not "gl".
     """
+    from ..io.cubemaps import load_cubemap
+
     names = [_Target(item, output, layout, to) for item in inputs]
     written: dict[str, str] = {}
     for item in names:
         if item.path in written:
-            raise typer.BadParameter(
+            raise click.BadParameter(
                 f"{written[item.path]} and {item.source} would both be written to {item.path}; "
                 "expected a folder or a name with {name}",
                 param_hint="--output",
             )
         written[item.path] = item.source
     if width is not None and any(item.layout != "equirect" for item in names):
-        raise typer.BadParameter("expected with --layout equirect only", param_hint="--width")
-    console = Console(soft_wrap=True)
-    errors = Console(stderr=True, soft_wrap=True)
+        raise click.BadParameter("expected with --layout equirect only", param_hint="--width")
     failed = 0
-    for item in track(
-        names, description="converting", console=console, disable=len(names) == 1, transient=True
-    ):
+    for item in _with_progress(names):
         try:
             cube = load_cubemap(
                 item.source,
@@ -121,25 +153,43 @@ def convert(
                 srgb=srgb,
             )
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
-            cube.save(
-                item.path,
-                layout=item.layout,
-                convention=convention,
-                width=width,
-                center=center,
-                half=half,
-            )
+            with clipping_told(item.path):
+                cube.save(
+                    item.path,
+                    layout=item.layout,
+                    convention=convention,
+                    width=width,
+                    center=center,
+                    exposure=exposure,
+                    tonemap=_curve(tonemap, cube, srgb),
+                    half=half,
+                )
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:
             failed += 1
             text = describe(error)
-            told = text if item.source in text else f"{item.source}: {text}"
-            errors.print(f"[bold red]error:[/] {escape(told)}", highlight=False)
+            complain(text if item.source in text else f"{item.source}: {text}")
         else:
-            console.print(f"{item.source} -> {item.path}", markup=False, highlight=False)
+            click.echo(f"{item.source} -> {item.path}")
     if failed:
         if len(names) > 1:
-            errors.print(f"{failed} of {len(names)} not converted", highlight=False)
-        raise typer.Exit(1)
+            click.echo(f"{failed} of {len(names)} not converted", err=True)
+        raise SystemExit(1)
+
+
+def _curve(name: Curve | None, cube: CubeMap, decoded: bool) -> Tonemap | None:
+    """Give the tone curve; decoded numbers of a screen have no highlights, so that none keeps them as they are."""
+    if name is None and decoded and float(cube.faces[..., :3].max()) <= 1:
+        return None
+    return None if name == "none" else name or "neutral"
+
+
+def _with_progress(items: list[T]) -> Iterable[T]:
+    """Show a bar on a terminal while several files are converted; lines that are printed stand above it."""
+    if len(items) == 1 or not sys.stdout.isatty():
+        return items
+    from rich.progress import track
+
+    return track(items, description="converting", transient=True)
 
 
 class _Target:
@@ -150,7 +200,7 @@ class _Target:
     ) -> None:
         self.source = source
         if not Path(source).name:
-            raise typer.BadParameter(f"expected a file, got {source!r}")
+            raise click.BadParameter(f"expected a file, got {source!r}")
         stem, own = _stem(source), Path(source).suffix
         wanted = "." + extension.lower().lstrip(".") if extension else own
         named = output is not None and (
@@ -165,11 +215,11 @@ class _Target:
         else:
             self.path = output.replace("{name}", stem)
             if extension and Path(self.path).suffix.lower() != wanted:
-                raise typer.BadParameter(
+                raise click.BadParameter(
                     f"expected the extension of {output}, got {extension}", param_hint="--to"
                 )
             if self.layout == "faces" and "{face}" not in self.path:
-                raise typer.BadParameter(
+                raise click.BadParameter(
                     f"expected {{face}} in the name for six files, got {output}",
                     param_hint="--output",
                 )

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
-from rich.console import Console
-from rich.progress import track
-from rich.table import Table
+import click
+from click.shell_completion import CompletionItem
 
-from .. import Renderer, examples, save_animation, save_image
-from .common import DeviceOption, failures_reported, parse_device
+from .. import Image, Renderer, examples
+from .common import FILE, NUMBER, WholeNumber, device_option, failures_reported, parse_device
+from .help import Command, argument, option
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from ..examples import Example
 
 _MOVING = (".png", ".apng", ".gif", ".webp", ".mp4")
@@ -23,62 +25,85 @@ _SAMPLES = 4  # samples of each pixel, or fewer if the device allows fewer
 _THUMBNAIL = 208  # pixels
 
 
+def _names(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
+    """List the programs whose names begin so, for completion in a shell."""
+    return [CompletionItem(name) for name in examples.NAMES if name.startswith(incomplete)]
+
+
+@click.command(cls=Command)
+@argument(
+    "name",
+    required=False,
+    metavar="[NAME]",
+    shell_complete=_names,
+    help="The name or number of a program from --list, such as skybox or P3.",
+)
+@option(
+    "--out",
+    "-o",
+    type=FILE,
+    metavar="FILE",
+    help="The file to write: a still .png, .jpg or .exr, or an animation .png, .gif, .webp or .mp4 "
+    "(.mp4 needs the command ffmpeg). With --all: a folder.",
+    note="the program's name with .png",
+)
+@option(
+    "--frames",
+    type=WholeNumber(1),
+    metavar="COUNT",
+    help="Number of frames; 1 is a still.",
+    note="that of the program; 1 for .jpg and .exr",
+)
+@option(
+    "--start",
+    type=WholeNumber(0),
+    metavar="FRAME",
+    help="The first frame.",
+    note="0; for a still, the program's best frame",
+)
+@option(
+    "--size",
+    type=WholeNumber(1),
+    metavar="PIXELS",
+    help="Width of the picture.",
+    note="that of the program",
+)
+@option("--fps", type=NUMBER, metavar="NUMBER", default=25.0, help="Frames a second, up to 100.")
+@option("--list", "listed", is_flag=True, help="List the programs.")
+@option(
+    "--sheet",
+    type=FILE,
+    metavar="FILE",
+    help="With --list: draw thumbnails of all programs into this picture.",
+)
+@option("--all", "everything", is_flag=True, help="Draw every program into the folder --out.")
+@device_option
 def example(
-    name: Annotated[
-        str | None,
-        typer.Argument(help="The name or number of a program from --list, such as skybox or P3."),
-    ] = None,
-    out: Annotated[
-        str | None,
-        typer.Option(
-            "--out",
-            "-o",
-            help="The file to write: a still .png, .jpg or .exr, or an animation .png, .gif, .webp or .mp4 "
-            "(.mp4 needs the command ffmpeg). Default: the program's name with .png. With --all: a folder.",
-        ),
-    ] = None,
-    frames: Annotated[
-        int | None,
-        typer.Option(
-            min=1,
-            help="Number of frames; 1 is a still. Default: that of the program; 1 for .jpg and .exr.",
-        ),
-    ] = None,
-    start: Annotated[
-        int | None,
-        typer.Option(
-            min=0, help="The first frame. Default: 0; for a still, the program's best frame."
-        ),
-    ] = None,
-    size: Annotated[
-        int | None, typer.Option(min=1, help="Width in pixels. Default: that of the program.")
-    ] = None,
-    fps: Annotated[float, typer.Option(help="Frames a second, up to 100.")] = 25.0,
-    listed: Annotated[bool, typer.Option("--list", help="List the programs.")] = False,
-    sheet: Annotated[
-        str | None,
-        typer.Option(
-            "--sheet", help="With --list: draw thumbnails of all programs into this picture."
-        ),
-    ] = None,
-    everything: Annotated[
-        bool, typer.Option("--all", help="Draw every program into the folder --out.")
-    ] = False,
-    device: DeviceOption = None,
+    name: str | None,
+    out: str | None,
+    frames: int | None,
+    start: int | None,
+    size: int | None,
+    fps: float,
+    listed: bool,
+    sheet: str | None,
+    everything: bool,
+    device: str | None,
 ) -> None:
     """Draw a program of the course documents.
 
     Examples: cubecam example --list; cubecam example dynamic_reflection -o ball.gif; cubecam example P4 --frames 1
     """
     _check_options(name, out, frames, fps, listed, sheet, everything)
-    console = Console(soft_wrap=True)
     with failures_reported():
         if listed:
-            console.print(_table(), highlight=False)
+            from rich.console import Console
+
+            Console(soft_wrap=True).print(_table(), highlight=False)
             if sheet is not None:
                 with Renderer(device=parse_device(device)) as renderer:
                     _save_sheet(sheet, renderer)
-                _tell(console, [sheet])
+                _tell([sheet])
         elif everything:
             folder = Path(out or "examples")
             folder.mkdir(parents=True, exist_ok=True)
@@ -86,10 +111,10 @@ def example(
                 for known in examples.NAMES:
                     module = examples.load(known)
                     path = str(folder / f"{known}.png")
-                    _save(path, module, renderer, frames, start, size, fps, console)
-                    _tell(console, [path])
+                    _save(path, module, renderer, frames, start, size, fps)
+                    _tell([path])
                 _save_sheet(str(folder / "sheet.png"), renderer)
-            _tell(console, [str(folder / "sheet.png")])
+            _tell([str(folder / "sheet.png")])
         else:
             module = _load(name)
             path = out or f"{module.__name__.rpartition('.')[2]}.png"
@@ -98,10 +123,10 @@ def example(
 
                 find_ffmpeg(Path(path))  # a missing ffmpeg is an error before anything is drawn
             with Renderer(device=parse_device(device)) as renderer:
-                drawn = _save(path, module, renderer, frames, start, size, fps, console)
+                drawn = _save(path, module, renderer, frames, start, size, fps)
                 info = renderer.info
-            _tell(console, [path])
-            console.print(f"{drawn}, drawn by {info.renderer}", highlight=False, markup=False)
+            _tell([path])
+            click.echo(f"{drawn}, drawn by {info.renderer}")
 
 
 def _check_options(
@@ -114,18 +139,18 @@ def _check_options(
     everything: bool,
 ) -> None:
     if (name is not None) + listed + everything != 1:
-        raise typer.BadParameter("expected a NAME, --list or --all, and only one of them")
+        raise click.BadParameter("expected a NAME, --list or --all, and only one of them")
     if sheet is not None and not listed:
-        raise typer.BadParameter("expected with --list only", param_hint="--sheet")
+        raise click.BadParameter("expected with --list only", param_hint="--sheet")
     if not 0 < fps <= 100:
-        raise typer.BadParameter(
+        raise click.BadParameter(
             f"expected a number above 0 and up to 100, got {fps:g}", param_hint="--fps"
         )
     if name is not None:
         _load(name)
         ending = Path(out or ".png").suffix.lower() or Path(out or ".png").name.lower()
         if (frames or 1) > 1 and ending not in _MOVING:
-            raise typer.BadParameter(
+            raise click.BadParameter(
                 f"expected a name that ends in {', '.join(_MOVING)} for {frames} frames, got {out}",
                 param_hint="--out",
             )
@@ -135,15 +160,17 @@ def _load(name: str | None) -> Any:
     try:
         return examples.load(name or "")
     except ValueError as error:
-        raise typer.BadParameter(str(error).removeprefix("name: "), param_hint="NAME") from error
+        raise click.BadParameter(str(error).removeprefix("name: "), param_hint="NAME") from error
 
 
-def _tell(console: Console, paths: Iterable[str]) -> None:
+def _tell(paths: Iterable[str]) -> None:
     for path in paths:
-        console.print(path, markup=False, highlight=False)
+        click.echo(path)
 
 
 def _table() -> Table:
+    from rich.table import Table
+
     table = Table(box=None, pad_edge=False)
     for heading in ("", "name", "shows"):
         table.add_column(heading, no_wrap=heading != "shows")
@@ -162,9 +189,10 @@ def _save(
     start: int | None,
     size: int | None,
     fps: float,
-    console: Console,
 ) -> str:
     """Draw one program into a file, and return a description of the picture."""
+    from .. import save_animation, save_image
+
     ending = Path(path).suffix.lower()
     count = frames or (module.FRAMES if ending in _MOVING else 1)
     first = start if start is not None else (module.STILL if count == 1 else 0)
@@ -175,25 +203,17 @@ def _save(
     program = module.build()
     if count == 1 and ending not in _ONLY_MOVING:
         if ending == ".exr":
-            save_image(
-                path,
-                module.draw(
-                    program, renderer, first, size=(width, height), format="rgba32f", **options
-                ),
-            )
+            options["format"] = "rgba32f"
+            picture = module.draw(program, renderer, first, size=(width, height), **options)
+            # The numbers are those of a screen, as in the 8-bit files; an EXR holds the light that looks like them.
+            save_image(path, Image(picture, encoding="srgb"))
         else:
             picture = module.draw(program, renderer, first, size=(width, height), **options)
             save_image(path, picture[..., :3])
         return f"frame {first}, {width} x {height}"
 
     def pictures() -> Iterator[Any]:
-        for frame in track(
-            range(first, first + count),
-            description=path,
-            console=console,
-            disable=count == 1 or not console.is_terminal,
-            transient=True,
-        ):
+        for frame in _with_progress(range(first, first + count), path):
             yield module.draw(program, renderer, frame, size=(width, height), **options)[..., :3]
 
     if ending == ".mp4":
@@ -205,8 +225,18 @@ def _save(
     return f"{count} frames from {first} on, {width} x {height}"
 
 
+def _with_progress(frames: range, path: str) -> Iterable[int]:
+    """Show a bar on a terminal while several frames are drawn."""
+    if len(frames) == 1 or not sys.stdout.isatty():
+        return frames
+    from rich.progress import track
+
+    return track(frames, description=path, transient=True)
+
+
 def _save_sheet(path: str, renderer: Renderer) -> None:
     """Draw the stills of all programs into one picture, each with its number and name below."""
+    from .. import save_image
     from .sheet import contact_sheet
 
     samples = min(_SAMPLES, renderer.info.limits.max_samples)

@@ -6,6 +6,8 @@ import difflib
 from pathlib import Path
 from typing import overload
 
+from .._calls import checked_call
+
 __all__ = ["sample_data"]
 
 _FILES = (
@@ -27,6 +29,7 @@ def sample_data() -> tuple[str, ...]: ...
 def sample_data(name: str) -> Path: ...
 
 
+@checked_call
 def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
     """Find a sample file, or list the names of all.
 

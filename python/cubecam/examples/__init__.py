@@ -20,6 +20,8 @@ from __future__ import annotations
 import importlib
 from typing import Any, Protocol, cast
 
+from .._calls import checked_call
+
 __all__ = ["NAMES", "Example", "load"]
 
 #: The names in the order of the programs' numbers, P1 to P17.
@@ -62,6 +64,7 @@ class Example(Protocol):
         """Draw a frame, ndarray (H, W, 4)."""
 
 
+@checked_call
 def load(name: str) -> Example:
     """Import an example.
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._calls import checked_call
 from .._core import CubeMap
 from ..typing import Center, Convention, FileLayout, Layout, Tonemap
 from . import formats
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+@checked_call
 def save_cubemap(
     cube: CubeMap,
     path: Source,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .._calls import checked_call
 from .._core import CubeMap, ImageError
 from ..typing import Center, Convention, FileLayout, Layout
 from . import formats, oiio
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["load_cubemap", "load_environment"]
 
 
+@checked_call
 def load_cubemap(
     path: Source,
     *,
@@ -121,6 +123,7 @@ def load_cubemap(
     )
 
 
+@checked_call
 def load_environment(
     path: Source,
     *,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from .._calls import checked_call
 from .._core import CubeMap, Frame, Image
 from ..typing import Tonemap
 from . import oiio
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["load_image", "save_animation", "save_frame", "save_image"]
 
 
+@checked_call
 def load_image(path: PathLike, *, srgb: bool = False) -> Array:
     """Read a picture as it is stored.
 
@@ -62,6 +64,7 @@ def load_image(path: PathLike, *, srgb: bool = False) -> Array:
     return decode(oiio.read(existing_file(path)).pixels, srgb)
 
 
+@checked_call
 def save_image(
     path: PathLike,
     pixels: npt.ArrayLike | Picture,
@@ -146,6 +149,7 @@ def save_image(
     write_files({target: encode_picture(target, pixels, srgb, half, exposure, tonemap)})
 
 
+@checked_call
 def save_frame(
     frame: Frame,
     path: PathLike,
@@ -234,6 +238,7 @@ def prepare(
     return on_color(shown, to_float32(array, name)), bool(srgb)
 
 
+@checked_call
 def save_animation(
     path: PathLike,
     frames: Iterable[npt.ArrayLike | Frame | Image],

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .._calls import checked_call
 from .._core import Mesh, MeshError
 from .files import PathLike, existing_file
 
@@ -44,6 +45,7 @@ class _Part:
     colors: npt.NDArray[np.float64] | None
 
 
+@checked_call
 def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     """Read a mesh file.
 

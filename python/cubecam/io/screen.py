@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+from .._calls import checked_call
 from .._core import CubeMap, Frame, Image
 from ..typing import Encode, Encoding, Tonemap
 from .pixels import Array, FloatArray, check_colors, on_color, srgb_decode, srgb_encode, to_float32
@@ -39,6 +40,7 @@ class ClippingWarning(UserWarning):
     __module__ = "cubecam"
 
 
+@checked_call
 def to_screen(
     picture: npt.ArrayLike | Picture,
     *,
