@@ -59,7 +59,7 @@ def test_copies_keep_labels(make_copy):
     assert make_copy(node).label == -3
 
 
-def test_states_of_0_2_have_none():
+def test_older_states_have_none():
     """`Scene.__setstate__` reads states of nodes without their last member, too."""
     scene = cc.Scene()
     scene.add(name="old", label=4)
