@@ -70,7 +70,7 @@ inline py::tuple state_of_node(const NodeValue& value) {
         value.render_order, value.cast_shadow, value.receive_shadow, value.label);
 }
 
-/// Pickles of 0.2 have no label.
+/// Older pickles of the same format have no label.
 inline NodeValue node_from_state(const py::tuple& state) {
     return {to_placing(state[2], state[3], state[4], state[5]),
             to_mesh(state[0]),
