@@ -88,10 +88,10 @@ def info(device: DeviceOption = None) -> None:
 @app.command()
 def demo(
     out: Annotated[str, typer.Option("--out", "-o", help="The folder to write to.")] = "out",
-    frames: Annotated[int, typer.Option(min=1, help="Pictures of the animation.")] = 36,
+    frames: Annotated[int, typer.Option(min=1, help="Pictures of the animation.")] = 100,
     size: Annotated[
-        int, typer.Option(min=1, help="Width and height of the frame, in pixels.")
-    ] = 512,
+        int, typer.Option(min=1, help="Width of the frame, in pixels; its height is 3/4 of that.")
+    ] = 1024,
     device: DeviceOption = None,
 ) -> None:
     """Render the sample scene: frame, cubemap cross, panorama and animation."""
