@@ -97,19 +97,19 @@ def test_its_first_picture_is_what_the_first_program_writes(first):
 def test_the_material_of_ones_own_is_the_mirror_it_says(tmp_path, monkeypatch):
     (code,) = [block for block in BLOCKS if "ShaderMaterial" in block]
     scope = run(code, tmp_path, monkeypatch)
-    own, ball, scene, camera = (scope[name] for name in ("gold", "ball", "scene", "camera"))
-    own.uniforms["share"] = 0.78
+    own, head, scene, camera = (scope[name] for name in ("gold", "head", "scene", "camera"))
+    own.uniforms["share"] = 1
     with cc.Renderer(device="software") as renderer:
         got = renderer.render(scene, camera, (64, 64), format="rgba32f", outputs=("id",))
-        ball.material = cc.MirrorMaterial(
-            color=(0.95, 0.85, 0.4), env_weight=0.78, color_weight=0.3
-        )
+        head.material = cc.MirrorMaterial(tint=own.uniforms["color"])
         want = renderer.render(scene, camera, (64, 64), format="rgba32f")
-    assert (got.id == ball.id).mean() > 0.2
+    assert (got.id == head.id).mean() > 0.2
     assert_close(got.color, want.color, "lookup")
     picture = cc.load_image(tmp_path / "gold.png")
-    assert picture.shape == (256, 256, 4)
-    assert np.ptp(picture[96:160, 96:160, :3]) > 30
+    assert picture.shape == (512, 512, 4)
+    red, _, blue = picture[192:256, 192:320, :3].astype(int).T
+    assert (red > blue).mean() > 0.95  # gold
+    assert np.ptp(red) > 100
 
 
 def test_every_name_at_hand_exists(tmp_path):

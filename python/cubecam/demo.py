@@ -265,7 +265,7 @@ def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> st
             save_image(path, _frame(renderer, demo, size))
             steps.advance()
         with steps.step("capture of six faces"):
-            cube = renderer.capture(demo.scene, position=(0, 0, 0), size=half, exclude=[demo.ball])
+            cube = renderer.capture(demo.scene, size=half, exclude=[demo.ball], samples=4)
             steps.advance()
         with steps.step("cross, as captured", "cross.exr") as path:
             cube.save(path, layout="cross", convention="inside")
