@@ -57,10 +57,11 @@ def first_program() -> tuple[Picture, cc.CubeMap]:
 def three_heads() -> Picture:
     """Suzanne three times, in gold, glazed clay and glass, in the mist of a sunrise."""
     scene = cc.Scene(environment=cc.load_environment(cc.sample_data("sunrise.exr"), mipmaps=True))
-    shadow = cc.Shadow(size=2048, radius=4)
-    sun = cc.DirectionalLight((-0.5, -0.55, 0.6), color="#ffe0b0", intensity=1.4, shadow=shadow)
+    sharp, soft = cc.Shadow(size=2048, radius=4), cc.Shadow(size=128, radius=5)
+    sun = cc.DirectionalLight((-0.5, -0.55, 0.6), color="#ffe0b0", intensity=1.4, shadow=sharp)
+    sky = cc.DirectionalLight((-0.2, -1, -0.6), color="#c4d4ff", intensity=0.7, shadow=soft)
     scene.add(sun)
-    scene.add(cc.DirectionalLight((-0.2, -0.6, -1), color="#c4d4ff", intensity=0.6))
+    scene.add(sky)
     stone = cc.PhongMaterial(color="#c0a888", ka=0.12, kd=0.85, ks=0)
     scene.add(cc.Mesh.cylinder(4.3, 0.4, 128), stone, position=(0, -0.2, 0))
     head = cc.load_mesh(cc.sample_data("suzanne.glb"), size=1.5)
@@ -76,11 +77,8 @@ def three_heads() -> Picture:
         node.environment = cc.Probe(position=place, size=512, mipmaps=True)
     camera = cc.PerspectiveCamera(fov=21, position=(-1.3, 0.95, 7.6), target=(0, 0.62, 0))
     with cc.Renderer() as renderer:
-        frame = renderer.render(
-            scene, camera, size=(1024, 576), samples=4, tonemap="neutral", encode="srgb"
-        )
-    picture: Picture = frame.color[..., :3]
-    return picture
+        frame = renderer.render(scene, camera, (1024, 576), samples=4, format="rgba16f")
+    return cc.to_screen(frame)[..., :3]
 
 
 def on_paper(picture: Picture, paper: tuple[int, int, int] = (255, 255, 255)) -> Picture:

@@ -9,13 +9,14 @@ import math
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._core import (
     CubeMap,
     DirectionalLight,
+    Frame,
     Image,
     Mesh,
     MirrorMaterial,
@@ -105,10 +106,9 @@ def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) ->
     if environment is None:
         environment = load_environment(sample_data("sunset.exr"))
     scene = Scene(environment=environment)
-    shadow = Shadow(size=2048, radius=4)
-    scene.add(DirectionalLight((-1, -0.75, 0.5), color="#ffd2a0", intensity=1.3, shadow=shadow))
-    scene.add(DirectionalLight((0.3, -1, -0.6), color="#b4c8ff", intensity=0.5))
-    scene.add(DirectionalLight((0.7, -0.1, -1), color="#ffc8b0", intensity=0.2))
+    sharp, soft = Shadow(size=2048, radius=4), Shadow(size=128, radius=5)
+    scene.add(DirectionalLight((-1, -0.75, 0.5), color="#ffd2a0", intensity=1.3, shadow=sharp))
+    scene.add(DirectionalLight((0.3, -1, -0.6), color="#c8d4ff", intensity=0.6, shadow=soft))
     stone = PhongMaterial(color="#d8b8a8", kd=0.8, ks=0, map=_tiles())
     scene.add(Mesh.cylinder(3.6, 0.3, 128), stone, position=(0, _FLOOR - 0.15, 0))
     clay = PhongMaterial(color="#f08070", kd=0.8, ks=0.3, shininess=30)
@@ -262,7 +262,7 @@ def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> st
         steps.advance()
     with renderer:
         with steps.step("frame", "frame.png") as path:
-            save_image(path, _frame(renderer, demo, size))
+            _frame(renderer, demo, size).save(path)
             steps.advance()
         with steps.step("capture of six faces"):
             cube = renderer.capture(demo.scene, size=half, exclude=[demo.ball], samples=4)
@@ -274,30 +274,26 @@ def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> st
             save_image(path, named_cross(cube))
             steps.advance()
         with steps.step("panorama, as captured", "panorama.exr") as path:
-            panorama = cube.to_equirect(width=4 * half)
-            save_image(path, panorama)
+            cube.save(path, layout="equirect")
             steps.advance()
         with steps.step("panorama, for the screen", "panorama.png") as path:
-            save_image(path, to_screen(panorama))
+            cube.save(path, layout="equirect")
             steps.advance()
         with steps.step("animation", "turn.png") as path:
             demo = build_scene(probe_size=max(1, half // 2))
             pictures = []
             for index in range(frames):
                 demo.turn(_START + 360 * index / frames)
-                pictures.append(_frame(renderer, demo, half))
+                pictures.append(to_screen(_frame(renderer, demo, half)))
                 steps.advance()
             save_animation(path, pictures, fps=25)
         return f"{renderer.info.renderer}, OpenGL {renderer.info.version}"
 
 
-def _frame(renderer: Renderer, demo: DemoScene, size: int) -> Any:
-    """Render the camera's view, `size` pixels wide, ready for the screen."""
+def _frame(renderer: Renderer, demo: DemoScene, size: int) -> Frame:
+    """Render the camera's view, `size` pixels wide."""
     shape = (size, max(1, size * 3 // 4))
-    frame = renderer.render(
-        demo.scene, demo.camera, size=shape, samples=4, tonemap="neutral", encode="srgb"
-    )
-    return frame.color
+    return renderer.render(demo.scene, demo.camera, size=shape, samples=4, format="rgba16f")
 
 
 def _report(console: Console, steps: list[Step], drawn_by: str) -> None:

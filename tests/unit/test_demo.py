@@ -103,7 +103,7 @@ def test_run_writes_pictures_of_one_size_and_a_turn_at_25_frames_a_second(tmp_pa
 def test_the_frame_is_neither_dark_nor_clipped():
     built = demo.build_scene(probe_size=64)
     with cc.Renderer(device="software") as renderer:
-        picture = demo._frame(renderer, built, 256)[..., :3]
+        picture = cc.to_screen(demo._frame(renderer, built, 256))[..., :3]
     assert 0.25 < picture.mean() / 255 < 0.75
     assert (picture < 12).mean() < 0.10
     assert (picture > 250).mean() < 0.12
