@@ -16,7 +16,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-asan dev lint format stubs bench docs sdist wheel mutants clean
+.PHONY: help demo test test-fast test-build test-asan dev lint format stubs bench docs gallery sdist wheel mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -61,6 +61,9 @@ bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL an
 
 docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
 	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam
+
+gallery: $(VENV)/.installed ## draw the pictures of the README into docs/images
+	@$(PY) scripts/gallery.py
 
 sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dist/ and build a wheel from it alone
 	@$(PY) -m build --quiet --sdist --outdir dist .

@@ -19,7 +19,8 @@ import cubecam as cc
 from cubecam.io import oiio
 
 DATA = Path(__file__).resolve().parent.parent / "python" / "cubecam" / "data"
-COMPRESSION = "dwab:5"
+#: A fixed date, so that the same pictures give the same bytes.
+ATTRIBUTES = {"compression": "dwab:5", "DateTime": "2000:01:01 00:00:00"}
 
 Pixels = npt.NDArray[np.float32]
 
@@ -33,7 +34,7 @@ def write(path: Path, wanted: Pixels) -> Pixels:
     raised = wanted.copy()
     for _ in range(100):
         half: npt.NDArray[Any] = raised.astype(np.float16)
-        path.write_bytes(oiio.encode(".exr", half, {"compression": COMPRESSION}))
+        path.write_bytes(oiio.encode(".exr", half, ATTRIBUTES))
         decoded = load(path)
         if decoded.min() >= 0:
             return decoded

@@ -9,7 +9,8 @@ import pytest
 import cubecam as cc
 from tests.compare import assert_close
 
-TEXT = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parents[1]
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, flags=re.DOTALL)
 
 
@@ -28,22 +29,84 @@ def test_every_block_runs_alone(index, tmp_path, monkeypatch):
     assert {path.name for path in tmp_path.iterdir()} == saved
 
 
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    """The names of the first program after its run, and the frame that it wrote."""
+    folder = tmp_path_factory.mktemp("first")
+    with pytest.MonkeyPatch.context() as patch:
+        scope = run(BLOCKS[0], folder, patch)
+    return scope, cc.load_image(folder / "frame.png")
+
+
+@pytest.mark.slow
+def test_the_first_program_writes_a_picture_that_is_neither_dark_nor_clipped(first):
+    _, picture = first
+    assert picture.shape[:2] == (768, 1024)
+    colors = picture[..., :3]
+    assert 0.25 < colors.mean() / 255 < 0.75
+    assert (colors < 12).mean() < 0.10
+    assert (colors > 250).mean() < 0.12
+
+
+@pytest.mark.slow
+def test_the_first_program_shows_shadow_and_ball(first):
+    """The bunny's shadow darkens the ground, and the ball, which shows the bunny, covers a tenth of the picture."""
+    scope, _ = first
+    scene, camera, ball, hero = (scope[name] for name in ("scene", "camera", "ball", "hero"))
+    with cc.Renderer(device="software") as renderer:
+        lit = renderer.render(scene, camera, (256, 192), format="rgba32f", outputs=("id",))
+        hero.cast_shadow = False
+        without = renderer.render(scene, camera, (256, 192), format="rgba32f")
+        scene.remove(hero)
+        alone = renderer.render(scene, camera, (256, 192), format="rgba32f", outputs=("id",))
+    ground = ~np.isin(lit.id, (0, ball.id, hero.id))
+    darker = lit.color[..., 0] < 0.7 * without.color[..., 0]
+    assert (darker & ground).mean() > 0.02
+    on_ball = (lit.id == ball.id) & (alone.id == ball.id)
+    assert on_ball.mean() > 0.1
+    changed = np.abs(lit.color - alone.color).max(axis=2) > 0.05
+    assert (changed & on_ball).sum() > 0.02 * on_ball.sum()
+
+
+def test_its_pictures_are_there_before_the_first_code():
+    above = TEXT[: TEXT.index("```")]
+    pictures = re.findall(r"!\[([^\]]+)\]\(([^)]+)\)", TEXT)
+    assert len(pictures) == 3
+    assert len({path for _, path in pictures}) == 3
+    for words, path in pictures:
+        assert f"]({path})" in above
+        assert len(words) > 40  # says what is shown
+        assert (ROOT / path).stat().st_size <= 200_000
+        picture = cc.load_image(ROOT / path)
+        assert picture.shape[1] == 1024
+        assert picture.std() > 30
+    folder = (ROOT / "docs" / "images").iterdir()
+    assert {f"docs/images/{path.name}" for path in folder} == {path for _, path in pictures}
+
+
+@pytest.mark.slow
+def test_its_first_picture_is_what_the_first_program_writes(first):
+    shown = cc.load_image(ROOT / "docs" / "images" / "frame.jpg").astype(float)
+    drawn = first[1][..., :3].astype(float)
+    assert np.abs(shown - drawn).mean() < 2  # JPEG, and another driver's roundings
+
+
 def test_the_material_of_ones_own_is_the_mirror_it_says(tmp_path, monkeypatch):
     (code,) = [block for block in BLOCKS if "ShaderMaterial" in block]
     scope = run(code, tmp_path, monkeypatch)
-    own, ball, scene, camera = (scope[name] for name in ("gold", "ball", "scene", "camera"))
-    own.uniforms["share"] = 0.78
+    own, head, scene, camera = (scope[name] for name in ("gold", "head", "scene", "camera"))
+    own.uniforms["share"] = 1
     with cc.Renderer(device="software") as renderer:
         got = renderer.render(scene, camera, (64, 64), format="rgba32f", outputs=("id",))
-        ball.material = cc.MirrorMaterial(
-            color=(0.95, 0.85, 0.4), env_weight=0.78, color_weight=0.3
-        )
+        head.material = cc.MirrorMaterial(tint=own.uniforms["color"])
         want = renderer.render(scene, camera, (64, 64), format="rgba32f")
-    assert (got.id == ball.id).mean() > 0.2
+    assert (got.id == head.id).mean() > 0.2
     assert_close(got.color, want.color, "lookup")
     picture = cc.load_image(tmp_path / "gold.png")
-    assert picture.shape == (256, 256, 4)
-    assert np.ptp(picture[96:160, 96:160, :3]) > 30
+    assert picture.shape == (512, 512, 4)
+    red, _, blue = picture[192:256, 192:320, :3].astype(int).T
+    assert (red > blue).mean() > 0.95  # gold
+    assert np.ptp(red) > 100
 
 
 def test_every_name_at_hand_exists(tmp_path):

@@ -1,4 +1,4 @@
-"""The demo: a bunny and a teapot circle a mirror ball on a photographed quay, drawn in every kind of picture.
+"""The demo: a bunny and a teapot circle a mirror ball at the sea, drawn in every kind of picture.
 
 The command line, a notebook and the tests use the scene that `build_scene` makes.
 """
@@ -9,20 +9,25 @@ import math
 import time
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from ._calls import checked_call
 from ._core import (
     CubeMap,
+    DirectionalLight,
+    Frame,
+    Image,
     Mesh,
     MirrorMaterial,
     Node,
     PerspectiveCamera,
     PhongMaterial,
-    PointLight,
     Probe,
     Renderer,
     Scene,
+    Shadow,
     axis_angle,
 )
 from .data import sample_data
@@ -30,6 +35,7 @@ from .io.cubemaps import load_environment
 from .io.files import PathLike, as_path
 from .io.images import save_animation, save_image
 from .io.meshes import load_mesh
+from .io.pixels import Array
 from .io.screen import to_screen
 from .pictures import cube_picture
 
@@ -40,10 +46,11 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.progress import Progress, TaskID
 
-__all__ = ["DemoScene", "Step", "build_scene", "run"]
+__all__ = ["DemoScene", "Step", "build_scene", "named_cross", "run"]
 
-_START = 320.0  # degrees: where the bunny stands in still pictures
-_ORBIT = 1.4  # world units from the ball's center to the bunny and the teapot
+_START = 350.0  # degrees: where the bunny stands in still pictures
+_ORBIT = 1.45  # world units from the ball's center to the bunny and the teapot
+_FLOOR = -0.75  # world units: the height of the terrace, on which the ball rests
 
 
 @dataclass(slots=True)
@@ -67,13 +74,18 @@ class DemoScene:
         """
         for node, own in ((self.bunny, angle), (self.teapot, angle + 180)):
             radians = math.radians(own)
-            node.position = (_ORBIT * math.cos(radians), -0.1, -_ORBIT * math.sin(radians))
+            lowest = node.mesh.bounds[0][1] if node.mesh else 0.0
+            node.position = (
+                _ORBIT * math.cos(radians),
+                _FLOOR - lowest,
+                -_ORBIT * math.sin(radians),
+            )
             node.rotation = axis_angle((0, 1, 0), own)
 
 
 @checked_call
 def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) -> DemoScene:
-    """Build the scene: a ground, a bunny, a teapot, and a mirror ball that follows both.
+    """Build the scene: a bunny, a teapot, and a mirror ball that follows both, on a terrace at the sea.
 
     Parameters
     ----------
@@ -91,27 +103,72 @@ def build_scene(*, environment: CubeMap | None = None, probe_size: int = 256) ->
     >>> from cubecam.demo import build_scene
     >>> demo = build_scene(probe_size=64)
     >>> demo.turn(90)
-    >>> [round(float(x), 3) + 0 for x in demo.bunny.position]
-    [0.0, -0.1, -1.4]
+    >>> [round(float(x), 2) + 0 for x in demo.bunny.position]
+    [0.0, -0.19, -1.45]
     """
     if environment is None:
         environment = load_environment(sample_data("sunset.exr"))
     scene = Scene(environment=environment)
-    scene.add(PointLight(position=(3, 4, 3)))
-    scene.add(Mesh.plane(10, 10), PhongMaterial(color=(0.4, 0.4, 1)), position=(0, -2, 0))
-    bunny = scene.add(
-        load_mesh(sample_data("bunny.obj"), size=1), PhongMaterial(color=(1, 0.4, 0.4))
-    )
-    teapot = scene.add(
-        load_mesh(sample_data("teapot.obj"), size=1), PhongMaterial(color=(0.4, 1, 0.4))
-    )
-    gold = MirrorMaterial(color=(0.95, 0.85, 0.4), env_weight=0.78, color_weight=0.3)
-    ball = scene.add(Mesh.sphere(0.5), gold)
+    sharp, soft = Shadow(size=2048, radius=4), Shadow(size=128, radius=5)
+    scene.add(DirectionalLight((-1, -0.75, 0.5), color="#ffd2a0", intensity=1.3, shadow=sharp))
+    scene.add(DirectionalLight((0.3, -1, -0.6), color="#c8d4ff", intensity=0.6, shadow=soft))
+    stone = PhongMaterial(color="#d8b8a8", kd=0.8, ks=0, map=_tiles())
+    scene.add(Mesh.cylinder(3.6, 0.3, 128), stone, position=(0, _FLOOR - 0.15, 0))
+    clay = PhongMaterial(color="#f08070", kd=0.8, ks=0.3, shininess=30)
+    bunny = scene.add(load_mesh(sample_data("bunny.obj"), size=1.15), clay)
+    glaze = PhongMaterial(color="#4fb3aa", kd=0.8, ks=0.5, shininess=40)
+    teapot = scene.add(load_mesh(sample_data("teapot.obj"), size=1.1), glaze)
+    ball = scene.add(Mesh.sphere(-_FLOOR), MirrorMaterial(tint="#ffe9c4"))
     ball.environment = Probe(position=(0, 0, 0), size=probe_size)
-    camera = PerspectiveCamera(fov=50, position=(0, 1.2, 4.2), target=(0, -0.1, 0))
+    camera = PerspectiveCamera(fov=32, position=(2.7, 0.6, 5.8), target=(0, -0.08, 0))
     demo = DemoScene(scene, camera, ball, bunny, teapot)
     demo.turn(_START)
     return demo
+
+
+def _tiles() -> Image:
+    """A chessboard of 16 x 16 tiles in two shades of grey."""
+    board = np.indices((16, 16)).sum(axis=0) % 2
+    return Image(0.75 + 0.25 * np.kron(board, np.ones((32, 32)))[..., None], mipmaps=True)
+
+
+@checked_call
+def named_cross(cube: CubeMap) -> Array:
+    """Draw a cubemap as a cross seen from inside, with the name of each face in its upper left corner.
+
+    Parameters
+    ----------
+    cube : CubeMap
+        N texels along an edge of a face.
+
+    Returns
+    -------
+    ndarray (3N, 4N, 4) uint8
+        Cells without a face are transparent.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> from cubecam.demo import named_cross
+    >>> named_cross(cc.load_environment(cc.sample_data("forest.exr"), size=64)).shape
+    (192, 256, 4)
+    """
+    from PIL import Image as Picture
+    from PIL import ImageDraw, ImageFont
+
+    picture = Picture.fromarray(cube_picture(cube))
+    draw = ImageDraw.Draw(picture)
+    size = cube.size
+    font = ImageFont.load_default(max(1, size // 9))
+    for name, (column, row) in _CELLS.items():
+        corner = (column * size + size // 18, row * size + size // 24)
+        stroke = max(1, size // 128)
+        draw.text(corner, name, "white", font, stroke_width=stroke, stroke_fill="#303848")
+    return np.asarray(picture)
+
+
+#: Column and row of each face in the cross of convention "inside".
+_CELLS = {"-X": (0, 1), "-Z": (1, 1), "+X": (2, 1), "+Z": (3, 1), "+Y": (1, 0), "-Y": (1, 2)}
 
 
 @dataclass(frozen=True)
@@ -127,8 +184,8 @@ class Step:
 def run(
     out: PathLike = "out",
     *,
-    frames: int = 36,
-    size: int = 512,
+    frames: int = 100,
+    size: int = 1024,
     device: str | int | None = None,
     console: Console | None = None,
 ) -> list[Step]:
@@ -139,9 +196,10 @@ def run(
     out : path
         The folder to write to; it is made if it does not exist.
     frames : int
-        Number of pictures of the animation, which shows one turn.
+        Number of pictures of the animation, which shows one turn; 25 are shown in a second.
     size : int
-        Width and height of the frame in pixels. The animation and the cubemap's faces have half of it.
+        Width of the frame in pixels; its height is 3/4 of that. The animation and the cubemap's faces have half
+        the width.
     device : str or int, optional
         The device of the `Renderer`.
     console : rich.console.Console, optional
@@ -209,40 +267,38 @@ def _draw(steps: _Steps, frames: int, size: int, device: str | int | None) -> st
         steps.advance()
     with renderer:
         with steps.step("frame", "frame.png") as path:
-            save_image(path, _frame(renderer, demo, size))
+            _frame(renderer, demo, size).save(path)
             steps.advance()
         with steps.step("capture of six faces"):
-            cube = renderer.capture(demo.scene, position=(0, 0, 0), size=half, exclude=[demo.ball])
+            cube = renderer.capture(demo.scene, size=half, exclude=[demo.ball], samples=4)
             steps.advance()
         with steps.step("cross, as captured", "cross.exr") as path:
             cube.save(path, layout="cross", convention="inside")
             steps.advance()
         with steps.step("cross, for the screen", "cross.png") as path:
-            save_image(path, cube_picture(cube))
+            save_image(path, named_cross(cube))
             steps.advance()
         with steps.step("panorama, as captured", "panorama.exr") as path:
-            panorama = cube.to_equirect(width=4 * half)
-            save_image(path, panorama)
+            cube.save(path, layout="equirect")
             steps.advance()
         with steps.step("panorama, for the screen", "panorama.png") as path:
-            save_image(path, to_screen(panorama))
+            cube.save(path, layout="equirect")
             steps.advance()
         with steps.step("animation", "turn.png") as path:
+            demo = build_scene(probe_size=max(1, half // 2))
             pictures = []
             for index in range(frames):
                 demo.turn(_START + 360 * index / frames)
-                pictures.append(_frame(renderer, demo, half))
+                pictures.append(to_screen(_frame(renderer, demo, half)))
                 steps.advance()
-            save_animation(path, pictures, fps=12)
+            save_animation(path, pictures, fps=25)
         return f"{renderer.info.renderer}, OpenGL {renderer.info.version}"
 
 
-def _frame(renderer: Renderer, demo: DemoScene, size: int) -> Any:
-    """Render the camera's view, ready for the screen."""
-    frame = renderer.render(
-        demo.scene, demo.camera, size=(size, size), samples=4, tonemap="neutral", encode="srgb"
-    )
-    return frame.color
+def _frame(renderer: Renderer, demo: DemoScene, size: int) -> Frame:
+    """Render the camera's view, `size` pixels wide."""
+    shape = (size, max(1, size * 3 // 4))
+    return renderer.render(demo.scene, demo.camera, size=shape, samples=4, format="rgba16f")
 
 
 def _report(console: Console, steps: list[Step], drawn_by: str) -> None:

@@ -109,6 +109,7 @@ BY_POSITION = {
     "pictures.frame_png": ["frame"],
     "pictures.image_png": ["image"],
     "demo.run": ["out"],
+    "demo.named_cross": ["cube"],
     "DemoScene.turn": ["angle"],
     "to_screen": ["picture"],
     "images.save_frame": ["frame", "path"],

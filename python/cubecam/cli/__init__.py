@@ -33,14 +33,14 @@ def app() -> None:
 @click.command(cls=Command)
 @option("--out", "-o", metavar="FOLDER", type=FILE, default="out", help="The folder to write to.")
 @option(
-    "--frames", type=WholeNumber(1), metavar="COUNT", default=36, help="Pictures of the animation."
+    "--frames", type=WholeNumber(1), metavar="COUNT", default=100, help="Pictures of the animation."
 )
 @option(
     "--size",
     type=WholeNumber(1),
     metavar="PIXELS",
-    default=512,
-    help="Width and height of the frame.",
+    default=1024,
+    help="Width of the frame; its height is 3/4 of that.",
 )
 @device_option
 def demo(out: str, frames: int, size: int, device: str | None) -> None:
