@@ -41,7 +41,7 @@ test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitize
 dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
 	@if git rev-parse --git-dir >/dev/null 2>&1; then $(PY) -m pre_commit install; fi
 
-lint: $(VENV)/.installed $(VENV)/.deps-dev ## check formatting, types and stubs; change nothing
+lint: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## check formatting, types and stubs; change nothing
 	$(PY) -m ruff check .
 	$(PY) -m ruff format --check .
 	$(PY) -m mypy

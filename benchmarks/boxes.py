@@ -44,7 +44,9 @@ class Boxes:
 
 def box_arrays() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """(24, 3) positions, (24, 3) normals and (12, 3) triangles of a box of side SIZE with flat faces."""
-    positions, normals, triangles = [], [], []
+    positions: list[np.ndarray] = []
+    normals: list[np.ndarray] = []
+    triangles: list[list[int]] = []
     for axis in range(3):
         for sign in (1, -1):
             normal, u, v = np.zeros(3), np.zeros(3), np.zeros(3)

@@ -37,7 +37,8 @@ class _Steps:
     def picture(self, index: int) -> np.ndarray:
         self.prepare(index)
         self.move(index)
-        return self.draw(index)
+        pixels: np.ndarray = self.draw(index)
+        return pixels
 
     def time(self, index: int) -> tuple[float, float]:
         """CPU milliseconds of moving, and of drawing, which includes reading the picture."""

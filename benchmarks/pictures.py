@@ -44,7 +44,8 @@ def _edges(picture: np.ndarray) -> np.ndarray:
         parts = [np.arange(start, start + count) for start in range(3)]
         high = np.maximum.reduce([high.take(part, axis) for part in parts])
         low = np.minimum.reduce([low.take(part, axis) for part in parts])
-    return ((high - low) > EDGE).any(axis=-1)
+    edges: np.ndarray = ((high - low) > EDGE).any(axis=-1)
+    return edges
 
 
 def difference(picture: np.ndarray, reference: np.ndarray) -> Difference:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 FACE_SIZE = 256
 FRAME_SIZE = (512, 512)
@@ -131,7 +132,7 @@ def obj_mesh(path: Path, size: float) -> MeshArrays:
     return _mesh((positions - (positions.max(0) + positions.min(0)) / 2) * (size / extent), indices)
 
 
-def look_at(eye, forward, up) -> np.ndarray:
+def look_at(eye: ArrayLike, forward: ArrayLike, up: ArrayLike) -> np.ndarray:
     """(4, 4) view matrix of a camera at `eye` that looks along `forward`."""
     f = np.asarray(forward, float)
     f = f / np.linalg.norm(f)
@@ -163,12 +164,12 @@ def face_view_projections() -> list[np.ndarray]:
 
 def main_view_projection() -> np.ndarray:
     """The view-projection matrix of the picture."""
-    return perspective(FOV, FRAME_SIZE[0] / FRAME_SIZE[1], NEAR, FAR) @ look_at(
-        EYE, np.negative(EYE), (0, 1, 0)
-    )
+    view = look_at(EYE, np.negative(EYE), (0, 1, 0))
+    both: np.ndarray = perspective(FOV, FRAME_SIZE[0] / FRAME_SIZE[1], NEAR, FAR) @ view
+    return both
 
 
-def translation(position) -> np.ndarray:
+def translation(position: ArrayLike) -> np.ndarray:
     matrix = np.eye(4)
     matrix[:3, 3] = position
     return matrix

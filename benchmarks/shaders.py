@@ -5,6 +5,8 @@ Block 0 holds the data of a view, block 1 those of an object; both are std140.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from . import scene
@@ -59,12 +61,12 @@ void main() {{
 """
 
 
-def view_block(view_projection: np.ndarray, eye) -> bytes:
+def view_block(view_projection: np.ndarray, eye: Sequence[float]) -> bytes:
     """The bytes of block View."""
     return np.vstack([view_projection.T, [[*eye, 1]]]).astype(np.float32).tobytes()
 
 
-def object_block(position, color) -> bytes:
+def object_block(position: Sequence[float], color: Sequence[float]) -> bytes:
     """The bytes of block Object for an object that is moved but not turned, so its mesh's normals stay valid."""
     return (
         np.vstack([scene.translation(position).T, np.eye(4), [[*color, 1]]])

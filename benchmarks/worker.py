@@ -32,7 +32,8 @@ IMPLEMENTATIONS: dict[str, tuple[str, dict[str, bool]]] = {
 
 def _answer(program: Any, request: dict[str, Any]) -> dict[str, Any]:
     if request["do"] == "versions":
-        return program.versions()
+        versions: dict[str, Any] = program.versions()
+        return versions
     if request["do"] == "picture":
         np.save(request["path"], np.ascontiguousarray(program.frame(request["frame"])[..., :3]))
         return {}

@@ -154,7 +154,7 @@ def start(tree: Path, path: str | None, folder: Path, only: list[str]) -> subpro
 
 
 def same_bytes(a: Any, b: Any) -> bool:
-    return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+    return bool(a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes())
 
 
 def differing_pixels(a: Any, b: Any) -> Any:

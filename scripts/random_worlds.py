@@ -39,18 +39,22 @@ class Names:
 
     @staticmethod
     def method(renderer: Any, name: str) -> Callable[..., Any]:
-        return getattr(renderer, name if hasattr(cc.Renderer, name) else METHODS[name])
+        method: Callable[..., Any] = getattr(
+            renderer, name if hasattr(cc.Renderer, name) else METHODS[name]
+        )
+        return method
 
     @staticmethod
     def glass(ior: float, **options: Any) -> Any:
         if hasattr(cc.GlassMaterial, "ior"):
             return cc.GlassMaterial(ior=ior, **options)
-        return cc.GlassMaterial(eta=1 / ior, **options)
+        options["eta"] = 1 / ior
+        return cc.GlassMaterial(**options)
 
     @staticmethod
     def mirror(f0: float | None, **options: Any) -> Any:
-        name = "f0" if hasattr(cc.MirrorMaterial, "f0") else "fresnel"
-        return cc.MirrorMaterial(**{name: f0}, **options)
+        options["f0" if hasattr(cc.MirrorMaterial, "f0") else "fresnel"] = f0
+        return cc.MirrorMaterial(**options)
 
 
 TONE = "uniform vec3 tone = vec3(0.2, 0.7, 0.4); vec3 shade(Surface s) { return tone * abs(s.normal); }"

@@ -34,7 +34,7 @@ def make_describable() -> None:
     for imports.
     Methods and properties that python/cubecam/_attach.py adds are plain functions with annotations as text.
     """
-    methods = set()  # some belong to several classes
+    methods: set[types.FunctionType] = set()  # some belong to several classes
     for name, thing in vars(_core).items():
         if getattr(thing, "__module__", None) != "cubecam":
             continue
@@ -47,8 +47,9 @@ def make_describable() -> None:
         for member in vars(thing).values() if isinstance(thing, type) else ():
             accessors = (member.fget, member.fset) if isinstance(member, property) else (member,)
             for function in accessors:
-                ours = isinstance(function, types.FunctionType)
-                if ours and function.__module__.startswith("cubecam"):
+                if isinstance(function, types.FunctionType) and function.__module__.startswith(
+                    "cubecam"
+                ):
                     methods.add(function)
     for method in methods:
         make_method(method)
@@ -102,10 +103,9 @@ def full_names(annotation: str, scope: dict[str, object]) -> str:
 
 def names_of_choices() -> dict[tuple[str, ...], str]:
     """Map the names that a choice has to the alias of the choice in cubecam.typing."""
-    aliases = vars(cubecam.typing).items()
     return {
-        typing.get_args(alias): name
-        for name, alias in aliases
+        tuple(map(str, typing.get_args(alias))): name
+        for name, alias in vars(cubecam.typing).items()
         if typing.get_origin(alias) is typing.Literal
     }
 
@@ -126,6 +126,8 @@ class ExactTypes(ast.NodeTransformer):
             argument.annotation = self.visit(argument.annotation or ast.Name("object"))
         if node.returns is not None:
             node.returns = self.visit(node.returns)
+        if node.name == "add" and arguments[1].arg == "light":  # returns the light that it takes
+            arguments[1].annotation = node.returns = ast.Name("AnyLight")
         if node.name in ("__eq__", "__ne__"):  # both return NotImplemented for other classes
             arguments[1].annotation = ast.Name("object")
             node.returns = ast.Name("bool")
@@ -138,7 +140,7 @@ class ExactTypes(ast.NodeTransformer):
         kind = ast.unparse(node.value)
         if kind == "typing.Literal":
             parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
-            names = tuple(part.value for part in parts if isinstance(part, ast.Constant))
+            names = tuple(str(part.value) for part in parts if isinstance(part, ast.Constant))
             if names not in self.choices:
                 self.unknown.append(", ".join(map(str, names)))
                 return node
@@ -168,6 +170,8 @@ def with_exact_types(text: str) -> str:
             f"expected an alias in cubecam.typing for each choice, got none for\n{lists}"
         )
     imported = ", ".join(cubecam.typing.__all__)
+    variable = ast.parse('AnyLight = typing.TypeVar("AnyLight", bound="Light")').body
+    tree.body[-1:-1] = variable
     lines = ast.unparse(tree).splitlines(keepends=True)
     at = lines.index("from __future__ import annotations\n") + 1
     lines = [line for line in lines if line not in ("import cubecam\n", "import cubecam.typing\n")]
@@ -195,7 +199,8 @@ def with_excuses(text: str) -> str:
             name = getattr(member, "name", "")
             inherits = any((ast.unparse(base), name) in setters for base in kind.bases)
             if inherits and (kind.name, name) not in setters:
-                lines[member.decorator_list[0].lineno - 1] += "  # type: ignore[misc]"
+                line = getattr(member, "decorator_list", [member])[0].lineno
+                lines[line - 1] += "  # type: ignore[misc]"
     return "\n".join(lines) + "\n"
 
 

@@ -16,7 +16,7 @@ BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, flags=re.DOTALL)
 
 def run(code, folder, monkeypatch):
     monkeypatch.chdir(folder)
-    scope = {}
+    scope: dict[str, object] = {}
     exec(compile(code, "README.md", "exec"), scope)
     return scope
 

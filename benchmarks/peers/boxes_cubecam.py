@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 import cubecam as cc
 
@@ -17,7 +18,7 @@ def _mesh() -> cc.Mesh:
     return cc.Mesh(positions, triangles, normals=normals)
 
 
-def _material(color, lit: bool) -> cc.Material:
+def _material(color: ArrayLike, lit: bool) -> cc.Material:
     if not lit:
         return cc.BasicMaterial(color=color)
     return cc.PhongMaterial(
@@ -43,7 +44,7 @@ class Boxes:
         bulk: bool = False,
     ) -> None:
         self.boxes = boxes.Boxes(count, colors)
-        self.size = tuple(size)
+        self.size = (size[0], size[1])  # a list after its way as JSON
         self.moved = count if moved is None else moved
         self.bulk = bulk
         self.scene = cc.Scene(background=boxes.CLEAR)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import moderngl
 import numpy as np
 
 from .. import boxes, scene
@@ -73,7 +74,7 @@ class _Boxes:
         self.models[:, :3, :3] = np.swapaxes(self.boxes.rotations(), 1, 2)
         self.models[:, 3, 3] = 1
 
-    def _program(self, vertex: str, fragment: str):
+    def _program(self, vertex: str, fragment: str) -> moderngl.Program:
         program = self.frame.ctx.program(vertex_shader=vertex.lstrip(), fragment_shader=fragment)
         aspect = boxes.FRAME_SIZE[0] / boxes.FRAME_SIZE[1]
         projection = scene.perspective(boxes.FOV, aspect, boxes.NEAR, boxes.FAR)

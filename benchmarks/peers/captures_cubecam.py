@@ -23,7 +23,7 @@ def _room(lights: int) -> tuple[cc.Scene, list[cc.Light]]:
         scene.add(
             ball, cc.PhongMaterial(color=(1, 0.2 * index, 0.3), kd=0.2, ks=0.2), position=place
         )
-    found = []
+    found: list[cc.Light] = []
     for index in range(lights):
         angle = index * 2 * math.pi / max(lights, 1)
         place = (3 * math.cos(angle), 2, 3 * math.sin(angle))

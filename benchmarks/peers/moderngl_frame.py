@@ -49,7 +49,7 @@ class Frame:
         return self._pixels[::-1]
 
 
-def set_uniforms(program: moderngl.Program, **values) -> None:
+def set_uniforms(program: moderngl.Program, **values: object) -> None:
     """Set the uniforms that the program has; a compiler removes those that an unlit program does not use."""
     for name, value in values.items():
         if name in program:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 import cubecam as cc
 
@@ -70,7 +71,7 @@ def _mesh(arrays: scene.MeshArrays) -> cc.Mesh:
     return cc.Mesh(arrays.positions, arrays.indices, normals=arrays.normals)
 
 
-def _phong(color) -> cc.PhongMaterial:
+def _phong(color: ArrayLike) -> cc.PhongMaterial:
     return cc.PhongMaterial(
         color=color, ka=scene.KA, kd=scene.KD, ks=scene.KS, shininess=scene.SHININESS
     )

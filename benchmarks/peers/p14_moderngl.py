@@ -9,6 +9,8 @@ the vertex shader). It is the fastest way for a user who adds four raw GL calls 
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import glcontext
 import moderngl
@@ -16,6 +18,8 @@ import numpy as np
 
 from .. import scene, shaders
 from .egl import LIBRARIES
+
+Buffers: TypeAlias = tuple[moderngl.Buffer, moderngl.Buffer]  # vertices and indices
 
 GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT = 0x8D40, 0x8CE0, 0x8D00
 GL_TEXTURE_CUBE_MAP_POSITIVE_X, GL_TEXTURE_CUBE_MAP = 0x8515, 0x8513
@@ -92,19 +96,21 @@ class Program:
         color = ctx.texture(scene.FRAME_SIZE, 4)
         self.main_target = ctx.framebuffer([color], ctx.depth_renderbuffer(scene.FRAME_SIZE))
 
-    def _buffers(self, mesh: scene.MeshArrays):
+    def _buffers(self, mesh: scene.MeshArrays) -> Buffers:
         return self.ctx.buffer(mesh.interleaved.tobytes()), self.ctx.buffer(mesh.indices.tobytes())
 
-    def _vertex_array(self, program, buffers):
+    def _vertex_array(self, program: moderngl.Program, buffers: Buffers) -> moderngl.VertexArray:
         vertices, indices = buffers
         return self.ctx.vertex_array(
             program, [(vertices, "3f 3f", "in_position", "in_normal")], indices
         )
 
-    def _raw(self, name: str, *types):
+    def _raw(self, name: str, *types: Any) -> Callable[..., None]:
         return ctypes.CFUNCTYPE(None, *types)(self._address(name))
 
-    def _face_framebuffer(self, face: int, size, depth):
+    def _face_framebuffer(
+        self, face: int, size: tuple[int, int], depth: moderngl.Renderbuffer
+    ) -> moderngl.Framebuffer:
         framebuffer = self.ctx.framebuffer([self.ctx.texture(size, 4)], depth)
         framebuffer.use()
         attach = self._raw("glFramebufferTexture2D", *[ctypes.c_uint] * 4, ctypes.c_int)
@@ -112,7 +118,7 @@ class Program:
         attach(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, target, self.cube.glo, 0)
         return framebuffer
 
-    def _layered_framebuffer(self, size):
+    def _layered_framebuffer(self, size: tuple[int, int]) -> moderngl.Framebuffer:
         framebuffer = self.ctx.framebuffer([self.ctx.texture(size, 4)])
         depth = self.ctx.depth_texture_cube(size)
         depth.use(0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from typing import Any, TypeAlias
 
 import glcontext
 import numpy as np
@@ -10,6 +11,8 @@ import zengl
 
 from .. import scene, shaders
 from .egl import LIBRARIES
+
+Buffers: TypeAlias = tuple[zengl.Buffer, zengl.Buffer, int]  # vertices, indices and their number
 
 HEADER = "#version 330 core\n" + shaders.BLOCKS.format(binding0="", binding1="")
 LAYOUT = [{"name": "View", "binding": 0}, {"name": "Object", "binding": 1}]
@@ -70,14 +73,22 @@ class Program:
             self._pipeline(ball, shaders.MIRROR, target, view, block, self.cube)
         )
 
-    def _buffers(self, mesh: scene.MeshArrays):
+    def _buffers(self, mesh: scene.MeshArrays) -> Buffers:
         vertices = self.ctx.buffer(mesh.interleaved)
         return vertices, self.ctx.buffer(mesh.indices, index=True), mesh.indices.size
 
-    def _block(self, data: bytes):
+    def _block(self, data: bytes) -> zengl.Buffer:
         return self.ctx.buffer(data, uniform=True)
 
-    def _pipeline(self, mesh, fragment, target, view, block, environment=None):
+    def _pipeline(
+        self,
+        mesh: Buffers,
+        fragment: str,
+        target: tuple[Any, Any],
+        view: zengl.Buffer,
+        block: zengl.Buffer,
+        environment: zengl.Image | None = None,
+    ) -> zengl.Pipeline:
         vertices, indices, count = mesh
         layout = list(LAYOUT)
         resources = [

@@ -855,7 +855,7 @@ class Scene:
         """
 
     @typing.overload
-    def add(self: Scene, light: Light) -> Light:
+    def add(self: Scene, light: AnyLight) -> AnyLight:
         """
         Add a light.
 
@@ -5727,4 +5727,5 @@ def devices() -> list[Device]:
         If there is no EGL library, or in a process forked after EGL was opened.
     """
 
+AnyLight = typing.TypeVar("AnyLight", bound="Light")
 __version__: str = "0.2.0"

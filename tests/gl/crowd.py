@@ -1,6 +1,7 @@
 """A crowd of things under small edits, each picture of it against that of a renderer which keeps nothing."""
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ STEPS = 12
 
 #: COMBINATIONS and COLORLESS hold options of pictures: the first has formats and depth formats,
 #: the second has pictures without a color buffer and a picture of few bits.
-COMBINATIONS = {
+COMBINATIONS: dict[str, dict[str, Any]] = {
     "565": {"format": "rgb565"},
     "565 samples": {"format": "rgb565", "samples": 4},
     "16 bits": {"depth_format": "depth_component16", "outputs": ("depth", "id")},
@@ -27,7 +28,7 @@ COMBINATIONS = {
     "painter samples": {"depth_format": None, "samples": 4},
     "painter with a stencil": {"depth_format": "stencil_index8", "outputs": ("stencil",)},
 }  # fmt: skip
-COLORLESS = {
+COLORLESS: dict[str, dict[str, Any]] = {
     "depth only": {"format": None, "outputs": ("depth",)},
     "16 bits only": {
         "format": None, "depth_format": "depth_component16", "outputs": ("depth", "z"), "samples": 4

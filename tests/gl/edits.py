@@ -29,10 +29,12 @@ DEPTHS = ("depth_component24", "depth24_stencil8", "depth_component32f", "depth_
 def settable_properties():
     """ "Class.property" of every property with a setter, in the order of the stubs."""
     found = []
-    for thing in ast.parse(STUB.read_text()).body:
-        for member in thing.body if isinstance(thing, ast.ClassDef) else ():
+    classes = [node for node in ast.parse(STUB.read_text()).body if isinstance(node, ast.ClassDef)]
+    for thing in classes:
+        for member in thing.body:
             decorators = getattr(member, "decorator_list", ())
             if any(isinstance(d, ast.Attribute) and d.attr == "setter" for d in decorators):
+                assert isinstance(member, ast.FunctionDef)
                 found.append(f"{thing.name}.{member.name}")
     return found
 

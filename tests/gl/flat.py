@@ -1,5 +1,7 @@
 """Flat scenes whose picture is known texel by texel, and quads that show a texture."""
 
+from typing import Any
+
 import numpy as np
 
 import cubecam as cc
@@ -15,7 +17,9 @@ def random_picture(seed, height=6, width=9):
 def tiles(picture):
     """A mesh with one square for each pixel, in x 0..W and y 0..H; row 0 of the picture is at the top."""
     height, width = picture.shape[:2]
-    positions, colors, indices = [], [], []
+    positions: list[Any] = []
+    colors: list[Any] = []
+    indices: list[Any] = []
     for row in range(height):
         for column in range(width):
             x, y, first = column, height - 1 - row, len(positions)

@@ -38,7 +38,7 @@ EFFECT_SOURCES = (
 def random_image(rng):
     pixels = rng.integers(0, 256, (6, 5, 3), dtype=np.uint8)
     return cc.Image(
-        pixels, mipmaps=bool(rng.integers(2)), wrap=str(rng.choice(["repeat", "clamp"]))
+        pixels, mipmaps=bool(rng.integers(2)), wrap="repeat" if rng.integers(2) else "clamp"
     )
 
 
@@ -134,9 +134,9 @@ def full_world(rng):
     scene.add(cc.PointLight(position=(-2, 1, 2), intensity=0.3))
     scene.add(cc.AmbientLight(intensity=0.2))
 
-    lens = cc.PerspectiveCamera(fov=50, position=(0.5, 0.6, 2), target=(0, 0, 0))
+    inner_camera = cc.PerspectiveCamera(fov=50, position=(0.5, 0.6, 2), target=(0, 0, 0))
     world.textures = [
-        cc.RenderTexture(inner, lens, size=(12, 9), mipmaps=True, name="inner"),
+        cc.RenderTexture(inner, inner_camera, size=(12, 9), mipmaps=True, name="inner"),
         cc.RenderTexture(
             scene, random_camera(rng), size=(14, 10), effects=[random_effect(rng)], name="monitor"
         ),

@@ -1,6 +1,7 @@
 """Scenes with shadows, and their shadows by ray casting."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -52,9 +53,9 @@ def stage():
 class Lamp:
     """A light of cubecam, its reference light, and the width of a shadow map texel one unit away (None: no map)."""
 
-    ours: object
+    ours: cc.Light
     theirs: object
-    texel: float
+    texel: float | None
     far: bool = False
 
 
@@ -130,7 +131,8 @@ def lit(hits, eye, all_lamps, radius=1.0, background=(0, 0, 0)):
     color = np.zeros((*hits.id.shape, 3))
     for id_, name in enumerate(("floor", "box", "box", "wall", "ball"), start=1):
         color[hits.id == id_] = COLORS[name]
-    shares, good = [], np.where(hits.id == 5, inner_smooth(hits), inner(hits))
+    shares: list[Any] = []
+    good = np.where(hits.id == 5, inner_smooth(hits), inner(hits))
     outside = ~hits.hit & raycast.interior(hits.id)
     for lamp in all_lamps:
         if lamp.texel is None:

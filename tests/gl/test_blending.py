@@ -3,11 +3,13 @@
 import copy
 import itertools
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.typing import BlendFactor
 from tests.compare import assert_close, assert_identical
 from tests.reference.compositing import BLENDS, blend
 
@@ -54,7 +56,7 @@ def test_the_four_sources_of_alpha_count_alike(renderer, mode):
     assert_close(got, np.broadcast_to(want, got.shape), "blend")
 
 
-FACTORS = {
+FACTORS: dict[BlendFactor, Any] = {
     "zero": lambda s, d: np.zeros(4),
     "one": lambda s, d: np.ones(4),
     "src_color": lambda s, d: s,
@@ -126,7 +128,9 @@ def test_every_equation_with_factors_of_their_own_for_alpha(any_path, pixels, eq
     scene = cc.Scene(background=ground)
     material = cc.BasicMaterial(color=source[:3], opacity=source[3])
     pane(scene, material)
-    for src_alpha, dst_alpha in (("one", "one"), ("dst_alpha", "zero"), (None, None)):
+    pairs: list[tuple[BlendFactor | None, BlendFactor | None]]
+    pairs = [("one", "one"), ("dst_alpha", "zero"), (None, None)]
+    for src_alpha, dst_alpha in pairs:
         material.blend = cc.Blend(
             "src_alpha", "one", src_alpha=src_alpha, dst_alpha=dst_alpha, equation=equation
         )

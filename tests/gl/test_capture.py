@@ -23,7 +23,7 @@ SIZE = 32
 POSITIONS = {"origin": (0, 0, 0), "off": (0.31, -0.23, 0.17)}
 
 
-@pytest.fixture(scope="module", params=POSITIONS.values(), ids=POSITIONS)
+@pytest.fixture(scope="module", params=list(POSITIONS.values()), ids=list(POSITIONS))
 def seen(request, shared_renderers):
     """(captured cube, hits of the ray caster, world): the room seen from one position."""
     world = room()

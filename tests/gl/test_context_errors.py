@@ -96,7 +96,7 @@ def test_devices_tell_what_there_is():
 
 def test_a_device_is_chosen_by_index_name_part_and_uuid():
     for device in cc.devices():
-        choices = [device.index, device.name, device.name.split()[0].upper()[:6]]
+        choices: list[int | str] = [device.index, device.name, device.name.split()[0].upper()[:6]]
         if device.uuid:
             choices.append(device.uuid)
         for choice in choices:

@@ -1,5 +1,7 @@
 """Captures of the farthest surface, against the ray caster, which goes through every nearer surface."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ from tests.gl.world import OUTPUTS, World, inner, inner_smooth, room, smooth_env
 from tests.reference.raycast import cast_cube, interior
 
 SIZE = 32
-FARTHEST = {"size": SIZE, "outputs": (*OUTPUTS, "depth"), "depth_order": "farthest"}
+FARTHEST: dict[str, Any] = {"size": SIZE, "outputs": (*OUTPUTS, "depth"), "depth_order": "farthest"}
 SPHERES = (6, 8)
 
 

@@ -1,6 +1,7 @@
 """Meshes with replaced vertices: the next picture equals that of a new mesh with these vertices, bit for bit."""
 
 import threading
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from tests.helpers import DEVICE
 
 NAMES = ("positions", "normals", "uvs", "colors")
 RAW = "vec3 shade(Surface surface) { return vec3(surface.uv, 0.0) + 0.3 * surface.color.rgb; }"
-CAMERA = {"fov": 60, "position": (0, 1, 4), "target": (0, 0, 0)}
+CAMERA: dict[str, Any] = {"fov": 60, "position": (0, 1, 4), "target": (0, 0, 0)}
 
 
 def sheet(rng, colors=True):
@@ -223,7 +224,7 @@ def test_a_picture_shows_one_moment_of_a_mesh(renderer):
     thread = threading.Thread(target=keep_setting)
     thread.start()
     try:
-        seen = set()
+        seen: set[bool] = set()
         for turn in range(3000):
             if turn > 100 and len(seen) == 2:
                 break

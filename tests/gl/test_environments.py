@@ -44,7 +44,9 @@ def test_a_probe_says_where_it_is_and_follows(any_path):
     scene.add(cc.Mesh.sphere(1), cc.ShaderMaterial(SAY), environment=probe)
     assert drawn(any_path, scene).tolist() == [1.5, 2, 3]
     carrier.position = (1e6, 0.25, -2)  # nothing that the probe sees changes
-    np.testing.assert_array_equal(drawn(any_path, scene), np.float32([1e6 + 0.5, 0.25, -2]))
+    np.testing.assert_array_equal(
+        drawn(any_path, scene), np.array([1e6 + 0.5, 0.25, -2], np.float32)
+    )
 
 
 def test_a_probe_that_is_not_drawn_again_stays_where_it_was(fresh_renderer):

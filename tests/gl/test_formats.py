@@ -59,7 +59,8 @@ def test_formats_agree(renderer):
 def test_huge_and_tiny_numbers_are_kept(renderer):
     scene = cc.Scene(background=(3e30, 60000, 1e-30, 1))
     np.testing.assert_array_equal(
-        renderer.capture(scene, size=2).faces[0, 0, 0], np.float32([3e30, 60000, 1e-30, 1])
+        renderer.capture(scene, size=2).faces[0, 0, 0],
+        np.array([3e30, 60000, 1e-30, 1], np.float32),
     )
     assert renderer.capture(scene, size=2, format="rgba16f").faces[0, 0, 0, 1] == 60000
 
@@ -419,7 +420,7 @@ def test_faces_need_a_format(renderer):
     with pytest.raises(ValueError, match=r"format.*faces.*None"):
         renderer.capture(cc.Scene(), size=4, format=None)
     with pytest.raises(TypeError):
-        cc.Probe(format=None)
+        cc.Probe(format=None)  # type: ignore[arg-type]
 
 
 # The next tests draw without a depth buffer, as a painter paints: later nodes cover earlier ones.
@@ -445,7 +446,7 @@ def test_without_depth_nodes_are_painted_in_order(any_path, depth_format):
     got = any_path.render(
         world.scene, view.camera, view.size, format="rgba32f", depth_format=depth_format
     ).color
-    want = np.broadcast_to(np.float64([0.1, 0.2, 0.3, 1]), got.shape)
+    want = np.broadcast_to(np.array([0.1, 0.2, 0.3, 1], np.float64), got.shape)
     mask = np.ones(got.shape[:2], bool)
     shapes = {shape.id: shape for shape in world.shapes}
     for node in order:
@@ -608,7 +609,7 @@ def test_probes_keep_their_depth_format(renderer):
     probe.depth_format = None
     assert pickle.loads(pickle.dumps(probe)).depth_format is None
     with pytest.raises(ValueError, match="depth_format"):
-        probe.depth_format = "z16"
+        probe.depth_format = "z16"  # type: ignore[assignment]
     with pytest.raises(ValueError, match="depth_format"):
-        cc.Probe(depth_format="DEPTH_COMPONENT16")
+        cc.Probe(depth_format="DEPTH_COMPONENT16")  # type: ignore[arg-type]
     assert cc.Probe().depth_format == "depth_component32f"

@@ -38,7 +38,7 @@ VIEWS = {
 }
 
 
-@pytest.fixture(scope="module", params=VIEWS.values(), ids=VIEWS)
+@pytest.fixture(scope="module", params=list(VIEWS.values()), ids=list(VIEWS))
 def seen(request, shared_renderers):
     world, view = room(), request.param()
     frame = shared_renderers(None).render(

@@ -182,7 +182,12 @@ def test_frames(both, options):
     for node in scene.nodes[::3]:
         node.render_order = rng.integers(-1, 2)
     follow(
-        *both, lambda r: r.render(scene, camera, (97, 71), **options), scene, rng, names_of(options)
+        both[0],
+        both[1],
+        lambda r: r.render(scene, camera, (97, 71), **options),
+        scene,
+        rng,
+        names_of(options),
     )
 
 
@@ -190,7 +195,7 @@ def test_frames(both, options):
 def test_cameras(both, make):
     rng = np.random.default_rng(7)
     scene, camera = crowd(rng), make()
-    follow(*both, lambda r: r.render(scene, camera, (80, 60)), scene, rng, ["color"])
+    follow(both[0], both[1], lambda r: r.render(scene, camera, (80, 60)), scene, rng, ["color"])
 
 
 @pytest.mark.parametrize("distance", [1e3, 1e5, 1e6, 4e6])
@@ -200,7 +205,7 @@ def test_far_from_the_origin(both, distance):
     offset = np.array([distance, 0.3 * distance, -0.7 * distance])
     scene, camera = crowd(rng, offset), usual_camera(offset)
     camera.fov = 40
-    follow(*both, lambda r: r.render(scene, camera, (128, 96)), scene, rng, ["color"])
+    follow(both[0], both[1], lambda r: r.render(scene, camera, (128, 96)), scene, rng, ["color"])
 
 
 @pytest.mark.parametrize("layered", [None, False], ids=["layered", "one_pass"])
@@ -211,7 +216,8 @@ def test_captures(new_renderer, layered, samples):
     pair = new_renderer(layered=layered), new_renderer(layered=layered, cache_bytes=0)
     options = {"size": 40, "samples": samples, "outputs": ("id", "distance")}
     follow(
-        *pair,
+        pair[0],
+        pair[1],
         lambda r: r.capture(scene, (0.1, 0.2, 0.3), **options),
         scene,
         rng,
@@ -228,7 +234,12 @@ def test_stencils(both, depth_format, samples):
     outputs = ("stencil",) if depth_format == "stencil_index8" else ("stencil", "depth", "id")
     options = {"depth_format": depth_format, "outputs": outputs, "samples": samples}
     follow(
-        *both, lambda r: r.render(scene, camera, (97, 71), **options), scene, rng, names_of(options)
+        both[0],
+        both[1],
+        lambda r: r.render(scene, camera, (97, 71), **options),
+        scene,
+        rng,
+        names_of(options),
     )
 
 
@@ -239,5 +250,10 @@ def test_stereo(both, layout, options):
     scene = crowd(rng)
     eyes = cc.StereoCamera.off_axis(usual_camera(), separation=0.4, convergence=5.0, layout=layout)
     follow(
-        *both, lambda r: r.render(scene, eyes, LAYOUTS[layout], **options), scene, rng, ["color"]
+        both[0],
+        both[1],
+        lambda r: r.render(scene, eyes, LAYOUTS[layout], **options),
+        scene,
+        rng,
+        ["color"],
     )

@@ -134,7 +134,8 @@ def test_a_snapshot_that_another_thread_draws_is_left_alone(new_renderer):
     scene = cc.Scene(background=(0, 0, 0))
     nodes = [scene.add(cc.Mesh.box(1), cc.BasicMaterial()) for _ in range(50)]
     renderers = [new_renderer(), new_renderer()]
-    sums, failures = [set(), set()], []
+    sums: list[set[float]] = [set(), set()]
+    failures: list[Exception] = []
 
     def draw(renderer, seen):
         try:

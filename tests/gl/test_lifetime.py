@@ -3,6 +3,7 @@
 import gc
 import pickle
 import threading
+from typing import Any
 
 import numpy as np
 import psutil
@@ -13,7 +14,7 @@ from tests.compare import assert_identical
 from tests.gl.world import room
 from tests.helpers import run_python
 
-CAMERA = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
+CAMERA: dict[str, Any] = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
 CALLS = {
     "capture": lambda r, s: r.capture(s, size=4),
     "render": lambda r, s: r.render(s, cc.PerspectiveCamera(**CAMERA), (4, 4)),
@@ -88,10 +89,10 @@ def test_garbage_on_another_thread():
 
 def test_a_reference_cycle_is_collected():
     class Holder:
-        pass
+        def __init__(self):
+            self.renderer, self.me = cc.Renderer(), self
 
     holder = Holder()
-    holder.renderer, holder.me = cc.Renderer(), holder
     holder.renderer.capture(cc.Scene(), size=4)
     before = psutil.Process().num_fds()
     del holder

@@ -1,12 +1,14 @@
 """Sizes beyond GL's limits, arguments that are no camera or scene, singular placements."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.helpers import run_python
 
-CAMERA = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
+CAMERA: dict[str, Any] = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
 
 
 def test_captures_over_the_limit_name_it(renderer):

@@ -1,6 +1,7 @@
 """Probes: when they draw, what they leave out, where they stand, who shares them."""
 
 import itertools
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from tests.gl.world import smooth_environment
 from tests.reference import shading
 from tests.reference.transforms import normalised
 
-CAMERA = {"fov": 50, "position": (0, 1, 5), "target": (0, 0, 0)}
+CAMERA: dict[str, Any] = {"fov": 50, "position": (0, 1, 5), "target": (0, 0, 0)}
 
 
 def stage(**probe):

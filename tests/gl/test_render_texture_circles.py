@@ -3,6 +3,7 @@
 import itertools
 import re
 import threading
+from typing import Any
 
 import numpy as np
 import pytest
@@ -235,7 +236,7 @@ def test_two_textures_of_one_room_leave_each_other_out(renderer, new_renderer):
     color = look(renderer, room)
     assert renderer.stats.textures_updated == 2
     assert_identical(color, look(new_renderer(), room))
-    background = np.float32([0.2, 0, 0])
+    background = np.array([0.2, 0, 0], np.float32)
     assert (renderer.read_texture(right)[..., :3] == background).all(-1).sum() == 54 - 4
     # The left picture shows the green itself and, smaller, the green on the right monitor.
     assert (renderer.read_texture(left)[..., :3] != background).any(-1).sum() > 4
@@ -247,7 +248,7 @@ def test_two_scenes_that_show_each_other_on_two_threads(new_renderer):
     show(b, a.scene)
     node = show(a, b.scene)
     stop = threading.Event()
-    outcomes = {}
+    outcomes: dict[Any, Any] = {}
 
     def draw(scene, renderer):
         seen = outcomes.setdefault(threading.get_ident(), set())

@@ -198,6 +198,6 @@ def test_they_pickle():
 
 def test_errors():
     with pytest.raises(TypeError, match="effects: expected a sequence of ImageEffects"):
-        cc.RenderTexture(cc.Scene(), FLAT, effects=3)
+        cc.RenderTexture(cc.Scene(), FLAT, effects=3)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="effects: expected ImageEffects, got str"):
-        cc.RenderTexture(cc.Scene(), FLAT, effects=["x"])
+        cc.RenderTexture(cc.Scene(), FLAT, effects=["x"])  # type: ignore[list-item]

@@ -8,6 +8,7 @@ import psutil
 import pytest
 
 import cubecam as cc
+from cubecam.typing import Format
 from tests.compare import assert_close, assert_identical
 from tests.gl.flat import (
     CORNERS,
@@ -153,7 +154,11 @@ def test_multisampling_smooths_edges(renderer):
 
 def test_light_above_one_is_kept_in_half_floats_and_clipped_in_bytes(renderer):
     inner_scene = cc.Scene(background=(4, 0.5, 1000))
-    for fmt, want in {"rgba8": (1, 0.5, 1), "rgba16f": (4, 0.5, 1000)}.items():
+    wanted: dict[Format, tuple[float, ...]] = {
+        "rgba8": (1, 0.5, 1),
+        "rgba16f": (4, 0.5, 1000),
+    }
+    for fmt, want in wanted.items():
         texture = cc.RenderTexture(inner_scene, flat_camera(4, 4), size=(4, 4), format=fmt)
         color = look(renderer, screen_scene(texture)[0], 4, 4)
         np.testing.assert_allclose(color[..., :3], np.broadcast_to(want, (4, 4, 3)), atol=2e-3)

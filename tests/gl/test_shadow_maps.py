@@ -52,6 +52,11 @@ def test_what_is_out_of_view_casts_all_the_same(renderer, kind):
     assert dark(renderer, scene) > 0.1
 
 
+def show_a_card_from_below(node):
+    node.mesh = cc.Mesh.plane(1, 1)
+    node.rotation = cc.axis_angle((1, 0, 0), 180)
+
+
 CASTING = {
     "hidden": (lambda s, box: setattr(box, "visible", False), False),
     "parent hidden": (lambda s, box: setattr(box, "parent", s.add(visible=False)), False),
@@ -74,10 +79,7 @@ CASTING = {
     "inside out": (lambda s, box: setattr(box, "scale", (-1, 1, 1)), True),
     "a card from above": (lambda s, box: setattr(box, "mesh", cc.Mesh.plane(1, 1)), True),
     "a card from below": (
-        lambda s, box: (
-            setattr(box, "mesh", cc.Mesh.plane(1, 1)),
-            setattr(box, "rotation", cc.axis_angle((1, 0, 0), 180)),
-        ),
+        lambda s, box: show_a_card_from_below(box),
         True,
     ),
 }
@@ -286,7 +288,8 @@ def test_a_spot_lights_map(renderer):
     view = ref.look_at(place, place + way, (0, 1, 0))
     half = np.tan(np.radians(38)) * size / (size - 6)
     lens = ref.perspective(2 * np.degrees(np.arctan(half)), 1, 0.05, 100)
-    compare_map(got[0], world, *ref.pixel_rays(view, lens, (size, size)), way)
+    origins, directions = ref.pixel_rays(view, lens, (size, size))
+    compare_map(got[0], world, origins, directions, way)
 
 
 def compare_map(got, world, origins, directions, axis, start=0.0):

@@ -1,5 +1,7 @@
 """Shadows against ray casting: in frames, captures, probes and mirrors; filter, bias, what casts and what receives."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -26,7 +28,7 @@ def picture(renderer, scene, view, **options):
 def test_a_frame(renderer, kind, radius, place):
     world, lamp = stage(), lamps(512, radius)[kind]
     world.scene.add(lamp.ours)
-    view = perspective(*place, size=(48, 36))
+    view = perspective(place[0], place[1], size=(48, 36))
     hits = with_shapes(view.hits(world.shapes), world.shapes)
     want, good, shares = lit(hits, view.eye, [lamp], radius)
     assert (shares[0][good & hits.hit] == 0).mean() > 0.01
@@ -201,13 +203,12 @@ def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
     scene.add(card, cc.PhongMaterial())
     way = np.array([0.3, 2, -0.6])
     shadow = cc.Shadow(size=256)
-    light = scene.add(
-        {
-            "directional": cc.DirectionalLight(-way, shadow=shadow),
-            "spot": cc.SpotLight(way + np.array([0, 1, 0]), -way, angle=40, shadow=shadow),
-            "point": cc.PointLight(way + np.array([0, 1, 0]), shadow=shadow),
-        }[kind]
-    )
+    every: dict[str, Any] = {
+        "directional": cc.DirectionalLight(-way, shadow=shadow),
+        "spot": cc.SpotLight(way + np.array([0, 1, 0]), -way, angle=40, shadow=shadow),
+        "point": cc.PointLight(way + np.array([0, 1, 0]), shadow=shadow),
+    }
+    light = scene.add(every[kind])
     view = perspective((0.5, 1.5, 4), (0, 1, 0), size=(48, 36))
     got = picture(renderer, scene, view)
     light.shadow = None
@@ -225,7 +226,7 @@ def test_a_card_with_normals_that_are_not_its_own(renderer, kind):
 def test_contact(renderer, kind, size, thing):
     """Seen from above, the shadow behind a thing on the floor begins within one texel."""
     scene = cc.Scene()
-    matte = {"color": (1, 1, 1), "ka": 0, "ks": 0, "kd": 1}
+    matte: dict[str, Any] = {"color": (1, 1, 1), "ka": 0, "ks": 0, "kd": 1}
     scene.add(cc.Mesh.plane(6, 6), cc.PhongMaterial(**matte))
     if thing == "plane":
         scene.add(
@@ -241,11 +242,12 @@ def test_contact(renderer, kind, size, thing):
         )
     way = np.array([-3, 3, 0.4])
     shadow = cc.Shadow(size=size)
-    light, texel = {
+    every: dict[str, tuple[Any, float]] = {
         "directional": (cc.DirectionalLight(-way, shadow=shadow), 7 / size),
         "spot": (cc.SpotLight(way, -way, angle=40, shadow=shadow), 2 * 0.84 * 4.3 / (size - 6)),
         "point": (cc.PointLight(way, shadow=shadow), 2 * 4.3 / (size - 6)),
-    }[kind]
+    }
+    light, texel = every[kind]
     scene.add(light)
     camera = cc.OrthographicCamera(
         height=0.8, position=(0.4, 5, 0), target=(0.4, 0, 0), up=(0, 0, -1)

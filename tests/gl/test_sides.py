@@ -21,19 +21,21 @@ MIRRORED = {
 def test_back_faces_are_culled(any_path):
     """From inside a box only its surroundings are visible."""
     scene = cc.Scene()
-    scene.add(cc.Mesh.box(2), cc.BasicMaterial())
+    material = cc.BasicMaterial()
+    scene.add(cc.Mesh.box(2), material)
     assert not any_path.capture(scene, size=8, outputs=("id",)).id.any()
-    scene.nodes[0].material.double_sided = True
+    material.double_sided = True
     assert any_path.capture(scene, size=8, outputs=("id",)).id.all()
 
 
 def test_a_plane_is_seen_from_above_only(renderer):
     scene = cc.Scene()
-    plane = scene.add(cc.Mesh.plane(2, 2), cc.BasicMaterial())
+    material = cc.BasicMaterial()
+    scene.add(cc.Mesh.plane(2, 2), material)
     for height, seen in ((1, True), (-1, False)):
         cube = renderer.capture(scene, position=(0.01, height, 0.02), size=8, outputs=("id",))
         assert bool(cube.id.any()) is seen
-    plane.material.double_sided = True
+    material.double_sided = True
     assert renderer.capture(scene, position=(0.01, -1, 0.02), size=8, outputs=("id",)).id.any()
 
 

@@ -78,8 +78,10 @@ def test_background_color_is_written_as_it_is(renderer):
     scene = cc.Scene(background=(0.25, 0.5, 2, 0.75))
     camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 0), target=(0, 0, -1))
     color = renderer.render(scene, camera, (4, 4), format="rgba32f").color
-    assert (color == np.float32([0.25, 0.5, 2, 0.75])).all()
-    assert (renderer.capture(scene, size=4).faces == np.float32([0.25, 0.5, 2, 0.75])).all()
+    assert (color == np.array([0.25, 0.5, 2, 0.75], np.float32)).all()
+    assert (
+        renderer.capture(scene, size=4).faces == np.array([0.25, 0.5, 2, 0.75], np.float32)
+    ).all()
 
 
 def test_none_is_the_environment_if_there_is_one_else_transparent_black(renderer, sky):

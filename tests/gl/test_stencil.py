@@ -2,6 +2,7 @@
 
 import dataclasses
 import itertools
+from typing import Any
 
 import numpy as np
 import pytest
@@ -325,7 +326,7 @@ def test_defaults_repr_and_equality():
     assert same == cc.Stencil(func="less", reference=7, depth_pass="incr")
     assert hash(same) == hash(cc.Stencil(func="less", reference=7, depth_pass="incr"))
     for field in dataclasses.fields(Stencil):
-        other = {"func": "equal"}.get(field.name, 9 if field.type is int else "zero")
+        other: Any = {"func": "equal"}.get(field.name, 9 if field.type is int else "zero")
         assert cc.Stencil(**{field.name: other}) != stencil, field.name
     assert stencil != "always"
 

@@ -161,10 +161,13 @@ def test_only_the_eye_that_changed_is_drawn(any_path):
     any_path.render(scene, eyes, SIZE)
     assert counts(any_path) == (0, 2)
     assert any_path.stats.draw_calls == 0
-    eyes.left.fov = 64
+    left, right = eyes.left, eyes.right
+    assert isinstance(left, cc.PerspectiveCamera)
+    assert isinstance(right, cc.PerspectiveCamera)
+    left.fov = 64
     any_path.render(scene, eyes, SIZE)
     assert counts(any_path) == (1, 1)
-    eyes.right.position = np.array(eyes.right.position) + 0.01
+    right.position = right.position + 0.01
     any_path.render(scene, eyes, SIZE)
     assert counts(any_path) == (1, 1)
     eyes.layout = "side_by_side"  # the same two pictures in other halves
@@ -304,8 +307,11 @@ def test_orthographic_eyes():
     """The rays are parallel: the eyes' pictures differ by one shift, the same at every distance."""
     camera = cc.OrthographicCamera(height=4, position=(0, 0, 5), target=(0, 0, 0))
     eyes = cc.StereoCamera.off_axis(camera, separation=0.5)
-    np.testing.assert_allclose(eyes.left.position, (-0.25, 0, 5), atol=1e-12)
-    np.testing.assert_allclose(eyes.right.target, (0.25, 0, 0), atol=1e-12)
+    left, right = eyes.left, eyes.right
+    assert isinstance(left, cc.OrthographicCamera)
+    assert isinstance(right, cc.OrthographicCamera)
+    np.testing.assert_allclose(left.position, [-0.25, 0, 5], atol=1e-12)
+    np.testing.assert_allclose(np.asarray(right.target), [0.25, 0, 0], atol=1e-12)
     parallel = cc.Camera(view=np.eye(4), projection=camera.projection())
     for kind in (camera, parallel):
         with pytest.raises(ValueError, match="convergence"):
@@ -329,6 +335,7 @@ def test_toe_in_turns_the_view_about_the_target(make, degrees):
         about = ref.translation(target) @ turn @ ref.translation(-target)
         np.testing.assert_allclose(eye.view, view @ np.linalg.inv(about), atol=1e-12)
         np.testing.assert_allclose(eye.projection(1.3), camera.projection(1.3), atol=0)
+        assert isinstance(eye, cc.PerspectiveCamera | cc.OrthographicCamera)
         offset = (view @ [*eye.position, 1])[0]
         assert offset * sign >= 0
         assert ndc(eye, target, 1.3)[0] == pytest.approx(0, abs=1e-12)
@@ -377,11 +384,11 @@ def test_properties():
     assert "top_bottom" in repr(eyes)
     assert "fov=20" in repr(eyes)
     with pytest.raises(ValueError, match=r"anaglyph.*side_by_side.*top_bottom.*cross"):
-        eyes.layout = "cross"
+        eyes.layout = "cross"  # type: ignore[assignment]
     with pytest.raises(TypeError, match="left"):
-        eyes.left = None
+        eyes.left = None  # type: ignore[assignment]
     with pytest.raises(TypeError, match=r"right.*Camera"):
-        eyes.right = eyes
+        eyes.right = eyes  # type: ignore[assignment]
     assert (eyes.left, eyes.right, eyes.layout) == (b, a, "top_bottom")
 
 
@@ -437,18 +444,18 @@ BAD = {
         "target.*matrices",
     ),
     "layout": (
-        lambda: cc.StereoCamera(lens(), lens(), layout="red"),
+        lambda: cc.StereoCamera(lens(), lens(), layout="red"),  # type: ignore[arg-type]
         ValueError,
         "layout.*anaglyph.*'red'",
     ),
     "layout of toe_in": (
-        lambda: cc.StereoCamera.toe_in(lens(), layout=""),
+        lambda: cc.StereoCamera.toe_in(lens(), layout=""),  # type: ignore[arg-type]
         ValueError,
         "layout",
     ),
-    "no camera": (lambda: cc.StereoCamera(lens(), None), TypeError, "right.*Camera.*None"),
+    "no camera": (lambda: cc.StereoCamera(lens(), None), TypeError, "right.*Camera.*None"),  # type: ignore[arg-type]
     "a stereo camera": (
-        lambda: cc.StereoCamera.off_axis(cc.StereoCamera(lens(), lens())),
+        lambda: cc.StereoCamera.off_axis(cc.StereoCamera(lens(), lens())),  # type: ignore[arg-type]
         TypeError,
         "camera.*Camera.*StereoCamera",
     ),

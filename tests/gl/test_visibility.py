@@ -1,11 +1,13 @@
 """visible, in_captures and exclude, over whole subtrees."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import cubecam as cc
 
-CAMERA = {"fov": 70, "position": (0, 0, 6), "target": (0, 0, 0)}
+CAMERA: dict[str, Any] = {"fov": 70, "position": (0, 0, 6), "target": (0, 0, 0)}
 
 
 @pytest.fixture

@@ -127,7 +127,7 @@ class View:
     size: tuple
     near: float
     far: float
-    eye: np.ndarray
+    eye: np.ndarray | None
 
     def hits(self, shapes):
         return raycast.cast_frame(

@@ -9,7 +9,15 @@ from tests.gl.world import inner
 from tests.programs.oracle import Look, box, looked_up, moved, photographs, predicted
 
 SIZE = (48, 48)
-SCRIPT = [(40, 0), (0, 12), *["w"] * 8, (-30, 5), *["s"] * 5, (200, 0), *["w"] * 20]
+SCRIPT: list[str | tuple[float, float]] = [
+    (40, 0),
+    (0, 12),
+    *["w"] * 8,
+    (-30, 5),
+    *["s"] * 5,
+    (200, 0),
+    *["w"] * 20,
+]
 
 
 def sky(look):

@@ -208,6 +208,7 @@ def test_the_shape_tells_the_layout(renderer, tmp_path, layout, kind):
         cc.save_image(tmp_path / "cm.png", image)
         image = tmp_path / "cm.png"
     program = example.build(image)
+    assert program.scene.environment is not None
     assert_identical(program.scene.environment.faces, images)
     assert program.material.textures["textureCubeMap"] is program.scene.environment
 

@@ -70,4 +70,4 @@ def test_the_cubes_move_and_the_probe_follows(renderer):
 
 def test_other_reflectors_are_refused():
     with pytest.raises(ValueError, match='expected "sphere" or "teapot", got \'cone\''):
-        example.build(photographs(8), "cone")
+        example.build(photographs(8), "cone")  # type: ignore[arg-type]

@@ -89,6 +89,7 @@ def test_numbers_of_the_document():
     probe, camera = program.probe, program.camera
     assert (probe.size, probe.near, probe.far, probe.format) == (256, 1, 100, "rgba8")
     assert (camera.fov, camera.near, camera.far) == (70, 1, 100)
+    assert isinstance(program.scene.background, np.ndarray)
     np.testing.assert_allclose(program.scene.background[:3], GREY)
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import cubecam as cc
 from cubecam.examples import dynamic_reflection as example
 from tests.compare import assert_close
 from tests.programs.oracle import (
@@ -46,9 +47,11 @@ def test_numbers_of_the_document():
     program = example.build()
     probe = program.probe
     assert (probe.size, probe.near, probe.far, probe.format) == (256, 1, 100, "rgba8")
+    assert program.ball.mesh is not None
     np.testing.assert_allclose(program.ball.mesh.bounds, [[-1] * 3, [1] * 3], atol=1e-6)
     assert program.ball.scale.tolist() == [0.5] * 3
     material = program.ball.material
+    assert isinstance(material, cc.MirrorMaterial)
     assert (material.env_weight, material.color_weight) == (0.78, 0.3)
     np.testing.assert_allclose(material.color[:3], GOLD)
     assert material.f0 is None

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import cubecam as cc
 from cubecam.examples import nothing_redrawn as example
 
 SIZE = (24, 24)
@@ -59,6 +60,8 @@ def test_an_equal_value_is_no_change(fresh_renderer, what):
     if what == "position":
         program.walker.position = tuple(program.walker.position)
     else:
-        program.walker.material.color = tuple(program.walker.material.color)
+        material = program.walker.material
+        assert isinstance(material, cc.PhongMaterial)
+        material.color = tuple(material.color)
     example.draw(program, fresh_renderer, 0, size=SIZE)
     assert example.views_drawn(program, fresh_renderer) == 0

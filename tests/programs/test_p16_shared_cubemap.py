@@ -144,8 +144,8 @@ def test_the_balls_move_apart_and_together(renderer, frame, distance):
 @pytest.mark.parametrize(
     ("call", "text"),
     [
-        (lambda p, r: example.draw(p, r, 0, show="truth"), "show: expected .*'truth'"),
-        (lambda p, r: example.share(p, "mine"), "whose: expected .*'mine'"),
+        (lambda p, r: example.draw(p, r, 0, show="truth"), "show: expected .*'truth'"),  # type: ignore[arg-type]
+        (lambda p, r: example.share(p, "mine"), "whose: expected .*'mine'"),  # type: ignore[arg-type]
     ],
 )
 def test_unknown_words_are_refused(renderer, call, text):

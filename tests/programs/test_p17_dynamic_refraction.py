@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import cubecam as cc
 from cubecam.examples import dynamic_refraction as example
 from tests.compare import assert_close
 from tests.programs.oracle import (
@@ -53,8 +54,10 @@ def test_frames(renderer, frame, eta):
 
 def test_numbers():
     program = example.build()
-    assert program.glass.material.ior == pytest.approx(1.52)
-    assert not program.glass.material.fresnel
+    material = program.glass.material
+    assert isinstance(material, cc.GlassMaterial)
+    assert material.ior == pytest.approx(1.52)
+    assert not material.fresnel
     assert [probe.size for probe in program.probes] == [256, 256]
     assert [probe.format for probe in program.probes] == ["rgba8", "rgba8"]
 

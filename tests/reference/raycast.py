@@ -5,6 +5,7 @@ Every shape stands in its own space and is placed by a matrix, so that boxes and
 """
 
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -66,7 +67,7 @@ class Sphere(Shape):
 
 @dataclass
 class Box(Shape):
-    size: tuple = (1.0, 1.0, 1.0)
+    size: tuple[float, ...] | float = (1.0, 1.0, 1.0)
 
     def intersect(self, origins, directions, t_min, t_max):
         half = np.broadcast_to(self.size, 3) / 2
@@ -111,11 +112,11 @@ class Quad(Shape):
 class Triangles(Shape):
     """Any mesh; the intersection is by Moller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997."""
 
-    positions: np.ndarray = None
-    indices: np.ndarray = None
-    normals: np.ndarray = None
-    uvs: np.ndarray = None
-    colors: np.ndarray = None
+    positions: Any = None
+    indices: Any = None
+    normals: Any = None
+    uvs: Any = None
+    colors: Any = None
     chunk: int = 1 << 21  # ray-triangle pairs at once: about 200 MB of float64 temporaries
 
     def intersect(self, origins, directions, t_min, t_max):

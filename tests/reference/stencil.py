@@ -1,10 +1,12 @@
 """The stencil test and its operations (OpenGL 4.6, section 17.3.3), and a canvas that draws by them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-FUNCS = {
+FUNCS: dict[str, Callable[[Any, Any], Any]] = {
     "never": lambda a, b: np.zeros(np.broadcast(a, b).shape, bool),
     "less": np.less,
     "equal": np.equal,

@@ -70,7 +70,7 @@ def test_trilinear_averages_and_interpolates(rng):
 @pytest.mark.parametrize("center", CENTERS)
 def test_equirect_round_trip(center, rng):
     uv = rng.uniform(0.01, 0.99, (2, 500))
-    u, v = direction_to_equirect_uv(equirect_uv_to_direction(*uv, center), center)
+    u, v = direction_to_equirect_uv(equirect_uv_to_direction(uv[0], uv[1], center), center)
     np.testing.assert_allclose([u, v], uv, atol=1e-9)
 
 

@@ -124,9 +124,9 @@ def imported(node, here):
     if not isinstance(node, ast.ImportFrom):
         return []
     if node.level == 0:
-        if (node.module or "").split(".")[0] != "cubecam":
+        package, *base = (node.module or "").split(".")
+        if package != "cubecam":
             return []
-        base = node.module.split(".")[1:]
     else:
         base = [*here[: len(here) - node.level + 1], *(node.module or "").split(".")]
         base = [word for word in base if word]

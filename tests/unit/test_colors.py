@@ -169,6 +169,12 @@ def bytes_of(code):
     return [int(code[i : i + 2], 16) for i in range(1, len(code), 2)]
 
 
+def background(color):
+    got = cc.Scene(background=color).background
+    assert isinstance(got, np.ndarray)
+    return got
+
+
 def test_the_table_is_whole():
     assert len(NAMED) == 148
     assert "rebeccapurple" in NAMED
@@ -178,12 +184,12 @@ def test_the_table_is_whole():
 def test_names(name):
     want = [*decoded(*bytes_of(NAMED[name])), 1]
     for text in (name, name.upper(), NAMED[name], NAMED[name].upper()):
-        got = cc.Scene(background=text).background
+        got = background(text)
         np.testing.assert_allclose(got, want, rtol=1e-6, err_msg=text)
 
 
 def test_transparent():
-    assert cc.Scene(background="transparent").background.tolist() == [0, 0, 0, 0]
+    assert background("transparent").tolist() == [0, 0, 0, 0]
 
 
 @pytest.mark.parametrize(
@@ -197,18 +203,18 @@ def test_transparent():
 )
 def test_numbers_of_sixteen(text, bytes_, alpha):
     """Alpha is a share, not a brightness, so the sRGB curve is not applied to it."""
-    got = cc.Scene(background=text).background
+    got = background(text)
     np.testing.assert_allclose(got, [*decoded(*bytes_), alpha / 255], rtol=1e-6)
 
 
 def test_every_byte():
     for value in range(256):
-        got = cc.Scene(background=f"#{value:02x}{255 - value:02x}00").background
+        got = background(f"#{value:02x}{255 - value:02x}00")
         np.testing.assert_allclose(got[:2], decoded(value, 255 - value), rtol=1e-6)
 
 
 def test_tuples_stay_as_they_are():
-    assert cc.Scene(background=(0.5, 2, 0.25)).background.tolist() == [0.5, 2, 0.25, 1]
+    assert background((0.5, 2, 0.25)).tolist() == [0.5, 2, 0.25, 1]
 
 
 #: Every property that is called color or tint, and the background of a scene.

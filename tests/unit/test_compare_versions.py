@@ -17,6 +17,8 @@ SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "compare_versions.py"
 @pytest.fixture(scope="module")
 def script():
     spec = importlib.util.spec_from_file_location("compare_versions", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

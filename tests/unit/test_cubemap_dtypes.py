@@ -150,8 +150,9 @@ def test_nan_in_a_panorama_is_found():
 @both
 def test_sample_gives_float32(given):
     faces = numbers((6, 8, 8, 3), given)
-    got = cc.CubeMap(faces).sample([[1, 0, 0], [0.3, -1, 0.2]])
-    same(got, cc.CubeMap(as_floats(faces)).sample([[1, 0, 0], [0.3, -1, 0.2]]))
+    directions = [[1.0, 0.0, 0.0], [0.3, -1.0, 0.2]]
+    got = cc.CubeMap(faces).sample(directions)
+    same(got, cc.CubeMap(as_floats(faces)).sample(directions))
 
 
 def test_float64_becomes_float32():

@@ -97,6 +97,7 @@ def test_openexr_file_says_so_to_others(tmp_path):
 
     cc.CubeMap(direction_pattern(8)).save(tmp_path / "a.exr", layout="openexr")
     file = oiio.ImageInput.open(str(tmp_path / "a.exr"))
+    assert file is not None
     assert file.spec().getattribute("textureformat") == "CubeFace Environment"
     file.close()
 
@@ -115,6 +116,7 @@ def write_environment(path, pixels, kind):
     spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], pixels.shape[2], "float")
     spec.attribute("textureformat", kind)
     file = oiio.ImageOutput.create(str(path))
+    assert file is not None
     assert file.open(str(path), spec)
     assert file.write_image(np.ascontiguousarray(pixels, np.float32))
     file.close()

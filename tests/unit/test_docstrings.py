@@ -50,7 +50,7 @@ def test_examples(name, tmp_path, monkeypatch):
     text = text_of(EXAMPLES[name])
     scope = {"cc": cc, "cubecam": cc, "np": np}
     test = doctest.DocTestParser().get_doctest(text, scope, name, name, 0)
-    report = []
+    report: list[str] = []
     runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE)
     runner.run(test, out=report.append)
     assert runner.summarize(verbose=False).failed == 0, "".join(report)

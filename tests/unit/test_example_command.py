@@ -72,6 +72,7 @@ def test_modules_say_what_they_are(name):
     assert module.PROGRAM[0] == "P"
     assert 10 < len(module.TITLE) < 80
     assert 0 <= module.STILL < module.FRAMES
+    assert module.__doc__ is not None
     assert module.__doc__.startswith(f"{module.PROGRAM}: ")
     for words in ("Look for", "Worth trying"):
         assert words in module.__doc__
@@ -295,4 +296,4 @@ def test_loading_says_what_there_is():
     with pytest.raises(ValueError, match=r"P1 textured_cube.*got 'p0'"):
         examples.load("p0")
     with pytest.raises(TypeError, match="expected a str, got int"):
-        examples.load(14)
+        examples.load(14)  # type: ignore[arg-type]

@@ -1,5 +1,7 @@
 """Materials, lights and probes: their defaults are those of design.md section 1; what they refuse."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -57,7 +59,7 @@ def test_of_a_shader_material_only_the_fragment_goes_by_position():
     source = "vec3 shade(Surface s) { return s.normal; }"
     assert cc.ShaderMaterial(source).fragment == source
     with pytest.raises(TypeError):
-        cc.ShaderMaterial(source, "void vertex(inout Vertex v) {}")
+        cc.ShaderMaterial(source, "void vertex(inout Vertex v) {}")  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize(
@@ -119,10 +121,10 @@ def test_basic_cubemap_is_a_cubemap_or_a_probe():
     for source in (cc.CubeMap(np.zeros((6, 2, 2, 3))), cc.Probe(position=(0, 0, 0))):
         assert cc.BasicMaterial(cubemap=source).cubemap is source
     with pytest.raises(TypeError):
-        cc.BasicMaterial(cubemap=np.zeros((6, 2, 2, 3)))
+        cc.BasicMaterial(cubemap=np.zeros((6, 2, 2, 3)))  # type: ignore[arg-type]
 
 
-BAD = {
+BAD: dict[str, tuple[Any, dict[str, Any], type[Exception], str]] = {
     "opacity": (cc.BasicMaterial, {"opacity": 1.5}, ValueError, "opacity"),
     "opacity negative": (cc.BasicMaterial, {"opacity": -0.1}, ValueError, "opacity"),
     "opacity nan": (cc.GlassMaterial, {"opacity": np.nan}, ValueError, "opacity"),
@@ -197,4 +199,4 @@ def test_colors_handed_out_are_read_only():
 
 def test_unknown_arguments_are_refused():
     with pytest.raises(TypeError):
-        cc.PhongMaterial(colour=(1, 0, 0))
+        cc.PhongMaterial(colour=(1, 0, 0))  # type: ignore[call-arg]

@@ -135,6 +135,7 @@ def test_the_uvs_of_an_arrow_run_round_and_along_it():
 def test_plane_faces_up_with_uv_0_0_where_a_picture_reads_upright():
     mesh = cc.Mesh.plane(2, 4)
     np.testing.assert_array_equal(mesh.normals, np.broadcast_to([0, 1, 0], mesh.normals.shape))
+    assert mesh.uvs is not None
     origin = mesh.positions[np.abs(mesh.uvs).sum(-1).argmin()]
     np.testing.assert_allclose(origin, [-1, 0, 2])
 
@@ -190,6 +191,7 @@ def test_optional_arrays_are_none_unless_given():
 def test_arrays_are_read_only():
     mesh = cc.Mesh.box(1)
     for array in (mesh.positions, mesh.indices, mesh.normals, mesh.uvs):
+        assert array is not None
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
 
@@ -521,4 +523,5 @@ def test_updates_of_two_threads_are_both_kept(rng):
         for thread in threads:
             thread.join()
         assert mesh.positions[0, 0] == turn + 1
+        assert mesh.colors is not None
         assert mesh.colors[0, 0] == turn + 1

@@ -72,7 +72,7 @@ def test_arguments_of_the_wrong_kind(renderer, options):
     "misuse",
     [
         lambda: cc.ShaderMaterial("// \udc80\nvec3 shade(Surface s) { return vec3(1); }"),
-        lambda: cc.BasicMaterial(blend="\ud800"),
+        lambda: cc.BasicMaterial(blend="\ud800"),  # type: ignore[arg-type]
         lambda: cc.Renderer(device="\ud800"),
         lambda: cc.Scene(environment=cc.CubeMap.__new__(cc.CubeMap)),
         lambda: setattr(cc.PointLight(), "shadow", cc.Shadow.__new__(cc.Shadow)),

@@ -1,6 +1,8 @@
 """Camera movements against rotation matrices in numpy; signs, poles, what stays the same, what is refused."""
 
 import math
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from cubecam import navigation
 from tests.reference.transforms import look_at, normalised
 
 EYE, TARGET, UP = (1.0, 2.0, 5.0), (0.5, 0.2, -1.0), (0.1, 1.0, 0.2)
-CAMERAS = {
+CAMERAS: dict[str, Callable[..., Any]] = {
     "perspective": lambda **more: cc.PerspectiveCamera(
         **{"position": EYE, "target": TARGET, "up": UP, **more}
     ),
@@ -210,7 +212,7 @@ def test_the_document_s_drags_and_keys():
     camera = cc.PerspectiveCamera(fov=60, position=(0, 0, 0), target=(0, 0, 1), near=1, far=15)
     angle_x = angle_y = 0.0
     where, first = np.zeros(3), np.array([0.0, 0, 1])
-    events = [
+    events: list[str | tuple[float, float]] = [
         (30, 0),
         "w",
         "w",
@@ -226,7 +228,7 @@ def test_the_document_s_drags_and_keys():
         "w",
     ]
     for event in events:
-        if isinstance(event, tuple):
+        if not isinstance(event, str):
             angle_x, angle_y = angle_x + event[0], angle_y + event[1]
             camera.look(rx(angle_y) @ ry(angle_x) @ first)
         else:
@@ -303,7 +305,7 @@ BAD = {
     ),
     "beyond": (lambda c: c.walk(1e17), ValueError, "a target away from the position"),
     "matrices": (
-        lambda c: navigation.yaw(cc.Camera(view=np.eye(4), projection=np.eye(4)), 1),
+        lambda c: navigation.yaw(cc.Camera(view=np.eye(4), projection=np.eye(4)), 1),  # type: ignore[arg-type]
         TypeError,
         "camera: expected a PerspectiveCamera or an OrthographicCamera, got Camera",
     ),

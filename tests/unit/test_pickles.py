@@ -281,7 +281,8 @@ def test_those_of_a_later_version_are_refused(name):
 
 
 def test_a_state_without_format_is_refused():
-    for nothing in ({}, (), (1, 2, 3), (None, {}), ("2", {}), 7):
+    states: list[object] = [{}, (), (1, 2, 3), (None, {}), ("2", {}), 7]
+    for nothing in states:
         with pytest.raises(TypeError, match=r"made by cubecam 0\.1|made by another"):
             cc.BasicMaterial().__setstate__(nothing)
 

@@ -15,7 +15,7 @@ def asserts(function):
         if isinstance(node, ast.Assert):
             return True
         if isinstance(node, ast.Call):
-            name = getattr(node.func, "attr", None) or getattr(node.func, "id", "")
+            name: str = getattr(node.func, "attr", "") or getattr(node.func, "id", "")
             if name in ASSERTING or name in LOCAL or name.startswith("assert_"):
                 return True
     return False
@@ -27,7 +27,7 @@ def functions(tree):
 
 def asserting_helpers(trees):
     """Names of the helpers (not tests) that check a result, directly or through each other."""
-    found = set()
+    found: set[str] = set()
     while True:
         LOCAL.clear()
         LOCAL.update(found)
@@ -42,7 +42,7 @@ def asserting_helpers(trees):
         found |= more
 
 
-LOCAL = set()
+LOCAL: set[str] = set()
 
 
 def test_every_test_asserts():
@@ -72,10 +72,9 @@ def test_helpers_are_not_imported_from_test_modules():
 
 
 def test_versions_agree():
-    version = re.search(r'^version = "(.+)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)[
-        1
-    ]
-    assert f"version: {version}\n" in (ROOT / "CITATION.cff").read_text()
+    found = re.search(r'^version = "(.+)"', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
+    assert found is not None
+    assert f"version: {found[1]}\n" in (ROOT / "CITATION.cff").read_text()
 
 
 def test_workflows_call_targets_that_exist():

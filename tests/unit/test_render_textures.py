@@ -109,9 +109,9 @@ def test_bad_values(name, value, error, text):
 
 def test_scene_and_camera_are_needed():
     with pytest.raises(TypeError):
-        cc.RenderTexture()
+        cc.RenderTexture()  # type: ignore[call-arg]
     with pytest.raises(TypeError):
-        cc.RenderTexture(cc.Scene())
+        cc.RenderTexture(cc.Scene())  # type: ignore[call-arg]
 
 
 @pytest.mark.parametrize("kind", [cc.BasicMaterial, cc.PhongMaterial])

@@ -111,7 +111,7 @@ def test_ambient_light_has_none():
     light = cc.AmbientLight()
     assert not hasattr(light, "shadow")
     with pytest.raises(TypeError):
-        cc.AmbientLight(shadow=True)
+        cc.AmbientLight(shadow=True)  # type: ignore[call-arg]
 
 
 @copies

@@ -4,6 +4,9 @@ The table lists what the redesign decided, and what follows from it: the one or 
 The tests read the stubs and the exports of `cubecam`, so that a new function cannot be forgotten.
 """
 
+# Most calls are wrong on purpose.
+# mypy: disable-error-code="arg-type, assignment, call-arg, call-overload, misc"
+
 import ast
 import inspect
 import pathlib
