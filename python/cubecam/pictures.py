@@ -14,8 +14,9 @@ from .io.screen import to_screen
 from .typing import Tonemap
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from ._core import Frame, Image
-    from .io.pixels import Array
 
 # A notebook keeps every picture in its file: larger faces are shown at this size.
 _LARGEST_FACE = 256
@@ -23,7 +24,7 @@ _LARGEST_FACE = 256
 
 def cube_picture(
     cube: CubeMap, *, exposure: float = 0.0, tonemap: Tonemap | None = "neutral"
-) -> Array:
+) -> npt.NDArray[np.uint8]:
     """Draw the horizontal cross as seen from inside: not mirrored, with -Z in the middle of the view.
 
     uint8 (3N, 4N, 4); cells that no face covers are transparent, the rest is opaque.

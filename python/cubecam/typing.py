@@ -12,15 +12,19 @@ others and editors complete them.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias, TypedDict
 
 if TYPE_CHECKING:
-    from ._array_types import Color, Outputs, Pixels
+    from collections.abc import Iterable
+    from typing import SupportsFloat, SupportsIndex
+
+    from ._array_types import Color, FilePixels, Outputs, Pixels
+    from ._core import ImageEffect
 else:
 
     def __getattr__(name):
         """Load numpy when a type of arrays is first used; names alone do without."""
-        if name in ("Color", "Outputs", "Pixels"):
+        if name in ("Color", "FilePixels", "Outputs", "Pixels"):
             from . import _array_types
 
             return getattr(_array_types, name)
@@ -40,11 +44,13 @@ __all__ = [
     "Encoding",
     "FaceName",
     "FileLayout",
+    "FilePixels",
     "Format",
     "Layout",
     "Outputs",
     "Pixels",
     "ProbeUpdate",
+    "RenderOptions",
     "Sampling",
     "StencilFunc",
     "StencilOp",
@@ -121,3 +127,16 @@ Wrap: TypeAlias = Literal["repeat", "clamp"]
 
 #: A layout of the files of a cubemap: "faces" stands for six files.
 FileLayout: TypeAlias = Literal[Layout, "faces"]
+
+
+class RenderOptions(TypedDict, total=False):
+    """The options of `Renderer.render`, for functions that pass them on as ``**options: Unpack[RenderOptions]``."""
+
+    outputs: Iterable[str]
+    format: Format | None
+    samples: SupportsIndex
+    exposure: SupportsFloat | SupportsIndex
+    tonemap: Tonemap | None
+    encode: Encode | None
+    effects: Iterable[ImageEffect]
+    depth_format: DepthFormat | None

@@ -1,5 +1,7 @@
 """Missing, broken and unwritable files; a failed write leaves the old file or none."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -8,7 +10,7 @@ from tests.helpers import run_python
 from tests.reference.pattern import face_pattern
 
 PICTURE = np.full((16, 32, 3), 77, np.uint8)
-LOADERS = {
+LOADERS: dict[str, Callable[..., object]] = {
     "image": cc.load_image,
     "cubemap": cc.load_cubemap,
     "environment": cc.load_environment,

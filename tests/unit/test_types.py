@@ -1,6 +1,8 @@
 """The types that editors and mypy see: arrays by their numbers, choices by their names, and nothing of unknown type."""
 
 import ast
+import importlib
+import inspect
 import os
 import pathlib
 import re
@@ -12,6 +14,7 @@ import pytest
 
 import cubecam as cc
 import cubecam.typing
+from cubecam import demo, examples, navigation, pictures
 
 PACKAGE = pathlib.Path(cc.__file__).parent
 STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
@@ -143,6 +146,8 @@ def functions(tree, owner=""):
             yield f"{owner}.{node.name}".lstrip("."), node
 
 
+#: Names of cubecam.typing that are no list of names.
+NOT_CHOICES = {"Color", "FilePixels", "Outputs", "Pixels", "RenderOptions"}
 FUNCTIONS = list(functions(STUB))
 
 
@@ -191,7 +196,7 @@ def test_getters_of_choices_name_them():
         for name, node in FUNCTIONS
         if any(ast.unparse(d).endswith(".setter") for d in node.decorator_list)
     }
-    choices = set(cubecam.typing.__all__) - {"Color", "Outputs", "Pixels"}
+    choices = set(cubecam.typing.__all__) - NOT_CHOICES
     found = 0
     for name, given in setters.items():
         taken = set(re.findall(r"\w+", given)) & choices
@@ -200,12 +205,60 @@ def test_getters_of_choices_name_them():
     assert found >= 8
 
 
-@pytest.mark.parametrize(
-    "name", sorted(set(cubecam.typing.__all__) - {"Color", "Outputs", "Pixels"})
-)
+@pytest.mark.parametrize("name", sorted(set(cubecam.typing.__all__) - NOT_CHOICES))
 def test_choices_are_used(name):
     names = typing.get_args(getattr(cubecam.typing, name))
     assert names
     assert all(isinstance(one, str) for one in names)
     used = [f for f, node in FUNCTIONS if re.search(rf"\b{name}\b", ast.unparse(node.args))]
     assert used, f"no function of the core takes a {name}"
+
+
+def python_functions():
+    """Yield the public functions written in Python and the public methods of their modules, by name."""
+    for name in cc.__all__:
+        if inspect.isfunction(getattr(cc, name)):
+            yield name, getattr(cc, name)
+    programs = [importlib.import_module(f"cubecam.examples.{name}") for name in examples.NAMES]
+    for module in (demo, examples, navigation, pictures, *programs):
+        for owner in (module, *vars(module).values()):
+            inside = owner is module or inspect.isclass(owner)
+            if not inside or getattr(owner, "__module__", module.__name__) != module.__name__:
+                continue
+            for name, thing in vars(owner).items():
+                public = inspect.isfunction(thing) and not name.startswith("_")
+                if public and thing.__module__ == module.__name__:
+                    yield f"{module.__name__}.{thing.__qualname__}", inspect.unwrap(thing)
+
+
+PYTHON_FUNCTIONS = dict(python_functions())
+
+
+@pytest.mark.parametrize("name", PYTHON_FUNCTIONS)
+def test_public_python_functions_have_exact_types(name):
+    function = PYTHON_FUNCTIONS[name]
+    types = function.__annotations__
+    assert set(types) - {"return"} == set(inspect.signature(function).parameters) - {"self"}
+    assert "return" in types
+    for argument, kind in types.items():
+        assert not re.search(r"\b(Any|Array)\b", kind), f"{argument}: {kind}"
+
+
+def test_the_walk_finds_python_functions():
+    assert {"load_cubemap", "cubecam.navigation.yaw", "cubecam.demo.DemoScene.turn"} <= set(
+        PYTHON_FUNCTIONS
+    )
+    assert "cubecam.examples.skybox.draw" in PYTHON_FUNCTIONS
+
+
+def test_render_options_are_those_of_render():
+    render = next(node for name, node in FUNCTIONS if name == "Renderer.render")
+    options = {p.arg: ast.unparse(p.annotation) for p in render.args.kwonlyargs}
+    plain = {
+        name: re.sub(r"\b(collections\.abc|typing)\.", "", kind) for name, kind in options.items()
+    }
+    source = ast.parse((PACKAGE / "typing.py").read_text(encoding="utf-8"))
+    (mine,) = (node for node in source.body if isinstance(node, ast.ClassDef))
+    fields = [node for node in mine.body if isinstance(node, ast.AnnAssign)]
+    given = {ast.unparse(field.target): ast.unparse(field.annotation) for field in fields}
+    assert given == plain

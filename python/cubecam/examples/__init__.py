@@ -18,7 +18,13 @@ The command line draws them: ``cubecam example --list``.
 from __future__ import annotations
 
 import importlib
-from typing import Any, Protocol, cast
+from typing import TYPE_CHECKING, Protocol, cast
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .._core import Renderer
+    from ..typing import Pixels, RenderOptions
 
 from .._calls import checked_call
 
@@ -55,12 +61,17 @@ class Example(Protocol):
     STILL: int
     SIZE: tuple[int, int]
 
-    def build(self) -> Any:
+    def build(self) -> object:
         """Make the scene; the functions of the modules have options."""
 
     def draw(
-        self, program: Any, renderer: Any, frame: int, size: tuple[int, int] = ..., **options: Any
-    ) -> Any:
+        self,
+        program: object,
+        renderer: Renderer,
+        frame: int,
+        size: tuple[int, int] = ...,
+        **options: Unpack[RenderOptions],
+    ) -> Pixels:
         """Draw a frame, ndarray (H, W, 4)."""
 
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import functools
 import math
+import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 import cubecam as cc
+
+if TYPE_CHECKING:
+    from cubecam.typing import FilePixels, Pixels, RenderOptions
 
 #: The background colour of documents 000 and 001.
 GREY = (0.4, 0.4, 0.4, 1.0)
@@ -21,10 +25,17 @@ PHOTOGRAPH = 512
 #: World units: the largest extent of the bunny and the teapot, which stand in for sonic.obj and mario.obj.
 ACTOR = 1.2
 
-Picture = npt.NDArray[Any]
+Picture: TypeAlias = "Pixels"
+#: Six arrays, an array (6, N, N, C), six paths, or a path with {face}.
+Photographs: TypeAlias = (
+    str
+    | os.PathLike[str]
+    | Sequence[str | os.PathLike[str] | npt.NDArray[np.generic]]
+    | npt.NDArray[np.generic]
+)
 
 
-def photographs(images: Any = None) -> list[Picture]:
+def photographs(images: Photographs | None = None) -> list[FilePixels]:
     """Return six pictures (N, N, C) in the order +X -X +Y -Y +Z -Z, in the layout of OpenGL's faces.
 
     images : six arrays, an array (6, N, N, C), six paths, or a path with {face}. None: pictures of 512 x 512 pixels of
@@ -43,7 +54,7 @@ def photographs(images: Any = None) -> list[Picture]:
     ]
 
 
-def surroundings(images: Any = None, *, mipmaps: bool = False) -> cc.CubeMap:
+def surroundings(images: Photographs | None = None, *, mipmaps: bool = False) -> cc.CubeMap:
     """Return the six photographs as a cubemap."""
     return cc.CubeMap(photographs(images), convention="gl", mipmaps=mipmaps)
 
@@ -77,8 +88,7 @@ def picture(
     scene: cc.Scene,
     camera: cc.Camera | cc.StereoCamera,
     size: tuple[int, int],
-    options: Any,
+    options: RenderOptions,
 ) -> Picture:
     """Render a frame and return its colours."""
-    color: Picture = renderer.render(scene, camera, size, **options).color
-    return color
+    return renderer.render(scene, camera, size, **options).color

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,8 @@ import numpy.typing as npt
 import cubecam as cc
 
 Vectors = npt.NDArray[np.float64]
+#: Colours (H, W, 4) and ids of nodes (H, W).
+Truth: TypeAlias = tuple[npt.NDArray[np.float32], npt.NDArray[np.int64]]
 
 
 @dataclass
@@ -93,7 +95,7 @@ class Geometry:
         return distance
 
 
-def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> tuple[Any, Any]:
+def mirror_image(scene: cc.Scene, camera: cc.Camera, size: tuple[int, int]) -> Truth:
     """Render a scene of Phong and mirror materials with a ray for each pixel, and one more from each mirror.
 
     Nodes with ``in_captures=False`` are visible, but not reflected. Returns colours (H, W, 4) float32 and ids (H, W).

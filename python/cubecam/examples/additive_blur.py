@@ -14,11 +14,17 @@ Worth trying: a colour buffer of 8 bits rounds after each of the nine passes, by
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import cubecam as cc
 
 from ._common import Picture, photographs, picture
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P9"
 TITLE = "A blur in nine additive passes"
@@ -44,19 +50,19 @@ class Program:
     weighted: cc.BasicMaterial
 
 
-def build(image: Any = None) -> Program:
+def build(image: npt.ArrayLike | None = None) -> Program:
     """Make the scene; image is an array (H, W, C), one of the photographs by default."""
     pixels = photographs()[4] if image is None else image
     scene = cc.Scene(background=BLACK)
-    options: dict[str, Any] = {
+    surface: dict[str, Any] = {
         "map": cc.Image(pixels, wrap="clamp"),
         "blend": "additive",
         "depth_write": False,
         "depth_test": False,
         "color_write": (True, True, True, False),  # alpha stays 1
     }
-    weighted = cc.BasicMaterial(color=(WEIGHT, WEIGHT, WEIGHT), **options)
-    sharp = cc.BasicMaterial(color=(1, 1, 1), **options)
+    weighted = cc.BasicMaterial(color=(WEIGHT, WEIGHT, WEIGHT), **surface)
+    sharp = cc.BasicMaterial(color=(1, 1, 1), **surface)
     upright = cc.axis_angle((1, 0, 0), 90)
     passes = tuple(scene.add(cc.Mesh.plane(1, 1), weighted, rotation=upright) for _ in OFFSETS)
     # One world unit is one pixel: `draw` sets the height to that of the picture.
@@ -70,7 +76,7 @@ def draw(
     frame: int,
     size: tuple[int, int] = SIZE,
     blurred: bool = True,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw the first `frame` passes, at most nine. blurred=False: the rectangle once, at full weight."""
     width, height = size

@@ -17,11 +17,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 
 from ._common import LIGHT, Picture, bunny, on_circle, picture, teapot
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P8"
 TITLE = "Red-cyan stereo from one scene"
@@ -67,7 +72,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: red is the left eye's, green and blue are the right eye's."""
     program.ring.rotation = cc.axis_angle((0, 1, 0), TURN * frame)

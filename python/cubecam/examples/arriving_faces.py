@@ -15,13 +15,18 @@ it arrives, it raises an error with both sizes in the message, and the face keep
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 import cubecam as cc
 
-from ._common import PHOTOGRAPH, Picture, photographs, picture
+from ._common import PHOTOGRAPH, Photographs, Picture, photographs, picture
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import FilePixels, RenderOptions
 
 PROGRAM = "P5"
 TITLE = "A mirror cube while its photographs arrive"
@@ -47,10 +52,10 @@ class Program:
     tilt: cc.Node
     cube: cc.Node
     cubemap: cc.CubeMap
-    photographs: list[Picture]
+    photographs: list[FilePixels]
 
 
-def build(images: Any = None, size: int = PHOTOGRAPH) -> Program:
+def build(images: Photographs | None = None, size: int = PHOTOGRAPH) -> Program:
     """Make the scene with a cubemap whose faces are still of one colour.
 
     images : the photographs that arrive, as in P1. size : texels along an edge of a face.
@@ -81,7 +86,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: k photographs have arrived; from frame `HALF` on they arrive again, with the skybox."""
     arrive(program, frame % HALF)

@@ -18,12 +18,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import cubecam as cc
 from cubecam.typing import Format
 
-from ._common import LIGHT, Picture, on_circle, picture, surroundings, teapot
+from ._common import LIGHT, Photographs, Picture, on_circle, picture, surroundings, teapot
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P12"
 TITLE = "Cube camera: a mirror for a skybox and for moving cubes in front of it"
@@ -56,7 +61,7 @@ class Program:
 
 
 def build(
-    images: Any = None,
+    images: Photographs | None = None,
     reflector: Literal["sphere", "teapot"] = "sphere",
     probe_size: int = PROBE,
     probe_format: Format = "rgba8",
@@ -93,7 +98,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame; the probe is brought up to date with it."""
     place(program, frame)

@@ -16,12 +16,17 @@ document's picture.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 from cubecam.typing import DepthFormat, Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P13"
 TITLE = "A cubemap drawn on the fly, shown on a turning cube"
@@ -90,7 +95,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: the cube's matrix is translate * scale * rotate(0.45 k, (1, 1, 1))."""
     # The scale is the same for all axes, so the node's own order, translate * rotate * scale, gives the same matrix.

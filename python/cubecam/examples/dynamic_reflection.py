@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 from cubecam.typing import Format
@@ -35,6 +35,11 @@ from .cubemap_on_a_cube import (
     TEAPOT,
     phong,
 )
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P14"
 TITLE = "Dynamic reflection: a ball mirrors the actors that circle it"
@@ -112,7 +117,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: the actors, opposite each other, move by a tenth of a radian a frame."""
     go_round(program.actors, frame)

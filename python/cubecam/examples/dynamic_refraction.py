@@ -14,7 +14,7 @@ surface refracts here; light that leaves a real ball is refracted a second time.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 from cubecam.typing import Format
@@ -29,6 +29,11 @@ from .dynamic_reflection import (
     main_camera,
     stage,
 )
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P17"
 TITLE = "Dynamic refraction: a glass ball beside a mirror"
@@ -79,7 +84,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: the actors move by a tenth of a radian a frame."""
     go_round(program.actors, frame)

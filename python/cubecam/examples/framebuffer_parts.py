@@ -18,14 +18,21 @@ how few steps are left for the ground.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, TypeAlias, TypedDict
 
 import numpy as np
+import numpy.typing as npt
 
 import cubecam as cc
 
-from ._common import LIGHT, Picture, bunny, on_circle, teapot
+from ._common import LIGHT, bunny, on_circle, teapot
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import Encode, Tonemap
 
 PROGRAM = "P11"
 TITLE = "The parts of a framebuffer, and a shadow map"
@@ -84,13 +91,27 @@ def build() -> Program:
     return Program(scene, camera, lamp, ground, ring, nodes)
 
 
+#: Colours, distances, ids or what is computed from them.
+Part: TypeAlias = npt.NDArray[np.uint8 | np.int32 | np.float16 | np.float32 | np.float64]
+
+
+class Look(TypedDict, total=False):
+    """The options of `Renderer.render` that do not choose what is drawn."""
+
+    samples: int
+    exposure: float
+    tonemap: Tonemap | None
+    encode: Encode | None
+    effects: Sequence[cc.ImageEffect]
+
+
 def parts(
     program: Program,
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int],
-    **options: Any,
-) -> dict[str, Picture]:
+    **options: Unpack[Look],
+) -> dict[str, Part]:
     """Return every part as an array.
 
     "color", "distance", "z", "normal", "position", "id" and "depth" are of one pass with a depth buffer of 16 bits,
@@ -122,8 +143,8 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
-) -> Picture:
+    **options: Unpack[Look],
+) -> Part:
     """Draw a frame as four by two pictures, uint8. `format` is not an option, since each picture has its own."""
     cell = (max(size[0] // 4, 1), max(size[1] // 2, 1))
     part = parts(program, renderer, frame, cell, **options)
@@ -137,22 +158,22 @@ def draw(
     return np.concatenate(rows)
 
 
-def _grey(values: Picture) -> Picture:
+def _grey(values: Part) -> Part:
     return np.repeat(np.asarray(values, np.float64)[..., None], 3, axis=2)
 
 
-def _shadow(part: dict[str, Picture], cell: tuple[int, int]) -> Picture:
+def _shadow(part: dict[str, Part], cell: tuple[int, int]) -> Part:
     """Return the two faces that look down from the lamp, -Y beside -X, as a picture of the cell's size."""
     width, height = cell
     distances = part["shadow"][[3, 1]]
     pair = np.concatenate(list(np.clip((9 - distances) / 6, 0, 1)), axis=1)
     rows = (np.arange(height) + 0.5) * pair.shape[0] / height
     columns = (np.arange(width) + 0.5) * pair.shape[1] / width
-    found: Picture = pair[rows.astype(int)[:, None], columns.astype(int)[None, :]]
+    found: Part = pair[rows.astype(int)[:, None], columns.astype(int)[None, :]]
     return found
 
 
-def _bytes(picture: Picture) -> Picture:
+def _bytes(picture: Part) -> Part:
     """Turn uint8, or numbers from 0 to 1, into opaque (H, W, 4) uint8."""
     color = picture[..., :3]
     if color.dtype != np.uint8:

@@ -18,11 +18,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 
-from ._common import GREY, Picture, picture, surroundings
+from ._common import GREY, Photographs, Picture, picture, surroundings
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P2"
 TITLE = "Inside the box: drags turn the view, w and s walk"
@@ -58,7 +63,7 @@ class Program:
     script: tuple[Event, ...]
 
 
-def build(images: Any = None, script: Sequence[Event] = SCRIPT) -> Program:
+def build(images: Photographs | None = None, script: Sequence[Event] = SCRIPT) -> Program:
     """Make the scene; see `SCRIPT` for what a script holds, and P1 for the images."""
     scene = cc.Scene(background=GREY)
     material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
@@ -101,7 +106,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])

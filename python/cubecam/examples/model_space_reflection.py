@@ -20,15 +20,21 @@ in the shader.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 import cubecam as cc
 
-from ._common import Picture, picture, surroundings, teapot
+from ._common import Photographs, Picture, picture, surroundings, teapot
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P6"
 TITLE = "Reflection in model space, from a cubemap of one image"
@@ -95,13 +101,13 @@ class Program:
     material: cc.ShaderMaterial
 
 
-def cross(images: Any = None) -> Picture:
+def cross(images: Photographs | None = None) -> Picture:
     """Make one picture of six photographs, 4 N x 3 N, as a stand-in for the document's cm.jpg."""
     return surroundings(images).to_layout("cross")
 
 
 def build(
-    image: Any = None,
+    image: str | os.PathLike[str] | npt.NDArray[np.generic] | None = None,
     stretch: tuple[float, float, float] = (1.0, 1.0, 1.0),
     per_vertex: bool = False,
     skybox: bool = False,
@@ -114,7 +120,9 @@ def build(
     """
     if image is None:
         image = cross()
-    cubemap = cc.CubeMap.from_layout(image) if hasattr(image, "shape") else cc.load_cubemap(image)
+    cubemap = (
+        cc.CubeMap.from_layout(image) if isinstance(image, np.ndarray) else cc.load_cubemap(image)
+    )
     scene = cc.Scene(environment=cubemap, background=None if skybox else (0, 0, 0, 1))
     material = cc.ShaderMaterial(
         FRAGMENT_OF_VERTEX if per_vertex else FRAGMENT,
@@ -169,7 +177,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: both teapots have turned by 4 degrees a frame."""
     for node in (program.model, program.world):

@@ -15,7 +15,7 @@ colour of an actor to its present colour: an equal value is no change.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 from cubecam.typing import Format
@@ -24,6 +24,11 @@ from . import dynamic_reflection
 from ._common import Picture, picture
 from .cubemap_on_a_cube import PROBE
 from .dynamic_reflection import TURN, circle, go_round
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P15"
 TITLE = "No picture is drawn again while nothing in it changes"
@@ -62,7 +67,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame; `views_drawn` then returns how many pictures it took."""
     circle(program.walker, TURN * steps(frame))

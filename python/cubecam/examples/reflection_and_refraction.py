@@ -19,11 +19,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 
-from ._common import Picture, on_circle, picture, surroundings, teapot
+from ._common import Photographs, Picture, on_circle, picture, surroundings, teapot
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P4"
 TITLE = "Reflection and refraction of a still environment"
@@ -49,7 +54,7 @@ class Program:
     glass: tuple[cc.Node, cc.Node]
 
 
-def build(images: Any = None, eta: float = ETA) -> Program:
+def build(images: Photographs | None = None, eta: float = ETA) -> Program:
     """Make the scene; eta is the refractive index outside divided by that inside, images are as in P1."""
     scene = cc.Scene(environment=surroundings(images))
     group = scene.add()
@@ -71,7 +76,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: camera and group turn by 4 degrees a frame."""
     turned = cc.axis_angle((0, 1, 0), TURN * frame)

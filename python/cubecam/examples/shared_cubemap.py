@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -33,7 +33,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
-from ._truth import mirror_image
+from ._truth import Truth, mirror_image
 from .cubemap_on_a_cube import (
     BUNNY,
     FAR,
@@ -46,6 +46,11 @@ from .cubemap_on_a_cube import (
     phong,
 )
 from .dynamic_reflection import BALL, gold
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P16"
 TITLE = "One cubemap shared by neighbouring mirrors, and its error"
@@ -129,7 +134,7 @@ def draw(
     frame: int,
     size: tuple[int, int] = SIZE,
     show: Literal["both", "difference", "error"] = "both",
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame of two pictures, one above the other.
 
@@ -149,7 +154,7 @@ def draw(
     return np.concatenate([shared, own])
 
 
-def truth(program: Program, size: tuple[int, int]) -> tuple[Any, Any]:
+def truth(program: Program, size: tuple[int, int]) -> Truth:
     """Cast the exact picture: one bounce off the balls' actual surface, Phong-shaded where it ends.
 
     Returns colours (H, W, 4) float32 and node ids (H, W). Raises ImportError without embreex.
@@ -181,7 +186,11 @@ def error_over_distance(
 
 
 def _draw(
-    program: Program, renderer: cc.Renderer, whose: Whose, size: tuple[int, int], options: Any
+    program: Program,
+    renderer: cc.Renderer,
+    whose: Whose,
+    size: tuple[int, int],
+    options: RenderOptions,
 ) -> Picture:
     share(program, whose)
     return picture(renderer, program.scene, program.camera, size, options)

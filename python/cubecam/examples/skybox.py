@@ -18,13 +18,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 
 from . import inside_the_box
-from ._common import Picture, picture, surroundings
+from ._common import Photographs, Picture, picture, surroundings
 from .inside_the_box import SCRIPT, Event, replay
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P3"
 TITLE = "Skybox: a background that walking never reaches"
@@ -49,7 +54,9 @@ class Program:
     script: tuple[Event, ...]
 
 
-def build(images: Any = None, script: Sequence[Event] = SCRIPT, boxes: bool = True) -> Program:
+def build(
+    images: Photographs | None = None, script: Sequence[Event] = SCRIPT, boxes: bool = True
+) -> Program:
     """Make the scene; images as in P1, the script as in P2."""
     scene = cc.Scene(background=surroundings(images))
     for color, place, size in BOXES if boxes else ():
@@ -62,7 +69,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])

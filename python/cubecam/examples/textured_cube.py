@@ -16,11 +16,16 @@ turns: give the cubemap mipmaps.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import cubecam as cc
 
-from ._common import GREY, Picture, picture, surroundings
+from ._common import GREY, Photographs, Picture, picture, surroundings
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from cubecam.typing import RenderOptions
 
 PROGRAM = "P1"
 TITLE = "A cube textured by a cubemap of six photographs"
@@ -45,7 +50,7 @@ class Program:
     cube: cc.Node
 
 
-def build(images: Any = None, eye: tuple[float, float, float] = EYE) -> Program:
+def build(images: Photographs | None = None, eye: tuple[float, float, float] = EYE) -> Program:
     """Make the scene.
 
     images : six arrays or paths in the order +X -X +Y -Y +Z -Z, uploaded as they are; made here by default.
@@ -64,7 +69,7 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    **options: Any,
+    **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: the model matrix is Rx(angleY) Ry(angleX) scale(2), as the document writes it."""
     angle_x = angle_y = START + DRAG * frame

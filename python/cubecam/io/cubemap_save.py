@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,10 @@ from .screen import check_look, curve_for, numbers_of
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    import numpy.typing as npt
+
+Number = TypeVar("Number", bound=np.generic)
 
 
 @checked_call
@@ -137,7 +141,9 @@ def save_cubemap(
     write_files({target: encoded})
 
 
-def arrange(values: Array, layout: Layout, convention: Convention) -> Array:
+def arrange(
+    values: npt.NDArray[Number], layout: Layout, convention: Convention
+) -> npt.NDArray[Number]:
     """Lay out six faces of any numbers, (6, N, N) or (6, N, N, C), as `CubeMap.to_layout` does with colours.
 
     A CubeMap cannot hold ids, or positions with NaN; so each number is laid out as its four bytes.

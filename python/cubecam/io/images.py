@@ -9,7 +9,7 @@ import numpy as np
 
 from .._calls import checked_call
 from .._core import CubeMap, Frame, Image
-from ..typing import Tonemap
+from ..typing import FilePixels, Tonemap
 from . import oiio
 from .cubemap_save import save_cubemap
 from .files import PathLike, as_path, existing_file, write_files
@@ -27,7 +27,7 @@ __all__ = ["load_image", "save_animation", "save_frame", "save_image"]
 
 
 @checked_call
-def load_image(path: PathLike, *, srgb: bool = False) -> Array:
+def load_image(path: PathLike, *, srgb: bool = False) -> FilePixels:
     """Read a picture as it is stored.
 
     Parameters
