@@ -1,6 +1,8 @@
 """flat_shading=True: normals are those of the triangles' planes, for every material and after every change."""
 
 import pickle
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,7 +13,7 @@ from tests.gl.world import perspective, room
 from tests.helpers import DEVICE, copies
 
 RAW = "vec3 shade(Surface s) { return s.normal; }"
-MATERIALS = {
+MATERIALS: dict[str, Callable[..., cc.Material]] = {
     "basic": cc.BasicMaterial,
     "phong": cc.PhongMaterial,
     "mirror": cc.MirrorMaterial,
@@ -141,7 +143,7 @@ def stage(mesh, flat, other):
 
 @pytest.fixture
 def materials():
-    paint = {"vertex_colors": True, "blend": "opaque"}
+    paint: dict[str, Any] = {"vertex_colors": True, "blend": "opaque"}
     return cc.PhongMaterial(flat_shading=True, **paint), cc.PhongMaterial(**paint)
 
 
@@ -210,6 +212,7 @@ def test_a_crowd_is_one_call_for_each_shading(renderer, rng):
     assert renderer.stats.draw_calls == 2
     flat = mesh.flat_shaded()
     for node in scene:
+        assert node.material is not None
         node.mesh = flat if node.material.flat_shading else mesh
         node.material.flat_shading = False
     want = renderer.render(scene, CAMERA, SIZE, outputs=("normal",))

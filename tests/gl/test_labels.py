@@ -1,6 +1,7 @@
 """Labels of nodes and the output "label". The ray caster of test_capture.py and test_frames.py has them, too."""
 
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -77,7 +78,12 @@ def test_only_pictures_with_labels_are_drawn_again(fresh_renderer):
         fresh_renderer.render(world.scene, view.camera, view.size, **options)
         return fresh_renderer.stats.views_drawn
 
-    pictures = [{}, {"outputs": ("id", "normal")}, {"outputs": ("label",)}, {"outputs": OUTPUTS}]
+    pictures: list[dict[str, Any]] = [
+        {},
+        {"outputs": ("id", "normal")},
+        {"outputs": ("label",)},
+        {"outputs": OUTPUTS},
+    ]
     assert [drawn(**options) for options in pictures] == [1, 1, 1, 1]
     node = world.scene.nodes[2]
     before = node.label

@@ -7,7 +7,7 @@ import cubecam as cc
 from tests.gl.world import room
 
 SIZE = (61, 43)
-K = [[50.0, 0, 33.7], [0, 56, 18.2], [0, 0, 1]]
+K = [[50.0, 0.0, 33.7], [0.0, 56.0, 18.2], [0.0, 0.0, 1.0]]
 CAMERAS = {
     "plain": cc.PerspectiveCamera(fov=70, position=(0.2, 0.1, -0.1), target=(2, 0.2, 1)),
     "shifted": cc.PerspectiveCamera(fov=90, target=(-1, -0.3, 0.2), shift=(0.3, -0.2)),

@@ -1,20 +1,21 @@
 """camera.fit: the corners of the bounds, projected by numpy, fill the picture and none is outside."""
 
 import itertools
+from typing import Any
 
 import numpy as np
 import pytest
 
 import cubecam as cc
 
-VIEWS = {
+VIEWS: dict[str, dict[str, Any]] = {
     "along -Z": {},
     "from the side": {"position": (9, 4, -3), "target": (0, 1, 0)},
     "with a roll": {"position": (1, 2, 3), "target": (0, 0, 0), "up": (1, 1, 0.3)},
     "from within": {"position": (0, 0, 0), "target": (0.1, -0.2, 0.3)},
     "turned away": {"position": (0, 0, 5), "target": (0, 1, 50)},
 }
-LENSES = {
+LENSES: dict[str, tuple[Any, dict[str, Any]]] = {
     "usual": (cc.PerspectiveCamera, {"fov": 40}),
     "wide": (cc.PerspectiveCamera, {"fov": 100}),
     "shifted": (cc.PerspectiveCamera, {"fov": 50, "shift": (0.3, -0.4)}),

@@ -39,6 +39,7 @@ def test_texture_coordinates(rng):
 def test_vertex_colors(rng):
     colors = rng.integers(0, 256, (len(torus().vertices), 4), dtype=np.uint8)
     mesh = cc.Mesh.from_trimesh(torus(vertex_colors=colors))
+    assert mesh.colors is not None
     np.testing.assert_allclose(mesh.colors, colors / 255, atol=1e-7)
 
 
@@ -84,5 +85,5 @@ def test_without_triangles(empty):
 
 def test_broken_contents():
     with pytest.raises(ValueError, match="finite positions"):
-        cc.Mesh.from_trimesh(trimesh.Trimesh([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]], [[0, 1, 2]],
+        cc.Mesh.from_trimesh(trimesh.Trimesh(np.array([[0, 0, 0], [1, 0, 0], [0, np.nan, 0]]), [[0, 1, 2]],
                                              process=False))  # fmt: skip

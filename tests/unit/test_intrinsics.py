@@ -64,7 +64,7 @@ def test_there_and_back(size, rng):
 
 
 def test_a_calibrated_camera():
-    k = [[525.3, 0, 318.2], [0, 526.1, 243.9], [0, 0, 1]]
+    k = [[525.3, 0.0, 318.2], [0.0, 526.1, 243.9], [0.0, 0.0, 1.0]]
     camera = cc.PerspectiveCamera.from_intrinsics(
         k, (640, 480), position=(1, 0, 0), target=(0, 0, 0), up=(0, 0, 1), near=0.5, far=9
     )

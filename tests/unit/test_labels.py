@@ -1,6 +1,7 @@
 """Labels of nodes: values, errors, pickles, searches."""
 
 import copy
+from typing import Any
 
 import numpy as np
 import pytest
@@ -63,7 +64,8 @@ def test_older_states_have_none():
     """`Scene.__setstate__` reads states of nodes without their last member, too."""
     scene = cc.Scene()
     scene.add(name="old", label=4)
-    version, state = scene.__reduce__()[2]
+    closed: Any = scene.__reduce__()[2]
+    version, state = closed
     state = copy.copy(state)
     state["nodes"] = [(id_, parent, node[:13]) for id_, parent, node in state["nodes"]]
     old = cc.Scene()
@@ -83,4 +85,4 @@ def test_find():
     with pytest.raises(TypeError, match="expected a name or a label, got neither"):
         scene.find()
     with pytest.raises(TypeError, match="name: expected a str or None, got int"):
-        scene.find(2)
+        scene.find(2)  # type: ignore[arg-type]

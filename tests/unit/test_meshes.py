@@ -126,8 +126,10 @@ def test_an_arrow_goes_from_the_origin_along_z():
 def test_the_uvs_of_an_arrow_run_round_and_along_it():
     mesh = cc.Mesh.arrow(2, segments=8)
     side = np.abs(mesh.normals[:, 2]) < 0.9  # the shaft and the head; the rest is flat
+    assert mesh.uvs is not None
     np.testing.assert_allclose(mesh.uvs[side, 1], mesh.positions[side, 2] / 2, atol=1e-6)
     flat = cc.Mesh.cylinder(0.1, 2, segments=8)
+    assert flat.uvs is not None
     shaft = side & (np.abs(mesh.normals[:, 2]) < 1e-6)
     np.testing.assert_allclose(np.unique(mesh.uvs[shaft, 0]), np.unique(flat.uvs[:18, 0]))
 

@@ -152,8 +152,8 @@ def test_bounds_follow_the_mesh_and_the_node(scene):
 
 
 def test_bounds_of_a_long_chain(scene):
-    node = None
-    for _ in range(20_000):
+    node = scene.add(position=(1, 0, 0))
+    for _ in range(19_999):
         node = scene.add(parent=node, position=(1, 0, 0))
     node.mesh = cc.Mesh.box()
     assert scene.bounds.tolist() == [[19_999.5, -0.5, -0.5], [20_000.5, 0.5, 0.5]]
