@@ -47,7 +47,7 @@ def test_reflect(renderer, directions):
 @pytest.mark.parametrize("eta", ETAS)
 def test_refract(renderer, directions, eta):
     want = drawn(renderer, "refract(towards(surface), normal, eta)", eta)
-    got = cc.refract(*directions, eta)
+    got = cc.refract(directions[0], directions[1], eta)
     assert got.dtype == np.float32
     assert (want.any(axis=-1).all()) == (eta <= 1)
     # At the critical angle the root of a small number magnifies the error of float arithmetic.

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import sysconfig
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -307,10 +308,11 @@ def test_capture_writes_what_save_writes(tmp_path):
     given = ["capture", cc.sample_data("bunny.obj"), "-s", 32]
     assert cubecam(*given, "-o", tmp_path / "a.exr").exit_code == 0
     linear = cc.load_image(tmp_path / "a.exr")
-    for options, look in (
+    looks: list[tuple[list[str], dict[str, Any]]] = [
         ([], {}),
         (["--exposure", "1", "--tonemap", "aces"], {"exposure": 1, "tonemap": "aces"}),
-    ):
+    ]
+    for options, look in looks:
         result = cubecam(*given, *options, "-o", tmp_path / "a.png")
         assert result.exit_code == 0, result.output
         assert_identical(cc.load_image(tmp_path / "a.png"), cc.to_screen(linear, **look))

@@ -55,7 +55,7 @@ def test_attributes(owner, old, new):
 @pytest.mark.parametrize(("old", "new"), OLD_NAMES["Scene.add"].items())
 def test_keywords_of_a_method(old, new):
     with pytest.raises(TypeError, match=rf"^add\(\): {old} is now {new}$"):
-        cc.Scene().add(**{old: True})
+        cc.Scene().add(**{old: True})  # type: ignore[call-overload]
 
 
 @pytest.mark.parametrize("owner", ["GlassMaterial", "MirrorMaterial"])

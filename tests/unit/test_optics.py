@@ -271,11 +271,11 @@ BAD = {
         r"^f0: expected numbers from 0 to 1, got 1\.5$",
     ),
     "misspelt": (
-        lambda: cc.refract(UP, UP, ior=1.5),
+        lambda: cc.refract(UP, UP, ior=1.5),  # type: ignore[call-arg]
         TypeError,
         r"^refract\(\) has no option 'ior'; it takes incident, normal, eta$",
     ),
-    "missing": (lambda: cc.refract(UP), TypeError, r"^refract\(\) needs normal and eta$"),
+    "missing": (lambda: cc.refract(UP), TypeError, r"^refract\(\) needs normal and eta$"),  # type: ignore[call-arg]
 }
 
 

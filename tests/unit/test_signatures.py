@@ -177,9 +177,10 @@ FOUND = [*of_the_stub(), *of_python()]
 def by_name(name):
     """The arguments of a function of the core that go by name only, from the stub."""
     owner, _, member = name.partition(".")
-    tree = ast.parse(STUB.read_text(encoding="utf-8"))
-    kind = next(node for node in tree.body if getattr(node, "name", "") == owner)
-    function = next(node for node in kind.body if getattr(node, "name", "") == member)
+    nodes = list(ast.walk(ast.parse(STUB.read_text(encoding="utf-8"))))
+    kind = next(node for node in nodes if isinstance(node, ast.ClassDef) and node.name == owner)
+    methods = [node for node in kind.body if isinstance(node, ast.FunctionDef)]
+    function = next(node for node in methods if node.name == member)
     return [argument.arg for argument in function.args.kwonlyargs]
 
 
@@ -408,7 +409,7 @@ def test_an_attribute_that_does_not_exist_cannot_be_set(renderer):
 def test_errors_of_the_call_itself_stay():
     """Only errors about calls that fit no signature are reworded."""
     with pytest.raises(TypeError, match=r"^exclude: expected Nodes, got int$"):
-        cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), exclude=[3])
+        cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), exclude=[3])  # type: ignore[list-item]
 
 
 def test_overloads_are_explained_by_what_was_named():
