@@ -50,7 +50,7 @@ def first_program() -> tuple[Picture, cc.CubeMap]:
         os.chdir(folder)
         exec(compile(code, "README.md", "exec"), scope)
         os.chdir(ROOT)
-        frame = cc.load_image(Path(folder) / "frame.png")
+        frame: Picture = cc.load_image(Path(folder) / "frame.png").astype(np.uint8)
     return frame[..., :3], scope["cube"]
 
 

@@ -35,7 +35,6 @@ from .io.cubemaps import load_environment
 from .io.files import PathLike, as_path
 from .io.images import save_animation, save_image
 from .io.meshes import load_mesh
-from .io.pixels import Array
 from .io.screen import to_screen
 from .pictures import cube_picture
 
@@ -43,6 +42,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    import numpy.typing as npt
     from rich.console import Console
     from rich.progress import Progress, TaskID
 
@@ -133,7 +133,7 @@ def _tiles() -> Image:
 
 
 @checked_call
-def named_cross(cube: CubeMap) -> Array:
+def named_cross(cube: CubeMap) -> npt.NDArray[np.uint8]:
     """Draw a cubemap as a cross seen from inside, with the name of each face in its upper left corner.
 
     Parameters

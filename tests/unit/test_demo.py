@@ -76,13 +76,16 @@ def test_bunny_and_teapot_stand_on_the_terrace_that_the_ball_touches(angle):
     (terrace,) = [
         node for node in built.scene.nodes if node not in (built.ball, built.bunny, built.teapot)
     ]
+    assert terrace.mesh is not None
     floor = terrace.position[1] + terrace.mesh.bounds[1][1]
     for node in (built.ball, built.bunny, built.teapot):
+        assert node.mesh is not None
         assert node.position[1] + node.mesh.bounds[0][1] == pytest.approx(floor, abs=1e-6)
     bunny, teapot = built.bunny.position, built.teapot.position
     np.testing.assert_allclose(bunny[[0, 2]], -teapot[[0, 2]], atol=1e-6)
     radius = np.hypot(bunny[0], bunny[2])
     for node in (built.bunny, built.teapot):
+        assert node.mesh is not None
         assert radius - np.ptp(node.mesh.positions, axis=0)[[0, 2]].max() / 2 > 0.75
 
 
