@@ -112,6 +112,7 @@ class TestRandomScenes:
             "faces": (f"{faces}, 4)", "float16"),
             "distance": (f"{faces})", "float32"),
             "id": (f"{faces})", "int32"),
+            "label": (f"{faces})", "int32"),
         }
         for name, (shape, dtype) in expected.items():
             assert (str(data[name].shape), str(data[name].dtype)) == (shape, dtype)
@@ -130,12 +131,15 @@ class TestRandomScenes:
         for kind, color, place in zip(
             *(data[n][index] for n in ("kind", "color", "place")), strict=True
         ):
-            scene.add(scope["meshes"][kind], cc.PhongMaterial(color=color), position=place)
+            scene.add(
+                scope["meshes"][kind], cc.PhongMaterial(color=color), position=place, label=kind + 1
+            )
         with cc.Renderer() as renderer:
-            cube = renderer.capture(scene, size=64, format="rgba16f", outputs=("distance", "id"))
+            cube = renderer.capture(scene, size=64, format="rgba16f", outputs=scope["wanted"])
         np.testing.assert_array_equal(data["faces"][index], cube.faces)
         np.testing.assert_array_equal(data["distance"][index], cube.distance)
         np.testing.assert_array_equal(data["id"][index], cube.id)
+        np.testing.assert_array_equal(data["label"][index], cube.label)
 
     def test_ids_and_distances_belong_to_the_things(self, pages):
         folder, _ = pages(self.NAME)
@@ -145,6 +149,11 @@ class TestRandomScenes:
         assert ids.max() == 12
         assert ((ids == 0) == np.isinf(distance)).all()
         assert 0.05 < (ids > 0).mean() < 0.6
+        kinds = np.take_along_axis(
+            data["kind"][:50], np.maximum(ids - 1, 0).reshape(50, -1), axis=1
+        )
+        label = np.where(ids == 0, 0, kinds.reshape(ids.shape) + 1)
+        np.testing.assert_array_equal(data["label"][:50], label)
         away = np.linalg.norm(data["place"][:50], axis=-1)
         for sample in range(50):
             for k in np.unique(ids[sample][ids[sample] > 0]):
@@ -200,7 +209,7 @@ class TestGlbInAProbe:
     def test_the_probe_shows_the_model_where_it_is_and_the_photograph_elsewhere(self, pages):
         _, scope = pages(self.NAME)
         probe, scene, ball = scope["probe"], scope["scene"], scope["ball"]
-        (model,) = (node for node in scene.nodes if node.mesh is not None and node.id != ball.id)
+        model = scope["suzanne"]
         towards = model.position - ball.position
         here, photo = probe.sample(towards)[:3], scene.environment.sample(towards)
         assert np.abs(here - photo).max() > 0.1

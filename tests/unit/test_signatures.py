@@ -194,7 +194,7 @@ def by_name(name):
 def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
-    modules = {module.__name__.rpartition(".")[2]: module for module in MODULES}
+    modules = {module.__name__.rpartition(".")[2]: module for module in (*MODULES, plot)}
     if not owner:
         return getattr(cc, name)
     if owner in modules:

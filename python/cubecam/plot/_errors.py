@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from .._calls import checked_call
 from .._core import CubeMap, Frame, Image
 from ._faces import NAMES, cells, cross_of
 from ._figure import APART, add_bar, axes_for, dark_edge, is_cube, numbers_of
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 Array = npt.NDArray[Any]
 
 
+@checked_call
 def error_map(
     a: CubeMap | Frame | Image | npt.ArrayLike,
     b: CubeMap | Frame | Image | npt.ArrayLike,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .._calls import checked_call
 from .._core import CubeMap, Image
 from ._faces import cells, cross_of, texels_of
 from ._figure import (
@@ -35,6 +36,7 @@ Array = npt.NDArray[Any]
 _S, _T = "#ff5a4d", "#35d07f"  # the arrows s and t
 
 
+@checked_call
 def cross(
     cube: CubeMap | npt.ArrayLike,
     labels: bool = True,
@@ -154,6 +156,7 @@ def _st_arrows(ax: Axes, cell: Cell, left: float, top: float, size: int) -> None
         )  # fmt: skip
 
 
+@checked_call
 def faces(
     cube: CubeMap | npt.ArrayLike,
     *,
@@ -233,6 +236,7 @@ def _six_axes(ax: Sequence[Axes] | npt.NDArray[Any] | None, columns: int) -> npt
     return np.ravel(made)
 
 
+@checked_call
 def panorama(
     cube: CubeMap | npt.ArrayLike,
     *,

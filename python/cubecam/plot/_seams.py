@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from .._calls import checked_call
 from ._faces import EDGE_NAMES, edge_texels
 from ._figure import axes_for, faces_of
 
@@ -20,6 +21,7 @@ Array = npt.NDArray[Any]
 _OVER, _BESIDE, _HIGH = "#2f7ed8", "#a9b0b8", "#d8432f"
 
 
+@checked_call
 def seam_steps(cube: CubeMap | npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Compare the texels on both sides of the 12 edges of a cube.
 
@@ -56,6 +58,7 @@ def seam_steps(cube: CubeMap | npt.ArrayLike) -> npt.NDArray[np.float64]:
     return _step(values, first, second)
 
 
+@checked_call
 def inner_steps(cube: CubeMap | npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Compare the texels at the 12 edges with the next ones inside their faces: what `seam_steps` is measured by.
 
@@ -91,6 +94,7 @@ def inner_steps(cube: CubeMap | npt.ArrayLike) -> npt.NDArray[np.float64]:
     return np.asarray((a + b) / 2)
 
 
+@checked_call
 def seam_ratios(cube: CubeMap | npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Divide the mean step over each edge by the mean step beside it: one number for each edge.
 
@@ -144,6 +148,7 @@ def _step(values: Array, here: Array, there: Array) -> npt.NDArray[np.float64]:
         return np.asarray(np.where(a == b, 0.0, np.abs(a - b)).max(axis=-1))
 
 
+@checked_call
 def seams(
     cube: CubeMap | npt.ArrayLike,
     *,

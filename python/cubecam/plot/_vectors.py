@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .._calls import checked_call
 from .._core import Camera, CubeMap, Frame
 from ._faces import NAMES, TABLE, cells, cross_of
 from ._figure import APART, axes_for, is_cube, numbers_of
@@ -24,6 +25,7 @@ Array = npt.NDArray[Any]
 _AXIS_COLORS = {"s": "#e0483e", "t": "#2fa866", "view": "#3b6fd4"}
 
 
+@checked_call
 def vectors(
     field: CubeMap | Frame | npt.ArrayLike,
     *,
@@ -166,6 +168,7 @@ def _legend(ax: Axes) -> None:
     )  # fmt: skip
 
 
+@checked_call
 def arrows(
     origins: npt.ArrayLike,
     vectors: Mapping[str, npt.ArrayLike],
@@ -206,9 +209,8 @@ def arrows(
     --------
     >>> import cubecam as cc
     >>> normal = np.array([[0.6, 0.8, 0], [0, 1, 0]])
-    >>> incident = np.array([0, -1, 0])
-    >>> reflected = incident - 2 * (normal @ incident)[:, None] * normal
-    >>> rays = {"incident": incident, "normal": normal, "reflected": reflected}
+    >>> incident = (0, -1, 0)
+    >>> rays = {"incident": incident, "normal": normal, "reflected": cc.reflect(incident, normal)}
     >>> ax = cc.plot.arrows(normal, rays, towards=["incident"], sphere=1)
     """
     start = np.asarray(origins, float)
@@ -250,6 +252,7 @@ def arrows(
     return ax
 
 
+@checked_call
 def face_axes(*, gap: float = 1.2, ax: Any = None) -> Any:
     """Draw the six faces in space, with the axes s and t of each and the direction in which its picture looks.
 
