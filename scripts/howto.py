@@ -1,4 +1,4 @@
-"""Run the programs of docs/howto and keep their pictures in docs/images:  python scripts/howto.py
+"""Run the programs of docs/howto and keep their pictures in docs/images; `make gallery` calls this script.
 
 Each file has at most 200 KB, as a test demands.
 """

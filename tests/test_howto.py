@@ -55,6 +55,13 @@ def test_every_program_writes_what_it_names(name, pages):
     assert {path.name for path in folder.iterdir()} == named
 
 
+def test_every_picture_is_shown_by_a_page():
+    shown = {
+        name for page in PAGES for name in re.findall(r"images/(howto-[\w.-]+)", text_of(page))
+    }
+    assert shown == {path.name for path in (ROOT / "docs/images").glob("howto-*")}
+
+
 @pytest.mark.parametrize("name", PAGES)
 def test_links_lead_to_files_and_pictures_are_small(name):
     for target in re.findall(r"\]\(([^)#:]+)\)", text_of(name)):
