@@ -62,8 +62,9 @@ bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL an
 docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
 	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam
 
-gallery: $(VENV)/.installed ## draw the pictures of the README into docs/images
+gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the README and of docs/howto into docs/images
 	@$(PY) scripts/gallery.py
+	@$(PY) scripts/howto.py
 
 sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dist/ and build a wheel from it alone
 	@$(PY) -m build --quiet --sdist --outdir dist .

@@ -1,6 +1,7 @@
 """Fixtures: a session's renderer, a fresh one, the two drawing paths, fixed random numbers."""
 
 import os
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,9 @@ import pytest
 from hypothesis import settings
 
 from tests.helpers import DEVICE
+
+# Plots are drawn without a window, whatever the machine has.
+os.environ.setdefault("MPLBACKEND", "agg")
 
 # Every run uses the same examples, so that a failure can be repeated.
 settings.register_profile("cubecam", derandomize=True, deadline=None, database=None)
@@ -57,6 +61,15 @@ def pytest_report_header(config):
 @pytest.fixture
 def rng():
     return np.random.default_rng(20240229)
+
+
+@pytest.fixture(autouse=True)
+def close_figures():
+    """Close the figures that a test or an example leaves open: pyplot keeps them, and warns about many."""
+    yield
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is not None:
+        pyplot.close("all")
 
 
 @pytest.fixture(scope="session")

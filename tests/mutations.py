@@ -37,6 +37,7 @@ STEREO = ("tests/gl/test_stereo.py",)
 INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
+PLOTS = ("tests/plot",)
 DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
 NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
 RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
@@ -1131,5 +1132,55 @@ MUTATIONS = [
         "if (before != nullptr && before->colors_.revision == colors_.revision) {",
         "if (before != nullptr) {",
         FLAT,
+    ),
+    # Plots: cells and arrows of a cross, neighbours over an edge, errors.
+    Mutation(
+        "plot: the upright faces of a cross are not turned",
+        "plot/_faces.py",
+        'convention == "inside" and upright',
+        'convention == "inside" and not upright',
+        PLOTS,
+    ),
+    Mutation(
+        "plot: t points upwards in every cell",
+        "plot/_faces.py",
+        "return np.asarray(TABLE[self.face, 1] * (-1 if self.mirrored_t else 1))",
+        "return np.asarray(TABLE[self.face, 1] * (1 if self.mirrored_t else -1))",
+        PLOTS,
+    ),
+    Mutation(
+        "plot: the texels beside an edge are one step further in",
+        "plot/_faces.py",
+        "(2 * depth + 1) / size * TABLE[other, 2]",
+        "(2 * depth + 3) / size * TABLE[other, 2]",
+        PLOTS,
+    ),
+    Mutation(
+        "plot: equal infinities differ",
+        "plot/_errors.py",
+        "apart = np.where(x == y, 0.0, np.abs(x - y))",
+        "apart = np.abs(x - y)",
+        PLOTS,
+    ),
+    Mutation(
+        "plot: the mean square has no root",
+        "plot/_errors.py",
+        "np.sqrt((apart**2).mean(axis=-1))",
+        "(apart**2).mean(axis=-1)",
+        PLOTS,
+    ),
+    Mutation(
+        "plot: longitude grows to the left",
+        "plot/_pictures.py",
+        "forward, right = (_axis(_AROUND[center][i]) for i in (2, 3))",
+        "forward, right = (_axis(_AROUND[center][i]) for i in (2, 1))",
+        PLOTS,
+    ),
+    Mutation(
+        "plot: incident rays begin at the surface",
+        "plot/_vectors.py",
+        "begin = begin - vector if name in towards else begin",
+        "begin = begin",
+        PLOTS,
     ),
 ]

@@ -1,24 +1,20 @@
 """The README's Python runs unchanged, and its example of a user's own material gives the picture it promises."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.compare import assert_close
+from tests.documents import ROOT, python_blocks, run_block, text_of
 
-ROOT = Path(__file__).parents[1]
-TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"```python\n(.*?)```", TEXT, flags=re.DOTALL)
+TEXT = text_of("README.md")
+BLOCKS = python_blocks("README.md")
 
 
 def run(code, folder, monkeypatch):
-    monkeypatch.chdir(folder)
-    scope: dict[str, object] = {}
-    exec(compile(code, "README.md", "exec"), scope)
-    return scope
+    return run_block(code, "README.md", folder, monkeypatch)
 
 
 @pytest.mark.parametrize("index", range(len(BLOCKS)))
@@ -80,7 +76,7 @@ def test_its_pictures_are_there_before_the_first_code():
         picture = cc.load_image(ROOT / path)
         assert picture.shape[1] == 1024
         assert picture.std() > 30
-    folder = (ROOT / "docs" / "images").iterdir()
+    folder = [path for path in (ROOT / "docs/images").iterdir() if path.name[:6] != "howto-"]
     assert {f"docs/images/{path.name}" for path in folder} == {path for _, path in pictures}
 
 

@@ -23,6 +23,7 @@ from ._core import __version__
 from ._late import late_names
 
 if TYPE_CHECKING:
+    from . import plot
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -40,7 +41,7 @@ else:
             "io.screen": ["ClippingWarning", "to_screen"],
             "optics": ["fresnel", "reflect", "refract", "schlick"],
         },
-        modules=["demo", "examples", "io", "navigation", "pictures", "typing"],
+        modules=["demo", "examples", "io", "navigation", "pictures", "plot", "typing"],
     )
 
 __all__ = [
@@ -51,6 +52,7 @@ __all__ = [
     "load_environment",
     "load_image",
     "load_mesh",
+    "plot",
     "reflect",
     "refract",
     "sample_data",

@@ -39,6 +39,7 @@ PYTHON_ORDER = (
     "io",
     "pictures",
     "_array_protocol",
+    "plot",
     "navigation",
     "optics",
     "_shader_inputs",

@@ -15,7 +15,7 @@ import re
 import pytest
 
 import cubecam as cc
-from cubecam import demo, navigation, pictures
+from cubecam import demo, navigation, pictures, plot
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
 
@@ -111,6 +111,16 @@ BY_POSITION = {
     "pictures.cube_png": ["cube"],
     "pictures.frame_png": ["frame"],
     "pictures.image_png": ["image"],
+    "plot.cross": ["cube", "labels"],
+    "plot.faces": ["cube"],
+    "plot.panorama": ["cube"],
+    "plot.error_map": ["a", "b"],
+    "plot.vectors": ["field"],
+    "plot.arrows": ["origins", "vectors"],
+    "plot.seams": ["cube"],
+    "plot.seam_ratios": ["cube"],
+    "plot.seam_steps": ["cube"],
+    "plot.inner_steps": ["cube"],
     "demo.run": ["out"],
     "demo.named_cross": ["cube"],
     "DemoScene.turn": ["angle"],
@@ -161,6 +171,7 @@ def of_python():
             exported = name in exports
             if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not exported:
                 functions[f"{short}.{name}"] = thing
+    functions |= {f"plot.{n}": vars(plot)[n] for n in plot.__all__ if callable(vars(plot)[n])}
     functions["DemoScene.turn"] = demo.DemoScene.turn
     for name, function in functions.items():
         if name.rpartition(".")[2].startswith("_"):
@@ -187,7 +198,7 @@ def by_name(name):
 def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
-    modules = {module.__name__.rpartition(".")[2]: module for module in MODULES}
+    modules = {module.__name__.rpartition(".")[2]: module for module in (*MODULES, plot)}
     if not owner:
         return getattr(cc, name)
     if owner in modules:

@@ -52,6 +52,10 @@ def picture(tonemap: Tonemap | None = None) -> Pixels:
     halved: NDArray[np.floating] = frame.color * 0.5
     print(nearest, ids.max(), width, height, halved, rgb.mean(), frame.outputs["id"].dtype)
     cube.save(Path("cube.exr"), layout="equirect", center="+z")
+    cc.plot.cross(cube, arrows=True).set_title("probe")
+    cc.plot.panorama(cube.distance, center="+x", ax=cc.plot.error_map(frame, frame, over="rms"))
+    steps: NDArray[np.float64] = cc.plot.seam_ratios(cube)
+    print(steps, cc.plot.EDGE_NAMES[0])
     return rgb
 
 def convert(cube: cc.CubeMap, convention: Convention = "three", center: Center = "-z") -> Pixels:
@@ -85,6 +89,9 @@ WRONG = {
     'cc.Image(faces, wrap="mirror")': "wrap.*'repeat', 'clamp'",
     'cc.Probe(update="often")': "update.*'on_change', 'once', 'manual'",
     'cc.StereoCamera(camera, camera, layout="left")': "layout.*'anaglyph', 'side_by_side'",
+    'cc.plot.cross(cube, convention="opengl")': "convention.*'gl', 'inside', 'three'",
+    'cc.plot.error_map(cube, cube, over="mean")': "over.*'max', 'rms'",
+    "cc.plot.strip(cube)": 'no attribute "strip"',
     "camera.fov = 'wide'": "SupportsFloat",
     "frame.colour": 'no attribute "colour"',
     "frame.color.shap": 'no attribute "shap"',

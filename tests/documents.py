@@ -1,0 +1,23 @@
+"""Runs the Python programs of documents: README.md and the pages of docs/howto."""
+
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+
+
+def text_of(name):
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def python_blocks(name):
+    """The fenced Python blocks of a document, in order."""
+    return re.findall(r"```python\n(.*?)```", text_of(name), flags=re.DOTALL)
+
+
+def run_block(code, name, folder, monkeypatch, scope=None):
+    """Run a block in a folder of its own; return its names, which a later block of the page gets as `scope`."""
+    monkeypatch.chdir(folder)
+    scope = {} if scope is None else scope
+    exec(compile(code, name, "exec"), scope)
+    return scope

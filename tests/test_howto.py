@@ -1,0 +1,255 @@
+"""The programs of docs/howto run unchanged, have at most 25 lines, and give what their pages say."""
+
+import re
+
+import numpy as np
+import pytest
+import zarr
+
+import cubecam as cc
+from cubecam.plot import EDGE_NAMES, seam_ratios
+from tests.compare import assert_close
+from tests.documents import ROOT, python_blocks, run_block, text_of
+
+PAGES = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs/howto").glob("*.md"))
+PROGRAMS = [name for name in PAGES if python_blocks(name)]
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """Run all blocks of a page, one after the other in one folder, once; give the folder and their names."""
+    done = {}
+
+    def get(name):
+        if name not in done:
+            folder = tmp_path_factory.mktemp("howto")
+            scope = {}
+            with pytest.MonkeyPatch.context() as patch:
+                for code in python_blocks(name):
+                    scope = run_block(code, name, folder, patch, scope)
+            done[name] = folder, scope
+        return done[name]
+
+    return get
+
+
+def test_the_index_names_all_pages():
+    linked = set(re.findall(r"\]\((\w+\.md)\)", text_of("docs/howto/README.md")))
+    assert {f"docs/howto/{name}" for name in linked} == set(PAGES) - {"docs/howto/README.md"}
+    assert set(PROGRAMS) == set(PAGES) - {"docs/howto/README.md"}
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_program_has_at_most_25_lines(name):
+    for code in python_blocks(name):
+        assert len([line for line in code.splitlines() if line.strip()]) <= 25
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_every_program_writes_what_it_names(name, pages):
+    folder, _ = pages(name)
+    code = "\n".join(python_blocks(name))
+    named = set(re.findall(r'(?:save\w*|open_group)\("([^"]+)"', code))
+    assert named
+    assert {path.name for path in folder.iterdir()} == named
+
+
+def test_every_picture_is_shown_by_a_page():
+    shown = {
+        name for page in PAGES for name in re.findall(r"images/(howto-[\w.-]+)", text_of(page))
+    }
+    assert shown == {path.name for path in (ROOT / "docs/images").glob("howto-*")}
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_links_lead_to_files_and_pictures_are_small(name):
+    for target in re.findall(r"\]\(([^)#:]+)\)", text_of(name)):
+        path = (ROOT / name).parent / target
+        assert path.exists(), target
+        if path.suffix in (".png", ".jpg"):
+            assert path.stat().st_size <= 200_000
+
+
+def measured(picture):
+    """The mean and the spread of an 8-bit picture's colours, in 0..1."""
+    colors = picture[..., :3] / 255
+    return colors.mean(), colors.std()
+
+
+def bad_edges(cube):
+    return [name for name, ratio in zip(EDGE_NAMES, seam_ratios(cube), strict=True) if ratio > 2.5]
+
+
+@pytest.mark.slow
+class TestSeams:
+    NAME = "docs/howto/seams.md"
+
+    def test_the_edges_are_those_that_the_page_prints(self, pages):
+        _, scope = pages(self.NAME)
+        printed = re.findall(r"```text\n(.*?)```", text_of(self.NAME), flags=re.DOTALL)[0]
+        cubes = (scope[name] for name in ("right", "mirrored", "moved"))
+        assert [str(bad_edges(cube)) for cube in cubes] == printed.splitlines()
+        assert seam_ratios(scope["right"]).max() < 1.5
+
+    def test_the_picture_shows_something(self, pages):
+        folder, _ = pages(self.NAME)
+        mean, spread = measured(cc.load_image(folder / "seams.png"))
+        assert 0.5 < mean < 0.99
+        assert spread > 0.1
+
+    def test_what_the_questions_say_is_true(self, pages, tmp_path):
+        _, scope = pages(self.NAME)
+        path = str(tmp_path / "{face}.png")
+        scope["right"].save(path)
+        bad = bad_edges(cc.load_cubemap(path, convention="inside"))
+        assert bad == [name for name in EDGE_NAMES if "Z" in name]
+        assert bad_edges(cc.load_cubemap(path, convention="three")) == []
+
+
+@pytest.mark.slow
+class TestRandomScenes:
+    NAME = "docs/howto/random_scenes.md"
+
+    def test_the_arrays_are_those_of_the_page(self, pages):
+        folder, _ = pages(self.NAME)
+        data = zarr.open_group(folder / "scenes.zarr", mode="r")
+        faces = "(200, 6, 64, 64"
+        expected = {
+            "faces": (f"{faces}, 4)", "float16"),
+            "distance": (f"{faces})", "float32"),
+            "id": (f"{faces})", "int32"),
+            "label": (f"{faces})", "int32"),
+        }
+        for name, (shape, dtype) in expected.items():
+            assert (str(data[name].shape), str(data[name].dtype)) == (shape, dtype)
+            assert f"| `{name}` | {shape} | {dtype} |" in text_of(self.NAME)
+            assert data[name].chunks == (1, *data[name].shape[1:])
+        assert dict(data.attrs)["convention"] == "gl"
+        for name in ("place", "kind", "color"):
+            assert data[name].shape[:2] == (200, 12)
+
+    @pytest.mark.parametrize("index", [0, 7, 199])
+    def test_a_scene_built_again_from_the_file_gives_the_same_numbers(self, index, pages):
+        folder, scope = pages(self.NAME)
+        data = zarr.open_group(folder / "scenes.zarr", mode="r")
+        scene = cc.Scene(background=scope["sky"])
+        scene.add(cc.DirectionalLight((-1, -2, -1)))
+        for kind, color, place in zip(
+            *(data[n][index] for n in ("kind", "color", "place")), strict=True
+        ):
+            scene.add(
+                scope["meshes"][kind], cc.PhongMaterial(color=color), position=place, label=kind + 1
+            )
+        with cc.Renderer() as renderer:
+            cube = renderer.capture(scene, size=64, format="rgba16f", outputs=scope["wanted"])
+        np.testing.assert_array_equal(data["faces"][index], cube.faces)
+        np.testing.assert_array_equal(data["distance"][index], cube.distance)
+        np.testing.assert_array_equal(data["id"][index], cube.id)
+        np.testing.assert_array_equal(data["label"][index], cube.label)
+
+    def test_ids_and_distances_belong_to_the_things(self, pages):
+        folder, _ = pages(self.NAME)
+        data = zarr.open_group(folder / "scenes.zarr", mode="r")
+        ids, distance = data["id"][:50], data["distance"][:50]
+        assert ids.min() == 0
+        assert ids.max() == 12
+        assert ((ids == 0) == np.isinf(distance)).all()
+        assert 0.05 < (ids > 0).mean() < 0.6
+        kinds = np.take_along_axis(
+            data["kind"][:50], np.maximum(ids - 1, 0).reshape(50, -1), axis=1
+        )
+        label = np.where(ids == 0, 0, kinds.reshape(ids.shape) + 1)
+        np.testing.assert_array_equal(data["label"][:50], label)
+        away = np.linalg.norm(data["place"][:50], axis=-1)
+        for sample in range(50):
+            for k in np.unique(ids[sample][ids[sample] > 0]):
+                seen = distance[sample][ids[sample] == k]
+                assert (
+                    np.abs(seen - away[sample, k - 1]).max() < 0.9
+                )  # the largest radius of a thing
+
+    def test_the_picture_shows_something(self, pages):
+        folder, _ = pages(self.NAME)
+        mean, spread = measured(cc.load_image(folder / "sample.png"))
+        assert 0.3 < mean < 0.99
+        assert spread > 0.1
+
+
+@pytest.mark.slow
+class TestPlots:
+    NAME = "docs/howto/plots.md"
+
+    def test_the_picture_shows_six_plots(self, pages):
+        folder, scope = pages(self.NAME)
+        picture = cc.load_image(folder / "plots.png")
+        height, width = picture.shape[0] // 3, picture.shape[1] // 2
+        for row in range(3):
+            for column in range(2):
+                part = picture[row * height :, column * width :][:height, :width]
+                mean, spread = measured(part)
+                assert 0.2 < mean < 0.98
+                assert spread > 0.1
+        assert len(scope["figure"].axes) == 9  # six plots and three bars
+
+    def test_the_table_names_all_functions(self):
+        named = set(re.findall(r"^\| `(\w+)\(", text_of(self.NAME), flags=re.MULTILINE))
+        assert named == set(cc.plot.__all__) - {
+            "EDGE_NAMES", "seam_steps", "inner_steps", "seam_ratios",
+        }  # fmt: skip
+
+
+@pytest.mark.slow
+class TestGlbInAProbe:
+    NAME = "docs/howto/glb_in_a_probe.md"
+
+    def test_the_picture_is_neither_dark_nor_clipped(self, pages):
+        folder, _ = pages(self.NAME)
+        picture = cc.load_image(folder / "ball.png")
+        assert picture.shape[:2] == (600, 800)
+        mean, spread = measured(picture)
+        assert 0.25 < mean < 0.75
+        assert spread > 0.15
+        assert (picture[..., :3] < 12).mean() < 0.1
+        assert (picture[..., :3] > 250).mean() < 0.12
+
+    def test_the_probe_shows_the_model_where_it_is_and_the_photograph_elsewhere(self, pages):
+        _, scope = pages(self.NAME)
+        probe, scene, ball = scope["probe"], scope["scene"], scope["ball"]
+        model = scope["suzanne"]
+        towards = model.position - ball.position
+        here, photo = probe.sample(towards)[:3], scene.environment.sample(towards)
+        assert np.abs(here - photo).max() > 0.1
+        assert here[1] > here[0]  # turquoise
+        away = np.array([[1, 0.2, -1], [0, 1, 0], [0, 0.1, -1]])
+        photo = scene.environment.sample(away)
+        difference = np.abs(probe.sample(away)[:, :3] - photo)
+        assert (difference / np.maximum(photo, 0.1)).max() < 0.05
+
+    def test_the_panorama_holds_the_light_of_the_probe(self, pages):
+        folder, scope = pages(self.NAME)
+        light = cc.load_image(folder / "panorama.exr")
+        np.testing.assert_array_equal(light, scope["probe"].to_equirect())
+        assert light[..., :3].max() > 1
+        shown = cc.load_image(folder / "panorama.png")
+        assert shown.shape[:2] == light.shape[:2] == (1024, 2048)
+        mean, spread = measured(shown)
+        assert 0.2 < mean < 0.75
+        assert spread > 0.15
+
+    def test_the_ball_shows_the_model(self, pages):
+        """Without the probe the pixels of the ball change, and all others stay."""
+        _, scope = pages(self.NAME)
+        scene, camera, ball = scope["scene"], scope["camera"], scope["ball"]
+        with cc.Renderer() as renderer:
+            size = (200, 150)
+            with_probe = renderer.render(scene, camera, size, format="rgba32f", outputs=("id",))
+            probe, ball.environment = ball.environment, None
+            without = renderer.render(scene, camera, size, format="rgba32f")
+            ball.environment = probe
+        on_ball = with_probe.id == ball.id
+        changed = np.abs(with_probe.color - without.color).max(axis=-1) > 0.05
+        assert (changed & on_ball).sum() > 0.01 * on_ball.sum()
+        assert_close(
+            with_probe.color[~on_ball], without.color[~on_ball], "exact", name="besides the ball"
+        )
