@@ -1109,7 +1109,7 @@ MUTATIONS = [
         "label: pictures without labels are drawn again",
         DRAWN,
         'outputs.has(output_row("label")) ? node.label : 0',
-        "node.label",
+        'outputs.has(output_row("label")) ? node.label : node.label',
         LABELS,
     ),
     Mutation(

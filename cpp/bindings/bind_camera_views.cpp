@@ -68,7 +68,7 @@ void bind_views(Class<CameraOf<Lens>, Camera> made) {
     made.def(
         "fit",
         [](CameraOf<Lens>& self, const OneOf<Scene, Node, ArrayLike>& what,
-           const OneOf<py::typing::Tuple<int, int>, py::none>& size, std::optional<double> aspect,
+           const OrNone<py::typing::Tuple<py::int_, py::int_>>& size, std::optional<double> aspect,
            double margin) {
             const double shape = to_aspect(size, aspect);
             const Bounds bounds = bounds_of(what);

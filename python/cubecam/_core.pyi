@@ -4124,10 +4124,7 @@ class PerspectiveCamera(Camera):
         self: PerspectiveCamera,
         what: Scene | Node | np.typing.ArrayLike,
         *,
-        size: tuple[
-            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
-        ]
-        | None = None,
+        size: tuple[int, int] | None = None,
         aspect: typing.SupportsFloat | typing.SupportsIndex | None = None,
         margin: typing.SupportsFloat | typing.SupportsIndex = 0.05,
     ) -> None:
@@ -4498,10 +4495,7 @@ class OrthographicCamera(Camera):
         self: OrthographicCamera,
         what: Scene | Node | np.typing.ArrayLike,
         *,
-        size: tuple[
-            typing.SupportsInt | typing.SupportsIndex, typing.SupportsInt | typing.SupportsIndex
-        ]
-        | None = None,
+        size: tuple[int, int] | None = None,
         aspect: typing.SupportsFloat | typing.SupportsIndex | None = None,
         margin: typing.SupportsFloat | typing.SupportsIndex = 0.05,
     ) -> None:

@@ -158,3 +158,14 @@ def test_a_snapshot_that_another_thread_draws_is_left_alone(new_renderer):
         thread.join()
     assert not failures
     assert set().union(*sums) <= {(0,), (0, 1)}
+
+
+def test_look_at_is_a_move(fresh_renderer):
+    """A kept snapshot reads the node again."""
+    scene = cc.Scene()
+    arrow = scene.add(cc.Mesh.arrow(), cc.BasicMaterial(), position=(0, 0, -3))
+    camera = cc.PerspectiveCamera()
+    for target, side in (((5, 0, -3), 1), ((-5, 0, -3), -1)):
+        arrow.look_at(target)
+        seen = fresh_renderer.render(scene, camera, (40, 30)).color[..., 3] > 0
+        assert np.sign(np.nonzero(seen)[1].mean() - 19.5) == side

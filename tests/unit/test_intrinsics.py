@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from tests.helpers import copies
 from tests.reference import transforms as ref
 
 SIZES = [(640, 480), (33, 57), (1, 1)]
@@ -88,6 +89,24 @@ def test_world_to_camera():
     # The target is ahead: z is positive in OpenCV's axes.
     ahead = cameras[0].world_to_camera_cv @ (0, 0, 0, 1)
     np.testing.assert_allclose(ahead, (0, 0, np.sqrt(14), 1), atol=1e-12)
+
+
+@copies
+def test_copies_keep_the_shape_of_pixels(make_copy):
+    camera = cc.PerspectiveCamera(pixel_aspect=1.25, shift=(0.1, 0.2))
+    again = make_copy(camera)
+    assert again.pixel_aspect == 1.25
+    np.testing.assert_array_equal(again.intrinsics((7, 5)), camera.intrinsics((7, 5)))
+
+
+def test_the_pixels_of_an_off_axis_pair():
+    """A point at the convergence is seen at one pixel by both eyes, whatever the shape of the pixels."""
+    camera = cc.PerspectiveCamera(fov=50, pixel_aspect=1.6)
+    pair = cc.StereoCamera.off_axis(camera, separation=0.3, convergence=4)
+    point = [[0.2, -0.3, -4.0]]
+    left, right, middle = (pixels(eye, point, (90, 60)) for eye in (pair.left, pair.right, camera))
+    np.testing.assert_allclose(left, right)
+    np.testing.assert_allclose(left, middle)
 
 
 def test_a_camera_of_matrices_may_have_a_skew():
