@@ -1,6 +1,7 @@
 // What cubecam's cameras see: look_at, fit, and the matrices of computer vision.
 #include "bounds.hpp"
 #include "docs/camera_views.hpp"
+#include "look_target.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
@@ -59,10 +60,10 @@ template <class Lens>
 void bind_views(Class<CameraOf<Lens>, Camera> made) {
     made.def(
         "look_at",
-        [](CameraOf<Lens>& self, const ArrayLike& target, const OrNone<ArrayLike>& up) {
+        [](CameraOf<Lens>& self, const LookTarget& target, const OrNone<ArrayLike>& up) {
             std::optional<glm::dvec3> given;
             if (!up.is_none()) given = to_point(up, "up");
-            self.look_at(to_point(target, "target"), given);
+            self.look_at(to_look_target(target), given);
         },
         py::arg("target"), py::kw_only(), py::arg("up") = py::none(), docs::camera_look_at);
     made.def(
@@ -84,7 +85,6 @@ py::array_t<double> matrix3_array(const glm::dmat3& matrix) {
         for (int column = 0; column < 3; ++column)
             array.mutable_at(row, column) = matrix[column][row];
     }
-    array.attr("flags").attr("writeable") = false;
     return array;
 }
 

@@ -1,6 +1,7 @@
 // cubecam.Node and cubecam.axis_angle
 #include "bounds.hpp"
 #include "docs/node.hpp"
+#include "look_target.hpp"
 #include "node_state.hpp"
 
 #include "cubecam/math/transform.hpp"
@@ -98,8 +99,8 @@ void bind_placing(Class<Node>& node) {
         docs::world_bounds);
     node.def(
         "look_at",
-        [](Node& self, const ArrayLike& target, const ArrayLike& up) {
-            self.look_at(to_point(target, "target"), to_point(up, "up"));
+        [](Node& self, const LookTarget& target, const ArrayLike& up) {
+            self.look_at(to_look_target(target), to_point(up, "up"));
         },
         py::arg("target"), py::kw_only(), py::arg("up") = py::make_tuple(0, 1, 0), docs::look_at);
 }

@@ -199,7 +199,7 @@ class Node:
         """
 
     def look_at(
-        self: Node, target: np.typing.ArrayLike, *, up: np.typing.ArrayLike = (0, 1, 0)
+        self: Node, target: Node | np.typing.ArrayLike, *, up: np.typing.ArrayLike = (0, 1, 0)
     ) -> None:
         """
         Turn the node round its own position, so that its +Z axis points at a point of the world.
@@ -209,8 +209,8 @@ class Node:
 
         Parameters
         ----------
-        target : array_like (3,)
-            World space.
+        target : array_like (3,) or Node
+            World space, of a node its origin.
         up : array_like (3,)
             World space: +Y of the node lies in the plane of `up` and the direction, on the side of `up`. An
             `up` along the direction is replaced: by +Y or, if the direction is vertical, by -Z for a target
@@ -3954,7 +3954,7 @@ class Camera:
         Returns
         -------
         ndarray (3, 3) float64
-            ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels, read-only. The projection of a `Camera` may also
+            ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels. The projection of a `Camera` may also
             have a skew, K[0, 1].
 
         Raises
@@ -4199,7 +4199,7 @@ class PerspectiveCamera(Camera):
 
     def look_at(
         self: PerspectiveCamera,
-        target: np.typing.ArrayLike,
+        target: Node | np.typing.ArrayLike,
         *,
         up: np.typing.ArrayLike | None = None,
     ) -> None:
@@ -4208,8 +4208,8 @@ class PerspectiveCamera(Camera):
 
         Parameters
         ----------
-        target : array_like (3,)
-            World space; it becomes the camera's `target`.
+        target : array_like (3,) or Node
+            World space, of a node its origin; it becomes the camera's `target`.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -4570,7 +4570,7 @@ class OrthographicCamera(Camera):
 
     def look_at(
         self: OrthographicCamera,
-        target: np.typing.ArrayLike,
+        target: Node | np.typing.ArrayLike,
         *,
         up: np.typing.ArrayLike | None = None,
     ) -> None:
@@ -4579,8 +4579,8 @@ class OrthographicCamera(Camera):
 
         Parameters
         ----------
-        target : array_like (3,)
-            World space; it becomes the camera's `target`.
+        target : array_like (3,) or Node
+            World space, of a node its origin; it becomes the camera's `target`.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 

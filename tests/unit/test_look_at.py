@@ -117,3 +117,21 @@ def test_cameras(kind):
 
 def test_a_camera_of_matrices_has_no_such_method():
     assert not hasattr(cc.Camera(view=np.eye(4), projection=np.eye(4)), "look_at")
+
+
+@pytest.mark.parametrize("make", [cc.PerspectiveCamera, cc.OrthographicCamera])
+def test_a_node_as_the_target_stands_for_its_origin(make):
+    scene = cc.Scene()
+    group = scene.add(position=(1, 2, 3), scale=2)
+    hero = scene.add(cc.Mesh.box(), position=(4, 0, -1), parent=group)
+    origin = hero.world_matrix[:3, 3]
+    np.testing.assert_allclose(origin, [9, 2, 1])
+    camera = make(position=(0, 1, 5))
+    camera.look_at(hero)
+    np.testing.assert_allclose(camera.target, origin)
+    eye = scene.add(cc.Mesh.box(), position=(-3, 1, 2))
+    eye.look_at(hero)
+    towards = origin - eye.position
+    np.testing.assert_allclose(
+        eye.world_matrix[:3, 2], towards / np.linalg.norm(towards), atol=1e-12
+    )

@@ -8,8 +8,8 @@ inline constexpr const char* camera_look_at =
 
 Parameters
 ----------
-target : array_like (3,)
-    World space; it becomes the camera's `target`.
+target : array_like (3,) or Node
+    World space, of a node its origin; it becomes the camera's `target`.
 up : array_like (3,), optional
     The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -84,7 +84,7 @@ size : tuple of int
 Returns
 -------
 ndarray (3, 3) float64
-    ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels, read-only. The projection of a `Camera` may also
+    ``[[fx, 0, cx], [0, fy, cy], [0, 0, 1]]`` in pixels. The projection of a `Camera` may also
     have a skew, K[0, 1].
 
 Raises

@@ -47,8 +47,8 @@ any transforms. Position and scale stay.
 
 Parameters
 ----------
-target : array_like (3,)
-    World space.
+target : array_like (3,) or Node
+    World space, of a node its origin.
 up : array_like (3,)
     World space: +Y of the node lies in the plane of `up` and the direction, on the side of `up`. An
     `up` along the direction is replaced: by +Y or, if the direction is vertical, by -Z for a target
