@@ -1,6 +1,7 @@
 """The programs of docs/howto run unchanged, have at most 25 lines, and give what their pages say."""
 
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ def pages(tmp_path_factory):
     def get(name):
         if name not in done:
             folder = tmp_path_factory.mktemp("howto")
-            scope = {}
+            scope: dict[str, Any] = {}
             with pytest.MonkeyPatch.context() as patch:
                 for code in python_blocks(name):
                     scope = run_block(code, name, folder, patch, scope)
@@ -77,6 +78,13 @@ def measured(picture):
     return colors.mean(), colors.std()
 
 
+def stored(data: zarr.Group, name: str) -> zarr.Array:
+    """The array of this name in a group, not yet read."""
+    array = data[name]
+    assert isinstance(array, zarr.Array)
+    return array
+
+
 def bad_edges(cube):
     return [name for name, ratio in zip(EDGE_NAMES, seam_ratios(cube), strict=True) if ratio > 2.5]
 
@@ -122,12 +130,13 @@ class TestRandomScenes:
             "label": (f"{faces})", "int32"),
         }
         for name, (shape, dtype) in expected.items():
-            assert (str(data[name].shape), str(data[name].dtype)) == (shape, dtype)
+            array = stored(data, name)
+            assert (str(array.shape), str(array.dtype)) == (shape, dtype)
             assert f"| `{name}` | {shape} | {dtype} |" in text_of(self.NAME)
-            assert data[name].chunks == (1, *data[name].shape[1:])
+            assert array.chunks == (1, *array.shape[1:])
         assert dict(data.attrs)["convention"] == "gl"
         for name in ("place", "kind", "color"):
-            assert data[name].shape[:2] == (200, 12)
+            assert stored(data, name).shape[:2] == (200, 12)
 
     @pytest.mark.parametrize("index", [0, 7, 199])
     def test_a_scene_built_again_from_the_file_gives_the_same_numbers(self, index, pages):
@@ -151,17 +160,18 @@ class TestRandomScenes:
     def test_ids_and_distances_belong_to_the_things(self, pages):
         folder, _ = pages(self.NAME)
         data = zarr.open_group(folder / "scenes.zarr", mode="r")
-        ids, distance = data["id"][:50], data["distance"][:50]
+        ids, distance, label, kind, place = (
+            np.asarray(stored(data, name)[:50])
+            for name in ("id", "distance", "label", "kind", "place")
+        )
         assert ids.min() == 0
         assert ids.max() == 12
         assert ((ids == 0) == np.isinf(distance)).all()
         assert 0.05 < (ids > 0).mean() < 0.6
-        kinds = np.take_along_axis(
-            data["kind"][:50], np.maximum(ids - 1, 0).reshape(50, -1), axis=1
-        )
-        label = np.where(ids == 0, 0, kinds.reshape(ids.shape) + 1)
-        np.testing.assert_array_equal(data["label"][:50], label)
-        away = np.linalg.norm(data["place"][:50], axis=-1)
+        kinds = np.take_along_axis(kind, np.maximum(ids - 1, 0).reshape(50, -1), axis=1)
+        expected = np.where(ids == 0, 0, kinds.reshape(ids.shape) + 1)
+        np.testing.assert_array_equal(label, expected)
+        away = np.linalg.norm(place, axis=-1)
         for sample in range(50):
             for k in np.unique(ids[sample][ids[sample] > 0]):
                 seen = distance[sample][ids[sample] == k]

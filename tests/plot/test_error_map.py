@@ -8,6 +8,7 @@ from matplotlib.colors import LogNorm, to_rgba
 
 import cubecam as cc
 from tests.helpers import conventions
+from tests.plot.artists import array_of, mapped_colors, xdata, ydata
 from tests.reference import cube_faces
 from tests.reference.pattern import random_faces
 
@@ -15,7 +16,7 @@ SIZE = 8
 
 
 def image_of(ax):
-    return ax.get_images()[0].get_array()
+    return array_of(ax.get_images()[0])
 
 
 @conventions
@@ -37,7 +38,7 @@ def test_errors_of_cubes_are_numpys_and_lie_as_the_cross_does(rng, convention, o
         f"mean {mean:.3g}, rms {rms:.3g}, max {expected.max():.3g} at {name}, row {row}, column {column}"
     )
     (mark,) = (line for line in ax.lines if line.get_marker() == "o")
-    (x,), (y,) = mark.get_data()
+    (x,), (y,) = xdata(mark), ydata(mark)
     assert laid_out[y, x] == expected.max()
 
 
@@ -78,7 +79,7 @@ def test_what_has_no_error_is_grey_and_counted():
     assert ax.get_title().endswith("\n2 of 12 pixels without an error (grey)")
     assert ax.get_title().startswith("mean 0.45, rms 0.474, max 0.5 at row 0, column 1")
     (image,) = ax.get_images()
-    colors = image.cmap(image.norm(np.ma.masked_invalid(image_of(ax))))
+    colors = mapped_colors(image, np.ma.masked_invalid(image_of(ax)))
     for place in ((0, 0), (1, 1)):
         np.testing.assert_allclose(colors[place], to_rgba("0.82"))
     np.testing.assert_allclose(colors[2, 2], image.cmap(0.0))
@@ -90,7 +91,7 @@ def test_a_logarithmic_scale_shows_zero_as_its_lowest_colour():
     (image,) = cc.plot.error_map(a, b, scale="log").get_images()
     assert isinstance(image.norm, LogNorm)
     assert image.get_clim() == pytest.approx((1e-6, 1))
-    colors = image.cmap(image.norm(image.get_array()))[0]
+    colors = mapped_colors(image)[0]
     np.testing.assert_allclose(colors[0], image.cmap(0.0))
     np.testing.assert_allclose(colors[1], image.cmap(0.0))
     assert np.linalg.norm(colors[2] - colors[1]) > 0.1
@@ -116,7 +117,7 @@ def test_equal_pictures_have_no_mark(scale):
 def test_colours_are_of_a_map_whose_lightness_grows():
     """magma is perceptually uniform: the greater the error, the brighter the pixel."""
     (image,) = cc.plot.error_map(np.zeros((1, 32)), np.linspace(0, 1, 32)[None]).get_images()
-    colors = image.cmap(image.norm(image.get_array()))[0, :, :3]
+    colors = mapped_colors(image)[0, :, :3]
     assert (np.diff(colors @ [0.2126, 0.7152, 0.0722]) > 0).all()
 
 
@@ -125,9 +126,9 @@ def test_colours_are_of_a_map_whose_lightness_grows():
     [
         (lambda a: cc.plot.error_map(a, a[:2]), "expected two pictures of one shape, got"),
         (lambda a: cc.plot.error_map(a[0], a[0]), "expected (H, W), (H, W, C)"),
-        (lambda a: cc.plot.error_map(a, a, over="mean"), 'over: expected "max" or "rms"'),
-        (lambda a: cc.plot.error_map(a, a, scale="dB"), 'scale: expected "linear" or "log"'),
-        (lambda a: cc.plot.error_map(a, a, convention="up"), "convention: expected"),
+        (lambda a: cc.plot.error_map(a, a, over="mean"), 'over: expected "max" or "rms"'),  # type: ignore[arg-type]
+        (lambda a: cc.plot.error_map(a, a, scale="dB"), 'scale: expected "linear" or "log"'),  # type: ignore[arg-type]
+        (lambda a: cc.plot.error_map(a, a, convention="up"), "convention: expected"),  # type: ignore[arg-type]
     ],
 )
 def test_wrong_input(call, message):

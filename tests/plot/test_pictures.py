@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.colors import to_rgba
+from matplotlib.patches import FancyBboxPatch
+from matplotlib.text import Annotation, Text
 
 import cubecam as cc
 from tests.helpers import conventions
 from tests.helpers import faces as each_face
+from tests.plot.artists import array_of, mapped_colors, xdata, ydata
 from tests.reference import cube_faces, equirect
 from tests.reference.pattern import COLORS, face_pattern
 
@@ -15,12 +19,19 @@ NAMES = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 
 
 def image_of(ax, index=0):
-    return np.asarray(ax.get_images()[index].get_array())
+    return np.asarray(array_of(ax.get_images()[index]))
 
 
 def label_places(ax):
     """The names that the axes show, with the pixel at which each stands."""
     return {text.get_text(): text.get_position() for text in ax.texts}
+
+
+def box_of(text: Text) -> FancyBboxPatch:
+    """The box that is drawn behind a text."""
+    box = text.get_bbox_patch()
+    assert box is not None
+    return box
 
 
 @conventions
@@ -63,6 +74,7 @@ def test_arrows_begin_at_the_first_texel_and_follow_s_and_t(convention):
     letters = [text.get_text() for text in ax.texts if text not in arrows]
     assert letters == ["s", "t"] * 6
     for k, arrow in enumerate(arrows):
+        assert isinstance(arrow, Annotation)
         (x1, y1), (x0, y0) = np.round(arrow.xy).astype(int), np.round(arrow.xyann).astype(int)
         along, across = (where_s, where_t) if k % 2 == 0 else (where_t, where_s)
         assert along[y0, x0] < 0.1 * size
@@ -85,7 +97,7 @@ def test_names_are_inside_their_cells_also_with_arrows():
     figure.canvas.draw()
     for cell, name in zip([(2, 1), (0, 1), (1, 0), (1, 2), (3, 1), (1, 1)], NAMES, strict=True):
         (text,) = (text for text in ax.texts if text.get_text() == name)
-        box = text.get_bbox_patch().get_window_extent().transformed(ax.transData.inverted())
+        box = box_of(text).get_window_extent().transformed(ax.transData.inverted())
         column, row = cell
         assert column * SIZE - 0.5 <= box.xmin < box.xmax <= (column + 1) * SIZE - 0.5
         low, high = sorted((box.ymin, box.ymax))
@@ -101,7 +113,7 @@ def luminance(color):
 def test_names_can_be_read_on_black_and_on_white(ground):
     """The contrast of the letters to what is around them is at least 4.5, as WCAG 2 demands of text."""
     ax = cc.plot.cross(np.full((6, 8, 8, 3), ground, np.uint8))
-    red, green, blue, alpha = ax.texts[0].get_bbox_patch().get_facecolor()
+    red, green, blue, alpha = to_rgba(box_of(ax.texts[0]).get_facecolor())
     behind = alpha * np.array([red, green, blue]) + (1 - alpha) * ground / 255
     letters = np.ones(3)
     assert ax.texts[0].get_color() == "white"
@@ -131,14 +143,14 @@ def test_one_number_a_texel_has_a_colour_map_and_what_is_not_finite_is_apart():
     distance[0, :4] = np.inf
     distance[1, 0, 0] = np.nan
     ax = cc.plot.cross(distance, vmax=1.5)
-    shown = ax.get_images()[-1].get_array()
+    shown = array_of(ax.get_images()[-1])
     expected = cube_faces.to_layout(distance, "cross", "inside")
     finite = np.isfinite(expected) & (expected > 0)
     np.testing.assert_array_equal(~np.ma.getmaskarray(shown), finite)
     np.testing.assert_array_equal(shown[finite], expected[finite])
     ground = image_of(ax)
     np.testing.assert_array_equal(ground[..., 3] > 0, ~np.isfinite(expected))
-    assert ax.get_images()[-1].get_clim() == (np.nanmin(distance), 1.5)
+    assert ax.get_images()[-1].get_clim() == (float(np.nanmin(distance)), 1.5)
     assert len(ax.figure.axes) == 2
     assert len(cc.plot.cross(distance, colorbar=False).figure.axes) == 1
 
@@ -151,9 +163,9 @@ def test_ids_have_a_colour_each_and_a_list():
     (image,) = ax.get_images()
     bar = ax.figure.axes[1]
     assert [label.get_text() for label in bar.get_yticklabels()] == ["0", "7", "12"]
-    colors = image.cmap(image.norm(image.get_array()))
+    colors = mapped_colors(image)
     expected = cube_faces.to_layout(ids, "cross", "inside")
-    covered = ~np.ma.getmaskarray(image.get_array())
+    covered = ~np.ma.getmaskarray(array_of(image))
     assert covered.sum() == 6 * SIZE**2
     for value in (0, 7, 12):
         assert len(np.unique(colors[covered & (expected == value)], axis=0)) == 1
@@ -182,7 +194,7 @@ def test_ids_have_the_same_colour_on_all_faces():
     ids[:, 0, 0] = [1, 2, 3, 4, 5, 9]
     axes = cc.plot.faces(ids)
     for ax, number in zip(axes, [1, 2, 3, 4, 5, 6], strict=True):
-        assert ax.get_images()[0].get_array().max() == number
+        assert array_of(ax.get_images()[0]).max() == number
         assert ax.get_images()[0].get_clim() == (-0.5, 6.5)
 
 
@@ -211,9 +223,9 @@ def test_panorama_marks_the_axes_where_they_are(center):
 
 def test_panorama_counts_degrees():
     ax = cc.plot.panorama(cc.CubeMap(face_pattern(8, 3)), graticule=45)
-    assert ax.get_images()[0].get_extent() == [-180, 180, -90, 90]
-    vertical = sorted(line.get_xdata()[0] for line in ax.lines if len(set(line.get_xdata())) == 1)
-    level = sorted(line.get_ydata()[0] for line in ax.lines if len(set(line.get_ydata())) == 1)
+    assert tuple(ax.get_images()[0].get_extent()) == (-180, 180, -90, 90)
+    vertical = sorted(xdata(line)[0] for line in ax.lines if len(set(xdata(line))) == 1)
+    level = sorted(ydata(line)[0] for line in ax.lines if len(set(ydata(line))) == 1)
     assert vertical == [-135, -90, -45, 0, 45, 90, 135]
     assert level == [-45, 0, 45]
     ax.figure.canvas.draw()
@@ -265,10 +277,10 @@ def test_settings_of_matplotlib_stay_as_they_are():
     [
         (lambda: cc.plot.cross(np.zeros((6, 4, 4, 2))), "expected 1, 3 or 4 channels"),
         (lambda: cc.plot.cross(np.zeros((4, 4, 3))), "expected a CubeMap or an array"),
-        (lambda: cc.plot.cross(face_pattern(4), convention="inner"), "convention: expected"),
+        (lambda: cc.plot.cross(face_pattern(4), convention="inner"), "convention: expected"),  # type: ignore[arg-type]
         (lambda: cc.plot.faces(face_pattern(4), columns=4), "columns: expected 1, 2, 3 or 6"),
         (lambda: cc.plot.panorama(np.zeros((4, 9, 3))), "expected a CubeMap, an array"),
-        (lambda: cc.plot.panorama(np.zeros((4, 8, 3)), center="up"), "center: expected"),
+        (lambda: cc.plot.panorama(np.zeros((4, 8, 3)), center="up"), "center: expected"),  # type: ignore[arg-type]
         (lambda: cc.plot.panorama(np.zeros((4, 8, 3)), graticule=0), "graticule: expected"),
         (lambda: cc.plot.panorama(np.zeros((6, 4, 4)), width=7), "width: expected an even number"),
     ],

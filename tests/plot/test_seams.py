@@ -7,6 +7,7 @@ from matplotlib.colors import to_hex
 import cubecam as cc
 from cubecam.plot import EDGE_NAMES, inner_steps, seam_ratios, seam_steps
 from tests.helpers import faces as each_face
+from tests.plot.artists import ydata
 from tests.reference.cube_faces import FACE_NAMES, texel_directions
 from tests.reference.pattern import direction_pattern
 
@@ -123,6 +124,7 @@ def test_infinite_and_missing_numbers():
 
 def test_a_captured_scene_has_no_seams(renderer):
     scene = cc.Scene(background=cc.load_environment(cc.sample_data("studio.exr")))
+    assert isinstance(scene.background, cc.CubeMap)
     scene.add(cc.Mesh.sphere(0.5), cc.BasicMaterial(color="orange"), position=(1, 0.3, 1))
     cube = renderer.capture(scene, size=scene.background.size)
     assert seam_ratios(cube).max() < 1.3
@@ -140,12 +142,12 @@ def test_the_plot_shows_means_and_names_the_bad_edges():
     marks = {line.get_label(): line for line in ax.get_lines()}
     over, high = marks["over the edge"], marks["over the edge, above 2.5x"]
     expected = seam_steps(values).mean(axis=1)
-    shown = np.where(np.isnan(over.get_ydata()), high.get_ydata(), over.get_ydata())
+    shown = np.where(np.isnan(ydata(over)), ydata(high), ydata(over))
     np.testing.assert_allclose(shown, expected)
-    assert np.flatnonzero(np.isfinite(high.get_ydata())).tolist() == bad
+    assert np.flatnonzero(np.isfinite(ydata(high))).tolist() == bad
     assert to_hex(high.get_color()) != to_hex(over.get_color())
     np.testing.assert_allclose(
-        marks["beside the edge, inside the faces"].get_ydata(), inner_steps(values).mean(axis=1)
+        ydata(marks["beside the edge, inside the faces"]), inner_steps(values).mean(axis=1)
     )
     labels = [text.get_text() for text in ax.texts]
     assert [label[-1] for label in labels] == ["x"] * 12
@@ -176,7 +178,7 @@ def test_a_cube_of_one_colour_has_no_seam_and_no_logarithm():
         (lambda: seam_steps(np.zeros((5, 4, 4))), r"expected a CubeMap or an array \(6, N, N\)"),
         (lambda: seam_steps(np.zeros((6, 4, 5, 3))), r"got shape \(6, 4, 5, 3\)"),
         (lambda: inner_steps(np.zeros((6, 1, 1))), "at least 2 x 2 texels, got 1 x 1"),
-        (lambda: cc.plot.seams(np.zeros((6, 4, 4)), scale="cubic"), "scale: expected"),
+        (lambda: cc.plot.seams(np.zeros((6, 4, 4)), scale="cubic"), "scale: expected"),  # type: ignore[arg-type]
     ],
 )
 def test_wrong_input(call, message):

@@ -5,11 +5,13 @@ import re
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
+from matplotlib.colors import to_rgba
 from matplotlib.quiver import Quiver
 
 import cubecam as cc
 from tests.helpers import conventions
 from tests.helpers import faces as each_face
+from tests.plot.artists import array_of, legend_of
 from tests.reference import cube_faces
 from tests.reference.pattern import direction_pattern
 
@@ -25,7 +27,7 @@ def quiver_of(ax):
 def test_colours_are_half_plus_half_of_the_unit_vector(convention):
     directions = direction_pattern(SIZE)
     ax = cc.plot.vectors(7 * directions, convention=convention)
-    shown = np.asarray(ax.get_images()[0].get_array())
+    shown = np.asarray(array_of(ax.get_images()[0]))
     expected = cube_faces.to_layout(0.5 + 0.5 * directions, "cross", convention)
     covered = shown[..., 3] == 1
     assert covered.sum() == 6 * SIZE**2
@@ -36,7 +38,7 @@ def test_vectors_without_a_direction_are_grey():
     field = np.ones((2, 3, 3))
     field[0, 0] = 0
     field[1, 2] = np.nan
-    shown = np.asarray(cc.plot.vectors(field).get_images()[0].get_array())
+    shown = np.asarray(array_of(cc.plot.vectors(field).get_images()[0]))
     for place in ((0, 0), (1, 2)):
         np.testing.assert_allclose(shown[place], 0.82)
     np.testing.assert_allclose(shown[0, 1], 0.5 + 0.5 / np.sqrt(3))
@@ -88,7 +90,7 @@ def test_outputs_of_a_capture_and_of_a_frame(renderer):
     cube = renderer.capture(scene, size=16, outputs=("normal", "position"))
     for output in ("normal", "position"):
         ax = cc.plot.vectors(cube, output=output)
-        shown = np.asarray(ax.get_images()[0].get_array())
+        shown = np.asarray(array_of(ax.get_images()[0]))
         values = cube.outputs[output].astype(float)
         values /= np.linalg.norm(values, axis=-1, keepdims=True)
         expected = cube_faces.to_layout(0.5 + 0.5 * values, "cross", "inside")
@@ -96,7 +98,7 @@ def test_outputs_of_a_capture_and_of_a_frame(renderer):
     camera = cc.PerspectiveCamera(position=(0, 0, 4), target=(0, 0, 0))
     frame = renderer.render(scene, camera, (24, 16), outputs=("normal",))
     ax = cc.plot.vectors(frame, camera=camera)
-    assert ax.get_images()[0].get_array().shape == (16, 24, 3)
+    assert array_of(ax.get_images()[0]).shape == (16, 24, 3)
     with pytest.raises(
         ValueError, match=re.escape("output: expected one of normal (what outputs=")
     ):
@@ -105,11 +107,11 @@ def test_outputs_of_a_capture_and_of_a_frame(renderer):
 
 def test_the_legend_names_the_six_axes():
     ax = cc.plot.vectors(direction_pattern(4))
-    names = [text.get_text() for text in ax.get_legend().get_texts()]
+    names = [text.get_text() for text in legend_of(ax).get_texts()]
     assert names == ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
-    for name, patch in zip(names, ax.get_legend().get_patches(), strict=True):
+    for name, patch in zip(names, legend_of(ax).get_patches(), strict=True):
         axis = cube_faces.FORWARD[names.index(name)]
-        np.testing.assert_allclose(patch.get_facecolor()[:3], 0.5 + 0.5 * axis)
+        np.testing.assert_allclose(to_rgba(patch.get_facecolor())[:3], 0.5 + 0.5 * axis)
     assert cc.plot.vectors(direction_pattern(4), legend=False).get_legend() is None
 
 
@@ -131,7 +133,7 @@ def test_arrows_in_space_begin_at_their_origins_or_end_there():
     np.testing.assert_allclose(first[:, 1], origins)
     np.testing.assert_allclose(second[:, 0], origins)
     np.testing.assert_allclose(second[:, 1], 1.5 * origins)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["incident", "normal"]
+    assert [text.get_text() for text in legend_of(ax).get_texts()] == ["incident", "normal"]
 
 
 def test_space_is_right_handed_with_y_up():
