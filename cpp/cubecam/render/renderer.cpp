@@ -57,6 +57,16 @@ void check(const CaptureOptions& options) {
     }
 }
 
+/// The encoding of the target's picture; for an unchanged call, that of the last one.
+template <class Find>
+Encoding kept_encoding(Target& target, Find&& find) {
+    std::optional<UnchangedCall>& call = target.unchanged;
+    if (call && call->encoding) return *call->encoding;
+    const Encoding found = find();
+    if (call) call->encoding = found;
+    return found;
+}
+
 Encoding frame_encoding(const SceneSnapshot& scene, const FrameOptions& options) {
     if (options.encode == Encode::srgb) return Encoding::srgb;
     if (options.tonemap != Tonemap::none) return Encoding::linear;
@@ -183,7 +193,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
             std::move(views), target, [](const NodeSnapshot&) { return true; }, {}, post_process);
         stats_ = frame.stats;
         Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
-        drawn.encoding = frame_encoding(scene, options);
+        drawn.encoding = kept_encoding(target, [&] { return frame_encoding(scene, options); });
         return drawn;
     });
 }
@@ -226,7 +236,8 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         };
         frame.draw(std::move(views), target, seen, std::move(wanted));
         stats_ = frame.stats;
-        return read_cube(gpu.context.gl(), target, *gpu.results, scene_encoding(scene, 0, seen));
+        return read_cube(gpu.context.gl(), target, *gpu.results,
+                         kept_encoding(target, [&] { return scene_encoding(scene, 0, seen); }));
     });
 }
 

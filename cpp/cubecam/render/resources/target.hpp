@@ -3,6 +3,7 @@
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/objects.hpp"
 #include "cubecam/image/depth_format.hpp"
+#include "cubecam/image/encoding.hpp"
 #include "cubecam/image/format.hpp"
 #include "cubecam/render/resources/depth_order.hpp"
 #include "cubecam/render/resources/outputs.hpp"
@@ -96,6 +97,7 @@ struct UnchangedCall {
     std::uint64_t contents;  ///< RendererState::contents
     Key request;             ///< the views, the excluded nodes, the post-processing
     std::int64_t views;      ///< pictures that were still valid
+    std::optional<Encoding> encoding = std::nullopt;  ///< of the picture, once it was found
 };
 
 /// The textures into which pictures are drawn, and for each layer the key of its picture.
