@@ -409,7 +409,7 @@ def test_an_attribute_that_does_not_exist_cannot_be_set(renderer):
     things += [cc.PhongMaterial(), cc.PerspectiveCamera(), cc.PointLight(), cc.Probe(), cc.Shadow()]
     things += [cc.Mesh.box(1), cc.Stencil(), cc.Blend("one", "one"), demo.build_scene(probe_size=4)]
     for thing in things:
-        with pytest.raises(AttributeError, match=r"^.*has no attribute 'colour'$") as caught:
+        with pytest.raises(AttributeError, match=r"^.*has no attribute 'colour'.*$") as caught:
             thing.colour = 1
         assert "\n" not in str(caught.value)
     kinds = [kind for kind in vars(cc).values() if type(kind).__name__ == "pybind11_type"]
