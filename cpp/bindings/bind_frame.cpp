@@ -18,7 +18,7 @@ namespace cubecam {
 
 PyFrame::PyFrame(Frame frame)
     : width(frame.width), height(frame.height), format(frame.format), encoding(frame.encoding),
-      color(py::none()) {
+      tonemapped(frame.tonemapped), color(py::none()) {
     const std::vector<py::ssize_t> flat = {frame.height, frame.width};
     const auto with_channels = [&flat](int channels) {
         std::vector<py::ssize_t> shape = flat;
@@ -39,14 +39,14 @@ namespace {
 
 py::tuple state_of(const PyFrame& frame) {
     return py::make_tuple(frame.width, frame.height, frame.color, frame.outputs,
-                          to_string(frame.format), to_string(frame.encoding));
+                          to_string(frame.format), to_string(frame.encoding), frame.tonemapped);
 }
 
 PyFrame from_state(const py::tuple& closed) {
     const py::tuple state = bindings::opened_state(closed);
-    // The first pickles of cubecam 0.2 have neither format nor encoding.
-    if (state.size() != 4 && state.size() != 6) {
-        throw py::value_error("Frame: expected a state of 6 parts, got " +
+    // The first pickles of cubecam 0.2 have neither format nor encoding, the next no curve.
+    if (state.size() != 4 && state.size() != 6 && state.size() != 7) {
+        throw py::value_error("Frame: expected a state of 7 parts, got " +
                               std::to_string(state.size()));
     }
     PyFrame frame;
@@ -54,7 +54,8 @@ PyFrame from_state(const py::tuple& closed) {
     frame.height = state[1].cast<int>();
     frame.color = state[2];
     frame.outputs = state[3].cast<py::dict>();
-    if (state.size() == 6) {
+    if (state.size() == 7) frame.tonemapped = state[6].cast<bool>();
+    if (state.size() > 4) {
         frame.format = parse_format(state[4].cast<std::string>());
         frame.encoding = parse_encoding(state[5].cast<std::string>());
     } else if (!frame.color.is_none()) {
@@ -93,8 +94,8 @@ void bind_frame(py::module_& m) {
     frame_class
         .def_property_readonly(
             "color", [](const PyFrame& f) -> bindings::Pixels { return f.color; },
-            "ndarray (H, W, 4): the colour, uint8, float16 or float32 by ``format``; linear, "
-            "except with ``encode=``. None with ``format=None``.")
+            "ndarray (H, W, 4): the colour, uint8, float16 or float32 by ``format``; "
+            "`encoding` says what the numbers are. None with ``format=None``.")
         .def_property_readonly(
             "outputs",
             [](const PyFrame& f) {
@@ -113,6 +114,9 @@ void bind_frame(py::module_& m) {
             "encoding",
             [](const PyFrame& f) -> bindings::EncodingNow { return to_string(f.encoding); },
             "str: \"linear\" or \"srgb\", what the numbers of `color` are.")
+        .def_property_readonly(
+            "_tonemapped", [](const PyFrame& f) { return f.tonemapped; },
+            "bool: whether `Renderer.render` applied a tone curve, so that files need none.")
         .def_property_readonly(
             "size",
             [](const PyFrame& f) -> bindings::Size { return py::make_tuple(f.width, f.height); },

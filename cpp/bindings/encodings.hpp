@@ -2,9 +2,12 @@
 #pragma once
 
 #include "choice.hpp"
+#include "frame.hpp"
 #include "objects.hpp"
 
+#include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/image/encoding.hpp"
+#include "cubecam/image/image.hpp"
 #include "cubecam/image/pixels.hpp"
 
 #include <optional>
@@ -19,10 +22,9 @@ using EncodingName = std::optional<EncodingNow>;
 /// follows from the type: 8-bit pictures are sRGB, as in files, and floats are linear.
 inline Encoding to_encoding(const EncodingName& name, py::handle value, DType dtype) {
     if (name) return parse_encoding(*name);
-    if (py::hasattr(value, "encoding")) {
-        const py::object own = value.attr("encoding");
-        if (py::isinstance<py::str>(own)) return parse_encoding(own.cast<std::string>());
-    }
+    if (py::isinstance<CubeMap>(value)) return value.cast<CubeMap&>().data()->encoding;
+    if (py::isinstance<Image>(value)) return value.cast<Image&>().encoding();
+    if (py::isinstance<PyFrame>(value)) return value.cast<PyFrame&>().encoding;
     return dtype == DType::uint8 ? Encoding::srgb : Encoding::linear;
 }
 

@@ -18,6 +18,7 @@ struct PyFrame {
     int height = 0;
     Format format = Format::rgba8;
     Encoding encoding = Encoding::linear;
+    bool tonemapped = false;
     py::object color;
     py::dict outputs;  ///< arrays by name
 };

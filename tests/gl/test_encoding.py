@@ -137,6 +137,31 @@ def test_a_probe_knows_what_it_holds(renderer):
         assert renderer.read_probe(probe).encoding == want
 
 
+@pytest.mark.parametrize("lit_first", [True, False])
+def test_two_views_of_one_scene_both_count(renderer, lit_first):
+    """One render texture excludes the lit node, and the other shows it."""
+    inner = panel(cc.BasicMaterial(map=PHOTO))
+    lit = inner.add(quad(6, 4), cc.PhongMaterial(), position=(0, 0, -1))
+    views = [
+        cc.RenderTexture(inner, flat_camera(6, 4), size=(6, 4), exclude=nodes)
+        for nodes in ([], [lit])
+    ]
+    scene = cc.Scene()
+    for view in views if lit_first else views[::-1]:
+        scene.add(quad(6, 4), cc.BasicMaterial(map=view))
+    assert drawn(renderer, scene).encoding == "linear"
+    only = panel(cc.BasicMaterial(map=views[1]))
+    assert drawn(renderer, only).encoding == "srgb"
+
+
+def test_a_probe_counts_what_the_capture_excludes(renderer):
+    scene = probed(cc.CubeMap(SKY))
+    lit = scene.add(quad(6, 4), cc.PhongMaterial(), position=(0, 0, 3))
+    assert renderer.capture(scene, size=4, exclude=[lit]).encoding == "linear"
+    next(iter(scene.nodes)).environment = cc.Probe(size=4, exclude=[lit])
+    assert renderer.capture(scene, size=4, exclude=[lit]).encoding == "srgb"
+
+
 def test_a_change_of_sources_changes_the_encoding(renderer):
     material = cc.BasicMaterial(map=PHOTO)
     scene = panel(material)
@@ -212,6 +237,22 @@ def test_a_frame_is_saved_as_a_screen_shows_it(renderer, tmp_path):
     assert (tmp_path / "b.png").read_bytes() == frame._repr_png_()
 
 
+@pytest.mark.parametrize("kind", ["rgba8", "rgba16f", "rgba32f"])
+def test_a_tone_curve_is_applied_once(renderer, tmp_path, kind):
+    scene = lamp((5.0, 0.5, 0.1))
+    frame = drawn(renderer, scene, format=kind, tonemap="aces")
+    light = TONE_CURVES["aces"](np.array([5.0, 0.5, 0.1]))
+    for again in (frame, pickle.loads(pickle.dumps(frame)), copy.deepcopy(frame)):
+        again.save(tmp_path / "a.png")
+        got = cc.load_image(tmp_path / "a.png")
+        assert np.abs(got[..., :3] - srgb_encode(light) * 255).max() <= 1.5
+        assert_identical(got, cc.to_screen(again))
+    with pytest.raises(ValueError, match="tonemap: expected"):
+        frame.save(tmp_path / "a.png", tonemap="filmic")
+    cc.save_animation(tmp_path / "b.png", [frame])
+    assert_identical(cc.load_image(tmp_path / "b.png")[..., :3], got[..., :3])
+
+
 def test_a_frame_of_bytes_is_encoded_without_a_curve(renderer, tmp_path):
     frame = drawn(renderer, lamp((0.9, 0.5, 0.1)))
     frame.save(tmp_path / "a.png")
@@ -255,6 +296,29 @@ def test_frames_are_arrays(renderer):
     shared = np.from_dlpack(frame)
     shared[0, 0, 0] = 9
     assert frame.color[0, 0, 0] == 9
+
+
+def test_dlpack_copies_if_the_reader_wants_a_copy(renderer):
+    class Older:
+        """Gives the numbers as a producer of DLPack before version 1."""
+
+        def __init__(self, capsule):
+            self.capsule = capsule
+
+        def __dlpack__(self, **_):
+            return self.capsule
+
+        def __dlpack_device__(self):
+            return 1, 0
+
+    frame = drawn(renderer, lamp((0.5, 0.25, 1)), format="rgba32f")
+    assert np.shares_memory(np.from_dlpack(Older(frame.__dlpack__())), frame.color)
+    copied = np.from_dlpack(Older(frame.__dlpack__(copy=True)))
+    assert_identical(copied, frame.color)
+    assert not np.shares_memory(copied, frame.color)
+    for version in (None, (1, 0)):
+        with pytest.raises(BufferError, match="dl_device: expected main memory"):
+            frame.__dlpack__(dl_device=(2, 0), max_version=version)
 
 
 def test_matplotlib_shows_frames(renderer):

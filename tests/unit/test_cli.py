@@ -285,7 +285,7 @@ def test_convert_warns_once_when_it_clips(lamps, tmp_path):
         assert result.exit_code == 0, result.output
         assert re.fullmatch(
             rf"warning: {re.escape(str(output))}: \d+ of \d+ numbers are above 1 and are clipped, the largest is "
-            r"[34][.\d]*; --tonemap neutral keeps highlights, --exposure -1 makes the picture darker\n",
+            r"[34][.\d]*; --tonemap neutral keeps highlights, a lower --exposure makes the picture darker\n",
             result.stderr,
         ), result.stderr
     done = run("convert", path, "-o", tmp_path / "out.png", "--tonemap", "none")

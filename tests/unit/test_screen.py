@@ -100,6 +100,7 @@ def test_what_is_no_number_is_black_and_infinite_light_is_white():
             ValueError,
             'tonemap: expected "neutral", "reinhard", "aces"',
         ),
+        (FLOATS, {"tonemap": []}, ValueError, 'tonemap: expected "neutral"'),
         (FLOATS, {"encode": "rec709"}, ValueError, 'encode: expected "srgb" or None'),
         (FLOATS, {"exposure": np.nan}, ValueError, "exposure: expected -64 to 64"),
         (FLOATS, {"exposure": 65}, ValueError, "exposure: expected -64 to 64"),
@@ -119,6 +120,72 @@ def test_clipping_warns_once_at_the_line_of_the_user():
     assert caught[0].filename == __file__
     assert f"{int((FLOATS > 1 + 0.5 / 255).sum())} of {FLOATS.size}" in str(caught[0].message)
     assert_near(got, shown(FLOATS, tonemap=None))
+
+
+def clippings(call):
+    """The messages of the clipping warnings of a call; all of them are at a line of this file."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        call()
+    assert {(w.category, w.filename) for w in caught} <= {(cc.ClippingWarning, __file__)}
+    return [str(w.message) for w in caught]
+
+
+OVER = f"{int((FLOATS > 1 + 0.5 / 255).sum())} of {FLOATS.size} numbers"
+
+
+@pytest.mark.parametrize("name", ["a.png", "a.jpg", "{face}.png"])
+def test_a_cube_warns_once_and_counts_its_own_numbers(name, tmp_path):
+    (message,) = clippings(lambda: cc.CubeMap(FLOATS).save(tmp_path / name, tonemap=None))
+    assert message.startswith(OVER)
+    assert f"the largest is {FLOATS.max():.4g}" in message
+    assert clippings(lambda: cc.CubeMap(FLOATS).save(tmp_path / name)) == []
+
+
+@pytest.mark.parametrize("objects", [True, False])
+def test_an_animation_warns_once(objects, tmp_path):
+    frames = [cc.Image(face) if objects else face for face in FLOATS]
+    (message,) = clippings(lambda: cc.save_animation(tmp_path / "a.png", frames, tonemap=None))
+    assert message.startswith(OVER)
+
+
+def test_calls_inside_an_animation_warn_for_themselves(tmp_path):
+    frames = (cc.to_screen(face, tonemap=None) for face in FLOATS[:2])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        cc.save_animation(tmp_path / "a.png", frames)
+    assert [w.filename for w in caught] == [__file__] * 2
+
+
+def test_a_warning_names_the_curve_only_where_it_helps():
+    for picture, exposure, helps in (
+        (FLOATS, 0, True),
+        (BYTES, 1, False),
+        (cc.Image(FLOATS[0], encoding="srgb"), 0, False),
+        (cc.CubeMap(BYTES, encoding="linear"), 2, False),
+    ):
+        (message,) = clippings(
+            lambda p=picture, e=exposure: cc.to_screen(p, exposure=e, tonemap=None)
+        )
+        assert ('tonemap="neutral"' in message) == helps
+
+
+@pytest.mark.parametrize("tonemap", ["neutral", "reinhard", "aces"])
+@pytest.mark.parametrize("light", [3e38, np.inf])
+def test_the_largest_light_is_white(light, tonemap, tmp_path):
+    values = np.full((2, 2, 3), light, np.float32)
+    assert clippings(lambda: cc.to_screen(values, exposure=64, tonemap=tonemap)) == []
+    assert (cc.to_screen(values, exposure=64, tonemap=tonemap) == 255).all()
+    cc.save_image(tmp_path / "a.png", values, tonemap=tonemap, exposure=64)
+    assert (cc.load_image(tmp_path / "a.png") == 255).all()
+    cc.save_image(tmp_path / "a.exr", cc.Image(np.minimum(values, 3e38)), exposure=64)
+    assert (cc.load_image(tmp_path / "a.exr") == np.inf).all()
+
+
+def test_a_curve_that_ends_above_1_clips_nothing(tmp_path):
+    bright = np.full((2, 2, 3), 1e4, np.float32)  # Narkowicz's fit gives 1.03
+    assert clippings(lambda: cc.save_image(tmp_path / "a.png", bright, tonemap="aces")) == []
+    assert (cc.load_image(tmp_path / "a.png") == 255).all()
 
 
 def test_numbers_that_fit_do_not_warn(tmp_path):
@@ -149,6 +216,14 @@ def test_objects_hand_their_encoding_on():
     assert cc.CubeMap(cube).encoding == "linear"
     assert cc.Image(cc.Image(BYTES[0], encoding="linear")).encoding == "linear"
     assert cube != cc.CubeMap(BYTES)
+
+
+def test_an_array_class_with_an_encoding_of_its_own_is_an_array():
+    class Text(np.ndarray):
+        encoding = "utf-8"
+
+    assert cc.CubeMap(FLOATS.view(Text)).encoding == "linear"
+    assert cc.Image(BYTES[0].view(Text)).encoding == "srgb"
 
 
 @pytest.mark.parametrize("make", [cc.CubeMap, lambda x, **o: cc.Image(x[0], **o)])
@@ -276,6 +351,36 @@ def test_arrays_are_written_as_they_are_unless_a_look_is_named(tmp_path):
     assert_identical(cc.load_image(tmp_path / "c.exr"), FLOATS[0] / 4)
     with pytest.raises(ValueError, match="tonemap: expected"):
         cc.save_image(tmp_path / "d.png", FLOATS[0], tonemap="filmic")  # type: ignore[arg-type]
+
+
+def test_a_curve_of_an_array_maps_what_to_screen_maps(tmp_path):
+    cc.save_image(tmp_path / "a.png", BYTES[0], tonemap="neutral")
+    assert_identical(cc.load_image(tmp_path / "a.png"), BYTES[0])
+    cc.save_image(tmp_path / "a.exr", FLOATS[0], tonemap="neutral")
+    assert_identical(cc.load_image(tmp_path / "a.exr"), FLOATS[0])
+    holes = FLOATS[0].copy()
+    holes[2, 1, 0] = np.nan
+    with pytest.raises(
+        ValueError, match=r"cannot hold NaN, got 1 of them, the first at \(2, 1, 0\)"
+    ):
+        cc.save_image(tmp_path / "b.png", holes, tonemap="neutral")
+
+
+@pytest.mark.parametrize("options", [{"exposure": 1}, {"tonemap": "aces"}])
+def test_ids_have_no_look(options, tmp_path):
+    with pytest.raises(ValueError, match="exposure, tonemap: expected colours, got int32 numbers"):
+        cc.save_image(tmp_path / "a.png", BYTES[0].astype(np.int32), **options)
+
+
+@pytest.mark.parametrize("name", ["a.gif", "a.apng", "a.webp"])
+def test_every_kind_of_animation_takes_objects(name, tmp_path):
+    from PIL import Image as Picture
+
+    cc.save_animation(tmp_path / name, [cc.Image(face) for face in FLOATS[:2]])
+    with Picture.open(tmp_path / name) as animation:
+        got = np.asarray(animation.convert("RGB"))
+    # A GIF has 256 colours for 64 pixels.
+    assert np.abs(got.astype(int) - cc.to_screen(FLOATS[0])).max() <= (8 if name == "a.gif" else 0)
 
 
 def test_animations_show_objects_as_files_do(tmp_path):

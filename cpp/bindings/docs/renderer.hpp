@@ -72,7 +72,8 @@ exposure : float
     Stops: the colour is multiplied by ``2**exposure``, after effects and before the tone curve. Default 0.
 tonemap : str or None
     "reinhard" (Reinhard et al. 2002), "aces" (Narkowicz's fit, 2015) or "neutral" (Khronos PBR Neutral, 2024), applied
-    after multisamples are resolved. None: values stay as they are.
+    after multisamples are resolved. None: values stay as they are. Files, notebooks and :func:`to_screen` do not map
+    a mapped frame again.
 encode : str or None
     "srgb" encodes the colour (IEC 61966-2-1), for a screen. None: the colour stays as it is; `Frame.save`, notebooks
     and :func:`to_screen` encode it when they need it.
@@ -94,8 +95,8 @@ Raises
 ------
 ValueError
     For an unknown name, a size or sample count beyond the driver's limits, formats that the driver cannot draw into,
-    outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with ``format=None``, or a camera without a
-    valid view.
+    outputs that ``depth_format`` does not allow, an exposure that is not from -64 to 64, tone mapping or effects with
+    ``format=None``, or a camera without a valid view.
 ContextError
     After :meth:`close`, or in a forked process.
 

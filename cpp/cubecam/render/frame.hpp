@@ -15,6 +15,7 @@ struct Frame {
     int height = 0;
     Format format = Format::rgba8;
     Encoding encoding = Encoding::linear;
+    bool tonemapped = false;  ///< a tone curve was applied, and must not be applied again
     std::shared_ptr<PixelBuffer> color;  ///< [height][width][4]; null without a colour buffer
     OutputList outputs;                  ///< [height][width][channels], those that were requested
 };

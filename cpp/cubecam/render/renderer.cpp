@@ -193,6 +193,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
             std::move(views), target, [](const NodeSnapshot&) { return true; }, {}, post_process);
         stats_ = frame.stats;
         Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
+        drawn.tonemapped = options.tonemap != Tonemap::none;
         drawn.encoding = kept_encoding(target, [&] { return frame_encoding(scene, options); });
         return drawn;
     });

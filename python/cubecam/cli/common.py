@@ -123,8 +123,9 @@ def clipping_told(path: str) -> Iterator[None]:
         yield
     clipped = [item for item in caught if issubclass(item.category, ClippingWarning)]
     if clipped:
-        what = str(clipped[0].message).partition(";")[0]
-        hint = "--tonemap neutral keeps highlights, --exposure -1 makes the picture darker"
+        what, _, how = str(clipped[0].message).partition("; ")
+        curve = "--tonemap neutral keeps highlights, " if "tonemap=" in how else ""
+        hint = f"{curve}a lower --exposure makes the picture darker"
         complain(f"{path}: {what}; {hint}", kind="warning")
     for item in caught:
         if item not in clipped:

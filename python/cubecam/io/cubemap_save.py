@@ -13,7 +13,7 @@ from . import formats
 from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from .files import as_path, write_files
 from .pixels import Array
-from .screen import check_look, curve_for, numbers_of
+from .screen import Clipping, check_look, curve_for, numbers_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -98,9 +98,12 @@ def save_cubemap(
     # What the cube's own numbers are decides, even where resampling makes floats of whole numbers.
     curve = curve_for(cube.faces, tonemap)
 
+    clipping = Clipping()
+
     def ready(target: Path, pixels: Array) -> Array:
         light = formats.holds_light(target, cube.faces)
-        return formats.for_file(pixels, encoding, light, exposure, curve, srgb)
+        with clipping.gathered():
+            return formats.for_file(pixels, encoding, light, exposure, curve, srgb)
 
     if paths is not None:
         if wanted not in (None, "faces"):
@@ -112,6 +115,7 @@ def save_cubemap(
                 for target, face in zip(paths, faces, strict=True)
             }
         )
+        clipping.warn()
         return
     if wanted == "faces":
         raise ValueError(
@@ -125,20 +129,26 @@ def save_cubemap(
     exact = formats.stores(target, cube.dtype) and (kept or formats.holds_light(target, cube.faces))
     resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
-        picture = source.to_equirect(width=width, center=center, dtype=resampled)
+        picture = ready(target, source.to_equirect(width=width, center=center, dtype=resampled))
     elif wanted == "openexr":
         if target.suffix.lower() != ".exr":
             raise ValueError(
                 f'layout "openexr": expected a file name that ends in .exr, got {target.name!r}'
             )
         check_openexr(convention)
-        picture = source.to_layout("openexr", dtype=resampled)
+        picture = ready(target, source.to_layout("openexr", dtype=resampled))
         # OpenImageIO writes the attribute envmap from this text, and rejects a number under that name.
         attributes["textureformat"] = "CubeFace Environment"
-    else:
+    elif srgb is False or formats.holds_light(target, cube.faces):
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
-    encoded = formats.encode(target, ready(target, picture), half=half, attributes=attributes)
+        picture = ready(target, picture)
+    else:
+        # The six faces alone are mapped and encoded, since half of a cross is empty.
+        shown = CubeMap(ready(target, source.faces))
+        picture = shown.to_layout(wanted or "cross", convention=convention or "gl")
+    encoded = formats.encode(target, picture, half=half, attributes=attributes)
     write_files({target: encoded})
+    clipping.warn()
 
 
 def arrange(

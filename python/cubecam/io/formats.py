@@ -79,7 +79,10 @@ def for_file(
             raise ValueError(
                 f"exposure: expected 0 with srgb=False, which writes numbers as they are, got {exposure}"
             )
-        return pixels
+        if light or pixels.dtype.kind != "f":
+            return pixels
+        warn_if_clipped(pixels[..., :3], mappable=False)
+        return np.minimum(pixels, 1)
     if light:
         return to_light(pixels, encoding, exposure)
     return screen_pixels(pixels, encoding, exposure, curve_for(pixels, tonemap), True)
@@ -165,7 +168,7 @@ def fit_samples(pixels: Array, form: Format, extension: str, srgb: bool, half: b
     if "float32" in form.samples and not ("uint8" in form.samples and pixels.dtype.kind == "u"):
         return _floats(pixels, form, extension, half)
     if pixels.dtype.kind == "f":
-        warn_if_clipped(pixels[..., :3])
+        warn_if_clipped(pixels[..., :3], mappable=True)
     if srgb:
         pixels = on_color(srgb_encode, np.clip(to_float32(pixels), 0, 1))
     wide = pixels.dtype == np.uint16 and "uint16" in form.samples

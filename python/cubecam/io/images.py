@@ -1,8 +1,12 @@
-"""Read and write pictures as arrays. Row 0 is on top; numbers are raw, except with `srgb=True`."""
+"""Read and write pictures. Row 0 is on top.
+
+Numbers of arrays are raw, unless an option says otherwise; objects are written as a screen shows them.
+"""
 
 from __future__ import annotations
 
 import io
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -15,11 +19,19 @@ from .cubemap_save import save_cubemap
 from .files import PathLike, as_path, existing_file, write_files
 from .formats import FORMATS, decode, encode, fit_samples, for_file, holds_light, is_opaque
 from .pixels import Array, FloatArray, check_picture, on_color, to_float32
-from .screen import CURVES, Picture, check_look, numbers_of
+from .screen import (
+    CURVES,
+    Clipping,
+    Picture,
+    check_look,
+    curve_for,
+    exposed,
+    is_tonemapped,
+    numbers_of,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-    from pathlib import Path
 
     import numpy.typing as npt
 
@@ -96,8 +108,8 @@ def save_image(
     exposure : float
         Stops: colours are multiplied by ``2**exposure``.
     tonemap : {"neutral", "reinhard", "aces", "auto"} or None
-        The curve that maps linear floats into 0..1 for files of 8 and 16 bits, see `to_screen`. None clips, with a
-        warning. "auto" is "neutral" for objects and None for arrays.
+        The curve that maps floats into 0..1 for files of 8 and 16 bits, see `to_screen`. None clips, with a warning.
+        "auto" is "neutral" for objects and None for arrays.
 
     Raises
     ------
@@ -105,14 +117,14 @@ def save_image(
         If the folder does not exist or may not be written, or the disk is full. The old file stays as it was.
     ValueError
         For an extension that is not in the list, a shape of no picture, numbers that the file cannot hold, a frame
-        without a colour, or a look (exposure, tone curve) of numbers that are written as they are.
+        without a colour, or a look (exposure, tone curve) of ids or of numbers that are written as they are.
     TypeError
         For bool, complex, object or text.
 
     Warns
     -----
     ClippingWarning
-        If floats above 1 are clipped for a file of 8 or 16 bits.
+        If numbers above 1 are clipped for a file of 8 or 16 bits.
 
     Notes
     -----
@@ -223,17 +235,30 @@ def prepare(
     if isinstance(pixels, (Frame, Image)):
         numbers, encoding = numbers_of(pixels)
         curve: Tonemap | None = "neutral" if tonemap == "auto" else tonemap
+        if is_tonemapped(pixels):
+            check_look(exposure, curve)
+            curve = None
         light = holds_light(target, numbers)
         return for_file(numbers, encoding, light, exposure, curve, srgb), False
     array = check_picture(pixels, name)
-    curve = None if tonemap == "auto" else tonemap
-    check_look(exposure, curve)
+    check_look(exposure, None if tonemap == "auto" else tonemap)
+    is_id = array.dtype.kind in "iu" and array.dtype not in (np.uint8, np.uint16)
+    if is_id and (exposure != 0 or tonemap not in ("auto", None)):
+        raise ValueError(
+            f"exposure, tonemap: expected colours, got {array.dtype} numbers, which are ids and written as they are"
+        )
+    # As for objects, files of light and whole numbers need no curve.
+    curve = None if tonemap == "auto" or holds_light(target, array) else curve_for(array, tonemap)
     if exposure == 0 and curve is None:
         return array, bool(srgb)
 
     def shown(color: FloatArray) -> FloatArray:
-        light = color * np.float32(2.0**exposure)
-        return light if curve is None else CURVES[curve](np.maximum(light, 0))
+        if curve is not None:
+            mapped = CURVES[curve](exposed(color, exposure))
+            mapped[np.isnan(color)] = np.nan  # which the file refuses, in an array
+            return mapped
+        with np.errstate(over="ignore"):  # what overflows is infinite, and clipped or stored
+            return np.asarray(color * np.float32(2.0**exposure), dtype=np.float32)
 
     return on_color(shown, to_float32(array, name)), bool(srgb)
 
@@ -260,7 +285,7 @@ def save_animation(
     fps : float
         Frames a second, above 0 and up to 100. A GIF's frames last a whole number of hundredths of a second.
     srgb, exposure, tonemap
-        As in `save_image`.
+        As in `save_image`. Clipping warns once for all frames.
 
     Raises
     ------
@@ -286,9 +311,12 @@ def save_animation(
     if not 0 < fps <= 100:
         raise ValueError(f"fps: expected a number above 0 and up to 100, got {fps}")
     pictures: list[Any] = []
+    clipping = Clipping()
+    like = Path("frame.png")  # every kind of animation holds pictures of 8 bits
     for index, frame in enumerate(frames):
-        pixels, encoded = prepare(frame, target, srgb, exposure, tonemap, f"frames[{index}]")
-        pixels = fit_samples(pixels, FORMATS[".webp"], extension, encoded, False)
+        with clipping.gathered():
+            pixels, encoded = prepare(frame, like, srgb, exposure, tonemap, f"frames[{index}]")
+            pixels = fit_samples(pixels, FORMATS[".webp"], extension, encoded, False)
         pixels = np.repeat(pixels, 3, axis=2) if pixels.shape[2] == 1 else pixels
         if extension == ".gif" or (pixels.shape[2] == 4 and is_opaque(pixels)):
             pixels = pixels[..., :3]
@@ -315,3 +343,4 @@ def save_animation(
         **options,
     )
     write_files({target: data.getvalue()})
+    clipping.warn()

@@ -85,7 +85,7 @@ def check_colors(pixels: Any, name: str = "pixels") -> Array:
         array = array[:, :, None]
     if array.ndim < 2 or array.shape[-1] not in (1, 3, 4) or array.size == 0:
         raise ValueError(
-            f"{name}: expected shape (..., channels) with 1, 3 or 4 channels, or (height, width), "
+            f"{name}: expected shape (..., height, width, channels) with 1, 3 or 4 channels, or (height, width), "
             f"got {np.shape(pixels)}"
         )
     return array

@@ -6,8 +6,12 @@ same everywhere.
 
 from __future__ import annotations
 
+import contextlib
+import functools
 import sys
 import warnings
+from contextvars import ContextVar
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -19,7 +23,7 @@ from ..typing import Encode, Encoding, Tonemap
 from .pixels import Array, FloatArray, check_colors, on_color, srgb_decode, srgb_encode, to_float32
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import numpy.typing as npt
 
@@ -54,13 +58,15 @@ def to_screen(
     ----------
     picture : Frame, CubeMap, Image or array_like (..., C) or (H, W)
         The attribute `encoding` of an object says what its numbers are. In a plain array, uint8 and uint16 are
-        sRGB-encoded and floats are linear. C is 1, 3 or 4; a fourth channel is alpha.
+        sRGB-encoded and floats are linear. C is 1, 3 or 4; a fourth channel is alpha. An array of two dimensions is
+        grey.
     exposure : float
         Stops: the light is multiplied by ``2**exposure``.
     tonemap : {"neutral", "reinhard", "aces"} or None
         The curve that maps linear floats of any size into 0..1, as in `Renderer.render`: "neutral" is the Khronos PBR
         Neutral Tone Mapper (2024), "reinhard" is equation 3 of Reinhard et al. (2002), and "aces" is Narkowicz's fit
-        (2015). None clips. Numbers that are sRGB-encoded or 8-bit hold no highlights and are never mapped.
+        (2015). None clips. Numbers that are sRGB-encoded or 8-bit hold no highlights and are never mapped, and frames
+        that were rendered with a curve are not mapped again.
     encode : {"srgb"} or None
         "srgb" encodes with the transfer function of IEC 61966-2-1, which screens expect; None leaves light linear.
 
@@ -72,7 +78,7 @@ def to_screen(
     Warns
     -----
     ClippingWarning
-        If linear numbers above 1 are clipped, which happens without a tone curve only.
+        If numbers above 1 are clipped, which happens without a tone curve only.
 
     Raises
     ------
@@ -100,6 +106,8 @@ def to_screen(
         pixels = check_colors(picture, "picture")
         encoding = encoding_of(pixels)
     curve = curve_for(pixels, tonemap)
+    if is_tonemapped(picture):
+        curve = None
     shown = screen_pixels(pixels, encoding, exposure, curve, encode is not None)
     # A grey array (H, W) is (H, W, 1) here.
     return shown[..., 0] if np.ndim(picture) == 2 else shown
@@ -114,6 +122,11 @@ def numbers_of(picture: Picture) -> tuple[Array, Encoding]:
     if picture.color is None:
         raise ValueError("expected a frame with a colour, got one of format=None")
     return picture.color, _known(picture.encoding)
+
+
+def is_tonemapped(picture: object) -> bool:
+    """Say whether a frame was rendered with a tone curve: a second one would darken it."""
+    return isinstance(picture, Frame) and bool(picture._tonemapped)
 
 
 def _known(encoding: str) -> Encoding:
@@ -136,7 +149,8 @@ def check_look(exposure: float, tonemap: str | None) -> None:
         raise TypeError(f"exposure: expected a number of stops, got {type(exposure).__name__}")
     if not -64 <= exposure <= 64:
         raise ValueError(f"exposure: expected -64 to 64 stops, got {exposure}")
-    if tonemap is not None and tonemap not in CURVES:
+    # A list cannot be looked up in a dict, hence the tuple.
+    if tonemap is not None and tonemap not in tuple(CURVES):
         names = ", ".join(f'"{name}"' for name in CURVES)
         raise ValueError(f"tonemap: expected {names} or None, got {tonemap!r}")
 
@@ -145,22 +159,30 @@ def screen_pixels(
     pixels: Array, encoding: Encoding, exposure: float, curve: Tonemap | None, encode: bool
 ) -> npt.NDArray[np.uint8]:
     """Do what `to_screen` describes with (..., C) numbers of a known encoding."""
+    mappable = encoding == "linear" and pixels.dtype.kind == "f"
     if encoding == "srgb" and encode and exposure == 0:
+        if pixels.dtype.kind == "f":
+            warn_if_clipped(pixels[..., :3], mappable)
         return to_bytes(pixels)
 
     def shown(color: FloatArray) -> FloatArray:
-        if encoding == "srgb":
-            color = srgb_decode(color)
-        light = np.nan_to_num(color, nan=0, posinf=_LARGEST, neginf=0) * np.float32(2.0**exposure)
-        light = np.clip(light, 0, _LARGEST)
+        light = exposed(srgb_decode(color) if encoding == "srgb" else color, exposure)
         if curve is not None and encoding == "linear":
             light = CURVES[curve](light)
         else:
-            warn_if_clipped(light)
+            warn_if_clipped(light, mappable)
         light = np.clip(light, 0, 1)
         return srgb_encode(light) if encode else light
 
     return to_bytes(on_color(shown, to_float32(pixels)))
+
+
+def exposed(color: FloatArray, exposure: float) -> FloatArray:
+    """Multiply light by 2**exposure, in the range that the curves take: NaN and numbers below 0 become 0."""
+    gain = np.float32(2.0**exposure)
+    with np.errstate(over="ignore"):  # what overflows is infinite, and then the largest light
+        light = np.nan_to_num(color, nan=0, posinf=_LARGEST, neginf=0) * gain
+    return np.asarray(np.clip(light, 0, _LARGEST), dtype=np.float32)
 
 
 def to_light(pixels: Array, encoding: Encoding, exposure: float) -> Array:
@@ -170,7 +192,8 @@ def to_light(pixels: Array, encoding: Encoding, exposure: float) -> Array:
 
     def light(color: FloatArray) -> FloatArray:
         linear = srgb_decode(color) if encoding == "srgb" else color
-        return np.asarray(linear * np.float32(2.0**exposure), dtype=np.float32)
+        with np.errstate(over="ignore"):  # what overflows is infinite, which EXR holds
+            return np.asarray(linear * np.float32(2.0**exposure), dtype=np.float32)
 
     values = on_color(light, to_float32(pixels))
     return values.astype(np.float16) if pixels.dtype.itemsize < 4 and _fits_half(values) else values
@@ -189,16 +212,55 @@ def to_bytes(pixels: Array) -> npt.NDArray[np.uint8]:
     return np.asarray(scaled).astype(np.uint8)
 
 
-def warn_if_clipped(color: Array) -> None:
-    """Warn, at the user's line, if numbers are visibly above 1; `color` has no alpha."""
-    over = int(np.count_nonzero(color > _VISIBLE))
-    if over:
+@dataclass
+class Clipping:
+    """How many numbers of one or more pictures were visibly above 1, for one warning."""
+
+    over: int = 0
+    total: int = 0
+    largest: float = 0.0
+    mappable: bool = False  # a tone curve would keep the highlights
+
+    @contextlib.contextmanager
+    def gathered(self) -> Iterator[None]:
+        """Count here what is clipped in the block, in place of a warning for each array."""
+        token = _gathering.set(self)
+        try:
+            yield
+        finally:
+            _gathering.reset(token)
+
+    def warn(self) -> None:
+        """Warn, at the user's line, if anything was clipped."""
+        if not self.over:
+            return
+        curve = 'tonemap="neutral" keeps highlights, ' if self.mappable else ""
         warnings.warn(
-            f"{over} of {color.size} numbers are above 1 and are clipped, the largest is {float(color.max()):.4g}; "
-            'tonemap="neutral" keeps highlights, exposure= makes the picture darker, .exr holds all numbers',
+            f"{self.over} of {self.total} numbers are above 1 and are clipped, the largest is {self.largest:.4g}; "
+            f"{curve}a lower exposure= makes the picture darker, .exr holds all numbers",
             ClippingWarning,
             stacklevel=_level_of_the_user(),
         )
+
+
+_gathering: ContextVar[Clipping | None] = ContextVar("_gathering", default=None)
+
+
+def warn_if_clipped(color: Array, mappable: bool) -> None:
+    """Warn, at the user's line, if numbers are visibly above 1; `color` has no alpha.
+
+    `mappable` says whether a tone curve would keep them.
+    """
+    gathering = _gathering.get()
+    clipping = Clipping() if gathering is None else gathering
+    over = int(np.count_nonzero(color > _VISIBLE))
+    clipping.over += over
+    clipping.total += color.size
+    if over:
+        clipping.largest = max(clipping.largest, float(np.nanmax(color)))
+        clipping.mappable = clipping.mappable or mappable
+    if gathering is None:
+        clipping.warn()
 
 
 def _level_of_the_user() -> int:
@@ -216,10 +278,11 @@ def _neutral(linear: FloatArray) -> FloatArray:
     """
     f90, start = np.float32(0.04), np.float32(0.8 - 0.04)
     desaturation = np.float32(0.15)
-    low = linear.min(axis=-1, keepdims=True)
+    # numpy reduces a short last axis slowly, so channels are compared one after the other.
+    low = functools.reduce(np.minimum, np.split(linear, linear.shape[-1], axis=-1))
     offset = np.where(low < 2 * f90, low - low * low / (4 * f90), f90)
     color = linear - offset
-    peak = color.max(axis=-1, keepdims=True)
+    peak = functools.reduce(np.maximum, np.split(color, color.shape[-1], axis=-1))
     d = 1 - start
     # Below the start nothing changes; the maximum keeps the unused branch from dividing by zero.
     new_peak = np.where(peak < start, peak, 1 - d * d / np.maximum(peak + d - start, d))
@@ -237,7 +300,7 @@ def _aces(linear: FloatArray) -> FloatArray:
     """K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit of the reference curve."""
     a, b, c, d, e = (np.float32(x) for x in (2.51, 0.03, 2.43, 0.59, 0.14))
     mapped: FloatArray = linear * (a * linear + b) / (linear * (c * linear + d) + e)
-    return mapped
+    return np.minimum(mapped, 1)  # the fit ends at 1.03, which is no highlight that is lost
 
 
 CURVES: dict[str, Callable[[FloatArray], FloatArray]] = {
