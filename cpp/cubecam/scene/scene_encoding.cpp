@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 namespace cubecam {
@@ -14,13 +15,11 @@ namespace {
 class EncodingFinder {
 public:
     explicit EncodingFinder(const SceneSnapshot& first)
-        : first_(first), visited_(first.others.size() + 1, false) {}
+        : first_(first), textures_(first.textures.size(), false) {}
 
     /// Returns false as soon as anything is linear.
     template <class Seen>
     bool add_scene(std::size_t number, const Seen& seen) {
-        if (visited_[number]) return true;
-        visited_[number] = true;
         const SceneSnapshot& scene = first_.scene(number);
         if (const auto* cube = std::get_if<CubeSnapshot>(&scene.background)) {
             if (!add(cube->data->encoding)) return false;
@@ -28,7 +27,7 @@ public:
             return false;
         }
         return std::all_of(scene.nodes.begin(), scene.nodes.end(), [&](const NodeSnapshot& node) {
-            return !seen(node) || add_node(scene, node);
+            return !seen(node) || add_node(number, node);
         });
     }
 
@@ -40,45 +39,53 @@ private:
         return encoding == Encoding::srgb;
     }
 
-    /// A probe shows the scene itself, so that it adds nothing.
-    bool add(const CubeSourceSnapshot& source) {
-        const auto* cube = std::get_if<CubeSnapshot>(&source);
-        return cube == nullptr || add(cube->data->encoding);
+    /// A probe may show nodes that the picture itself excludes.
+    bool add(std::size_t number, const CubeSourceSnapshot& source) {
+        if (const auto* cube = std::get_if<CubeSnapshot>(&source)) return add(cube->data->encoding);
+        const auto* probe = std::get_if<std::size_t>(&source);
+        if (probe == nullptr || !probes_.emplace(number, *probe).second) return true;
+        const SceneSnapshot& scene = first_.scene(number);
+        return add_scene(number,
+                         [&](const NodeSnapshot& node) { return is_seen(scene, node, *probe); });
     }
 
-    bool add(const MapSnapshot& source) {
+    /// Two textures of one scene may show different nodes of it.
+    bool add(std::size_t, const MapSnapshot& source) {
         if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&source)) {
             return add((*image)->encoding());
         }
         const auto* place = std::get_if<std::size_t>(&source);
-        if (place == nullptr) return true;
+        if (place == nullptr || textures_[*place]) return true;
+        textures_[*place] = true;
         const RenderTextureSnapshot& texture = first_.textures[*place];
         return add_scene(texture.scene,
                          [&](const NodeSnapshot& node) { return is_seen(texture, node); });
     }
 
-    bool add_node(const SceneSnapshot& scene, const NodeSnapshot& node) {
+    bool add_node(std::size_t number, const NodeSnapshot& node) {
         const MaterialTraits& traits = node.material.value.traits();
         if (traits.uses_lights) return false;
         if (traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr) {
             return false;
         }
-        const CubeSourceSnapshot& environment = environment_of(scene, node);
+        const CubeSourceSnapshot& environment = environment_of(first_.scene(number), node);
         const bool pictured =
             environment.index() != 0 ||
             std::any_of(node.textures.begin(), node.textures.end(),
                         [](const TextureSourceSnapshot& texture) { return !is_none(texture); });
         if (!pictured) return traits.zeros_and_ones;
-        return add(environment) &&
+        return add(number, environment) &&
                std::all_of(node.textures.begin(), node.textures.end(),
-                           [this](const TextureSourceSnapshot& texture) {
-                               return std::visit([this](const auto& source) { return add(source); },
-                                                 texture);
+                           [&](const TextureSourceSnapshot& texture) {
+                               return std::visit(
+                                   [&](const auto& source) { return add(number, source); },
+                                   texture);
                            });
     }
 
     const SceneSnapshot& first_;
-    std::vector<bool> visited_;
+    std::vector<bool> textures_;                            ///< those that were walked over
+    std::set<std::pair<std::size_t, std::size_t>> probes_;  ///< the same, by scene and place
     bool any_srgb_ = false;
 };
 
