@@ -89,18 +89,19 @@ def dlpack(
     """
     values = numbers_of(self)[0]
     versioned = max_version is not None and max_version[0] >= 1 and _NUMPY >= (2, 1)
-    if not values.flags.writeable and not versioned:
-        if copy is False:
-            raise BufferError(
-                "expected a reader of DLPack 1.0 and numpy 2.1 or later, since these numbers are read-only; "
-                "got copy=False and an older one"
-            )
-        values = np.array(values)
     if stream is not None:
         raise BufferError(f"stream: expected None for numbers in main memory, got {stream!r}")
+    if dl_device is not None and tuple(dl_device) != dlpack_device(self):
+        raise BufferError(f"dl_device: expected main memory, (1, 0), got {dl_device}")
+    if copy is False and not values.flags.writeable and not versioned:
+        raise BufferError(
+            "expected a reader of DLPack 1.0 and numpy 2.1 or later, since these numbers are read-only; "
+            "got copy=False and an older one"
+        )
     if not versioned:
-        return values.__dlpack__()
-    options: dict[str, Any] = {"max_version": max_version, "dl_device": dl_device, "copy": copy}
+        own = copy or not values.flags.writeable
+        return (np.array(values) if own else values).__dlpack__()
+    options: dict[str, Any] = {"max_version": max_version, "copy": copy}
     return values.__dlpack__(**options)
 
 
