@@ -253,6 +253,28 @@ def test_a_tone_curve_is_applied_once(renderer, tmp_path, kind):
     assert_identical(cc.load_image(tmp_path / "b.png")[..., :3], got[..., :3])
 
 
+@pytest.mark.parametrize("name", ["a.png", "a.jpg", "a.bmp", "{face}.bmp"])
+@pytest.mark.parametrize("layout", [None, "column", "equirect"])
+def test_a_capture_with_nan_has_a_picture(renderer, tmp_path, name, layout):
+    """NaN is black, as in frames, whether the file holds alpha or not."""
+    if "{face}" in name:
+        layout = None
+    bad = "vec3 shade(Surface surface) { return vec3(uintBitsToFloat(0x7fc00000u), 0.5, 1.0); }"
+    scene = cc.Scene(background=(1, 1, 1))
+    scene.add(quad(60, 40), cc.ShaderMaterial(bad), position=(0, 0, -3))
+    cube = renderer.capture(scene, size=4, format="rgba32f")
+    assert np.isnan(cube.faces).any()
+    cube.save(tmp_path / name, layout=layout)
+    if layout == "equirect":
+        got, want = cc.load_image(tmp_path / name), cc.to_screen(cube.to_equirect())
+    else:
+        got, want = cc.load_cubemap(tmp_path / name, layout=layout).faces, cc.to_screen(cube)
+    if name.endswith(".jpg"):
+        assert abs(got[..., :3].mean() - want[..., :3].mean()) < 2
+    else:
+        assert_identical(got[..., :3], want[..., :3])
+
+
 def test_a_frame_of_bytes_is_encoded_without_a_curve(renderer, tmp_path):
     frame = drawn(renderer, lamp((0.9, 0.5, 0.1)))
     frame.save(tmp_path / "a.png")

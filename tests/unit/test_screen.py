@@ -168,6 +168,14 @@ def test_a_warning_names_the_curve_only_where_it_helps():
             lambda p=picture, e=exposure: cc.to_screen(p, exposure=e, tonemap=None)
         )
         assert ('tonemap="neutral"' in message) == helps
+        assert "a lower exposure= makes the picture darker" in message
+
+
+def test_raw_numbers_have_no_look_to_advise(tmp_path):
+    cube = cc.CubeMap(FLOATS)
+    (message,) = clippings(lambda: cube.save(tmp_path / "a.png", layout="column", srgb=False))
+    assert message.startswith(OVER)
+    assert message.endswith("; .exr holds all numbers")
 
 
 @pytest.mark.parametrize("tonemap", ["neutral", "reinhard", "aces"])

@@ -108,14 +108,13 @@ def save_cubemap(
     if paths is not None:
         if wanted not in (None, "faces"):
             raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
-        faces = _storable(cube, paths).to_convention(convention or "gl")
-        write_files(
-            {
-                target: formats.encode(target, ready(target, face), half=half)
-                for target, face in zip(paths, faces, strict=True)
-            }
-        )
+        faces = cube.to_convention(convention or "gl")
+        contents = {
+            target: formats.encode(target, ready(target, face), half=half)
+            for target, face in zip(paths, faces, strict=True)
+        }
         clipping.warn()
+        write_files(contents)
         return
     if wanted == "faces":
         raise ValueError(
@@ -123,7 +122,9 @@ def save_cubemap(
         )
     target = as_path(path)
     attributes: dict[str, Any] = {}
-    source = _storable(cube, [target])
+    # Numbers of a screen are 8-bit and hold no NaN, so that they lose their alpha later.
+    shown = srgb is not False and not formats.holds_light(target, cube.faces)
+    source = cube if shown else _storable(cube, target)
     # If the file rounds the numbers, they are not rounded before, since two roundings would add up.
     kept = exposure == 0 and (srgb is False or cube.encoding == "srgb")
     exact = formats.stores(target, cube.dtype) and (kept or formats.holds_light(target, cube.faces))
@@ -139,16 +140,16 @@ def save_cubemap(
         picture = ready(target, source.to_layout("openexr", dtype=resampled))
         # OpenImageIO writes the attribute envmap from this text, and rejects a number under that name.
         attributes["textureformat"] = "CubeFace Environment"
-    elif srgb is False or formats.holds_light(target, cube.faces):
+    elif shown:
+        # The six faces alone are mapped and encoded, since half of a cross is empty.
+        source = _storable(CubeMap(ready(target, cube.faces)), target)
+        picture = source.to_layout(wanted or "cross", convention=convention or "gl")
+    else:
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
         picture = ready(target, picture)
-    else:
-        # The six faces alone are mapped and encoded, since half of a cross is empty.
-        shown = CubeMap(ready(target, source.faces))
-        picture = shown.to_layout(wanted or "cross", convention=convention or "gl")
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
-    write_files({target: encoded})
     clipping.warn()
+    write_files({target: encoded})
 
 
 def arrange(
@@ -167,9 +168,9 @@ def arrange(
     return np.concatenate(pictures, axis=-1)
 
 
-def _storable(cube: CubeMap, targets: list[Path]) -> CubeMap:
-    """Remove an alpha of 1 if a file cannot hold alpha, before a layout adds cells with an alpha of 0."""
-    if cube.channels != 4 or all(formats.holds_alpha(target) for target in targets):
+def _storable(cube: CubeMap, target: Path) -> CubeMap:
+    """Remove an alpha of 1 if the file cannot hold alpha, before a layout adds cells with an alpha of 0."""
+    if cube.channels != 4 or formats.holds_alpha(target):
         return cube
     faces = cube.faces
     return CubeMap(faces[..., :3]) if formats.is_opaque(faces) else cube

@@ -19,6 +19,7 @@ from .pixels import (
     to_integers,
 )
 from .screen import (
+    MAP_OR_DARKEN,
     check_look,
     curve_for,
     encoding_of,
@@ -81,7 +82,7 @@ def for_file(
             )
         if light or pixels.dtype.kind != "f":
             return pixels
-        warn_if_clipped(pixels[..., :3], mappable=False)
+        warn_if_clipped(pixels[..., :3], advice="")
         return np.minimum(pixels, 1)
     if light:
         return to_light(pixels, encoding, exposure)
@@ -157,7 +158,7 @@ def _fit_channels(pixels: Array, form: Format, extension: str) -> Array:
         raise ValueError(
             f"{extension} files hold no alpha: expected 3 channels or an alpha of 1 throughout, got "
             f"{float(pixels[..., 3].min()):.4g} to {float(pixels[..., 3].max()):.4g}; "
-            "save as .png or .exr, or pass pixels[..., :3]"
+            "save as .png or .exr, give the scene a background, or pass pixels[..., :3] of an array"
         )
     return pixels[..., :3]
 
@@ -168,7 +169,7 @@ def fit_samples(pixels: Array, form: Format, extension: str, srgb: bool, half: b
     if "float32" in form.samples and not ("uint8" in form.samples and pixels.dtype.kind == "u"):
         return _floats(pixels, form, extension, half)
     if pixels.dtype.kind == "f":
-        warn_if_clipped(pixels[..., :3], mappable=True)
+        warn_if_clipped(pixels[..., :3], MAP_OR_DARKEN)
     if srgb:
         pixels = on_color(srgb_encode, np.clip(to_float32(pixels), 0, 1))
     wide = pixels.dtype == np.uint16 and "uint16" in form.samples

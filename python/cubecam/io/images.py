@@ -342,5 +342,5 @@ def save_animation(
         loop=0,
         **options,
     )
-    write_files({target: data.getvalue()})
     clipping.warn()
+    write_files({target: data.getvalue()})

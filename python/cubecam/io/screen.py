@@ -37,6 +37,10 @@ _LARGEST = np.float32(
 )  # the square of the largest light must be finite, as in shaders/passes/tonemap.frag
 _VISIBLE = 1 + 0.5 / 255  # linear numbers above this are visibly clipped
 
+# What helps against clipping, as far as the numbers allow it.
+DARKEN = "a lower exposure= makes the picture darker, "
+MAP_OR_DARKEN = f'tonemap="neutral" keeps highlights, {DARKEN}'
+
 
 class ClippingWarning(UserWarning):
     """Numbers above 1 were clipped on their way into an 8-bit picture."""
@@ -160,9 +164,10 @@ def screen_pixels(
 ) -> npt.NDArray[np.uint8]:
     """Do what `to_screen` describes with (..., C) numbers of a known encoding."""
     mappable = encoding == "linear" and pixels.dtype.kind == "f"
+    advice = MAP_OR_DARKEN if mappable else DARKEN
     if encoding == "srgb" and encode and exposure == 0:
         if pixels.dtype.kind == "f":
-            warn_if_clipped(pixels[..., :3], mappable)
+            warn_if_clipped(pixels[..., :3], advice)
         return to_bytes(pixels)
 
     def shown(color: FloatArray) -> FloatArray:
@@ -170,7 +175,7 @@ def screen_pixels(
         if curve is not None and encoding == "linear":
             light = CURVES[curve](light)
         else:
-            warn_if_clipped(light, mappable)
+            warn_if_clipped(light, advice)
         light = np.clip(light, 0, 1)
         return srgb_encode(light) if encode else light
 
@@ -219,7 +224,7 @@ class Clipping:
     over: int = 0
     total: int = 0
     largest: float = 0.0
-    mappable: bool = False  # a tone curve would keep the highlights
+    advice: str = ""
 
     @contextlib.contextmanager
     def gathered(self) -> Iterator[None]:
@@ -234,10 +239,9 @@ class Clipping:
         """Warn, at the user's line, if anything was clipped."""
         if not self.over:
             return
-        curve = 'tonemap="neutral" keeps highlights, ' if self.mappable else ""
         warnings.warn(
             f"{self.over} of {self.total} numbers are above 1 and are clipped, the largest is {self.largest:.4g}; "
-            f"{curve}a lower exposure= makes the picture darker, .exr holds all numbers",
+            f"{self.advice}.exr holds all numbers",
             ClippingWarning,
             stacklevel=_level_of_the_user(),
         )
@@ -246,11 +250,8 @@ class Clipping:
 _gathering: ContextVar[Clipping | None] = ContextVar("_gathering", default=None)
 
 
-def warn_if_clipped(color: Array, mappable: bool) -> None:
-    """Warn, at the user's line, if numbers are visibly above 1; `color` has no alpha.
-
-    `mappable` says whether a tone curve would keep them.
-    """
+def warn_if_clipped(color: Array, advice: str) -> None:
+    """Warn, at the user's line, if numbers are visibly above 1; `color` has no alpha."""
     gathering = _gathering.get()
     clipping = Clipping() if gathering is None else gathering
     over = int(np.count_nonzero(color > _VISIBLE))
@@ -258,7 +259,7 @@ def warn_if_clipped(color: Array, mappable: bool) -> None:
     clipping.total += color.size
     if over:
         clipping.largest = max(clipping.largest, float(np.nanmax(color)))
-        clipping.mappable = clipping.mappable or mappable
+        clipping.advice = advice
     if gathering is None:
         clipping.warn()
 
