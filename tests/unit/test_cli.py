@@ -293,6 +293,17 @@ def test_convert_warns_once_when_it_clips(lamps, tmp_path):
     assert done.stderr.count("\n") == 1
 
 
+def test_srgb_does_not_change_how_light_looks(tmp_path):
+    dim = np.linspace(0, 0.95, 6 * 8 * 8 * 3, dtype=np.float32).reshape(8, 48, 3)
+    cc.save_image(tmp_path / "dim.exr", dim)
+    for name, options in (("a.png", []), ("b.png", ["--srgb"])):
+        result = cubecam(
+            "convert", tmp_path / "dim.exr", "-l", "row", "-o", tmp_path / name, *options
+        )
+        assert result.exit_code == 0, result.output
+        assert_identical(cc.load_image(tmp_path / name), cc.to_screen(dim))
+
+
 def test_srgb_decodes_and_gives_the_same_numbers_back(cross, tmp_path):
     """What a screen shows has no highlights: no curve changes it unless one is given."""
     same, curved, light = tmp_path / "same.png", tmp_path / "curved.png", tmp_path / "light.exr"

@@ -374,6 +374,13 @@ def test_a_curve_of_an_array_maps_what_to_screen_maps(tmp_path):
         cc.save_image(tmp_path / "b.png", holes, tonemap="neutral")
 
 
+@pytest.mark.parametrize("picture", [FLOATS[0], cc.Image(FLOATS[0]), cc.CubeMap(FLOATS)])
+@pytest.mark.parametrize("srgb", ["no", 1, "srgb"])
+def test_srgb_is_a_bool(picture, srgb, tmp_path):
+    with pytest.raises(TypeError, match="srgb: expected True, False or None, got"):
+        cc.save_image(tmp_path / "a.png", picture, srgb=srgb)
+
+
 @pytest.mark.parametrize("options", [{"exposure": 1}, {"tonemap": "aces"}])
 def test_ids_have_no_look(options, tmp_path):
     with pytest.raises(ValueError, match="exposure, tonemap: expected colours, got int32 numbers"):

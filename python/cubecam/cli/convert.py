@@ -161,7 +161,7 @@ def convert(
                     width=width,
                     center=center,
                     exposure=exposure,
-                    tonemap=_curve(tonemap, cube, srgb),
+                    tonemap=_curve(tonemap, cube, srgb and not _is_light(item.source)),
                     half=half,
                 )
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:
@@ -174,6 +174,11 @@ def convert(
         if len(names) > 1:
             click.echo(f"{failed} of {len(names)} not converted", err=True)
         raise SystemExit(1)
+
+
+def _is_light(source: str) -> bool:
+    """Say whether files of this name hold floats, which --srgb leaves as they are."""
+    return Path(source).suffix.lower() in (".exr", ".hdr")
 
 
 def _curve(name: Curve | None, cube: CubeMap, decoded: bool) -> Tonemap | None:

@@ -94,7 +94,7 @@ def save_cubemap(
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
     half = half or cube.dtype == np.float16
     encoding = numbers_of(cube)[1]
-    check_look(exposure, tonemap)
+    check_look(exposure, tonemap, srgb)
     # What the cube's own numbers are decides, even where resampling makes floats of whole numbers.
     curve = curve_for(cube.faces, tonemap)
 

@@ -74,7 +74,7 @@ def for_file(
 
     `tonemap` maps floats only. With ``srgb=False`` the numbers stay as they are.
     """
-    check_look(exposure, tonemap)
+    check_look(exposure, tonemap, srgb)
     if srgb is False:
         if exposure != 0:
             raise ValueError(

@@ -241,7 +241,7 @@ def prepare(
         light = holds_light(target, numbers)
         return for_file(numbers, encoding, light, exposure, curve, srgb), False
     array = check_picture(pixels, name)
-    check_look(exposure, None if tonemap == "auto" else tonemap)
+    check_look(exposure, None if tonemap == "auto" else tonemap, srgb)
     is_id = array.dtype.kind in "iu" and array.dtype not in (np.uint8, np.uint16)
     if is_id and (exposure != 0 or tonemap not in ("auto", None)):
         raise ValueError(

@@ -147,8 +147,10 @@ def curve_for(pixels: Array, tonemap: Tonemap | None) -> Tonemap | None:
     return tonemap if pixels.dtype.kind == "f" else None
 
 
-def check_look(exposure: float, tonemap: str | None) -> None:
-    """Raise ValueError or TypeError for an exposure or a curve that `to_screen` does not take."""
+def check_look(exposure: float, tonemap: str | None, srgb: bool | None = None) -> None:
+    """Raise ValueError or TypeError for an exposure or a curve that `to_screen` does not take, or another `srgb`."""
+    if srgb is not None and not isinstance(srgb, (bool, np.bool_)):
+        raise TypeError(f"srgb: expected True, False or None, got {srgb!r}")
     if isinstance(exposure, bool) or not isinstance(exposure, (int, float, np.number)):
         raise TypeError(f"exposure: expected a number of stops, got {type(exposure).__name__}")
     if not -64 <= exposure <= 64:
