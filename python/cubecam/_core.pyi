@@ -5552,8 +5552,8 @@ class Renderer:
             a mapped frame again.
         encode : str or None
             "srgb" encodes the colour (IEC 61966-2-1), for a screen. None: the colour stays as it is; `Frame.save`, notebooks
-            and :func:`to_screen` encode it when they need it. Exposure, curve and encoding take the colour for linear: for an
-            unlit scene of "srgb" pictures, leave them out and pass ``exposure=`` to `Frame.save`, which decodes first.
+            and :func:`to_screen` encode it when they need it. A picture that is "srgb" as drawn (see below) is not encoded
+            again and has no curve; exposure changes it in linear light.
         effects : sequence of ImageEffect
             Passes over the colour, one after the other, after multisamples are resolved and before tone mapping.
         depth_format : str or None

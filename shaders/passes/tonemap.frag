@@ -37,8 +37,15 @@ vec3 encode_srgb(vec3 c) {
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, greaterThan(c, vec3(0.0031308)));
 }
 
+vec3 decode_srgb(vec3 c) {
+    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
+}
+
 void main() {
     vec4 color = texelFetch(u_frame, ivec3(gl_FragCoord.xy, u_layer), 0);
+#ifdef DECODE_SRGB
+    color.rgb = decode_srgb(max(color.rgb, 0.0));
+#endif
     color.rgb *= u_gain;
 #if defined(TONEMAP) || defined(ENCODE_SRGB)
     // The colour of a lamp may be infinite, but its square must be finite.

@@ -3,6 +3,7 @@
 import copy
 import io
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,8 +11,9 @@ import pytest
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
 from tests.gl.flat import flat_camera, quad
-from tests.reference.shading import TONE_CURVES, srgb_encode
+from tests.reference.shading import TONE_CURVES, srgb_decode, srgb_encode
 
+LOOK: dict[str, Any] = {"tonemap": "neutral", "encode": "srgb"}
 PHOTO = np.random.default_rng(1).integers(1, 255, (4, 6, 3)).astype(np.uint8)
 SKY = np.random.default_rng(2).integers(1, 255, (6, 4, 4, 3)).astype(np.uint8)
 GLSL = "uniform sampler2D photo; vec3 shade(Surface surface) { return texture(photo, surface.uv).rgb; }"
@@ -373,3 +375,41 @@ def test_stereo_pictures_have_an_encoding(renderer):
     camera = cc.StereoCamera.off_axis(cc.PerspectiveCamera(), layout="side_by_side")
     scene = cc.Scene(environment=cc.CubeMap(SKY))
     assert renderer.render(scene, camera, (8, 4)).encoding == "srgb"
+
+
+@pytest.mark.parametrize("options", [{"encode": "srgb"}, {"tonemap": "aces"}, LOOK])
+@pytest.mark.parametrize("kind", ["rgba8", "rgba16f", "rgba32f"])
+def test_what_is_encoded_is_not_encoded_again(renderer, tmp_path, options, kind):
+    frame = drawn(renderer, panel(cc.BasicMaterial(map=PHOTO)), format=kind, **options)
+    assert frame.encoding == "srgb"
+    assert_identical(cc.to_screen(frame)[..., :3], PHOTO)
+    frame.save(tmp_path / "a.png")
+    assert_identical(cc.load_image(tmp_path / "a.png")[..., :3], PHOTO)
+
+
+@pytest.mark.parametrize("exposure", [-1.5, 1])
+@pytest.mark.parametrize("options", [{}, {"encode": "srgb"}, {"tonemap": "aces", "encode": "srgb"}])
+def test_exposure_of_what_is_encoded_works_in_linear_light(renderer, exposure, options):
+    scene = panel(cc.BasicMaterial(map=PHOTO))
+    gpu = drawn(renderer, scene, exposure=exposure, **options)
+    light = srgb_decode(PHOTO / 255) * 2.0**exposure
+    want = np.floor(srgb_encode(np.clip(light, 0, 1)) * 255 + 0.5)
+    assert gpu.encoding == "srgb"
+    assert np.abs(gpu.color[..., :3].astype(int) - want).max() <= 1
+    if exposure < 0:  # without anything to clip
+        cpu = cc.to_screen(drawn(renderer, scene), exposure=exposure)
+        assert np.abs(gpu.color.astype(int) - cpu).max() <= 1
+
+
+def test_a_light_makes_the_same_call_encode(fresh_renderer):
+    """The kept picture of an encoded scene is not taken for that of a lit one, nor the other way round."""
+    material = cc.BasicMaterial(map=PHOTO)
+    scene = panel(material)
+    for image in (PHOTO, cc.Image(PHOTO, encoding="linear"), PHOTO):
+        material.map = image
+        got = drawn(fresh_renderer, scene, **LOOK).color[..., :3]
+        if isinstance(image, np.ndarray):
+            assert_identical(got, PHOTO)
+        else:
+            want = srgb_encode(TONE_CURVES["neutral"](PHOTO / 255)) * 255
+            assert np.abs(got - want).max() <= 0.6

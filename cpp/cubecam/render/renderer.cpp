@@ -67,10 +67,28 @@ Encoding kept_encoding(Target& target, Find&& find) {
     return found;
 }
 
-Encoding frame_encoding(const SceneSnapshot& scene, const FrameOptions& options) {
-    if (options.encode == Encode::srgb) return Encoding::srgb;
-    if (options.tonemap != Tonemap::none) return Encoding::linear;
-    return scene_encoding(scene, 0, [](const NodeSnapshot&) { return true; });
+bool seen_by_all(const NodeSnapshot&) { return true; }
+
+/// What the options ask for after drawing. A picture that is sRGB-encoded as drawn holds no
+/// highlights for a tone curve and needs no second encoding; only exposure changes it, in linear
+/// light.
+PostProcess post_process_of(const SceneSnapshot& scene, const FrameOptions& options) {
+    PostProcess made{scene.effects, static_cast<float>(std::exp2(options.exposure)),
+                     options.tonemap, options.encode};
+    const bool graded =
+        made.gain != 1.0F || made.tonemap != Tonemap::none || made.encode != Encode::none;
+    if (graded && scene_encoding(scene, 0, seen_by_all) == Encoding::srgb) {
+        made.tonemap = Tonemap::none;
+        made.decode = made.gain != 1.0F;
+        made.encode = made.decode ? Encode::srgb : Encode::none;
+    }
+    return made;
+}
+
+Encoding frame_encoding(const SceneSnapshot& scene, const PostProcess& post_process) {
+    if (post_process.encode == Encode::srgb) return Encoding::srgb;
+    if (post_process.tonemap != Tonemap::none) return Encoding::linear;
+    return scene_encoding(scene, 0, seen_by_all);
 }
 
 }  // namespace
@@ -177,9 +195,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
                           .outputs = resolve_outputs(options.outputs, scene),
                           .depth_format = options.depth_format,
                           .color = options.color});
-        const PostProcess post_process{scene.effects,
-                                       static_cast<float>(std::exp2(options.exposure)),
-                                       options.tonemap, options.encode};
+        const PostProcess post_process = post_process_of(scene, options);
         set_post_process(description, post_process.effects.size(), post_process.any());
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
@@ -189,12 +205,11 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
             views.push_back(camera_view(matrices(camera, aspect)));
         }
         FrameContext frame(gpu, scene);
-        frame.draw(
-            std::move(views), target, [](const NodeSnapshot&) { return true; }, {}, post_process);
+        frame.draw(std::move(views), target, seen_by_all, {}, post_process);
         stats_ = frame.stats;
         Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
-        drawn.tonemapped = options.tonemap != Tonemap::none;
-        drawn.encoding = kept_encoding(target, [&] { return frame_encoding(scene, options); });
+        drawn.tonemapped = post_process.tonemap != Tonemap::none;
+        drawn.encoding = kept_encoding(target, [&] { return frame_encoding(scene, post_process); });
         return drawn;
     });
 }

@@ -53,6 +53,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
     common.add(post_process.gain);
     common.add(post_process.tonemap);
     common.add(post_process.encode);
+    common.add(post_process.decode);
     common.add(post_process.effects.size());
     for (const EffectSnapshot& effect : post_process.effects) {
         common.add(effect.revision);

@@ -52,6 +52,7 @@ void FrameContext::draw(std::vector<View> views, Target& target,
     request.add(post_process.gain);
     request.add(post_process.tonemap);
     request.add(post_process.encode);
+    request.add(post_process.decode);
     const std::optional<UnchangedCall>& last = target.unchanged;
     if (last && last->scene == scenes.revision && last->contents == gpu.contents &&
         last->request == request) {

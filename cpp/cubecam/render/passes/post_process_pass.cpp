@@ -20,7 +20,8 @@ void PostProcessPass::draw(const PostProcess& post_process,
         draw_quad(target.scratch_pass(to).one(layer), source, program.program(), layer, stats);
         source = target.scratch(to).id();
     }
-    const gl::Program& grade = programs_->grade(post_process.tonemap, post_process.encode);
+    const gl::Program& grade =
+        programs_->grade(post_process.tonemap, post_process.encode, post_process.decode);
     grade.use();
     grade.set("u_gain", post_process.gain);
     draw_quad(target.post_processed_pass().one(layer), source, grade, layer, stats);

@@ -15,9 +15,10 @@ namespace cubecam {
 /// float over all pixels, then exposure, the tone curve and the transfer function.
 struct PostProcess {
     std::vector<EffectSnapshot> effects;
-    float gain = 1.0F;  ///< multiplies the colour: 2^exposure
+    float gain = 1.0F;  ///< multiplies the light: 2^exposure
     Tonemap tonemap = Tonemap::none;
     Encode encode = Encode::none;
+    bool decode = false;  ///< the colour is sRGB-encoded and is decoded first
 
     bool any() const {
         return !effects.empty() || gain != 1.0F || tonemap != Tonemap::none ||

@@ -180,8 +180,8 @@ const gl::Program& Programs::shadow() {
     return shadow_;
 }
 
-const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
-    const auto found = grades_.find({tonemap, encode});
+const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) {
+    const auto found = grades_.find({tonemap, encode, decode});
     if (found != grades_.end()) return found->second;
 
     gl::ShaderOptions options;
@@ -192,8 +192,9 @@ const gl::Program& Programs::grade(Tonemap tonemap, Encode encode) {
         case Tonemap::neutral: options.defines.emplace_back("TONEMAP_NEUTRAL", "1"); break;
     }
     if (encode == Encode::srgb) options.defines.emplace_back("ENCODE_SRGB", "1");
+    if (decode) options.defines.emplace_back("DECODE_SRGB", "1");
     return grades_
-        .emplace(std::pair{tonemap, encode},
+        .emplace(std::tuple{tonemap, encode, decode},
                  gl::Program(*gl_, {"passes/full_screen.vert", "passes/tonemap.frag"}, options))
         .first->second;
 }

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <tuple>
 
 namespace cubecam {
 
@@ -52,7 +53,7 @@ public:
     const gl::Program& skybox();
     const gl::Program& shadow();
     UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors);
-    const gl::Program& grade(Tonemap tonemap, Encode encode);
+    const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
 
 private:
     gl::ShaderOptions layer_options() const;
@@ -63,7 +64,7 @@ private:
     bool layered_;
     GLint room_ = 15;  ///< vectors that a vertex shader may pass to the fragment shader
     std::map<SurfaceVariant, gl::Program> surfaces_;
-    std::map<std::pair<Tonemap, Encode>, gl::Program> grades_;
+    std::map<std::tuple<Tonemap, Encode, bool>, gl::Program> grades_;
     UserPrograms users_;
     gl::Program skybox_, shadow_;
 };
