@@ -1,5 +1,7 @@
 """cross, faces and panorama: the pixels and the places of all labels."""
 
+import re
+
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -296,6 +298,23 @@ def test_wrong_number_of_axes():
         cc.plot.faces(face_pattern(4), ax=axes)
 
 
-def test_text_is_no_picture():
-    with pytest.raises(TypeError, match="expected an array of numbers"):
-        cc.plot.cross("sky.png")
+@pytest.mark.parametrize(
+    ("thing", "message"),
+    [
+        ("sky.png", "got the name 'sky.png': cc.load_cubemap and cc.load_image read files"),
+        (None, "got None: an output that outputs= did not request"),
+        ([["a", "b"]], "expected an array of numbers, got dtype <U1"),
+    ],
+)
+def test_what_is_no_picture(thing, message):
+    with pytest.raises(TypeError, match=re.escape(message)):
+        cc.plot.cross(thing)
+
+
+def test_several_axes_for_one_picture():
+    _, axes = plt.subplots(1, 2)
+    for draw in (cc.plot.cross, cc.plot.panorama, cc.plot.seams):
+        with pytest.raises(
+            TypeError, match=re.escape("expected one matplotlib Axes, got ndarray; ")
+        ):
+            draw(face_pattern(4), ax=axes)
