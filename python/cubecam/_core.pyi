@@ -1717,7 +1717,8 @@ class CubeMap:
         """
         ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
-        The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes.
+        The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes. To change
+        texels, take a copy, ``cube.numpy(writable=True)``, and make a CubeMap of it, or give one face to `set_face`.
         """
 
     @property

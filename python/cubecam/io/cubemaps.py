@@ -105,7 +105,7 @@ def load_cubemap(
             raise ValueError(
                 f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
             )
-        found = existing_file(path)
+        found = _one_file(path)
         picture = oiio.read(found)
         try:
             cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps, dtype)
@@ -183,6 +183,14 @@ def load_environment(
     )
 
 
+def _one_file(path: object) -> Path:
+    try:
+        return existing_file(path)
+    except IsADirectoryError as error:
+        told = f"{error.strerror}; six files of a folder are named with {{face}}, such as 'sky/{{face}}.png'"
+        raise IsADirectoryError(error.errno, told, error.filename) from None
+
+
 def _read_faces(paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
     """Read six square pictures of one size, converted to the most channels and, if types differ, to float32."""
     pictures = [oiio.read(existing_file(path)).pixels for path in paths]
@@ -253,6 +261,11 @@ def _from_picture(
             sampling="borders" if borders else "centers",
             dtype=dtype,
             encoding=encoding,
+        )
+    if layout is None and width == height:
+        raise ValueError(
+            f"expected a panorama or all six faces in one picture, got a square of {width} x {height}; six files are "
+            "named with {face}, such as 'sky/{face}.png', or listed"
         )
     return CubeMap.from_layout(
         pixels, layout=layout, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding
