@@ -184,6 +184,25 @@ def test_faces_shows_each_face_with_its_name(convention):
         np.testing.assert_array_equal(image_of(ax), expected)
 
 
+def arrows_of(ax):
+    """The tails and heads of the arrows s and t, (n, 2, 2)."""
+    return np.array(
+        [[text.xyann, text.xy] for text in ax.texts if getattr(text, "arrow_patch", None)]
+    )
+
+
+@conventions
+def test_faces_have_the_arrows_of_the_cross(convention):
+    middle = {"inside": (1, 5, 0, 4)}.get(convention, (1, 4, 0, 5))
+    whole = arrows_of(cc.plot.cross(face_pattern(SIZE), arrows=True, convention=convention))
+    axes = cc.plot.faces(face_pattern(SIZE), arrows=True, convention=convention)
+    for face, ax in enumerate(axes):
+        column, row = (1, 0 if face == 2 else 2) if face in (2, 3) else (middle.index(face), 1)
+        expected = whole[2 * face : 2 * face + 2] - np.multiply((column, row), SIZE)
+        np.testing.assert_allclose(arrows_of(ax), expected)
+        assert [text.get_text() for text in ax.texts if text.get_text()] == ["s", "t"]
+
+
 def test_faces_share_one_scale_of_numbers():
     numbers = np.arange(6.0)[:, None, None] * np.ones((6, 3, 3))
     axes = cc.plot.faces(numbers, columns=6)

@@ -161,6 +161,9 @@ def load_environment(
 
     Notes
     -----
+    A photograph of 8 bits (JPEG, PNG) beside lit nodes needs ``srgb=True``: light and the numbers of a screen in one
+    picture are encoded together, and the photograph looks pale.
+
     The numbers are those of the file. Those of the sample photographs are 0 or more, but some programs leave numbers
     below 0 round lamps; if they are visible, use `CubeMap(numpy.maximum(cube.faces, 0))`.
 
