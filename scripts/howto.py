@@ -25,6 +25,7 @@ PICTURES = {
     "random_scenes.md": ("sample.png", "howto-random-scenes.png"),
     "plots.md": ("plots.png", "howto-plots.jpg"),
     "glb_in_a_probe.md": ("ball.png", "howto-ball.jpg"),
+    "own_pictures.md": ("ball.png", "howto-own-pictures.jpg"),
 }
 
 

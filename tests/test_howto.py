@@ -11,6 +11,7 @@ import cubecam as cc
 from cubecam.plot import EDGE_NAMES, seam_ratios
 from tests.compare import assert_close
 from tests.documents import ROOT, python_blocks, run_block, text_of
+from tests.reference.cube_faces import unit_texel_directions
 
 PAGES = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs/howto").glob("*.md"))
 PROGRAMS = [name for name in PAGES if python_blocks(name)]
@@ -53,6 +54,9 @@ def test_every_program_writes_what_it_names(name, pages):
     code = "\n".join(python_blocks(name))
     named = set(re.findall(r'(?:save\w*|open_group)\("([^"]+)"', code))
     assert named
+    for six in {path for path in named if "{face}" in path}:
+        named |= {six.format(face=face) for face in ("px", "nx", "py", "ny", "pz", "nz")} - {six}
+        named.remove(six)
     assert {path.name for path in folder.iterdir()} == named
 
 
@@ -207,6 +211,104 @@ class TestPlots:
         assert named == set(cc.plot.__all__) - {
             "EDGE_NAMES", "seam_steps", "inner_steps", "seam_ratios",
         }  # fmt: skip
+
+
+@pytest.mark.slow
+class TestOwnPictures:
+    NAME = "docs/howto/own_pictures.md"
+
+    def test_panorama_and_six_faces_show_the_same_photograph(self, pages):
+        _, scope = pages(self.NAME)
+        # The stand-in went through the tone curve once, so it is not mapped again.
+        first, again = (
+            cc.to_screen(scope[name].resize(512), tonemap=None).astype(int)
+            for name in ("panorama", "six")
+        )
+        original = cc.to_screen(scope["forest"]).astype(int)
+        assert np.abs(first - original).mean() < 6
+        np.testing.assert_array_equal(again, original)
+
+    def test_the_picture_is_neither_pale_nor_dark(self, pages):
+        folder, scope = pages(self.NAME)
+        picture = cc.load_image(folder / "ball.png")
+        assert picture.shape[:2] == (360, 480)
+        mean, spread = measured(picture)
+        assert 0.2 < mean < 0.6
+        assert spread > 0.18
+        # Without srgb=True the same picture is much brighter.
+        scope["scene"].environment = cc.load_environment(folder / "forest.jpg")
+        with cc.Renderer() as renderer:
+            pale = renderer.render(scope["scene"], scope["camera"], **scope["look"])
+        assert measured(cc.to_screen(pale, exposure=0.3))[0] > mean + 0.15
+
+    def test_the_head_goes_round_in_the_animation(self, pages):
+        from PIL import Image as Picture
+
+        folder, _ = pages(self.NAME)
+        with Picture.open(folder / "turn.gif") as film:
+            assert film.n_frames == 24
+            assert film.info["duration"] == 80
+            centers = []
+            for index in (0, 8):
+                film.seek(index)
+                red, green, blue = np.moveaxis(np.asarray(film.convert("RGB")).astype(int), -1, 0)
+                centers.append(
+                    np.nonzero((red > 1.5 * green) & (red > 150) & (blue < 120))[1].mean()
+                )
+            assert centers[0] > 300
+            assert centers[1] < 180
+
+    def test_the_commands_of_the_page_run(self, pages, tmp_path, monkeypatch):
+        import shlex
+        import shutil
+
+        from click.testing import CliRunner
+
+        from cubecam.cli import app
+
+        folder, _ = pages(self.NAME)
+        for path in folder.iterdir():
+            shutil.copy(path, tmp_path)
+        shutil.copy(cc.sample_data("suzanne.glb"), tmp_path / "model.glb")
+        monkeypatch.chdir(tmp_path)
+        lines = re.findall(r"^cubecam .*", text_of(self.NAME), flags=re.MULTILINE)
+        assert len(lines) == 4
+        for line in lines:
+            result = CliRunner().invoke(app, shlex.split(line, comments=True)[1:])
+            assert result.exit_code == 0, result.output
+        assert {"panorama.png", "mirror.png", "model.exr"} <= {p.name for p in tmp_path.iterdir()}
+
+
+class TestCameras:
+    NAME = "docs/howto/cameras.md"
+
+    def test_it_prints_what_the_page_says(self, pages):
+        _, scope = pages(self.NAME)
+        printed = re.findall(r"```text\n(.*?)```", text_of(self.NAME), flags=re.DOTALL)[0]
+        apart, wrong = (np.abs(scope[name]).max() for name in ("apart", "wrong"))
+        assert f"{apart:.2f} pixels, {wrong:.4f} metres apart\n" == printed
+        assert len(scope["pixels"]) > 3000
+        assert set(np.unique(scope["frame"].label)) == {0, 1, 2, 3}
+
+    def test_the_points_of_the_cube_are_its_positions(self, pages):
+        _, scope = pages(self.NAME)
+        cube = scope["cube"]
+        seen = cube.label > 0
+        assert 0.05 < seen.mean() < 0.8
+        np.testing.assert_allclose(scope["points"][seen], cube.position[seen], atol=1e-5)
+
+        np.testing.assert_allclose(scope["rays"], unit_texel_directions(64), atol=1e-12)
+
+    def test_the_files_hold_all_arrays(self, pages):
+        folder, scope = pages(self.NAME)
+        held = dict(np.load(folder / "frame.npz"))
+        assert set(held) == {"color", "K", "extrinsics", *scope["wanted"]}
+        assert set(np.load(folder / "cube.npz")) == {"faces", "rays", *scope["wanted"]}
+
+    def test_dlpack_gives_the_shapes_of_the_page(self, pages):
+        _, scope = pages(self.NAME)
+        assert np.from_dlpack(scope["frame"]).shape == (240, 320, 4)
+        assert np.from_dlpack(scope["cube"]).shape == (6, 64, 64, 4)
 
 
 @pytest.mark.slow

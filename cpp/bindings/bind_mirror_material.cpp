@@ -11,7 +11,8 @@ constexpr const char* mirror_doc =
     R"doc(A mirror: env_weight * tint * environment(R) + color_weight * color.
 
 R = I - 2 (N.I) N, where I points from the eye to the surface, in world space. The environment is that of
-the node, a CubeMap or a Probe, or else that of the scene.
+the node, a CubeMap or a Probe, or else that of the scene; without any, a mirror
+reflects black.
 
 Parameters
 ----------

@@ -13,6 +13,7 @@ constexpr const char* phong_doc =
 The colour is ka * color, plus, for every light, kd * color * max(N.L, 0) and, where N.L > 0, a white
 highlight ks * max(R.V, 0)**shininess (B. T. Phong, "Illumination for Computer Generated Pictures",
 CACM 18(6), 1975). An `AmbientLight` adds its light times ka * color.
+Without a light ka * color is all that is left, a flat silhouette: an environment does not light it.
 
 Parameters
 ----------

@@ -756,7 +756,7 @@ class Scene:
     Parameters
     ----------
     environment : CubeMap, optional
-        The surroundings that mirrors and glass show; see `load_environment`.
+        The surroundings that mirrors and glass show; see `load_environment`. It lights no other material.
     background : array_like (3,) or (4,), str, or CubeMap, optional
         A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
         or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.
@@ -1717,7 +1717,8 @@ class CubeMap:
         """
         ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
-        The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes.
+        The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes. To change
+        texels, take a copy, ``cube.numpy(writable=True)``, and make a CubeMap of it, or give one face to `set_face`.
         """
 
     @property
@@ -2945,7 +2946,8 @@ class MirrorMaterial(Material):
     A mirror: env_weight * tint * environment(R) + color_weight * color.
 
     R = I - 2 (N.I) N, where I points from the eye to the surface, in world space. The environment is that of
-    the node, a CubeMap or a Probe, or else that of the scene.
+    the node, a CubeMap or a Probe, or else that of the scene; without any, a mirror
+    reflects black.
 
     Parameters
     ----------
@@ -3042,6 +3044,7 @@ class PhongMaterial(Material):
     The colour is ka * color, plus, for every light, kd * color * max(N.L, 0) and, where N.L > 0, a white
     highlight ks * max(R.V, 0)**shininess (B. T. Phong, "Illumination for Computer Generated Pictures",
     CACM 18(6), 1975). An `AmbientLight` adds its light times ka * color.
+    Without a light ka * color is all that is left, a flat silhouette: an environment does not light it.
 
     Parameters
     ----------

@@ -1,5 +1,7 @@
 """cross, faces and panorama: the pixels and the places of all labels."""
 
+import re
+
 import numpy as np
 import pytest
 from matplotlib import pyplot as plt
@@ -182,6 +184,25 @@ def test_faces_shows_each_face_with_its_name(convention):
         np.testing.assert_array_equal(image_of(ax), expected)
 
 
+def arrows_of(ax):
+    """The tails and heads of the arrows s and t, (n, 2, 2)."""
+    return np.array(
+        [[text.xyann, text.xy] for text in ax.texts if getattr(text, "arrow_patch", None)]
+    )
+
+
+@conventions
+def test_faces_have_the_arrows_of_the_cross(convention):
+    middle = {"inside": (1, 5, 0, 4)}.get(convention, (1, 4, 0, 5))
+    whole = arrows_of(cc.plot.cross(face_pattern(SIZE), arrows=True, convention=convention))
+    axes = cc.plot.faces(face_pattern(SIZE), arrows=True, convention=convention)
+    for face, ax in enumerate(axes):
+        column, row = (1, 0 if face == 2 else 2) if face in (2, 3) else (middle.index(face), 1)
+        expected = whole[2 * face : 2 * face + 2] - np.multiply((column, row), SIZE)
+        np.testing.assert_allclose(arrows_of(ax), expected)
+        assert [text.get_text() for text in ax.texts if text.get_text()] == ["s", "t"]
+
+
 def test_faces_share_one_scale_of_numbers():
     numbers = np.arange(6.0)[:, None, None] * np.ones((6, 3, 3))
     axes = cc.plot.faces(numbers, columns=6)
@@ -296,6 +317,23 @@ def test_wrong_number_of_axes():
         cc.plot.faces(face_pattern(4), ax=axes)
 
 
-def test_text_is_no_picture():
-    with pytest.raises(TypeError, match="expected an array of numbers"):
-        cc.plot.cross("sky.png")
+@pytest.mark.parametrize(
+    ("thing", "message"),
+    [
+        ("sky.png", "got the name 'sky.png': cc.load_cubemap and cc.load_image read files"),
+        (None, "got None: an output that outputs= did not request"),
+        ([["a", "b"]], "expected an array of numbers, got dtype <U1"),
+    ],
+)
+def test_what_is_no_picture(thing, message):
+    with pytest.raises(TypeError, match=re.escape(message)):
+        cc.plot.cross(thing)
+
+
+def test_several_axes_for_one_picture():
+    _, axes = plt.subplots(1, 2)
+    for draw in (cc.plot.cross, cc.plot.panorama, cc.plot.seams):
+        with pytest.raises(
+            TypeError, match=re.escape("expected one matplotlib Axes, got ndarray; ")
+        ):
+            draw(face_pattern(4), ax=axes)

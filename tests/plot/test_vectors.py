@@ -103,6 +103,35 @@ def test_outputs_of_a_capture_and_of_a_frame(renderer):
         ValueError, match=re.escape("output: expected one of normal (what outputs=")
     ):
         cc.plot.vectors(frame, output="position")
+    bare = renderer.capture(scene, size=4)
+    with pytest.raises(ValueError, match=re.escape("draw it with outputs=('normal',)")):
+        cc.plot.vectors(bare)
+
+
+def test_arrows_need_names():
+    with pytest.raises(TypeError, match="vectors: expected a dict of names to vectors, got list"):
+        cc.plot.arrows([0, 0, 0], [[0, 1, 0]])  # type: ignore[arg-type]
+
+
+def test_given_axes_have_y_up_unless_they_were_turned():
+    from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+    _, axes = plt.subplots(1, 2, subplot_kw={"projection": "3d"})
+    fresh, turned = axes
+    assert isinstance(fresh, Axes3D)
+    assert isinstance(turned, Axes3D)
+    own = cc.plot.face_axes()
+    turned.view_init(elev=10, azim=20)
+    before = turned.get_proj()[:3, :3]
+    for ax in axes:
+        cc.plot.face_axes(ax=ax)
+    np.testing.assert_allclose((fresh.elev, fresh.azim), (own.elev, own.azim))
+    np.testing.assert_allclose(
+        fresh.get_proj()[1, :3] / fresh.get_proj()[1, 1],
+        own.get_proj()[1, :3] / own.get_proj()[1, 1],
+    )
+    assert (turned.elev, turned.azim) == (10, 20)
+    assert np.argmax(np.abs(before[1])) == np.argmax(np.abs(turned.get_proj()[1, :3])) == 2
 
 
 def test_the_legend_names_the_six_axes():

@@ -663,6 +663,33 @@ def test_capture_to_a_panorama_with_an_environment(tmp_path):
     assert cc.load_image(out).shape[:2] == (64, 128)
 
 
+@pytest.mark.parametrize("material", ["phong", "mirror"])
+def test_capture_keeps_the_look_of_a_photograph_of_8_bits(material, tmp_path):
+    photograph = face_pattern(16)
+    cc.save_image(tmp_path / "row.png", to_layout(photograph, "row", "inside"))
+    result = cubecam(
+        "capture", cc.sample_data("teapot.obj"), "--size", 16, "-e", tmp_path / "row.png", "-l", "row",
+        "--from-convention", "inside", "-m", material, "--color", 1, 1, 1, "--tonemap", "none",
+        "-o", tmp_path / "out.png",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.output
+    out = cc.load_image(tmp_path / "out.png")[..., :3].astype(int)
+    apart = np.abs(out - to_layout(photograph, "row")[..., :3])
+    assert apart[:, : 5 * 16].max() <= 1  # the teapot is on the sixth face
+
+
+def test_a_missing_file_with_the_name_of_a_sample_says_where_it_is(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    told = f"the sample file of this name is '{cc.sample_data('bunny.obj')}'"
+    result = cubecam("capture", "bunny.obj")
+    assert result.exit_code == 1
+    assert told in result.stderr
+    with pytest.raises(FileNotFoundError, match=re.escape(told)):
+        cc.load_mesh("bunny")
+    with pytest.raises(FileNotFoundError, match=r"No such file or directory: 'hare\.obj'"):
+        cc.load_mesh("hare.obj")
+
+
 def test_demo_writes_what_it_promises(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)  # the file names stay short, so a narrow table does not wrap them
     result = cubecam("demo", "--out", "out", "--frames", 2, "--size", 64)

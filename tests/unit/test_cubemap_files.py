@@ -191,6 +191,16 @@ def test_unequal_files_are_refused_with_both_sizes(tmp_path):
         cc.load_cubemap(six(tmp_path))
 
 
+def test_a_folder_and_a_single_face_point_to_six_names(tmp_path):
+    with pytest.raises(IsADirectoryError, match=r"named with \{face\}, such as 'sky/\{face\}.png'"):
+        cc.load_cubemap(tmp_path)
+    cc.save_image(tmp_path / "px.png", np.zeros((4, 4, 3), np.uint8))
+    with pytest.raises(
+        ValueError, match=r"got a square of 4 x 4; six files are named with \{face\}"
+    ):
+        cc.load_environment(tmp_path / "px.png")
+
+
 def test_files_that_are_not_square_are_refused(tmp_path):
     for path in six(tmp_path):
         cc.save_image(path, np.zeros((8, 9, 3), np.uint8))

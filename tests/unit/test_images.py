@@ -180,6 +180,25 @@ def test_animations_hold_their_frames(ending, tmp_path):
             assert film.info["duration"] == pytest.approx(100)
 
 
+def test_a_gif_has_no_bands(tmp_path):
+    """Neighbouring pixels of a GIF mix the colours that its palette lacks, so that means of 8 x 8 pixels are right."""
+    from PIL import Image as Picture
+
+    x, y = np.meshgrid(np.linspace(0, 1, 128), np.linspace(0, 1, 128))
+    sky = np.rint(np.stack([90 + 90 * x, 120 + 80 * y, 250 - 60 * x * y], axis=-1)).astype(np.uint8)
+    cc.save_animation(tmp_path / "a.gif", [sky, sky[::-1]], fps=10)
+
+    def means(picture):
+        return picture.astype(float).reshape(16, 8, 16, 8, 3).mean(axis=(1, 3))
+
+    with Picture.open(tmp_path / "a.gif") as film:
+        for index, frame in enumerate((sky, sky[::-1])):
+            film.seek(index)
+            got = np.asarray(film.convert("RGB"))
+            assert np.abs(means(got) - means(frame)).max() < 1.5
+            assert np.abs(got.astype(int) - frame).max() < 24
+
+
 @pytest.mark.parametrize(
     ("frames", "fps"),
     [([], 10), ([np.zeros((2, 2, 3)), np.zeros((3, 2, 3))], 10), ([np.zeros((2, 2, 3))], 0)],

@@ -29,6 +29,14 @@ def test_at_rest_a_node_has_the_identity(scene, box):
     np.testing.assert_array_equal(node.scale, [1, 1, 1])
 
 
+@pytest.mark.parametrize("guess", [(0, 90, 0), np.array([0, 90, 0]), np.eye(3)])
+def test_angles_and_matrices_are_no_rotation(scene, guess):
+    with pytest.raises(ValueError, match=r"quaternion \(w, x, y, z\), as cc.axis_angle gives"):
+        scene.add(rotation=guess)
+    with pytest.raises(ValueError, match="rotation: expected"):
+        scene.add(rotation=np.float64(4))
+
+
 def test_matrix_is_translation_rotation_scale(scene, box):
     node = scene.add(box, position=POSITION, rotation=cc.axis_angle(AXIS, DEGREES), scale=SCALE)
     want = ref.trs(POSITION, ref.axis_angle(AXIS, DEGREES), SCALE)

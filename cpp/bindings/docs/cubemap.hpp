@@ -52,7 +52,8 @@ array([0.5, 0.5, 0.5], dtype=float32)
 inline constexpr const char* faces =
     R"doc(ndarray (6, N, N, C) in `dtype`: the pixels, in the convention "gl".
 
-The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes.)doc";
+The array is a read-only view. It stays valid without the cube, and keeps its values when the cube changes. To change
+texels, take a copy, ``cube.numpy(writable=True)``, and make a CubeMap of it, or give one face to `set_face`.)doc";
 
 inline constexpr const char* sample = R"doc(Look up directions, bilinear and without seams.
 

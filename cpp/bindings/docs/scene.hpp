@@ -10,7 +10,7 @@ A scene does not depend on a renderer: any number of renderers may draw it, on a
 Parameters
 ----------
 environment : CubeMap, optional
-    The surroundings that mirrors and glass show; see `load_environment`.
+    The surroundings that mirrors and glass show; see `load_environment`. It lights no other material.
 background : array_like (3,) or (4,), str, or CubeMap, optional
     A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
     or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.

@@ -101,6 +101,12 @@ _SAMPLE = "forest.exr"  # what a mirror shows without --environment
     note="none; a sample photograph for a mirror and glass",
 )
 @option(
+    "--from-convention",
+    **choice(Convention),
+    help=f"How the faces of an --environment are stored: {words(Convention)}.",
+    note="gl",
+)
+@option(
     "--material",
     "-m",
     **choice(MaterialName),
@@ -155,7 +161,12 @@ _SAMPLE = "forest.exr"  # what a mirror shows without --environment
 @option("--near", type=NUMBER, metavar="NUMBER", default=0.05, help="Nearest distance drawn.")
 @option("--far", type=NUMBER, metavar="NUMBER", default=1000.0, help="Farthest distance drawn.")
 @look_options()
-@option("--srgb", is_flag=True, help="Decode an --environment of 8 or 16 bits to linear floats.")
+@option(
+    "--srgb",
+    is_flag=True,
+    help="Decode an --environment of 8 or 16 bits to linear floats.",
+    note="only with phong, whose light is linear, too",
+)
 @device_option
 def capture(
     mesh: str,
@@ -165,6 +176,7 @@ def capture(
     position: Triple | None,
     light: Triple | None,
     environment: str | None,
+    from_convention: Convention | None,
     material: MaterialName,
     color: Triple,
     size: int,
@@ -194,8 +206,11 @@ def capture(
     with failures_reported():
         place = _Place.of(mesh, position, mesh_position, mesh_size, near)
         scene = Scene()
+        # Light and sRGB-encoded numbers in one picture would be encoded together, and look pale.
+        decoded = srgb or material == "phong"
+        around = None if environment is None else _read(environment, decoded, from_convention)
         scene.add(place.mesh, _material(material, color), position=place.position)
-        told = [*place.told, *_surround(scene, environment, srgb, material, light)]
+        told = [*place.told, *_surround(scene, around, material, light)]
         if material == "phong":  # a mirror and glass show their surroundings alone
             told += _light(scene, place, light, environment)
         with Renderer(device=parse_device(device)) as renderer:
@@ -260,15 +275,21 @@ class _Place:
         return _Place((0, 0, 0), (0, 0, -distance), mesh, (*told, placed))
 
 
+def _read(path: str, srgb: bool, convention: Convention | None) -> CubeMap:
+    from ..io.cubemaps import load_environment
+
+    return load_environment(path, srgb=srgb, convention=convention)
+
+
 def _surround(
-    scene: Scene, environment: str | None, srgb: bool, material: str, light: Triple | None
+    scene: Scene, environment: CubeMap | None, material: str, light: Triple | None
 ) -> list[str]:
     """Give the scene its environment and background; return what no option has said."""
     from ..data import sample_data
     from ..io.cubemaps import load_environment
 
     if environment is not None:
-        scene.environment = load_environment(environment, srgb=srgb)
+        scene.environment = environment
         return []
     if light is not None:
         return []

@@ -135,7 +135,7 @@ def convert(
         if item.path in written:
             raise click.BadParameter(
                 f"{written[item.path]} and {item.source} would both be written to {item.path}; "
-                "expected a folder or a name with {name}",
+                "expected a folder or a name with {name}; six faces are one input, with {face} in its name",
                 param_hint="--output",
             )
         written[item.path] = item.source

@@ -90,3 +90,11 @@ def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
         hint = f"; did you mean {near[0]!r}?" if near else ""
         raise ValueError(f"expected one of {', '.join(_FILES)}; got {name!r}{hint}")
     return Path(__file__).with_name(name)
+
+
+def find_sample(name: str) -> Path | None:
+    """Find the sample file of a name, which may lack its ending; None if there is no such sample."""
+    for known in _FILES:
+        if name in (known, Path(known).stem):
+            return sample_data(known)
+    return None

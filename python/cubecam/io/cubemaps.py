@@ -105,7 +105,7 @@ def load_cubemap(
             raise ValueError(
                 f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
             )
-        found = existing_file(path)
+        found = _one_file(path)
         picture = oiio.read(found)
         try:
             cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps, dtype)
@@ -161,6 +161,9 @@ def load_environment(
 
     Notes
     -----
+    A photograph of 8 bits (JPEG, PNG) beside lit nodes needs ``srgb=True``: light and the numbers of a screen in one
+    picture are encoded together, and the photograph looks pale.
+
     The numbers are those of the file. Those of the sample photographs are 0 or more, but some programs leave numbers
     below 0 round lamps; if they are visible, use `CubeMap(numpy.maximum(cube.faces, 0))`.
 
@@ -181,6 +184,14 @@ def load_environment(
         mipmaps=mipmaps,
         dtype=dtype,
     )
+
+
+def _one_file(path: object) -> Path:
+    try:
+        return existing_file(path)
+    except IsADirectoryError as error:
+        told = f"{error.strerror}; six files of a folder are named with {{face}}, such as 'sky/{{face}}.png'"
+        raise IsADirectoryError(error.errno, told, error.filename) from None
 
 
 def _read_faces(paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
@@ -253,6 +264,11 @@ def _from_picture(
             sampling="borders" if borders else "centers",
             dtype=dtype,
             encoding=encoding,
+        )
+    if layout is None and width == height:
+        raise ValueError(
+            f"expected a panorama or all six faces in one picture, got a square of {width} x {height}; six files are "
+            "named with {face}, such as 'sky/{face}.png', or listed"
         )
     return CubeMap.from_layout(
         pixels, layout=layout, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding

@@ -32,11 +32,21 @@ def existing_file(path: object) -> Path:
     Raises
     ------
     FileNotFoundError, IsADirectoryError, PermissionError
-        As `open` raises them; without this check a library would report an "unknown format".
+        As `open` raises them; without this check a library would report an "unknown format". If a sample has the name
+        of a missing file, the error says where the sample is.
     """
     found = as_path(path)
-    with found.open("rb"):
-        return found
+    try:
+        with found.open("rb"):
+            return found
+    except FileNotFoundError as error:
+        from ..data import find_sample
+
+        sample = find_sample(found.name)
+        if sample is None:
+            raise
+        told = f"{error.strerror}; the sample file of this name is {str(sample)!r}"
+        raise FileNotFoundError(error.errno, told, str(found)) from None
 
 
 @contextlib.contextmanager

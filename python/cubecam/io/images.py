@@ -278,7 +278,8 @@ def save_animation(
     Parameters
     ----------
     path : str or os.PathLike
-        A name that ends in .png (APNG: all colours, every browser opens it), .gif (256 colours) or .webp (lossless).
+        A name that ends in .png (APNG: all colours, every browser opens it), .gif (256 colours a frame, which others
+        are mixed of) or .webp (lossless).
     frames : iterable of Frame, Image or array_like (H, W) or (H, W, C)
         Pictures as for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored
         as a single frame that lasts as long as all of them.
@@ -330,6 +331,8 @@ def save_animation(
     data = io.BytesIO()
     if len({picture.mode for picture in pictures}) > 1:
         pictures = [picture.convert("RGBA") for picture in pictures]
+    if extension == ".gif":
+        pictures = [_with_palette(picture) for picture in pictures]
     duration = 10 * max(1, round(100 / fps)) if extension == ".gif" else 1000 / fps
     kind = {".gif": "GIF", ".webp": "WEBP"}.get(extension, "PNG")
     options: dict[str, Any] = {"lossless": True} if kind == "WEBP" else {}
@@ -344,3 +347,13 @@ def save_animation(
     )
     clipping.warn()
     write_files({target: data.getvalue()})
+
+
+def _with_palette(picture: Any) -> Any:
+    """Choose 256 colours for a frame of a GIF, and mix others of them, since skies would have bands."""
+    from PIL import Image as Picture
+
+    if picture.getcolors(256) is not None:
+        return picture  # few colours are kept exactly
+    palette = picture.quantize(256, method=Picture.Quantize.MEDIANCUT)
+    return picture.quantize(palette=palette, dither=Picture.Dither.FLOYDSTEINBERG)

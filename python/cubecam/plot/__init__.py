@@ -1,4 +1,4 @@
-"""Plots of cubemaps with matplotlib, for notebooks and papers: ``pip install cubecam[plot]``.
+"""Plots of cubemaps with matplotlib, for notebooks and papers: ``pip install "cubecam[plot]"``.
 
 >>> import cubecam as cc
 >>> cube = cc.load_environment(cc.sample_data("studio.exr"), size=64)

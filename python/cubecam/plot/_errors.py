@@ -117,7 +117,10 @@ def _errors(a: object, b: object, over: str) -> tuple[Array, bool]:
         )
     one, other = (getattr(thing, "encoding", None) for thing in (a, b))
     if one and other and one != other:
-        raise ValueError(f"expected two pictures of one encoding, got {one} and {other}")
+        raise ValueError(
+            f"expected two pictures of one encoding, got {one} and {other}; compare cc.to_screen of both, or load "
+            "files of 8 bits with srgb=True"
+        )
     cube = is_cube(first)
     if not (cube or first.ndim in (2, 3)) or not first.size:
         raise ValueError(

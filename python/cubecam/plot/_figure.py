@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -42,6 +43,9 @@ def axes_for(ax: Axes | None, size: tuple[float, float], projection: str | None 
     """Give the caller's axes, or the axes of a new figure of `size` inches."""
     plt = pyplot()
     if ax is not None:
+        if not hasattr(ax, "imshow"):
+            more = "; choose one of them, such as axes[0]" if isinstance(ax, np.ndarray) else ""
+            raise TypeError(f"ax: expected one matplotlib Axes, got {type(ax).__name__}{more}")
         return ax
     figure = plt.figure(figsize=size, layout="compressed")
     made: Axes = figure.add_subplot(projection=projection)
@@ -58,6 +62,14 @@ def numbers_of(thing: object) -> Array:
         if thing.color is None:
             raise ValueError("expected a frame with color, got one that was rendered without")
         return np.asarray(thing.color)
+    if thing is None:
+        raise TypeError(
+            'expected numbers, got None: an output that outputs= did not request, such as ("distance", "id")'
+        )
+    if isinstance(thing, (str, os.PathLike)):
+        raise TypeError(
+            f"expected numbers, got the name {os.fspath(thing)!r}: cc.load_cubemap and cc.load_image read files"
+        )
     pixels = np.asarray(thing)
     if pixels.dtype.kind not in "buif":
         raise TypeError(f"expected an array of numbers, got dtype {pixels.dtype}")

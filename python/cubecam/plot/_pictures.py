@@ -162,6 +162,7 @@ def faces(
     *,
     convention: Convention = "inside",
     columns: int = 3,
+    arrows: bool = False,
     exposure: float = 0.0,
     tonemap: Tonemap | None = "neutral",
     cmap: str | None = None,
@@ -178,6 +179,8 @@ def faces(
         As in `cross`. Numbers of all faces share one colour map and one bar.
     columns : {1, 2, 3, 6}, default 3
         Faces in a row of a new figure.
+    arrows : bool, default False
+        As in `cross`.
     ax : sequence of 6 Axes, optional
         Where to draw, in the order +X -X +Y -Y +Z -Z. None: a new figure.
 
@@ -214,6 +217,8 @@ def faces(
         else:
             bar = list(axes) if colorbar and one is axes[-1] else None
             show_numbers(one, picture, cmap=cmap, vmin=vmin, vmax=vmax, bar=bar, among=pixels)
+        if arrows:
+            _st_arrows(one, cell, -0.5, -0.5, pixels.shape[1])
         one.set_title(cell.name)
         one.set(xticks=[], yticks=[])
     return axes

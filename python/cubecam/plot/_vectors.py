@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from ._figure import APART, axes_for, is_cube, numbers_of
 from ._pictures import decorate_cross
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from matplotlib.axes import Axes
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[Any]
 
+_FIRST_VIEW = (30, -60)  # matplotlib's, with Z up; a view that the caller has turned stays
 _AXIS_COLORS = {"s": "#e0483e", "t": "#2fa866", "view": "#3b6fd4"}
 
 
@@ -118,8 +120,12 @@ def _vectors_of(field: CubeMap | Frame | npt.ArrayLike, output: str) -> npt.NDAr
     if isinstance(field, (CubeMap, Frame)):
         held = field.outputs
         if output not in held:
+            if not held:
+                raise ValueError(
+                    f"expected a picture with vectors, got one without outputs: draw it with outputs=({output!r},)"
+                )
             raise ValueError(
-                f"output: expected one of {', '.join(held) or 'none'} (what outputs= requested), got {output!r}"
+                f"output: expected one of {', '.join(held)} (what outputs= requested), got {output!r}"
             )
         values = np.asarray(held[output])
     else:
@@ -198,7 +204,7 @@ def arrows(
     Returns
     -------
     mpl_toolkits.mplot3d.axes3d.Axes3D
-        With Y up, and one scale on all three axes.
+        With Y up, unless the view of `ax` was turned before, and one scale on all three axes.
 
     Raises
     ------
@@ -213,6 +219,10 @@ def arrows(
     >>> rays = {"incident": incident, "normal": normal, "reflected": cc.reflect(incident, normal)}
     >>> ax = cc.plot.arrows(normal, rays, towards=["incident"], sphere=1)
     """
+    if not isinstance(vectors, Mapping):
+        raise TypeError(
+            f"vectors: expected a dict of names to vectors, got {type(vectors).__name__}"
+        )
     start = np.asarray(origins, float)
     if start.shape[-1:] != (3,):
         raise ValueError(f"origins: expected shape (..., 3), got {start.shape}")
@@ -269,7 +279,7 @@ def face_axes(*, gap: float = 1.2, ax: Any = None) -> Any:
     Returns
     -------
     mpl_toolkits.mplot3d.axes3d.Axes3D
-        With Y up, and one scale on all three axes.
+        With Y up, unless the view of `ax` was turned before, and one scale on all three axes.
 
     Raises
     ------
@@ -315,11 +325,10 @@ def face_axes(*, gap: float = 1.2, ax: Any = None) -> Any:
 
 def _space(ax: Any, size: tuple[float, float]) -> Any:
     """Give axes in space with Y up."""
-    given = ax
     ax = axes_for(ax, size, projection="3d")
     if not hasattr(ax, "view_init"):
         raise ValueError('ax: expected axes of projection="3d", got flat ones')
-    if given is None:
+    if (ax.elev, ax.azim) == _FIRST_VIEW:
         ax.view_init(elev=26, azim=40, vertical_axis="y")
     ax.set(xlabel="x", ylabel="y", zlabel="z")
     return ax
