@@ -151,7 +151,7 @@ void bind_contents(Class<Node>& node) {
         "the node still shows its own probe there.");
     node.def_property(
         "render_order", [](const Node& self) { return self.value().render_order; },
-        [](Node& self, const OneOf<py::int_>& value) {
+        [](Node& self, const WholeNumber& value) {
             const std::int32_t order = to_render_order(value);
             self.edit([&](NodeValue& next) { next.render_order = order; });
         },
@@ -173,15 +173,13 @@ void bind_contents(Class<Node>& node) {
         "bool: whether shadows show on the node's own surface.");
     node.def_property(
         "label", [](const Node& self) { return self.value().label; },
-        [](Node& self, const OneOf<py::int_>& value) {
+        [](Node& self, const WholeNumber& value) {
             const std::int32_t label = to_label(value);
             self.edit([&](NodeValue& next) { next.label = label; });
         },
         "int: a number of your own, such as a class or an instance, that the output label shows: "
-        "any "
-        "of 32 bits, 0 by default (as the background). Nodes may share a label; nodes below this "
-        "one "
-        "have labels of their own.");
+        "any of 32 bits, 0 by default (as the background). Nodes may share a label; nodes below "
+        "this one have labels of their own.");
 }
 
 }  // namespace

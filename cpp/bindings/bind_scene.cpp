@@ -41,13 +41,14 @@ BackgroundNow from_background(const Background& background) {
     return py::none();
 }
 
-std::shared_ptr<Node>
-add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& material,
-         const OrNone<ArrayLike>& position, const OrNone<ArrayLike>& rotation,
-         const OneOf<py::float_, ArrayLike, py::none>& scale, const OrNone<ArrayLike>& matrix,
-         const OrNone<Node>& parent, const CubeLike& environment, bool visible, bool in_captures,
-         std::string name, const OneOf<py::int_>& render_order, bool cast_shadow,
-         bool receive_shadow, const OneOf<py::int_>& label) {
+std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
+                               const OrNone<Material>& material, const OrNone<ArrayLike>& position,
+                               const OrNone<ArrayLike>& rotation,
+                               const OneOf<py::float_, ArrayLike, py::none>& scale,
+                               const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
+                               const CubeLike& environment, bool visible, bool in_captures,
+                               std::string name, const WholeNumber& render_order, bool cast_shadow,
+                               bool receive_shadow, const WholeNumber& label) {
     NodeValue value{{},
                     to_mesh(mesh),
                     to_material(material),

@@ -26,7 +26,7 @@ NodeList named(const Scene& scene, const std::string& name) {
 }
 
 NodeList find_nodes(const Scene& scene, const OneOf<py::str, py::none>& name,
-                    const OneOf<py::int_, py::none>& label) {
+                    const OneOf<WholeNumber, py::none>& label) {
     if (name.is_none() && label.is_none()) {
         throw py::type_error("Scene.find: expected a name or a label, got neither");
     }

@@ -275,7 +275,7 @@ class Node:
         """
 
     @label.setter
-    def label(self, value: int) -> None: ...
+    def label(self, value: typing.SupportsIndex) -> None: ...
     @property
     def material(self) -> Material | None:
         """
@@ -339,7 +339,7 @@ class Node:
         """
 
     @render_order.setter
-    def render_order(self, value: int) -> None: ...
+    def render_order(self, value: typing.SupportsIndex) -> None: ...
     @property
     def rotation(self) -> np.typing.NDArray[np.float64]:
         """
@@ -890,10 +890,10 @@ class Scene:
         visible: bool = True,
         in_captures: bool = True,
         name: str = "",
-        render_order: int = 0,
+        render_order: typing.SupportsIndex = 0,
         cast_shadow: bool = True,
         receive_shadow: bool = True,
-        label: int = 0,
+        label: typing.SupportsIndex = 0,
     ) -> Node:
         """
         Add a mesh with a material, or a group.
@@ -961,7 +961,9 @@ class Scene:
         Remove all nodes and lights.
         """
 
-    def find(self: Scene, name: str | None = None, *, label: int | None = None) -> list[Node]:
+    def find(
+        self: Scene, name: str | None = None, *, label: typing.SupportsIndex | None = None
+    ) -> list[Node]:
         """
         Find all nodes of a name, of a label, or of both.
 

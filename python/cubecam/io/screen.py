@@ -188,7 +188,7 @@ def exposed(color: FloatArray, exposure: float) -> FloatArray:
     """Multiply light by 2**exposure, in the range that the curves take: NaN and numbers below 0 become 0."""
     gain = np.float32(2.0**exposure)
     with np.errstate(over="ignore"):  # what overflows is infinite, and then the largest light
-        light = np.nan_to_num(color, nan=0, posinf=_LARGEST, neginf=0) * gain
+        light = np.nan_to_num(color, nan=0.0, posinf=float(_LARGEST), neginf=0.0) * gain
     return np.asarray(np.clip(light, 0, _LARGEST), dtype=np.float32)
 
 
@@ -302,8 +302,9 @@ def _reinhard(linear: FloatArray) -> FloatArray:
 def _aces(linear: FloatArray) -> FloatArray:
     """K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit of the reference curve."""
     a, b, c, d, e = (np.float32(x) for x in (2.51, 0.03, 2.43, 0.59, 0.14))
-    mapped: FloatArray = linear * (a * linear + b) / (linear * (c * linear + d) + e)
-    return np.minimum(mapped, 1)  # the fit ends at 1.03, which is no highlight that is lost
+    mapped = linear * (a * linear + b) / (linear * (c * linear + d) + e)
+    # The fit ends at 1.03, which is no highlight that is lost.
+    return np.asarray(np.minimum(mapped, 1), dtype=np.float32)
 
 
 CURVES: dict[str, Callable[[FloatArray], FloatArray]] = {
