@@ -155,7 +155,9 @@ class TestRandomScenes:
                 scope["meshes"][kind], cc.PhongMaterial(color=color), position=place, label=kind + 1
             )
         with cc.Renderer() as renderer:
-            cube = renderer.capture(scene, size=64, format="rgba16f", outputs=scope["wanted"])
+            cube = renderer.capture(
+                scene, size=64, format="rgba16f", outputs=("distance", "id", "label")
+            )
         np.testing.assert_array_equal(data["faces"][index], cube.faces)
         np.testing.assert_array_equal(data["distance"][index], cube.distance)
         np.testing.assert_array_equal(data["id"][index], cube.id)
