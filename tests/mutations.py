@@ -1043,8 +1043,8 @@ MUTATIONS = [
     ),
     Mutation(
         "exposure: not in the key of a picture",
-        "drawn_picture.cpp",
-        "common.add(post_process.gain);",
+        "post_process_pass.cpp",
+        "key.add(post_process.gain);",
         "",
         ("tests/gl/test_encoding.py",),
     ),
@@ -1058,15 +1058,15 @@ MUTATIONS = [
     Mutation(
         "files: a tone curve is applied twice",
         "screen.py",
-        "return isinstance(picture, Frame) and bool(picture._tonemapped)",
-        "return False",
+        'tonemap if pixels.dtype.kind == "f" and not mapped else None',
+        'tonemap if pixels.dtype.kind == "f" else None',
         ("tests/gl/test_encoding.py",),
     ),
     Mutation(
         "files: light goes into 8 bits without a curve",
         "formats.py",
-        "curve_for(pixels, tonemap), True)",
-        "None, True)",
+        "screen_pixels(pixels, encoding, exposure, curve, True)",
+        "screen_pixels(pixels, encoding, exposure, None, True)",
         ("tests/unit/test_screen.py", "tests/gl/test_encoding.py"),
     ),
     # What scenes, nodes and cameras say about their places.

@@ -156,19 +156,17 @@ def named_cross(cube: CubeMap) -> npt.NDArray[np.uint8]:
     from PIL import Image as Picture
     from PIL import ImageDraw, ImageFont
 
+    from .plot._faces import cells
+
     picture = Picture.fromarray(cube_picture(cube))
     draw = ImageDraw.Draw(picture)
     size = cube.size
     font = ImageFont.load_default(max(1, size // 9))
-    for name, (column, row) in _CELLS.items():
-        corner = (column * size + size // 18, row * size + size // 24)
-        stroke = max(1, size // 128)
-        draw.text(corner, name, "white", font, stroke_width=stroke, stroke_fill="#303848")
+    stroke = max(1, size // 128)
+    for cell in cells("inside"):
+        corner = (cell.column * size + size // 18, cell.row * size + size // 24)
+        draw.text(corner, cell.name, "white", font, stroke_width=stroke, stroke_fill="#303848")
     return np.asarray(picture)
-
-
-#: Column and row of each face in the cross of convention "inside".
-_CELLS = {"-X": (0, 1), "-Z": (1, 1), "+X": (2, 1), "+Z": (3, 1), "+Y": (1, 0), "-Y": (1, 2)}
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Reflection, refraction and Fresnel's reflectance in numpy: twins of what the shaders compute.
+"""Reflection, refraction and Fresnel's reflectance in numpy: the same numbers as in the shaders.
 
 Every incident direction points TOWARDS the surface, as in GLSL. Every normal points to the side that the light comes
 from, so that the dot product of both is not above 0.

@@ -130,25 +130,26 @@ def test_info_without_a_device_says_why_and_fails():
 def test_info_as_json():
     result = cubecam("info", "--json")
     assert result.exit_code == 0, result.output
-    told = json.loads(result.stdout)
+    report = json.loads(result.stdout)
     first = cc.devices()[0]
-    assert told["cubecam"] == cc.__version__
-    assert told["devices"][0]["name"] == first.name
-    assert told["devices"][0]["software"] is first.software
-    assert told["chosen"]["version"].startswith("4.")
-    assert told["chosen"]["device"] in [device["index"] for device in told["devices"]]
-    assert told["limits"]["max_samples"] >= 4
-    assert told["error"] is None
+    assert report["cubecam"] == cc.__version__
+    assert report["devices"][0]["name"] == first.name
+    assert report["devices"][0]["software"] is first.software
+    assert report["chosen"]["version"].startswith("4.")
+    assert report["chosen"]["device"] in [device["index"] for device in report["devices"]]
+    assert report["limits"]["max_samples"] >= 4
+    assert report["error"] is None
 
 
 def test_info_as_json_without_a_device():
     """A device that does not exist, and no EGL at all: standard output has one JSON object, which says why."""
     result = cubecam("info", "--json", "--device", "no such card")
     assert result.exit_code == 1
-    told = json.loads(result.stdout)
-    assert "no such card" in told["error"]
-    assert told["devices"]
-    assert told["chosen"] is told["limits"] is None
+    report = json.loads(result.stdout)
+    assert "no such card" in report["error"]
+    assert report["devices"]
+    assert report["chosen"] is None
+    assert report["limits"] is None
     done = run("info", "--json", CUBECAM_EGL_LIBRARY="libnone.so")
     assert done.returncode == 1
     assert "libnone.so" in json.loads(done.stdout)["error"]

@@ -71,13 +71,15 @@ bool seen_by_all(const NodeSnapshot&) { return true; }
 
 /// What the options ask for after drawing. A picture that is sRGB-encoded as drawn holds no
 /// highlights for a tone curve and needs no second encoding; only exposure changes it, in linear
-/// light.
-PostProcess post_process_of(const SceneSnapshot& scene, const FrameOptions& options) {
+/// light. `drawn` finds the encoding of the picture as drawn.
+template <class Find>
+PostProcess post_process_of(const SceneSnapshot& scene, const FrameOptions& options,
+                            const Find& drawn) {
     PostProcess made{scene.effects, static_cast<float>(std::exp2(options.exposure)),
                      options.tonemap, options.encode};
     const bool graded =
         made.gain != 1.0F || made.tonemap != Tonemap::none || made.encode != Encode::none;
-    if (graded && scene_encoding(scene, 0, seen_by_all) == Encoding::srgb) {
+    if (graded && drawn() == Encoding::srgb) {
         made.tonemap = Tonemap::none;
         made.decode = made.gain != 1.0F;
         made.encode = made.decode ? Encode::srgb : Encode::none;
@@ -85,10 +87,11 @@ PostProcess post_process_of(const SceneSnapshot& scene, const FrameOptions& opti
     return made;
 }
 
-Encoding frame_encoding(const SceneSnapshot& scene, const PostProcess& post_process) {
+template <class Find>
+Encoding frame_encoding(const PostProcess& post_process, const Find& drawn) {
     if (post_process.encode == Encode::srgb) return Encoding::srgb;
     if (post_process.tonemap != Tonemap::none) return Encoding::linear;
-    return scene_encoding(scene, 0, seen_by_all);
+    return drawn();
 }
 
 }  // namespace
@@ -195,7 +198,12 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
                           .outputs = resolve_outputs(options.outputs, scene),
                           .depth_format = options.depth_format,
                           .color = options.color});
-        const PostProcess post_process = post_process_of(scene, options);
+        std::optional<Encoding> known;
+        const auto encoding_as_drawn = [&] {
+            if (!known) known = scene_encoding(scene, 0, seen_by_all);
+            return *known;
+        };
+        const PostProcess post_process = post_process_of(scene, options, encoding_as_drawn);
         set_post_process(description, post_process.effects.size(), post_process.any());
         Target& target = gpu.targets.get(gpu.context, description);
         const double aspect =
@@ -209,7 +217,8 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         stats_ = frame.stats;
         Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
         drawn.tonemapped = post_process.tonemap != Tonemap::none;
-        drawn.encoding = kept_encoding(target, [&] { return frame_encoding(scene, post_process); });
+        drawn.encoding =
+            kept_encoding(target, [&] { return frame_encoding(post_process, encoding_as_drawn); });
         return drawn;
     });
 }

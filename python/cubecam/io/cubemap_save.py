@@ -13,7 +13,7 @@ from . import formats
 from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
 from .files import as_path, write_files
 from .pixels import Array
-from .screen import Clipping, check_look, curve_for, numbers_of
+from .screen import Clipping, check_look, curve_for
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -93,24 +93,24 @@ def save_cubemap(
     if width is not None and wanted != "equirect":
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
     half = half or cube.dtype == np.float16
-    encoding = numbers_of(cube)[1]
     check_look(exposure, tonemap, srgb)
     # What the cube's own numbers are decides, even where resampling makes floats of whole numbers.
-    curve = curve_for(cube.faces, tonemap)
+    curve = curve_for(cube, cube.faces, tonemap)
 
     clipping = Clipping()
 
-    def ready(target: Path, pixels: Array) -> Array:
-        light = formats.holds_light(target, cube.faces)
+    def ready(pixels: Array, light: bool) -> Array:
         with clipping.gathered():
-            return formats.for_file(pixels, encoding, light, exposure, curve, srgb)
+            return formats.for_file(pixels, cube.encoding, light, exposure, curve, srgb)
 
     if paths is not None:
         if wanted not in (None, "faces"):
             raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
         faces = cube.to_convention(convention or "gl")
         contents = {
-            target: formats.encode(target, ready(target, face), half=half)
+            target: formats.encode(
+                target, ready(face, formats.holds_light(target, cube.faces)), half=half
+            )
             for target, face in zip(paths, faces, strict=True)
         }
         clipping.warn()
@@ -123,30 +123,31 @@ def save_cubemap(
     target = as_path(path)
     attributes: dict[str, Any] = {}
     # Numbers of a screen are 8-bit and hold no NaN, so that they lose their alpha later.
-    shown = srgb is not False and not formats.holds_light(target, cube.faces)
+    light = formats.holds_light(target, cube.faces)
+    shown = srgb is not False and not light
     source = cube if shown else _storable(cube, target)
     # If the file rounds the numbers, they are not rounded before, since two roundings would add up.
     kept = exposure == 0 and (srgb is False or cube.encoding == "srgb")
-    exact = formats.stores(target, cube.dtype) and (kept or formats.holds_light(target, cube.faces))
+    exact = formats.stores(target, cube.dtype) and (kept or light)
     resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
-        picture = ready(target, source.to_equirect(width=width, center=center, dtype=resampled))
+        picture = ready(source.to_equirect(width=width, center=center, dtype=resampled), light)
     elif wanted == "openexr":
         if target.suffix.lower() != ".exr":
             raise ValueError(
                 f'layout "openexr": expected a file name that ends in .exr, got {target.name!r}'
             )
         check_openexr(convention)
-        picture = ready(target, source.to_layout("openexr", dtype=resampled))
+        picture = ready(source.to_layout("openexr", dtype=resampled), light)
         # OpenImageIO writes the attribute envmap from this text, and rejects a number under that name.
         attributes["textureformat"] = "CubeFace Environment"
     elif shown:
         # The six faces alone are mapped and encoded, since half of a cross is empty.
-        source = _storable(CubeMap(ready(target, cube.faces)), target)
+        source = _storable(CubeMap(ready(cube.faces, light)), target)
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
     else:
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
-        picture = ready(target, picture)
+        picture = ready(picture, light)
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
     clipping.warn()
     write_files({target: encoded})

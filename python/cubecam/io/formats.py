@@ -20,8 +20,6 @@ from .pixels import (
 )
 from .screen import (
     MAP_OR_DARKEN,
-    check_look,
-    curve_for,
     encoding_of,
     screen_pixels,
     to_light,
@@ -67,14 +65,13 @@ def for_file(
     encoding: Encoding,
     light: bool,
     exposure: float,
-    tonemap: Tonemap | None,
+    curve: Tonemap | None,
     srgb: bool | None,
 ) -> Array:
     """Turn an object's numbers into those of a file: linear if it holds light, else as a screen shows them.
 
-    `tonemap` maps floats only. With ``srgb=False`` the numbers stay as they are.
+    `curve` is that of `curve_for`. With ``srgb=False`` the numbers stay as they are.
     """
-    check_look(exposure, tonemap, srgb)
     if srgb is False:
         if exposure != 0:
             raise ValueError(
@@ -86,7 +83,7 @@ def for_file(
         return np.minimum(pixels, 1)
     if light:
         return to_light(pixels, encoding, exposure)
-    return screen_pixels(pixels, encoding, exposure, curve_for(pixels, tonemap), True)
+    return screen_pixels(pixels, encoding, exposure, curve, True)
 
 
 def decode(pixels: Array, srgb: bool) -> Array:
@@ -118,8 +115,11 @@ def encode(
 
 def holds_light(path: Path, pixels: Array) -> bool:
     """Say whether a file of this name stores such pixels as floats, which are linear by convention."""
-    samples = find_format(path)[1].samples
-    return "float32" in samples and not ("uint8" in samples and pixels.dtype.kind == "u")
+    return _stores_floats(find_format(path)[1], pixels)
+
+
+def _stores_floats(form: Format, pixels: Array) -> bool:
+    return "float32" in form.samples and not ("uint8" in form.samples and pixels.dtype.kind == "u")
 
 
 def find_format(path: Path) -> tuple[str, Format]:
@@ -166,7 +166,7 @@ def _fit_channels(pixels: Array, form: Format, extension: str) -> Array:
 def fit_samples(pixels: Array, form: Format, extension: str, srgb: bool, half: bool) -> Array:
     if pixels.dtype.kind in "ui" and pixels.dtype not in (np.uint8, np.uint16):
         return _whole_numbers(pixels, form, extension)
-    if "float32" in form.samples and not ("uint8" in form.samples and pixels.dtype.kind == "u"):
+    if _stores_floats(form, pixels):
         return _floats(pixels, form, extension, half)
     if pixels.dtype.kind == "f":
         warn_if_clipped(pixels[..., :3], MAP_OR_DARKEN)

@@ -26,7 +26,6 @@ from .screen import (
     check_look,
     curve_for,
     exposed,
-    is_tonemapped,
     numbers_of,
 )
 
@@ -234,10 +233,9 @@ def prepare(
     """Give the numbers to write and whether they are still to be sRGB-encoded."""
     if isinstance(pixels, (Frame, Image)):
         numbers, encoding = numbers_of(pixels)
-        curve: Tonemap | None = "neutral" if tonemap == "auto" else tonemap
-        if is_tonemapped(pixels):
-            check_look(exposure, curve)
-            curve = None
+        named: Tonemap | None = "neutral" if tonemap == "auto" else tonemap
+        check_look(exposure, named, srgb)
+        curve = curve_for(pixels, numbers, named)
         light = holds_light(target, numbers)
         return for_file(numbers, encoding, light, exposure, curve, srgb), False
     array = check_picture(pixels, name)
@@ -248,7 +246,9 @@ def prepare(
             f"exposure, tonemap: expected colours, got {array.dtype} numbers, which are ids and written as they are"
         )
     # As for objects, files of light and whole numbers need no curve.
-    curve = None if tonemap == "auto" or holds_light(target, array) else curve_for(array, tonemap)
+    curve = None
+    if tonemap != "auto" and not holds_light(target, array):
+        curve = curve_for(array, array, tonemap)
     if exposure == 0 and curve is None:
         return array, bool(srgb)
 

@@ -109,9 +109,7 @@ def to_screen(
     else:
         pixels = check_colors(picture, "picture")
         encoding = encoding_of(pixels)
-    curve = curve_for(pixels, tonemap)
-    if is_tonemapped(picture):
-        curve = None
+    curve = curve_for(picture, pixels, tonemap)
     shown = screen_pixels(pixels, encoding, exposure, curve, encode is not None)
     # A grey array (H, W) is (H, W, 1) here.
     return shown[..., 0] if np.ndim(picture) == 2 else shown
@@ -120,21 +118,12 @@ def to_screen(
 def numbers_of(picture: Picture) -> tuple[Array, Encoding]:
     """Give the numbers of an object and what they are; raise ValueError for a frame without a colour."""
     if isinstance(picture, CubeMap):
-        return picture.faces, _known(picture.encoding)
+        return picture.faces, picture.encoding
     if isinstance(picture, Image):
-        return picture.pixels, _known(picture.encoding)
+        return picture.pixels, picture.encoding
     if picture.color is None:
         raise ValueError("expected a frame with a colour, got one of format=None")
-    return picture.color, _known(picture.encoding)
-
-
-def is_tonemapped(picture: object) -> bool:
-    """Say whether a frame was rendered with a tone curve: a second one would darken it."""
-    return isinstance(picture, Frame) and bool(picture._tonemapped)
-
-
-def _known(encoding: str) -> Encoding:
-    return "srgb" if encoding == "srgb" else "linear"
+    return picture.color, picture.encoding
 
 
 def encoding_of(pixels: Array) -> Encoding:
@@ -142,9 +131,14 @@ def encoding_of(pixels: Array) -> Encoding:
     return "srgb" if pixels.dtype.kind == "u" else "linear"
 
 
-def curve_for(pixels: Array, tonemap: Tonemap | None) -> Tonemap | None:
-    """Give the curve for pixels of this type: whole numbers hold no highlights that a curve would keep."""
-    return tonemap if pixels.dtype.kind == "f" else None
+def curve_for(picture: object, pixels: Array, tonemap: Tonemap | None) -> Tonemap | None:
+    """Give the curve for the pixels of a picture.
+
+    Whole numbers hold no highlights that a curve would keep. A frame that was rendered with a curve has none of them
+    either, and a second curve would darken it.
+    """
+    mapped = isinstance(picture, Frame) and picture._tonemapped
+    return tonemap if pixels.dtype.kind == "f" and not mapped else None
 
 
 def check_look(exposure: float, tonemap: str | None, srgb: bool | None = None) -> None:

@@ -50,10 +50,7 @@ std::vector<NodeTextures> DrawnPicture::look_up_all() {
 std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& lookups,
                                               const Outputs& outputs) {
     Key common;
-    common.add(post_process.gain);
-    common.add(post_process.tonemap);
-    common.add(post_process.encode);
-    common.add(post_process.decode);
+    add_grading(common, post_process);
     common.add(post_process.effects.size());
     for (const EffectSnapshot& effect : post_process.effects) {
         common.add(effect.revision);

@@ -49,10 +49,7 @@ void FrameContext::draw(std::vector<View> views, Target& target,
                         PostProcess post_process) {
     Key request = std::move(wanted_key);
     for (const View& view : views) add_view(request, view);
-    request.add(post_process.gain);
-    request.add(post_process.tonemap);
-    request.add(post_process.encode);
-    request.add(post_process.decode);
+    add_grading(request, post_process);
     const std::optional<UnchangedCall>& last = target.unchanged;
     if (last && last->scene == scenes.revision && last->contents == gpu.contents &&
         last->request == request) {

@@ -6,6 +6,13 @@
 
 namespace cubecam {
 
+void add_grading(Key& key, const PostProcess& post_process) {
+    key.add(post_process.gain);
+    key.add(post_process.tonemap);
+    key.add(post_process.encode);
+    key.add(post_process.decode);
+}
+
 void PostProcessPass::draw(const PostProcess& post_process,
                            const std::vector<std::vector<BoundTexture>>& textures, Target& target,
                            int layer, Stats& stats) {

@@ -4,6 +4,7 @@
 #include "cubecam/render/passes/tonemap.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
+#include "cubecam/render/resources/key.hpp"
 #include "cubecam/render/resources/stats.hpp"
 #include "cubecam/render/resources/target.hpp"
 
@@ -25,6 +26,9 @@ struct PostProcess {
                encode != Encode::none;
     }
 };
+
+/// Adds what determines the pixels, apart from effects.
+void add_grading(Key& key, const PostProcess& post_process);
 
 /// The full-screen passes that turn a post-processed target's colour into the picture that is read.
 class PostProcessPass {
