@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import CubeMap, Frame, Image
-from ..io.screen import to_screen
+from ..io import screen
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -54,14 +54,8 @@ def axes_for(ax: Axes | None, size: tuple[float, float], projection: str | None 
 
 def numbers_of(thing: object) -> Array:
     """Give the pixels of a CubeMap, a Frame or an Image, or the array itself."""
-    if isinstance(thing, CubeMap):
-        return thing.faces
-    if isinstance(thing, Image):
-        return thing.pixels
-    if isinstance(thing, Frame):
-        if thing.color is None:
-            raise ValueError("expected a frame with color, got one that was rendered without")
-        return np.asarray(thing.color)
+    if isinstance(thing, (CubeMap, Frame, Image)):
+        return screen.numbers_of(thing)[0]
     if thing is None:
         raise TypeError(
             'expected numbers, got None: an output that outputs= did not request, such as ("distance", "id")'
@@ -109,7 +103,7 @@ def on_screen(
     thing: CubeMap | Frame | Image | npt.ArrayLike, exposure: float, tonemap: Tonemap | None
 ) -> npt.NDArray[np.uint8]:
     """Turn colours (..., C) into opaque uint8 (..., 3) for a screen."""
-    shown = to_screen(thing, exposure=exposure, tonemap=tonemap)
+    shown = screen.to_screen(thing, exposure=exposure, tonemap=tonemap)
     return np.repeat(shown, 3, axis=-1) if shown.shape[-1] == 1 else shown[..., :3]
 
 

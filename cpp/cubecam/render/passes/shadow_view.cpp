@@ -1,11 +1,11 @@
 #include "cubecam/render/passes/shadow_view.hpp"
 
+#include "cubecam/geometry/mesh_bounds.hpp"
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/math/transform.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 namespace cubecam {
@@ -82,18 +82,13 @@ ShadowView view_of(const SpotParameters& light, const Shadow& shadow, const Scen
 
 /// The box round all casters, in the axes to which `turn` converts the world's.
 Bounds casters_bounds(const SceneSnapshot& scene, const glm::dmat4& turn) {
-    Bounds all{glm::dvec3(std::numeric_limits<double>::infinity()),
-               glm::dvec3(-std::numeric_limits<double>::infinity())};
-    bool any = false;
+    Bounds all = no_bounds();
     for (const NodeSnapshot& node : scene.nodes) {
         if (!node.cast_shadow) continue;
         // This box is tighter than one round the node's box in the world.
-        const Bounds bounds = transformed(node.mesh->bounds(), turn * node.world);
-        all.low = glm::min(all.low, bounds.low);
-        all.high = glm::max(all.high, bounds.high);
-        any = true;
+        all = united(all, transformed(node.mesh->bounds(), turn * node.world));
     }
-    return any ? all : Bounds{glm::dvec3(-0.5), glm::dvec3(0.5)};
+    return is_empty(all) ? Bounds{glm::dvec3(-0.5), glm::dvec3(0.5)} : all;
 }
 
 ShadowView view_of(const DirectionalParameters& light, const Shadow& shadow,
