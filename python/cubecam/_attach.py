@@ -17,6 +17,7 @@ from ._core import (
     ImageEffect,
     OrthographicCamera,
     PerspectiveCamera,
+    Scene,
     ShaderMaterial,
 )
 from ._late import LateMethod
@@ -64,6 +65,7 @@ def attach() -> None:
         _attach(picture, "__array__", LateMethod("_array_protocol", "as_array"))
         _attach(picture, "__dlpack__", LateMethod("_array_protocol", "dlpack"))
         _attach(picture, "__dlpack_device__", LateMethod("_array_protocol", "dlpack_device"))
+    _attach(Scene, "show", LateMethod("viewer.viewer", "show_scene"))
     inputs = {
         "uniforms": property(_shader_inputs.uniforms, _shader_inputs.set_uniforms),
         "textures": property(_shader_inputs.textures, _shader_inputs.set_textures),
