@@ -3,6 +3,7 @@
 import gc
 import json
 import weakref
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ class View:
         self.camera = camera or cc.PerspectiveCamera()
         self.exposure = 0.0
         self.tonemap = None
-        self.output = "color"
+        self.output: Any = "color"
 
 
 @pytest.fixture
@@ -49,7 +50,8 @@ def find(view, title, name):
 
 
 def change(view, title, name, value):
-    set_control(*find(view, title, name), value)
+    sections, s, c = find(view, title, name)
+    set_control(sections, s, c, value)
 
 
 def get(view, title, name):
@@ -233,7 +235,7 @@ def test_a_panel_keeps_neither_its_view_nor_its_objects():
     scene.add(cc.Mesh.sphere(1), material, name="ball")
     view = View(scene)
     change(view, "Environment", "rotation", 90.0)
-    gone = [weakref.ref(view), weakref.ref(scene), weakref.ref(material)]
+    gone: list[Any] = [weakref.ref(view), weakref.ref(scene), weakref.ref(material)]
     del view, scene, material
     gc.collect()
     assert [one() for one in gone] == [None, None, None]

@@ -93,7 +93,7 @@ class PanelWidgets:
         with contextlib.suppress(ValueError):
             self._view.remove_listener(self._heard)
         self._close_rows()
-        self.box.close()
+        _close(self.box)
 
     def _heard(self, name: str, value: object) -> None:
         if name == "panel":
