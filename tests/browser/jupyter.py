@@ -15,6 +15,7 @@ import time
 import urllib.error
 import urllib.request
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or "/usr/bin/chromium"
@@ -146,24 +147,29 @@ def write_notebook(path: Path, *cells: str) -> None:
     )
 
 
-def run_all(page, timeout=120_000):
+def run_all(page: Any, timeout: int = 120_000) -> None:
     """Run all cells of the notebook that the page shows, and wait until the last one has finished."""
     page.wait_for_selector(".jp-Notebook", timeout=60_000)
     # The kernel must be there before the menu entry does something.
     page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]', timeout=60_000)
-    page.get_by_role("menuitem", name="Run", exact=True).click()
-    page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-    page.wait_for_function(
-        """() => {
-            const prompts = [...document.querySelectorAll('.jp-CodeCell .jp-InputPrompt')].map(e => e.textContent.trim())
-            const full = [...document.querySelectorAll('.jp-CodeCell')].filter(
-                c => c.querySelector('.cm-content').textContent.trim() !== '')
-            return prompts.length > 0 && full.every(c => /\\[\\d+\\]/.test(c.querySelector('.jp-InputPrompt').textContent))
-        }""",
-        timeout=timeout,
-    )
+    for _ in range(5):
+        page.get_by_role("menuitem", name="Run", exact=True).click()
+        page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
+        # JupyterLab ignores the entry while it still restores its windows.
+        with contextlib.suppress(Exception):
+            page.wait_for_function(_STARTED, timeout=3_000)
+            break
+    page.wait_for_function(_FINISHED, timeout=timeout)
 
 
-def errors(page):
+_PROMPTS = """[...document.querySelectorAll('.jp-Notebook .jp-CodeCell')]
+    .filter(cell => cell.querySelector('.cm-content').textContent.trim() !== '')
+    .map(cell => cell.querySelector('.jp-InputPrompt').textContent)"""
+_STARTED = f"() => {_PROMPTS}.some(text => /\\[(\\d+|\\*)\\]/.test(text))"
+_FINISHED = f"() => {_PROMPTS}.every(text => /\\[\\d+\\]/.test(text))"
+
+
+def errors(page: Any) -> list[str]:
     """The tracebacks that cells have printed."""
-    return page.locator('[data-mime-type="application/vnd.jupyter.error"]').all_inner_texts()
+    found: list[str] = page.locator('[data-mime-type="application/vnd.jupyter.error"]').all_inner_texts()
+    return found
