@@ -31,7 +31,6 @@ _WRONG_PASSWORD_WAIT = 1.0  # seconds; wrong passwords are answered one after th
 _HEADERS = (
     (b"x-content-type-options", b"nosniff"),
     (b"x-frame-options", b"DENY"),
-    (b"referrer-policy", b"no-referrer"),
     (b"cache-control", b"no-store"),
     (b"cross-origin-opener-policy", b"same-origin"),
     (b"cross-origin-resource-policy", b"same-origin"),
@@ -50,6 +49,7 @@ async def answer(
     body: bytes = b"",
     content_type: str = "text/plain; charset=utf-8",
     headers: Iterable[tuple[bytes, bytes]] = (),
+    referrer: bytes = b"no-referrer",
 ) -> None:
     """Send a whole answer over HTTP, with the headers that every answer has."""
     host = _only(scope, b"host") or b""
@@ -58,6 +58,7 @@ async def answer(
         (b"content-type", content_type.encode()),
         (b"content-length", str(len(body)).encode()),
         (b"content-security-policy", policy.encode() or b"default-src 'none'"),
+        (b"referrer-policy", referrer),
         *_HEADERS,
         *headers,
     ]
@@ -174,8 +175,15 @@ class Access:
                     return
                 await asyncio.sleep(_WRONG_PASSWORD_WAIT)
             wrong = True
-        page_text = login_page(wrong)
-        await answer(scope, send, 401 if wrong else 200, page_text, "text/html; charset=utf-8")
+        # With "no-referrer" a browser sends a form with the Origin "null".
+        await answer(
+            scope,
+            send,
+            401 if wrong else 200,
+            login_page(wrong),
+            "text/html; charset=utf-8",
+            referrer=b"same-origin",
+        )
 
     async def _is_password(self, receive: Receive) -> bool:
         body = b""

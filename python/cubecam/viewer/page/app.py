@@ -84,5 +84,5 @@ class PageApp:
         else:
             problem = ""
             self.view.changed()
-        self.canvas.tell(f"problem {place[0]} {place[1]}", problem)
+        self.canvas.tell(f"problem {place[0]} {place[1]}", problem, keep=False)
         self._refresh_soon()

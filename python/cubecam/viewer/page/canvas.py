@@ -81,9 +81,9 @@ class PageCanvas(BaseRenderCanvas):  # type: ignore[misc] # rendercanvas has no 
         super().submit_event(event)
         self._from_any_thread(self._plan)
 
-    def tell(self, kind: str, value: Any) -> None:
-        """Send {"type": kind, "value": value} to each browser, also to those that connect later; from any thread."""
-        self._from_any_thread(lambda: self._tell(kind, value))
+    def tell(self, kind: str, value: Any, *, keep: bool = True) -> None:
+        """Send {"type": kind, "value": value} to each browser, and to later ones if `keep`; from any thread."""
+        self._from_any_thread(lambda: self._tell(kind, value, keep))
 
     def on_message(self, kind: str, function: Callable[[dict[str, Any]], None]) -> None:
         """Call a function with each message of that type; it runs in the server's loop."""
@@ -171,9 +171,10 @@ class PageCanvas(BaseRenderCanvas):  # type: ignore[misc] # rendercanvas has no 
                 if client.ready and client.shown < self._frame_number:
                     client.put_frame(self._frame_number, *self._frame)
 
-    def _tell(self, kind: str, value: Any) -> None:
+    def _tell(self, kind: str, value: Any, keep: bool) -> None:
         message = {"type": kind, "value": value}
-        self._kept[kind] = message
+        if keep:
+            self._kept[kind] = message
         for client in self._clients:
             client.put(kind, message)
 
