@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -247,7 +247,6 @@ class Fly(FirstPerson):
 
 
 #: The names that `Viewer(controls=)` accepts.
-ControlsName: TypeAlias = Literal["orbit", "first_person", "fly"]
 CONTROLS: dict[str, type[Controls]] = {"orbit": Orbit, "first_person": FirstPerson, "fly": Fly}
 
 

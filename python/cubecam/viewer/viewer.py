@@ -17,8 +17,8 @@ from .._core import (
     Scene,
     _newest_revision,
 )
-from ..typing import Tonemap
-from .controls import Controls, ControlsName, FirstPerson, make_controls
+from ..typing import ControlsName, Place, Tonemap
+from .controls import Controls, FirstPerson, make_controls
 from .live import LiveView
 from .outputs import OUTPUTS, output_picture, probe_picture
 from .picking import Pick, pick_of
@@ -343,7 +343,7 @@ class Viewer(LiveView):
 @checked_call
 def show_scene(
     self: Scene,
-    where: Literal["notebook", "page", "window", "terminal", "offscreen"] | None = None,
+    where: Place | None = None,
     *,
     camera: PerspectiveCamera | OrthographicCamera | None = None,
     controls: ControlsName | Controls = "orbit",
