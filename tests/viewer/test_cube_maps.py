@@ -215,7 +215,7 @@ def test_levels_may_be_a_sequence():
         levels_of([])
     for wrong in (3, [large, 3]):
         with pytest.raises(TypeError, match=r"expected a .*CubeMap.*got int"):
-            levels_of(wrong)
+            levels_of(wrong)  # type: ignore[arg-type]
 
 
 def test_texel_directions_are_those_of_the_table():

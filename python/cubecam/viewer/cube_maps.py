@@ -90,6 +90,7 @@ class Cross:
         zoom: float = 1.0,
         middle: tuple[float, float] = (2.0, 1.5),
     ) -> None:
+        self.convention = convention
         self.sheet = Sheet(size, 4.0, 3.0, zoom, middle)
         self.cells = cells(convention)
         self._of_place = np.full((3, 4), -1)
@@ -141,6 +142,7 @@ class Panorama:
         zoom: float = 1.0,
         middle: tuple[float, float] = (1.0, 0.5),
     ) -> None:
+        self.center = center
         self.sheet = Sheet(size, 2.0, 1.0, zoom, middle)
         self._forward = _FORWARD[center]
         self._right = np.cross(self._forward, _UP)
