@@ -15,15 +15,18 @@ if TYPE_CHECKING:
 class Lettering:
     """Writes on an 8-bit picture (height, width, 3); `picture` gives the result."""
 
-    def __init__(self, pixels: npt.NDArray[np.uint8], ink: Color, paper: Color) -> None:
+    def __init__(
+        self, pixels: npt.NDArray[np.uint8], ink: Color, paper: Color, unit: float | None = None
+    ) -> None:
         from PIL import Image, ImageDraw
 
         self._image = Image.fromarray(np.ascontiguousarray(pixels))
-        self._draw = ImageDraw.Draw(self._image, "RGBA")
+        #: Pillow's own drawing, for lines.
+        self.draw = ImageDraw.Draw(self._image, "RGBA")
         self.ink, self.paper = ink, paper
         self.size = self._image.size
         #: The height of letters in pixels, from which all distances follow.
-        self.unit = float(np.clip(round(min(self.size) / 32), 11, 40))
+        self.unit = unit or float(np.clip(round(min(self.size) / 32), 11, 40))
 
     def _font(self, scale: float = 1.0) -> Any:
         from PIL import ImageFont
@@ -59,20 +62,20 @@ class Lettering:
         font = self._font(scale)
         place = (round(float(at[0])), round(float(at[1])))
         if plain:
-            self._draw.text(place, text, ink or self.ink, font, anchor=anchor)
+            self.draw.text(place, text, ink or self.ink, font, anchor=anchor)
             return
         edge = max(1, round(self.unit * scale / 9))
-        self._draw.text(
+        self.draw.text(
             place, text, "white", font, anchor=anchor, stroke_width=edge, stroke_fill="#20262e"
         )
 
     def plate(self, box: Box) -> None:
         """Darken or lighten a box, so that plain text on it can be read."""
-        self._draw.rounded_rectangle(box, self.unit * 0.3, fill=(*self.paper, 215))
+        self.draw.rounded_rectangle(box, self.unit * 0.3, fill=(*self.paper, 215))
 
     def box(self, box: Box, color: Color) -> None:
         """Fill a box with a colour."""
-        self._draw.rectangle(box, fill=color)
+        self.draw.rectangle(box, fill=color)
 
     @property
     def picture(self) -> npt.NDArray[np.uint8]:
