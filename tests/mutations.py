@@ -831,7 +831,7 @@ MUTATIONS = [
     ),
     Mutation(
         "notebooks: every cubemap mirrored",
-        "pictures.py",
+        "results.py",
         'shown.to_layout("cross", convention="inside")',
         'cube.to_layout("cross", convention="gl")',
         ("tests/unit/test_cubemap.py",),

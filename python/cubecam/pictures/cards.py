@@ -91,4 +91,4 @@ def swatch_of(color: Any) -> str:
     """Give the "#rrggbb" of a linear colour, by the sRGB curve of IEC 61966-2-1; light above 1 is clipped."""
     linear = np.clip(np.asarray(color, np.float64)[:3], 0, 1)
     curve = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    return "#" + "".join(f"{int(round(value * 255)):02x}" for value in curve)
+    return "#" + "".join(f"{round(float(value) * 255):02x}" for value in curve)

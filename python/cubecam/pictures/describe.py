@@ -80,7 +80,8 @@ def _(material: Material) -> Card:
 
 @card_of.register
 def _(light: Light) -> Card:
-    card = Card(_title(light), _facts(light, _properties(type(light))))
+    own = [name for name in _properties(type(light)) if name not in vars(Light)]
+    card = Card(_title(light), _facts(light, ["color", "intensity", *own]))
     shown = swatch_of(light.color)
     if isinstance(light, SpotLight):
         card.diagram = diagrams.ray(light.direction, shown, light.angle)
@@ -100,14 +101,18 @@ def _(probe: Probe) -> Card:
 
 @card_of.register
 def _(camera: PerspectiveCamera) -> Card:
-    card = Card(_title(camera), _facts(camera, _without(camera, "view")))
+    names = ["fov", "near", "far", "position", "target", "up"]
+    names += ["shift"] if any(camera.shift) else []
+    names += ["pixel_aspect"] if camera.pixel_aspect != 1 else []
+    card = Card("PerspectiveCamera", _facts(camera, names))
     card.diagram = diagrams.frustum(camera.fov, float(camera.shift[1]))
     return card
 
 
 @card_of.register
 def _(camera: OrthographicCamera) -> Card:
-    card = Card(_title(camera), _facts(camera, _without(camera, "view")))
+    names = ["height", "near", "far", "position", "target", "up"]
+    card = Card("OrthographicCamera", _facts(camera, names))
     card.diagram = diagrams.slab(camera.height)
     return card
 
@@ -174,7 +179,9 @@ def _(renderer: Renderer) -> Card:
 
 def color_of(material: Material | None) -> str:
     """Give the "#rrggbb" that stands for a material, or "" for one without a colour of its own."""
-    for name in ("color", "tint"):
+    # A mirror adds its own colour by a weight, which is 0 unless somebody sets it.
+    names = ("color", "tint") if getattr(material, "color_weight", 1) > 0 else ("tint",)
+    for name in names:
         color = getattr(material, name, None)
         if color is not None and not isinstance(color, str):
             return swatch_of(color)
@@ -207,12 +214,6 @@ def _properties(kind: type) -> list[str]:
             if isinstance(value, property) and not name.startswith("_"):
                 names.setdefault(name)
     return list(names)
-
-
-def _without(thing: Any, *left_out: str) -> list[str]:
-    """List the properties except those that are computed from others."""
-    computed = {"world_to_camera_gl", "world_to_camera_cv", *left_out}
-    return [name for name in _properties(type(thing)) if name not in computed]
 
 
 def _same(a: Any, b: Any, name: str) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -64,7 +64,9 @@ def frustum(fov: float, shift: float = 0.0) -> str:
 
 def slab(height: float) -> str:
     """Draw what an orthographic camera sees, from the side: parallel rays."""
-    inside = _path([(44, 20), (168, 20), (168, 76), (44, 76)], f'fill="{_SHADE}" stroke="{_ACCENT}"')
+    inside = _path(
+        [(44, 20), (168, 20), (168, 76), (44, 76)], f'fill="{_SHADE}" stroke="{_ACCENT}"'
+    )
     rays = "".join(
         _path([(30, y), (44, y)], 'stroke-dasharray="2 3"', close=False) for y in (20, 48, 76)
     )
@@ -100,7 +102,7 @@ def cross(size: int) -> str:
     return _svg(108, 82, *parts, _text(41, 44.5, str(size)))
 
 
-def _seen(vector: Sequence[float]) -> tuple[float, float]:
+def _seen(vector: Iterable[float]) -> tuple[float, float]:
     """Project a vector as the thumbnails of meshes are seen: from above and from the right."""
     x, y, z = (float(v) for v in vector)
     turn, tilt = math.radians(34), math.radians(25)
@@ -119,7 +121,7 @@ def _axes(x: float, y: float, length: float) -> str:
     return "".join(parts)
 
 
-def ray(direction: Sequence[float], color: str, angle: float | None = None) -> str:
+def ray(direction: Iterable[float], color: str, angle: float | None = None) -> str:
     """Draw the way that light travels, with the axes of the world; a spot light has a cone of its angle."""
     across, up = _seen(direction)
     middle, reach = (56.0, 52.0), 38.0

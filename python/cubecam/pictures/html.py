@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 __all__ = ["card_html"]
 
 # Bytes of all data URIs of a card: a notebook keeps every output in its file. Pictures after that are left out.
-_MOST_BYTES = 140_000
-# A picture of more bytes than this gets a palette of 256 colours, a third of the size.
-_LARGE_PNG = 24_000
+_MOST_BYTES = 130_000
+# Opaque pictures narrower than this, of which a card has many, and those of more bytes get a palette of 256 colours,
+# which makes a file a third as large; the tiniest ones get 64.
+_NARROW, _TINY, _LARGE_PNG = 96, 64, 24_000
 
 _LINE = "rgba(128,128,128,.32)"
 _FONT = "font:13px/1.45 system-ui,-apple-system,'Segoe UI',sans-serif"
@@ -46,7 +47,7 @@ class _Pictures:
         self._left -= len(data)
         return (
             f'<img src="{data}" alt="{escape(alt)}" width="{width}" '
-            f'style="display:block;width:{width}px;height:auto;margin:0;border-radius:8px">'
+            f'style="display:block;margin:0;border-radius:{min(8, width // 6)}px">'
         )
 
 
@@ -66,8 +67,9 @@ def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
     opaque = bool((pixels[..., 3] == 255).all())
     picture = Image.fromarray(pixels[..., :3] if opaque else pixels)
     data = _encoded(picture)
-    if len(data) > _LARGE_PNG and opaque:
-        data = _encoded(picture.quantize(256, Image.Quantize.MEDIANCUT))
+    if opaque and (pixels.shape[1] < _NARROW or len(data) > _LARGE_PNG):
+        colors = 64 if pixels.shape[1] < _TINY else 256
+        data = _encoded(picture.quantize(colors, Image.Quantize.MEDIANCUT))
     return data
 
 
@@ -89,7 +91,9 @@ def card_html(card: Card) -> str:
         note = note or shot.problem
     parts = [_head(card.title)]
     columns = [f'<div style="flex:none">{picture}</div>'] if picture else []
-    columns.append(f'<div style="flex:1 1 16em;min-width:0">{_table(card.facts)}{_note(note)}</div>')
+    columns.append(
+        f'<div style="flex:0 1 auto;min-width:0">{_table(card.facts)}{_note(note)}</div>'
+    )
     parts.append(
         f'<div style="display:flex;flex-wrap:wrap;gap:14px;align-items:flex-start">{"".join(columns)}</div>'
     )
@@ -99,10 +103,12 @@ def card_html(card: Card) -> str:
         parts.append(f'<div style="display:flex;flex-wrap:wrap;gap:10px">{tiles}</div>')
     for title, rows in card.lists:
         parts.append(_section(title))
-        parts.append(f"<div>{''.join(_row(row, pictures) for row in rows)}</div>")
+        pictured = any(row.picture is not None for row in rows)
+        lines = "".join(_row(row, pictures, pictured) for row in rows)
+        parts.append(f'<div style="overflow-wrap:anywhere">{lines}</div>')
     return (
         f'<div style="color-scheme:light dark;color:inherit;background:none;{_FONT};text-align:left;'
-        f'display:inline-block;box-sizing:border-box;max-width:100%;padding:10px 14px 12px;margin:2px 0;'
+        f"display:inline-block;box-sizing:border-box;max-width:100%;padding:10px 14px 12px;margin:2px 0;"
         f'border:1px solid {_LINE};border-radius:10px">{"".join(parts)}</div>'
     )
 
@@ -154,7 +160,7 @@ def _tile(tile: Card, pictures: _Pictures) -> str:
     if not image:
         image = (
             f'<div style="width:72px;height:72px;box-sizing:border-box;border:1px dashed {_LINE};border-radius:8px;'
-            f'background:{swatch or "none"};font-size:9px;line-height:1.2;padding:3px;overflow:hidden;'
+            f"background:{swatch or 'none'};font-size:9px;line-height:1.2;padding:3px;overflow:hidden;"
             f'overflow-wrap:anywhere">{escape(shot.problem[:90])}</div>'
         )
     name, _, kind = tile.title.partition(" ")
@@ -165,17 +171,17 @@ def _tile(tile: Card, pictures: _Pictures) -> str:
     )
 
 
-def _row(row: Row, pictures: _Pictures) -> str:
+def _row(row: Row, pictures: _Pictures, pictured: bool) -> str:
+    """Write a row; `pictured`: the rows of this list have a column of thumbnails."""
     image = ""
     if row.picture is not None:
         image = pictures.img(row.picture(), 32, row.label)
+    column = f'<span style="flex:none;width:32px">{image}</span>' if pictured else ""
     pad = 18 * min(row.depth, 12)
-    edge = f"border-left:1px solid {_LINE};" if row.depth else ""
-    fade = "opacity:.6;" if row.faint else ""
+    place = f"margin-left:{pad}px;border-left:1px solid {_LINE};padding:2px 0 2px 8px;"
+    look = (place if pad else "padding:2px 0;") + ("opacity:.6;" if row.faint else "")
     return (
-        f'<div style="{fade}margin-left:{pad}px;{edge}padding:2px 0 2px {8 if row.depth else 0}px;'
-        f'display:flex;gap:10px;align-items:center;min-height:22px">'
-        f'<span style="flex:none;width:32px">{image}</span>'
-        f'<span style="flex:none">{_dot(row.swatch)}<b style="font-weight:600">{escape(row.label)}</b></span>'
-        f'<span style="{_MONO};opacity:.8;overflow-wrap:anywhere;min-width:0">{escape(row.text)}</span></div>'
+        f'<div style="{look}display:flex;gap:10px;align-items:center">{column}'
+        f'<b style="flex:none;font-weight:600">{_dot(row.swatch)}{escape(row.label)}</b>'
+        f'<span style="{_MONO};opacity:.8">{escape(row.text)}</span></div>'
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,12 +10,14 @@ import numpy as np
 from .._core import CubeMap, Material, Mesh, Node, Probe, Scene
 from .cards import Card, Fact, Row, Shot, count, number, shorten, swatch_of, vector
 from .describe import card_of, color_of, light_text, mesh_text
-from .studio import draw_ball, draw_mesh, draw_scene, draw_solid
+from .studio import BALL, draw_ball, draw_mesh, draw_scene, draw_solid
 
 #: More nodes, balls and lights than these are counted, not listed.
 MOST_NODES, MOST_BALLS, MOST_LIGHTS = 50, 12, 20
 #: The width of the thumbnail beside a node, pixels.
-_SMALL = 64
+_SMALL = 48
+#: The width of the ball of one of many materials, pixels.
+_TILE = 84
 
 
 @card_of.register
@@ -126,7 +128,7 @@ def _below(waiting: list[tuple[Node, int]]) -> int:
     return found
 
 
-def _solid(node: Node, size: int = 96) -> Callable[[], Shot] | None:
+def _solid(node: Node, size: int = BALL) -> Callable[[], Shot] | None:
     mesh, material = node.mesh, node.material
     if mesh is None:
         return None
@@ -139,7 +141,7 @@ def _tile(material: Material, names: dict[int, str]) -> Card:
     return Card(
         f"{names[id(material)]} {type(material).__name__}",
         [Fact("", "", color_of(material))],
-        picture=lambda: draw_ball(material),
+        picture=lambda: draw_ball(material, _TILE),
     )
 
 
@@ -155,7 +157,7 @@ def _meshes(nodes: Iterable[Node]) -> Iterable[Mesh]:
             yield mesh
 
 
-def _more(things: list[Any], most: int) -> list[Row]:
+def _more(things: Sequence[Any], most: int) -> list[Row]:
     left = len(things) - most
     return [Row("", f"… and {left:,} more", faint=True)] if left > 0 else []
 

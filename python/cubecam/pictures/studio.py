@@ -11,7 +11,7 @@ import atexit
 import functools
 import os
 import threading
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from .._core import (
     Mesh,
     PerspectiveCamera,
     PhongMaterial,
+    Probe,
     Renderer,
     Scene,
 )
@@ -43,8 +44,10 @@ BALL = 96
 _SAMPLES = 4
 # More triangles would take a software renderer longer than a reader waits for a repr.
 _MOST_TRIANGLES = 2_000_000
+# Probes of more texels than this (6 faces of 512 x 512, twice) would stay in the memory of the process's renderer.
+_MOST_KEPT = 6 * 512 * 512 * 2
 # A stencil material needs a stencil buffer; no thumbnail needs more depth.
-_DEPTH = "depth24_stencil8"
+_DEPTH: Literal["depth24_stencil8"] = "depth24_stencil8"
 
 
 class _Studio:
@@ -92,9 +95,9 @@ if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_studio.forget)
 
 
-def draw_ball(material: Material) -> Shot:
+def draw_ball(material: Material, size: int = BALL) -> Shot:
     """Draw a ball of the material in a small studio, before a chequered wall."""
-    return draw_solid(_ball(), material)
+    return draw_solid(_ball(), material, size)
 
 
 def draw_mesh(mesh: Mesh) -> Shot:
@@ -155,19 +158,31 @@ def draw_scene(scene: Scene, size: tuple[int, int] = (256, 192)) -> Shot:
             return Shot(None, "the scene is empty")
         else:  # the surroundings alone, straight ahead
             camera = PerspectiveCamera(fov=75)
+        if _probe_texels(scene) > _MOST_KEPT:
+            with Renderer() as own:
+                return _shot(scene, camera, size, "neutral", own)
         return _shot(scene, camera, size, "neutral")
     except Exception as error:
         return Shot(None, shorten(error, 240))
 
 
 def _shot(
-    scene: Scene, camera: PerspectiveCamera, size: tuple[int, int], curve: Tonemap | None
+    scene: Scene,
+    camera: PerspectiveCamera,
+    size: tuple[int, int],
+    curve: Tonemap | None,
+    renderer: Renderer | None = None,
 ) -> Shot:
-    frame = _studio.renderer().render(
+    frame = (renderer or _studio.renderer()).render(
         scene, camera, size, samples=_SAMPLES, tonemap=curve, encode="srgb", depth_format=_DEPTH
     )
     assert frame.color is not None
     return Shot(np.array(frame.color))
+
+
+def _probe_texels(scene: Scene) -> int:
+    probes = {id(around): around for node in scene.nodes if (around := node.environment)}
+    return sum(6 * probe.size**2 for probe in probes.values() if isinstance(probe, Probe))
 
 
 def _check_triangles(triangles: int) -> None:
@@ -203,11 +218,11 @@ def _ball() -> Mesh:
 
 @functools.lru_cache(maxsize=1)
 def _square() -> Mesh:
-    corners = np.float32([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float32)
     return Mesh(
         corners,
-        np.uint32([[0, 1, 2], [0, 2, 3]]),
-        normals=np.float32([[0, 0, 1]] * 4),
+        np.array([[0, 1, 2], [0, 2, 3]], np.uint32),
+        normals=np.array([[0, 0, 1]] * 4, np.float32),
         uvs=(corners[:, :2] + 1) / 2,
     )
 
@@ -245,5 +260,3 @@ def _surroundings() -> CubeMap:
     lamp(2.1, 0.12, -0.2, 0.95, (3, 3.2, 3.6))
     lamp(-0.9, 0.3, 0.1, 0.5, (2.2, 1.5, 0.9))
     return CubeMap.from_equirect(room, size=128, mipmaps=True)
-
-
