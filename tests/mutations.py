@@ -831,7 +831,7 @@ MUTATIONS = [
     ),
     Mutation(
         "notebooks: every cubemap mirrored",
-        "results.py",
+        "pictures/results.py",
         'shown.to_layout("cross", convention="inside")',
         'cube.to_layout("cross", convention="gl")',
         ("tests/unit/test_cubemap.py",),

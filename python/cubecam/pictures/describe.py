@@ -61,8 +61,6 @@ def _(mesh: Mesh) -> Card:
         Fact("size", " × ".join(number(side) for side in high - low) + " units"),
         Fact("bounds", f"{vector(low)} to {vector(high)}"),
     ]
-    if not (np.isfinite(low).all() and np.isfinite(high).all()):
-        facts[2:] = [Fact("bounds", "none")]
     has = [name for name in ("normals", "uvs", "colors") if getattr(mesh, name) is not None]
     facts.append(Fact("per vertex", ", ".join(["positions", *has])))
     return Card("Mesh", facts, picture=lambda: draw_mesh(mesh))

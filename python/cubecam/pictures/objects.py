@@ -5,15 +5,13 @@ A repr must never fail: whatever goes wrong becomes a line of the card.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator
+from typing import Any
 
 from . import scenes  # noqa: F401 - registers the cards of scenes and nodes
 from .cards import Card, shorten
 from .describe import card_of
 from .html import card_html
-
-if TYPE_CHECKING:
-    from rich.console import Console, ConsoleOptions, RenderResult
 
 __all__ = ["repr_html", "rich_console"]
 
@@ -26,9 +24,9 @@ def repr_html(thing: Any) -> str:
         return card_html(_plain(thing, error))
 
 
-def rich_console(thing: Any, console: Console, options: ConsoleOptions) -> RenderResult:
-    """Give what `rich.print` shows."""
-    from .terminal import card_text
+def rich_console(thing: Any, console: Any, options: Any) -> Iterator[Any]:
+    """Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions."""
+    from .rich_text import card_text
 
     try:
         shown = card_text(card_of(thing), console, options.max_width)

@@ -118,8 +118,6 @@ def draw_solid(mesh: Mesh, material: Material, size: int = BALL) -> Shot:
     try:
         _check_triangles(len(mesh.indices))
         low, high = mesh.bounds
-        if not (np.isfinite(low).all() and np.isfinite(high).all()):
-            return Shot(None, "the mesh has no vertices")
         scene = Scene()
         unlit = isinstance(material, BasicMaterial)
         if not unlit:
