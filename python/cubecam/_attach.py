@@ -88,7 +88,7 @@ def attach() -> None:
         _attach(picture, "__dlpack_device__", LateMethod("_array_protocol", "dlpack_device"))
     for described in _DESCRIBED:
         _attach(described, "_repr_html_", LateMethod("pictures.objects", "repr_html"))
-        _attach(described, "__rich_console__", LateMethod("pictures.objects", "rich_console"))
+        _attach(described, "__rich__", LateMethod("pictures.objects", "rich_object"))
     inputs = {
         "uniforms": property(_shader_inputs.uniforms, _shader_inputs.set_uniforms),
         "textures": property(_shader_inputs.textures, _shader_inputs.set_textures),

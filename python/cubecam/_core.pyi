@@ -150,11 +150,9 @@ class Device:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Device) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -205,11 +203,9 @@ class Node:
 
     def __reduce__(self: Node) -> tuple[object, ...]: ...
     def __repr__(self: Node) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: Node, state: object) -> None:
@@ -485,11 +481,9 @@ class Probe:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: Probe, state: object) -> None:
@@ -689,11 +683,9 @@ class RenderTexture:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: RenderTexture) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: RenderTexture, state: object) -> None:
@@ -892,11 +884,9 @@ class Scene:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Scene) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: Scene, state: object) -> None:
@@ -2363,11 +2353,9 @@ class Mesh:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -2599,11 +2587,9 @@ class Blend:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Blend) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: Blend, state: object) -> None:
@@ -2719,11 +2705,9 @@ class Stencil:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Stencil) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -2815,11 +2799,9 @@ class Material:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: Material, state: object) -> None:
@@ -3557,11 +3539,9 @@ class ImageEffect:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: ImageEffect) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def __setstate__(self: ImageEffect, state: object) -> None:
@@ -3707,11 +3687,9 @@ class Shadow:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Shadow) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -3763,11 +3741,9 @@ class Light:
     """
 
     def __reduce__(self) -> tuple[object, ...]: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -4085,11 +4061,9 @@ class Camera:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Camera) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -5085,11 +5059,9 @@ class StereoCamera:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: StereoCamera) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -5129,11 +5101,9 @@ class Stats:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Stats) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -5201,11 +5171,9 @@ class Limits:
     """
 
     def __reduce__(self) -> tuple[object, ...]: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -5250,11 +5218,9 @@ class RendererInfo:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: RendererInfo) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:
@@ -5587,11 +5553,9 @@ class Renderer:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Renderer) -> str: ...
-    def __rich_console__(
-        self, console: object, options: object
-    ) -> collections.abc.Iterator[object]:
+    def __rich__(self) -> object:
         """
-        Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions.
+        Give what `rich.print` shows.
         """
 
     def _repr_html_(self) -> str:

@@ -5,15 +5,17 @@ A repr must never fail: whatever goes wrong becomes a line of the card.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import scenes  # noqa: F401 - registers the cards of scenes and nodes
 from .cards import Card, shorten
 from .describe import card_of
 from .html import card_html
 
-__all__ = ["repr_html", "rich_console"]
+if TYPE_CHECKING:
+    from rich.console import Console, ConsoleOptions, RenderResult
+
+__all__ = ["repr_html", "rich_object"]
 
 
 def repr_html(thing: Any) -> str:
@@ -24,15 +26,28 @@ def repr_html(thing: Any) -> str:
         return card_html(_plain(thing, error))
 
 
-def rich_console(thing: Any, console: Any, options: Any) -> Iterator[Any]:
-    """Give what `rich.print` shows on a `rich.console.Console` with its ConsoleOptions."""
-    from .rich_text import card_text
+def rich_object(thing: Any) -> object:
+    """Give what `rich.print` shows."""
+    return _Described(thing)
 
-    try:
-        shown = card_text(card_of(thing), console, options.max_width)
-    except Exception as error:
-        shown = card_text(_plain(thing, error), console, options.max_width)
-    yield shown
+
+class _Described:
+    """An object as rich draws it, for which the console must be known.
+
+    The classes themselves have `__rich__` alone: rich cannot print a class that has `__rich_console__`.
+    """
+
+    def __init__(self, thing: Any) -> None:
+        self._thing = thing
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        from .rich_text import card_text
+
+        try:
+            shown = card_text(card_of(self._thing), console, options.max_width)
+        except Exception as error:
+            shown = card_text(_plain(self._thing, error), console, options.max_width)
+        yield shown
 
 
 def _plain(thing: Any, error: Exception) -> Card:
