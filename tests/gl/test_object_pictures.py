@@ -180,6 +180,8 @@ def test_a_picture_s_numbers_stay_as_they_are():
     assert np.abs(middle(ball_of(encoded)).astype(int) - (120, 40, 200)).max() <= 1
     light = cc.BasicMaterial(map=np.full((4, 4, 3), 0.25, np.float32))
     assert np.abs(middle(ball_of(light)).astype(int) - 137).max() <= 1  # sRGB of 0.25
+    corners = [ball_of(material)[:8, :8].astype(int) for material in (encoded, light)]
+    assert np.abs(corners[0] - corners[1]).max() <= 2  # the wall looks the same in both
 
 
 def test_a_mirror_ball_shows_the_studio():

@@ -59,7 +59,7 @@ def frustum(fov: float, shift: float = 0.0) -> str:
     rays += _path([(eye, middle), b], 'stroke-dasharray="2 3"', close=False)
     axis = _path([(eye, middle), (eye + reach + 10, middle)], 'stroke-opacity=".35"', close=False)
     label = _text(eye + reach + 6, middle - 4, f"{fov:.4g}°", "start")
-    return _svg(220, 96, axis, inside, rays, _body(eye, middle), label)
+    return _svg(round(eye + reach) + 54, 96, axis, inside, rays, _body(eye, middle), label)
 
 
 def slab(height: float) -> str:
