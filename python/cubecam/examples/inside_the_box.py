@@ -23,11 +23,13 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
+from ._live import Hand, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P2"
 TITLE = "Inside the box: drags turn the view, w and s walk"
@@ -76,10 +78,18 @@ def walker() -> cc.PerspectiveCamera:
     return cc.PerspectiveCamera(fov=FOV, position=(0, 0, 0), target=FIRST, near=NEAR, far=FAR)
 
 
-def direction(angle_x: float, angle_y: float) -> tuple[float, float, float]:
-    """Return Rx(angle_y) Ry(angle_x) (0, 0, 1), angles in degrees."""
+def direction(
+    angle_x: float, angle_y: float, first: tuple[float, float, float] = FIRST
+) -> tuple[float, float, float]:
+    """Return Rx(angle_y) Ry(angle_x) first, angles in degrees."""
     x, y = math.radians(angle_x), math.radians(angle_y)
-    return math.sin(x), -math.sin(y) * math.cos(x), math.cos(y) * math.cos(x)
+    side = math.cos(x) * first[0] + math.sin(x) * first[2]
+    depth = math.cos(x) * first[2] - math.sin(x) * first[0]
+    return (
+        side,
+        math.cos(y) * first[1] - math.sin(y) * depth,
+        math.sin(y) * first[1] + math.cos(y) * depth,
+    )
 
 
 def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
@@ -95,10 +105,27 @@ def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
             raise ValueError(f'script: expected "w", "s" or a drag of two angles, got {event!r}')
         else:
             angle_x, angle_y = angle_x + event[0], angle_y + event[1]
-            view = direction(angle_x, angle_y)
-            # Straight up and straight down there is no view with +Y up; the last view stays.
-            if math.hypot(view[0], view[2]) > 1e-6:
-                camera.look(view)
+            look(camera, direction(angle_x, angle_y))
+
+
+def look(camera: cc.PerspectiveCamera, view: tuple[float, float, float]) -> None:
+    """Turn the view. Straight up and straight down there is no view with +Y up; the last view stays."""
+    if math.hypot(view[0], view[2]) > 1e-6:
+        camera.look(view)
+
+
+def visitor(camera: cc.PerspectiveCamera) -> Hand:
+    """Return the mouse and the keys of this program; the camera's present view is that before any drag."""
+    assert camera.target is not None
+    gaze = camera.target - camera.position
+    x, y, z = (gaze / math.hypot(*gaze)).tolist()
+    return Hand(
+        lambda angle_x, angle_y: look(camera, direction(angle_x, angle_y, (x, y, z))),
+        keys={
+            "w": (lambda: camera.walk(STEP), f"walk {STEP} forwards"),
+            "s": (lambda: camera.walk(-STEP), f"walk {STEP} backwards"),
+        },
+    )
 
 
 def draw(
@@ -111,3 +138,9 @@ def draw(
     """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(images: Photographs | None = None) -> Viewer:
+    """Show the program live: a drag turns the view, w and s walk."""
+    program = build(images)
+    return live_view(program, SIZE, TITLE, hand=visitor(program.camera))
