@@ -111,7 +111,7 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None) -> Viewer:
+def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: a drag moves the camera round the reflector, and t changes ball and teapot."""
     program = build(images)
     place(program, 0)
@@ -125,6 +125,7 @@ def live(images: Photographs | None = None) -> Viewer:
         program,
         SIZE,
         TITLE,
+        renderer,
         clock=Clock(lambda frame, _: place(program, frame)),
         keys={"t": (exchange, "ball or teapot")},
     )

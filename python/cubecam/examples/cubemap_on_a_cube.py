@@ -111,8 +111,8 @@ def turn(program: Program, frame: float) -> None:
     program.cube.rotation = cc.axis_angle(AXIS, TURN * frame)
 
 
-def live(probe_size: int = PROBE) -> Viewer:
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: the cube turns, a drag turns the view, w and s walk."""
     program = build(probe_size)
     clock = Clock(lambda frame, _: turn(program, frame), rate=SCREEN)
-    return live_view(program, SIZE, TITLE, hand=visitor(program.camera), clock=clock)
+    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)

@@ -94,8 +94,13 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(eta: float = ETA, fresnel: bool = False, probe_size: int = PROBE) -> Viewer:
+def live(
+    eta: float = ETA,
+    fresnel: bool = False,
+    probe_size: int = PROBE,
+    renderer: cc.Renderer | None = None,
+) -> Viewer:
     """Show the program live: the actors circle, a drag turns the view, w and s walk."""
     program = build(eta, fresnel, probe_size)
     clock = Clock(lambda frame, _: go_round(program.actors, frame))
-    return live_view(program, SIZE, TITLE, hand=visitor(program.camera), clock=clock)
+    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)

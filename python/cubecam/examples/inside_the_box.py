@@ -140,7 +140,7 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None) -> Viewer:
+def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: a drag turns the view, w and s walk."""
     program = build(images)
-    return live_view(program, SIZE, TITLE, hand=visitor(program.camera))
+    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera))

@@ -201,7 +201,10 @@ def live(
     stretch: tuple[float, float, float] = (1.0, 1.0, 1.0),
     per_vertex: bool = False,
     skybox: bool = False,
+    renderer: cc.Renderer | None = None,
 ) -> Viewer:
     """Show the program live: the teapots turn, and a drag moves the camera round them."""
     program = build(image, stretch, per_vertex, skybox)
-    return live_view(program, SIZE, TITLE, clock=Clock(lambda frame, _: turn(program, frame)))
+    return live_view(
+        program, SIZE, TITLE, renderer, clock=Clock(lambda frame, _: turn(program, frame))
+    )

@@ -77,14 +77,14 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(probe_size: int = PROBE) -> Viewer:
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: the bunny walks and rests, a drag turns the view, w and s walk.
 
     The line below the picture tells how many views the last picture took.
     """
     program = build(probe_size)
     clock = Clock(lambda frame, _: circle(program.walker, TURN * steps(int(frame))))
-    viewer = live_view(program, SIZE, TITLE, hand=visitor(program.camera), clock=clock)
+    viewer = live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)
     return viewer
 
 

@@ -88,7 +88,9 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None, eta: float = ETA) -> Viewer:
+def live(
+    images: Photographs | None = None, eta: float = ETA, renderer: cc.Renderer | None = None
+) -> Viewer:
     """Show the program live: a drag moves the camera round the four objects, and both turn on together."""
     program = build(images, eta)
 
@@ -97,4 +99,4 @@ def live(images: Photographs | None = None, eta: float = ETA) -> Viewer:
         # The camera turns on from where the last drag left it; yaw is counted clockwise, seen from above.
         program.camera.orbit(yaw=-TURN * step)
 
-    return live_view(program, SIZE, TITLE, clock=Clock(turn_on))
+    return live_view(program, SIZE, TITLE, renderer, clock=Clock(turn_on))

@@ -157,7 +157,7 @@ def draw(
     return np.concatenate([shared, own])
 
 
-def live(probe_size: int = PROBE) -> Viewer:
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: the balls move apart, and p gives each a probe of its own or one to all.
 
     A drag turns the view, w and s walk. The picture is the upper one of `draw`, and after p the lower one.
@@ -173,6 +173,7 @@ def live(probe_size: int = PROBE) -> Viewer:
         program,
         (SIZE[0], SIZE[1] // 2),
         TITLE,
+        renderer,
         hand=visitor(program.camera),
         clock=Clock(lambda frame, _: place(program, distance(frame))),
         keys={"p": (exchange, "one probe for all, or one each")},

@@ -78,7 +78,9 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None, boxes: bool = True) -> Viewer:
+def live(
+    images: Photographs | None = None, boxes: bool = True, renderer: cc.Renderer | None = None
+) -> Viewer:
     """Show the program live: a drag turns the view, w and s walk, and the sky stays where it is."""
     program = build(images, boxes=boxes)
-    return live_view(program, SIZE, TITLE, hand=visitor(program.camera))
+    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera))

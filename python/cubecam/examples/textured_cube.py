@@ -85,8 +85,8 @@ def turn(program: Program, angle_x: float, angle_y: float) -> None:
     program.cube.rotation = cc.axis_angle((0, 1, 0), angle_x)
 
 
-def live(images: Photographs | None = None) -> Viewer:
+def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: a drag turns the cube."""
     program = build(images)
     hand = Hand(lambda x, y: turn(program, x, y), start=(START, START), help="turn the cube")
-    return live_view(program, SIZE, TITLE, hand=hand)
+    return live_view(program, SIZE, TITLE, renderer, hand=hand)
