@@ -115,7 +115,7 @@ def look_options(note: str = "neutral", group: str = "Options") -> Callable[[F],
 
 def place_options(function: F) -> F:
     """Declare where a live picture is shown: `page`, `window`, `terminal` and `no_browser` of a command."""
-    for name, help in reversed(
+    for name, text in reversed(
         (
             ("--page", "Show it on a page in the browser."),
             ("--window", "Show it in a window of its own."),
@@ -123,7 +123,7 @@ def place_options(function: F) -> F:
             ("--no-browser", "Print the page's address, and open no browser."),
         )
     ):
-        function = option(name, is_flag=True, group="Live", help=help)(function)
+        function = option(name, is_flag=True, group="Live", help=text)(function)
     return function
 
 

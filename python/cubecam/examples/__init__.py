@@ -6,7 +6,8 @@ Each module has
 - ``draw(program, renderer, frame, size=SIZE, **options)``, which returns frame 0, 1, 2, ... as an array (H, W, 4), row
   0 on top. A frame depends only on its number, so frames may be drawn in any order. The options are those of
   `Renderer.render`, such as ``format="rgba32f"``;
-- in most modules ``live(...)``, which returns a `cubecam.Viewer` of the program, with the mouse and the keys of its document;
+- in most modules ``live(...)``, which returns a `cubecam.Viewer` of the program, with the mouse and the keys of its
+  document;
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
   ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels).
 

@@ -9,11 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     import cubecam as cc
-    from cubecam.viewer import Viewer
 
 #: Degrees that a drag over the height of the picture adds to an angle.
 DRAG = 100.0
@@ -75,3 +74,21 @@ class Clock:
     def toggle(self) -> None:
         """Stop, or go on."""
         self.running = not self.running
+
+
+def live_view(
+    program: Seen,
+    size: tuple[int, int],
+    title: str,
+    renderer: cc.Renderer | None = None,
+    *,
+    hand: Hand | None = None,
+    clock: Clock | None = None,
+    keys: Keys | None = None,
+) -> Viewer:
+    """Make the live form of a program.
+
+    hand : the document's mouse; without one, a drag moves the camera round its target. clock : the animation, which the
+    space bar stops. keys : what other keys do.
+    """
+    raise NotImplementedError

@@ -22,7 +22,6 @@ from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, on_circle, picture, teapot
 from ._live import Clock, live_view
-from .inside_the_box import visitor
 from .cubemap_on_a_cube import (
     BUNNY,
     DEPTH,
@@ -37,6 +36,7 @@ from .cubemap_on_a_cube import (
     TEAPOT,
     phong,
 )
+from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

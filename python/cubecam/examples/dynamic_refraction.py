@@ -21,7 +21,6 @@ from cubecam.typing import Format
 
 from ._common import Picture, picture
 from ._live import Clock, live_view
-from .inside_the_box import visitor
 from .cubemap_on_a_cube import FAR, NEAR, PROBE
 from .dynamic_reflection import (
     BALL,
@@ -31,6 +30,7 @@ from .dynamic_reflection import (
     main_camera,
     stage,
 )
+from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

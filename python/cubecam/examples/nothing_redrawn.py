@@ -23,9 +23,9 @@ from cubecam.typing import Format
 from . import dynamic_reflection
 from ._common import Picture, picture
 from ._live import Clock, live_view
-from .inside_the_box import visitor
 from .cubemap_on_a_cube import PROBE
 from .dynamic_reflection import TURN, circle, go_round
+from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack

@@ -34,7 +34,6 @@ from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
 from ._live import Clock, live_view
-from .inside_the_box import visitor
 from ._truth import Truth, mirror_image
 from .cubemap_on_a_cube import (
     BUNNY,
@@ -48,6 +47,7 @@ from .cubemap_on_a_cube import (
     phong,
 )
 from .dynamic_reflection import BALL, gold
+from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
