@@ -22,8 +22,7 @@ import cubecam as cc
 from cubecam.typing import DepthFormat, Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
-from ._live import SCREEN, Clock, live_view
-from .inside_the_box import visitor
+from ._live import SCREEN, Clock, Visitor, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -115,4 +114,4 @@ def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer
     """Show the program live: the cube turns, a drag turns the view, w and s walk."""
     program = build(probe_size)
     clock = Clock(lambda frame, _: turn(program, frame), rate=SCREEN)
-    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

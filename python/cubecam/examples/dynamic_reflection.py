@@ -21,7 +21,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, on_circle, picture, teapot
-from ._live import Clock, live_view
+from ._live import Clock, Visitor, live_view
 from .cubemap_on_a_cube import (
     BUNNY,
     DEPTH,
@@ -36,7 +36,6 @@ from .cubemap_on_a_cube import (
     TEAPOT,
     phong,
 )
-from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -131,4 +130,4 @@ def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer
     """Show the program live: the actors circle, a drag turns the view, w and s walk."""
     program = build(probe_size)
     clock = Clock(lambda frame, _: go_round(program.actors, frame))
-    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

@@ -20,7 +20,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import Picture, picture
-from ._live import Clock, live_view
+from ._live import Clock, Visitor, live_view
 from .cubemap_on_a_cube import FAR, NEAR, PROBE
 from .dynamic_reflection import (
     BALL,
@@ -30,7 +30,6 @@ from .dynamic_reflection import (
     main_camera,
     stage,
 )
-from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -103,4 +102,4 @@ def live(
     """Show the program live: the actors circle, a drag turns the view, w and s walk."""
     program = build(eta, fresnel, probe_size)
     clock = Clock(lambda frame, _: go_round(program.actors, frame))
-    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

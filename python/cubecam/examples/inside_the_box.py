@@ -15,7 +15,6 @@ person's head.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -23,7 +22,7 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
-from ._live import Hand, live_view
+from ._live import STEP, Visitor, direction, live_view, look
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -38,7 +37,6 @@ SIZE = (512, 512)  # aspect 1
 FOV, NEAR, FAR = 60.0, 1.0, 15.0  # degrees, world units
 CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 SCALE = 2.0
-STEP = 0.1  # world units, one press of w or s
 FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
 
 #: "w", "s", or a drag (angleX, angleY) in degrees.
@@ -78,20 +76,6 @@ def walker() -> cc.PerspectiveCamera:
     return cc.PerspectiveCamera(fov=FOV, position=(0, 0, 0), target=FIRST, near=NEAR, far=FAR)
 
 
-def direction(
-    angle_x: float, angle_y: float, first: tuple[float, float, float] = FIRST
-) -> tuple[float, float, float]:
-    """Return Rx(angle_y) Ry(angle_x) first, angles in degrees."""
-    x, y = math.radians(angle_x), math.radians(angle_y)
-    side = math.cos(x) * first[0] + math.sin(x) * first[2]
-    depth = math.cos(x) * first[2] - math.sin(x) * first[0]
-    return (
-        side,
-        math.cos(y) * first[1] - math.sin(y) * depth,
-        math.sin(y) * first[1] + math.cos(y) * depth,
-    )
-
-
 def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
     """Put the camera at its start, and replay the events."""
     camera.target = None
@@ -106,26 +90,6 @@ def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
         else:
             angle_x, angle_y = angle_x + event[0], angle_y + event[1]
             look(camera, direction(angle_x, angle_y))
-
-
-def look(camera: cc.PerspectiveCamera, view: tuple[float, float, float]) -> None:
-    """Turn the view. Straight up and straight down there is no view with +Y up; the last view stays."""
-    if math.hypot(view[0], view[2]) > 1e-6:
-        camera.look(view)
-
-
-def visitor(camera: cc.PerspectiveCamera) -> Hand:
-    """Return the mouse and the keys of this program; the camera's present view is that before any drag."""
-    assert camera.target is not None
-    gaze = camera.target - camera.position
-    x, y, z = (gaze / math.hypot(*gaze)).tolist()
-    return Hand(
-        lambda angle_x, angle_y: look(camera, direction(angle_x, angle_y, (x, y, z))),
-        keys={
-            "w": (lambda: camera.walk(STEP), f"walk {STEP} forwards"),
-            "s": (lambda: camera.walk(-STEP), f"walk {STEP} backwards"),
-        },
-    )
 
 
 def draw(
@@ -143,4 +107,4 @@ def draw(
 def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: a drag turns the view, w and s walk."""
     program = build(images)
-    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera))
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))

@@ -30,7 +30,7 @@ import numpy.typing as npt
 import cubecam as cc
 
 from ._common import Photographs, Picture, picture, surroundings, teapot
-from ._live import Clock, live_view
+from ._live import Clock, Followed, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -205,6 +205,7 @@ def live(
 ) -> Viewer:
     """Show the program live: the teapots turn, and a drag moves the camera round them."""
     program = build(image, stretch, per_vertex, skybox)
-    return live_view(
-        program, SIZE, TITLE, renderer, clock=Clock(lambda frame, _: turn(program, frame))
-    )
+    clock = Clock(lambda frame, _: turn(program, frame))
+    # The shader must know the eye's new place, also while the clock stands still.
+    controls = Followed(lambda: turn(program, clock.frame))
+    return live_view(program, SIZE, TITLE, renderer, controls=controls, clock=clock)

@@ -22,10 +22,9 @@ from cubecam.typing import Format
 
 from . import dynamic_reflection
 from ._common import Picture, picture
-from ._live import Clock, live_view
+from ._live import Clock, Visitor, live_view
 from .cubemap_on_a_cube import PROBE
 from .dynamic_reflection import TURN, circle, go_round
-from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -83,8 +82,19 @@ def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer
     The line below the picture tells how many views the last picture took.
     """
     program = build(probe_size)
-    clock = Clock(lambda frame, _: circle(program.walker, TURN * steps(int(frame))))
-    viewer = live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera), clock=clock)
+
+    def walk(frame: float, _: float) -> None:
+        circle(program.walker, TURN * steps(int(frame)))
+
+    clock = Clock(walk)
+    controls = Visitor(program.camera)
+    viewer = live_view(program, SIZE, TITLE, renderer, controls=controls, clock=clock)
+
+    def walk_and_tell(frame: float, step: float) -> None:
+        viewer.text = f"views drawn: {viewer.renderer.stats.views_drawn}"
+        walk(frame, step)
+
+    clock.place = walk_and_tell
     return viewer
 
 

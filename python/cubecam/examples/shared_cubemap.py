@@ -33,7 +33,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
-from ._live import Clock, live_view
+from ._live import Clock, Visitor, live_view
 from ._truth import Truth, mirror_image
 from .cubemap_on_a_cube import (
     BUNNY,
@@ -47,7 +47,6 @@ from .cubemap_on_a_cube import (
     phong,
 )
 from .dynamic_reflection import BALL, gold
-from .inside_the_box import visitor
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -174,7 +173,7 @@ def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer
         (SIZE[0], SIZE[1] // 2),
         TITLE,
         renderer,
-        hand=visitor(program.camera),
+        controls=Visitor(program.camera),
         clock=Clock(lambda frame, _: place(program, distance(frame))),
         keys={"p": (exchange, "one probe for all, or one each")},
     )

@@ -24,8 +24,8 @@ import cubecam as cc
 
 from . import inside_the_box
 from ._common import Photographs, Picture, picture, surroundings
-from ._live import live_view
-from .inside_the_box import SCRIPT, Event, replay, visitor
+from ._live import Visitor, live_view
+from .inside_the_box import SCRIPT, Event, replay
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -83,4 +83,4 @@ def live(
 ) -> Viewer:
     """Show the program live: a drag turns the view, w and s walk, and the sky stays where it is."""
     program = build(images, boxes=boxes)
-    return live_view(program, SIZE, TITLE, renderer, hand=visitor(program.camera))
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
-from ._live import Hand, live_view
+from ._live import Drags, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -88,5 +88,5 @@ def turn(program: Program, angle_x: float, angle_y: float) -> None:
 def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: a drag turns the cube."""
     program = build(images)
-    hand = Hand(lambda x, y: turn(program, x, y), start=(START, START), help="turn the cube")
-    return live_view(program, SIZE, TITLE, renderer, hand=hand)
+    drags = Drags(lambda x, y: turn(program, x, y), start=(START, START))
+    return live_view(program, SIZE, TITLE, renderer, controls=drags)
