@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 
 import cubecam as cc
-from cubecam.viewer.controls import AnyCamera, Controls, Orbit
+from cubecam.viewer.controls import Controls, Orbit
 
 if TYPE_CHECKING:
     from cubecam.viewer import Viewer
+    from cubecam.viewer.controls import AnyCamera
 
 #: Degrees that a drag over the height of the picture adds to an angle.
 DRAG = 100.0
@@ -63,7 +64,7 @@ class Visitor(Drags):
     """Mouse and keys of P2, for a camera whose present view is that before any drag."""
 
     help = "drag  turn the view\nw s  walk"
-    keys = {"w": (1, 0, 0), "s": (-1, 0, 0)}
+    keys: ClassVar = {"w": (1, 0, 0), "s": (-1, 0, 0)}
 
     def __init__(self, camera: cc.PerspectiveCamera) -> None:
         assert camera.target is not None
@@ -147,7 +148,14 @@ def live_view(
     """
     controls = controls or Orbit()
     viewer = cc.Viewer(
-        program.scene, program.camera, controls, size=size, title=title, renderer=renderer
+        program.scene,
+        program.camera,
+        controls,
+        size=size,
+        title=title,
+        renderer=renderer,
+        tonemap=None,  # as in `draw`, the numbers of a picture are shown unchanged
+        encode=None,
     )
     actions = dict(keys or {})
     if clock is not None:

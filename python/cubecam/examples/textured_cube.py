@@ -88,5 +88,6 @@ def turn(program: Program, angle_x: float, angle_y: float) -> None:
 def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
     """Show the program live: a drag turns the cube."""
     program = build(images)
+    turn(program, START, START)
     drags = Drags(lambda x, y: turn(program, x, y), start=(START, START))
     return live_view(program, SIZE, TITLE, renderer, controls=drags)
