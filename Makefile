@@ -16,7 +16,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-asan dev lint format stubs bench docs gallery sdist wheel mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-asan dev lint format stubs bench docs gallery sdist wheel mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
@@ -34,6 +34,9 @@ test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile 
 	@PATH="$(abspath $(VENV))/bin:$$PATH"; \
 	cmake --preset debug -G Ninja -DPython_EXECUTABLE=$(abspath $(PY)) && cmake --build --preset debug && ctest --preset debug
 	@$(PY) -m pytest -m build tests/build $(PYTEST_ARGS)
+
+test-browser: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages and JupyterLab with the Chromium on PATH
+	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
 test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(PY) scripts/sanitize.py $(PYTEST_ARGS)

@@ -13,11 +13,13 @@ import numpy as np
 import numpy.typing
 
 import cubecam._shader_inputs
+import cubecam.viewer.controls
 from cubecam.typing import (
     BlendEquation,
     BlendFactor,
     BlendMode,
     Center,
+    ControlsName,
     Convention,
     DepthFormat,
     DepthOrder,
@@ -28,6 +30,7 @@ from cubecam.typing import (
     Format,
     Layout,
     Pixels,
+    Place,
     ProbeUpdate,
     Sampling,
     StencilFunc,
@@ -515,7 +518,7 @@ class Probe:
     @property
     def faces_per_frame(self) -> int:
         """
-        int: the greatest number of faces that one call draws, from 1 to 6.
+        int: the greatest number of faces that one call draws.
         """
 
     @faces_per_frame.setter
@@ -1130,6 +1133,57 @@ class Scene:
         >>> scene.set_positions(nodes, np.eye(3))
         >>> nodes[1].position.tolist()
         [0.0, 1.0, 0.0]
+        """
+
+    def show(
+        self,
+        where: Place | None = None,
+        *,
+        camera: PerspectiveCamera | OrthographicCamera | None = None,
+        controls: ControlsName | cubecam.viewer.controls.Controls = "orbit",
+        browser: bool = True,
+        block: bool | None = None,
+        **options: object,
+    ) -> cubecam.Viewer:
+        """
+        Explore the scene: in the notebook, in a window, on a page of the browser or in the terminal.
+
+        Parameters
+        ----------
+        where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+            Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+            for a browser on this machine.
+        camera, controls
+            As in `Viewer`.
+        browser : bool
+            Whether a page is opened in the browser.
+        block : bool, optional
+            Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+            notebooks and in Python's prompt no.
+        **options
+            Other arguments of `Viewer`, for example ``size=(800, 600)``.
+
+        Returns
+        -------
+        Viewer
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `Viewer`.
+        ImportError
+            If a package is missing; the message names the extra of cubecam that has it.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(1))
+        >>> viewer = scene.show("offscreen", size=(64, 48))
+        >>> viewer.camera.orbit(yaw=30)
+        >>> viewer.draw().shape
+        (48, 64, 4)
+        >>> viewer.close()
         """
 
     @property
@@ -3891,7 +3945,7 @@ class SpotLight(Light):
     @property
     def angle(self) -> float:
         """
-        float: angle from the axis to the cone's edge, above 0 and below 90 degrees.
+        float: angle from the axis to the cone's edge, degrees.
         """
 
     @angle.setter
@@ -3915,7 +3969,7 @@ class SpotLight(Light):
     @property
     def penumbra(self) -> float:
         """
-        float: share of the angle over which the light fades, from 0 to 1.
+        float: share of the angle over which the light fades.
         """
 
     @penumbra.setter
@@ -4518,7 +4572,7 @@ class PerspectiveCamera(Camera):
     @property
     def fov(self) -> float:
         """
-        float: vertical, above 0 and below 180 degrees.
+        float: vertical, in degrees.
         """
 
     @fov.setter
@@ -5853,6 +5907,11 @@ class Renderer:
 def _check_pickle(format: object) -> None:
     """
     For unpickling: raises TypeError for a format that is not this version's.
+    """
+
+def _newest_revision() -> int:
+    """
+    The newest revision of this process. While it stays the same, no object has changed.
     """
 
 def _restore_frame(state: tuple[object, ...]) -> Frame:
