@@ -142,7 +142,7 @@ def example(
             module = _load(name)
             path = out or f"{module.__name__.rpartition('.')[2]}.png"
             if path.lower().endswith(".mp4"):
-                from .movie import find_ffmpeg
+                from ..io.movie import find_ffmpeg
 
                 find_ffmpeg(Path(path))  # a missing ffmpeg is an error before anything is drawn
             with Renderer(device=parse_device(device)) as renderer:
@@ -273,7 +273,7 @@ def _save(
             yield module.draw(program, renderer, frame, size=(width, height), **options)[..., :3]
 
     if ending == ".mp4":
-        from .movie import save_mp4
+        from ..io.movie import save_mp4
 
         save_mp4(path, pictures(), fps)
     else:
