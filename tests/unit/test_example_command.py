@@ -182,7 +182,9 @@ def test_list_needs_no_device():
         module = examples.load(name)
         line = next(text for text in done.stdout.splitlines() if f" {name} " in text)
         assert line.split()[0] == module.PROGRAM
-        assert line.split()[-1] == str(module.FRAMES)
+        words = line.split()
+        assert (words[-1] == "live") == examples.is_live(name)
+        assert words[-2 if examples.is_live(name) else -1] == str(module.FRAMES)
         assert module.TITLE.split()[0] in line
 
 

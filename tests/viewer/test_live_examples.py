@@ -1,11 +1,13 @@
 """The live forms of the programs: mouse, keys and animation against the documents' formulas in numpy."""
 
 import inspect
+import re
 
 import numpy as np
 import pytest
 
 from cubecam import examples
+from tests.helpers import DEVICE
 from tests.programs.oracle import rx, ry, scaled
 
 PROGRAMS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17")
@@ -284,3 +286,76 @@ def test_the_help_of_one_view_does_not_change_that_of_another(drive):
     drive("P16")
     assert drive("P12").view.help == first
     assert "space" not in drive("P2").view.help
+
+
+def test_an_example_of_another_size_keeps_its_formula(drive):
+    """The height of the picture counts, not that of the first one."""
+    driver = drive("P2", (640, 200))
+    driver.drag(20, 0)
+    gaze = driver.view.camera.target - driver.view.camera.position
+    np.testing.assert_allclose(gaze, (np.sin(np.radians(10)), 0, np.cos(np.radians(10))), atol=1e-9)
+
+
+# ----- the command
+
+
+def run(*arguments):
+    from click.testing import CliRunner
+
+    from cubecam.cli import app
+
+    return CliRunner().invoke(app, ["example", *arguments])
+
+
+@pytest.mark.parametrize(
+    ("options", "where", "browser"),
+    [
+        ((), "page", True),
+        (("--page", "--no-browser"), "page", False),
+        (("--window",), "window", True),
+        (("--terminal",), "terminal", True),
+    ],
+)
+def test_the_command_shows_the_program(monkeypatch, options, where, browser):
+    from cubecam.viewer.live import LiveView
+
+    shown = []
+    monkeypatch.setattr(
+        LiveView, "show", lambda view, where, **more: shown.append((view, where, more))
+    )
+    result = run("p13", "--live", *options, "--device", DEVICE)
+    assert result.exit_code == 0, result.output
+    ((view, place, more),) = shown
+    assert view.title == examples.load("P13").TITLE
+    assert (place, more) == (where, {"browser": browser, "block": True})
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("P9", "--live"), r"expected a program that is live, one of P1 textured_cube, .*; got P9"),
+        (("P2", "--live", "--out", "a.png"), r"--out.*expected without --live"),
+        (("P2", "--live", "--frames", "3"), r"--frames.*expected without --live"),
+        (("P2", "--page"), r"--page.*expected with --live"),
+        (("P2", "--no-browser"), r"--no-browser.*expected with --live"),
+        (("--live", "--list"), r"--live.*expected a NAME"),
+        (("P2", "--live", "--page", "--window"), r"expected one of --page, --window and --term"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(arguments, message):
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert re.search(message, " ".join(result.output.split())), result.output
+
+
+def test_a_missing_package_is_named(monkeypatch):
+    from cubecam.viewer.live import LiveView
+
+    def show(*_, **__):
+        raise ImportError('pip install "cubecam[viewer]" installs it')
+
+    monkeypatch.setattr(LiveView, "show", show)
+    result = run("P1", "--live", "--device", DEVICE)
+    assert result.exit_code == 1
+    assert "cubecam[viewer]" in result.output
+    assert "Traceback" not in result.output

@@ -113,32 +113,28 @@ def look_options(note: str = "neutral", group: str = "Options") -> Callable[[F],
     return declare
 
 
-def place_options(function: F) -> F:
-    """Declare where a live picture is shown: `page`, `window`, `terminal` and `no_browser` of a command."""
-    for name, text in reversed(
-        (
-            ("--page", "Show it on a page in the browser."),
-            ("--window", "Show it in a window of its own."),
-            ("--terminal", "Show it in the terminal, also over SSH."),
-            ("--no-browser", "Print the page's address, and open no browser."),
-        )
-    ):
-        function = option(name, is_flag=True, group="Live", help=text)(function)
-    return function
+def place_options(group: str = "Options") -> Callable[[F], F]:
+    """Declare where a live view is shown: `page`, `window`, `terminal` and `no_browser` of a command."""
+    options = {
+        "--page": "Show a page for a browser. Default.",
+        "--window": "Show a window.",
+        "--terminal": "Show the view in this terminal.",
+        "--no-browser": "Print the page's address and open no browser.",
+    }
+
+    def declare(function: F) -> F:
+        for name, text in reversed(options.items()):
+            function = option(name, is_flag=True, group=group, help=text)(function)
+        return function
+
+    return declare
 
 
-def parse_place(page: bool, window: bool, terminal: bool) -> str | None:
-    """Return the place that was chosen; None leaves the choice to the viewer."""
-    chosen = [
-        name
-        for name, given in (("page", page), ("window", window), ("terminal", terminal))
-        if given
-    ]
-    if len(chosen) > 1:
-        raise click.BadParameter(
-            f"expected one of --page, --window and --terminal, got --{' and --'.join(chosen)}"
-        )
-    return chosen[0] if chosen else None
+def parse_place(page: bool, window: bool, terminal: bool) -> Literal["page", "window", "terminal"]:
+    """Return where a live view is shown."""
+    if page + window + terminal > 1:
+        raise click.BadParameter("expected one of --page, --window and --terminal")
+    return "window" if window else "terminal" if terminal else "page"
 
 
 @contextlib.contextmanager

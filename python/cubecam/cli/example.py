@@ -17,6 +17,7 @@ from .common import (
     NUMBER,
     WholeNumber,
     device_option,
+    fail,
     failures_reported,
     parse_device,
     parse_place,
@@ -88,7 +89,7 @@ def _names(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
 )
 @option("--all", "everything", is_flag=True, help="Draw every program into the folder --out.")
 @option("--live", is_flag=True, group="Live", help="Show the program live: turn it, walk in it.")
-@place_options
+@place_options("Live")
 @device_option
 def example(
     name: str | None,
@@ -113,8 +114,8 @@ def example(
     cubecam example P2 --live
     """
     _check_options(name, out, frames, fps, listed, sheet, everything)
-    place = parse_place(page, window, terminal)
-    _check_live(name, live, place, no_browser, click.get_current_context())
+    _check_live(name, live, click.get_current_context())
+    where = parse_place(page, window, terminal)
     with failures_reported():
         if listed:
             from rich.console import Console
@@ -125,7 +126,7 @@ def example(
                     _save_sheet(sheet, renderer)
                 _tell([sheet])
         elif live:
-            _show(_load(name), place, no_browser, device)
+            _show(_load(name), where, not no_browser, device)
         elif everything:
             folder = Path(out or "examples")
             folder.mkdir(parents=True, exist_ok=True)
@@ -178,27 +179,25 @@ def _check_options(
             )
 
 
-def _check_live(
-    name: str | None, live: bool, place: str | None, no_browser: bool, ctx: click.Context
-) -> None:
+def _check_live(name: str | None, live: bool, context: click.Context) -> None:
+    """Refuse options that have no meaning with --live, or without it."""
+    others = ("out", "frames", "start", "size", "fps")
+    wrong = others if live else ("page", "window", "terminal", "no_browser")
+    for parameter in wrong:
+        if context.get_parameter_source(parameter) is not ParameterSource.DEFAULT:
+            raise click.BadParameter(
+                f"expected {'without' if live else 'with'} --live only",
+                param_hint=f"--{parameter.replace('_', '-')}",
+            )
     if not live:
-        for given, option in ((place, f"--{place}"), (no_browser, "--no-browser")):
-            if given:
-                raise click.BadParameter("expected with --live only", param_hint=option)
         return
     if name is None:
         raise click.BadParameter("expected a NAME with it", param_hint="--live")
-    for parameter in ("out", "frames", "start", "size", "fps"):
-        if ctx.get_parameter_source(parameter) is not ParameterSource.DEFAULT:
-            raise click.BadParameter("expected without --live", param_hint=f"--{parameter}")
     if not examples.is_live(name):
-        listed = ", ".join(
-            f"{examples.load(known).PROGRAM} {known}"
-            for known in examples.NAMES
-            if examples.is_live(known)
-        )
+        known = [known for known in examples.NAMES if examples.is_live(known)]
+        listed = ", ".join(f"{examples.load(one).PROGRAM} {one}" for one in known)
         raise click.BadParameter(
-            f"expected a program that is live ({listed}), got {name!r}", param_hint="NAME"
+            f"expected a program that is live, one of {listed}; got {name}", param_hint="NAME"
         )
 
 
@@ -229,10 +228,13 @@ def _table() -> Table:
     return table
 
 
-def _show(module: Any, place: str | None, no_browser: bool, device: str | None) -> None:
-    """Show a program live, until its window is closed or Ctrl-C ends it."""
-    with Renderer(device=parse_device(device)) as renderer:
-        module.live(renderer=renderer).show(place, browser=not no_browser)
+def _show(module: Any, where: str, browser: bool, device: str | None) -> None:
+    """Show a program live until the view is closed or Ctrl-C ends it."""
+    try:
+        with Renderer(device=parse_device(device)) as renderer:
+            module.live(renderer=renderer).show(where, browser=browser, block=True)
+    except ImportError as error:
+        fail(error)
 
 
 def _save(

@@ -57,6 +57,8 @@ class Viewer(LiveView):
         Stops, as in `Renderer.render`.
     tonemap : {"neutral", "reinhard", "aces"} or None
         The tone curve, as in `Renderer.render`.
+    encode : "srgb" or None
+        As in `Renderer.render`. None shows the numbers of the colours unchanged.
     output : {"color", "distance", "normal", "id"} or Probe
         What the picture shows: the colour; the distance to the camera, near is bright; normals, (n + 1) / 2; one
         colour for each node; or the cubemap that a probe sees, as a cross.
@@ -73,7 +75,7 @@ class Viewer(LiveView):
     Notes
     -----
     At rest the picture equals ``renderer.render(scene, camera, size, samples=samples, exposure=exposure,
-    tonemap=tonemap, encode="srgb").color`` bit for bit.
+    tonemap=tonemap, encode=encode).color`` bit for bit.
 
     Examples
     --------
@@ -100,6 +102,7 @@ class Viewer(LiveView):
         samples: int = 4,
         exposure: float = 0.0,
         tonemap: Tonemap | None = "neutral",
+        encode: Literal["srgb"] | None = "srgb",
         output: Output | Probe = "color",
         title: str = "cubecam",
     ) -> None:
@@ -126,6 +129,7 @@ class Viewer(LiveView):
         self._samples = samples
         self._exposure = float(exposure)
         self._tonemap: Tonemap | None = tonemap
+        self._encode: Literal["srgb"] | None = encode
         self._output: Output | Probe = "color"
         self.output = output
         self._home = _pose(camera)
@@ -233,7 +237,7 @@ class Viewer(LiveView):
             samples=1 if moving else self._samples,
             exposure=self._exposure,
             tonemap=self._tonemap,
-            encode="srgb",
+            encode=self._encode,
         )
         return np.asarray(frame.color, np.uint8)
 
