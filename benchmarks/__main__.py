@@ -11,7 +11,7 @@ from pathlib import Path
 
 from rich.console import Console
 
-from . import equirect, machine, marks, reflection, startup
+from . import equirect, live, machine, marks, reflection, startup
 from .processes import ROOT
 from .results import Section, print_sections
 
@@ -27,8 +27,8 @@ def _arguments() -> argparse.Namespace:
         "--only",
         action="append",
         metavar="NAME",
-        choices=["p14-teapot", "p14-knot", "equirect", "startup", "marks", *marks.PARTS],
-        help="p14-teapot, p14-knot, equirect, startup, marks, or one of "
+        choices=["p14-teapot", "p14-knot", "equirect", "startup", "live", "marks", *marks.PARTS],
+        help="p14-teapot, p14-knot, equirect, startup, live, marks, or one of "
         + ", ".join(marks.PARTS)
         + "; may be given several times",
     )
@@ -62,6 +62,7 @@ def main() -> int:
     }
     workloads["equirect"] = partial(equirect.run, arguments.quick)
     workloads["startup"] = partial(startup.run, arguments.quick)
+    workloads["live"] = partial(live.run, arguments.quick)
     for part in marks.PARTS:
         workloads[part] = partial(marks.run, part, quick=arguments.quick, old=arguments.before)
 

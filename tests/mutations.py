@@ -38,6 +38,7 @@ INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
+OBJECT_PICTURES = ("tests/gl/test_object_pictures.py",)
 DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
 NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
 RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
@@ -831,10 +832,38 @@ MUTATIONS = [
     ),
     Mutation(
         "notebooks: every cubemap mirrored",
-        "pictures.py",
+        "pictures/results.py",
         'shown.to_layout("cross", convention="inside")',
         'cube.to_layout("cross", convention="gl")',
         ("tests/unit/test_cubemap.py",),
+    ),
+    Mutation(
+        "pictures of objects: names are not escaped",
+        "pictures/html.py",
+        "{_dot(row.swatch)}{escape(row.label)}",
+        "{_dot(row.swatch)}{row.label}",
+        OBJECT_PICTURES,
+    ),
+    Mutation(
+        "pictures of objects: unlit colours are light",
+        "pictures/studio.py",
+        'None if unlit else "neutral"',
+        '"neutral"',
+        OBJECT_PICTURES,
+    ),
+    Mutation(
+        "pictures of objects: no bound of bytes",
+        "pictures/html.py",
+        "if len(data) > self._left:",
+        "if False:",
+        OBJECT_PICTURES,
+    ),
+    Mutation(
+        "pictures of objects: a forked child waits for a lock",
+        "pictures/studio.py",
+        "os.register_at_fork(after_in_child=_studio.forget)",
+        "pass",
+        OBJECT_PICTURES,
     ),
     Mutation(
         "names of files: +X and -X swapped",

@@ -204,7 +204,8 @@ void bind_camera(pybind11::module_& module) {
         });
     guard_init(camera);
     bind_placed<PerspectiveLens>(module, "PerspectiveCamera", docs::perspective, "fov",
-                                 &PerspectiveLens::fov, "float: vertical, in degrees.");
+                                 &PerspectiveLens::fov,
+                                 "float: vertical, above 0 and below 180 degrees.");
     bind_placed<OrthographicLens>(module, "OrthographicCamera", docs::orthographic, "height",
                                   &OrthographicLens::height,
                                   "float: world units from the bottom to the top of the picture.");

@@ -112,9 +112,9 @@ void bind_spot(py::module_& module) {
     bind_vector(light, "position", &SpotParameters::position, position_text);
     bind_vector(light, "direction", &SpotParameters::direction, direction_text);
     bind_number(light, "angle", &SpotParameters::angle,
-                "float: angle from the axis to the cone's edge, degrees.");
+                "float: angle from the axis to the cone's edge, above 0 and below 90 degrees.");
     bind_number(light, "penumbra", &SpotParameters::penumbra,
-                "float: share of the angle over which the light fades.");
+                "float: share of the angle over which the light fades, from 0 to 1.");
     bind_number(light, "decay", &SpotParameters::decay, decay_text);
     bind_shadow_of(light);
     light.def("__repr__", [](const SpotLight& self) {

@@ -166,7 +166,7 @@ void bind_probe(pybind11::module_& module) {
         },
         "str or int: \"on_change\", \"once\", \"manual\", or n: every n-th call.");
     field(probe, "faces_per_frame", &ProbeValue::faces_per_frame,
-          "int: the greatest number of faces that one call draws.");
+          "int: the greatest number of faces that one call draws, from 1 to 6.");
     bind_links(probe);
 
     probe.def("__repr__", [](const Probe& self) {

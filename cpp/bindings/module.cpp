@@ -2,6 +2,7 @@
 #include "arguments.hpp"
 #include "objects.hpp"
 
+#include "cubecam/core/revision.hpp"
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
@@ -103,6 +104,8 @@ PYBIND11_MODULE(_core, module) {
     bind_scene(module);
     bind_scene_queries(module);
     bind_renderer(module);
+    module.def("_newest_revision", &newest_revision,
+               "The newest revision of this process. While it stays the same, no object has changed.");
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
     cubecam::bindings::explain_all_arguments(module);

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from .io.meshes import load_mesh
     from .io.screen import ClippingWarning, to_screen
     from .optics import fresnel, reflect, refract, schlick
+    from .viewer.viewer import Viewer
 else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
     __getattr__, __dir__ = late_names(
@@ -40,12 +41,14 @@ else:
             "io.meshes": ["load_mesh"],
             "io.screen": ["ClippingWarning", "to_screen"],
             "optics": ["fresnel", "reflect", "refract", "schlick"],
+            "viewer.viewer": ["Viewer"],
         },
-        modules=["demo", "examples", "io", "navigation", "pictures", "plot", "typing"],
+        modules=["demo", "examples", "io", "navigation", "pictures", "plot", "typing", "viewer"],
     )
 
 __all__ = [
     "ClippingWarning",
+    "Viewer",
     "__version__",
     "fresnel",
     "load_cubemap",

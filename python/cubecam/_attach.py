@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from . import _old_names, _shader_inputs
+from . import _core, _old_names, _shader_inputs
 from ._core import (
     CubeMap,
     Frame,
@@ -17,12 +17,35 @@ from ._core import (
     ImageEffect,
     OrthographicCamera,
     PerspectiveCamera,
+    Scene,
     ShaderMaterial,
 )
 from ._late import LateMethod
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+#: Classes that notebooks and rich show as cards; their subclasses inherit this, so that a new material needs no line.
+_DESCRIBED = (
+    _core.Scene,
+    _core.Node,
+    _core.Mesh,
+    _core.Material,
+    _core.Light,
+    _core.Shadow,
+    _core.Probe,
+    _core.RenderTexture,
+    _core.Camera,
+    _core.StereoCamera,
+    _core.ImageEffect,
+    _core.Blend,
+    _core.Stencil,
+    _core.Renderer,
+    _core.RendererInfo,
+    _core.Limits,
+    _core.Stats,
+    _core.Device,
+)
 
 
 def _cube_repr_png(self: CubeMap) -> bytes:
@@ -64,6 +87,13 @@ def attach() -> None:
         _attach(picture, "__array__", LateMethod("_array_protocol", "as_array"))
         _attach(picture, "__dlpack__", LateMethod("_array_protocol", "dlpack"))
         _attach(picture, "__dlpack_device__", LateMethod("_array_protocol", "dlpack_device"))
+<<<<<<< HEAD
+    _attach(Scene, "show", LateMethod("viewer.viewer", "show_scene"))
+=======
+    for described in _DESCRIBED:
+        _attach(described, "_repr_html_", LateMethod("pictures.objects", "repr_html"))
+        _attach(described, "__rich__", LateMethod("pictures.objects", "rich_object"))
+>>>>>>> v-pictures
     inputs = {
         "uniforms": property(_shader_inputs.uniforms, _shader_inputs.set_uniforms),
         "textures": property(_shader_inputs.textures, _shader_inputs.set_textures),

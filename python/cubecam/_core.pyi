@@ -150,6 +150,16 @@ class Device:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Device) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def cuda_index(self) -> int | None: ...
     @property
@@ -193,9 +203,19 @@ class Node:
 
     def __reduce__(self: Node) -> tuple[object, ...]: ...
     def __repr__(self: Node) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: Node, state: object) -> None:
         """
         For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
         """
 
     def look_at(
@@ -461,9 +481,19 @@ class Probe:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: Probe, state: object) -> None:
         """
         For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
         """
 
     @property
@@ -485,7 +515,7 @@ class Probe:
     @property
     def faces_per_frame(self) -> int:
         """
-        int: the greatest number of faces that one call draws.
+        int: the greatest number of faces that one call draws, from 1 to 6.
         """
 
     @faces_per_frame.setter
@@ -653,9 +683,19 @@ class RenderTexture:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: RenderTexture) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: RenderTexture, state: object) -> None:
         """
         For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
         """
 
     @property
@@ -844,9 +884,19 @@ class Scene:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Scene) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: Scene, state: object) -> None:
         """
         For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
         """
 
     def _restore(self: Scene, id: typing.SupportsInt | typing.SupportsIndex) -> Node:
@@ -2303,6 +2353,16 @@ class Mesh:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     def flat_shaded(self: Mesh) -> Mesh:
         """
         Copy the mesh with flat faces: its triangles share no vertex.
@@ -2527,9 +2587,19 @@ class Blend:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Blend) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: Blend, state: object) -> None:
         """
         For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
         """
 
     @property
@@ -2635,6 +2705,16 @@ class Stencil:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Stencil) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def depth_fail(self) -> StencilOp:
         """
@@ -2719,9 +2799,19 @@ class Material:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: Material, state: object) -> None:
         """
         For unpickling.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
         """
 
     @property
@@ -3449,6 +3539,11 @@ class ImageEffect:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: ImageEffect) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
     def __setstate__(self: ImageEffect, state: object) -> None:
         """
         For unpickling.
@@ -3456,6 +3551,11 @@ class ImageEffect:
 
     def _remove_texture(self: ImageEffect, name: str) -> None: ...
     def _remove_uniform(self: ImageEffect, name: str) -> None: ...
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     def _set_inputs(self: ImageEffect, uniforms: object = None, textures: object = None) -> None:
         """
         Replace all uniforms, all textures, or both.
@@ -3587,6 +3687,16 @@ class Shadow:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Shadow) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def bias(self) -> float:
         """
@@ -3631,6 +3741,16 @@ class Light:
     """
 
     def __reduce__(self) -> tuple[object, ...]: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
         """
@@ -3771,7 +3891,7 @@ class SpotLight(Light):
     @property
     def angle(self) -> float:
         """
-        float: angle from the axis to the cone's edge, degrees.
+        float: angle from the axis to the cone's edge, above 0 and below 90 degrees.
         """
 
     @angle.setter
@@ -3795,7 +3915,7 @@ class SpotLight(Light):
     @property
     def penumbra(self) -> float:
         """
-        float: share of the angle over which the light fades.
+        float: share of the angle over which the light fades, from 0 to 1.
         """
 
     @penumbra.setter
@@ -3941,6 +4061,16 @@ class Camera:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Camera) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     def intrinsics(self: Camera, size: tuple[int, int]) -> np.typing.NDArray[np.float64]:
         """
         Make the camera matrix K of the pinhole model, in OpenCV's convention.
@@ -4388,7 +4518,7 @@ class PerspectiveCamera(Camera):
     @property
     def fov(self) -> float:
         """
-        float: vertical, in degrees.
+        float: vertical, above 0 and below 180 degrees.
         """
 
     @fov.setter
@@ -4929,6 +5059,16 @@ class StereoCamera:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: StereoCamera) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def layout(self) -> StereoLayout:
         """
@@ -4961,6 +5101,16 @@ class Stats:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Stats) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def draw_calls(self) -> int:
         """
@@ -5021,6 +5171,16 @@ class Limits:
     """
 
     def __reduce__(self) -> tuple[object, ...]: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def max_array_texture_layers(self) -> int:
         """
@@ -5058,6 +5218,16 @@ class RendererInfo:
 
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: RendererInfo) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def device(self) -> Device:
         """
@@ -5383,6 +5553,16 @@ class Renderer:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Renderer) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     def capture(
         self: Renderer,
         scene: Scene,

@@ -78,6 +78,7 @@ BlendMode: TypeAlias = Literal[
     "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied"
 ]
 Center: TypeAlias = Literal["-z", "+z", "+x", "-x"]
+ControlsName: TypeAlias = Literal["orbit", "first_person", "fly"]
 Convention: TypeAlias = Literal["gl", "inside", "three"]
 DepthFormat: TypeAlias = Literal[
     "depth_component16",
@@ -112,6 +113,7 @@ FaceName: TypeAlias = Literal[
 ]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
+Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]
 StencilFunc: TypeAlias = Literal[

@@ -42,6 +42,7 @@ PYTHON_ORDER = (
     "plot",
     "navigation",
     "optics",
+    "viewer",
     "_shader_inputs",
     "_pickling",
     "_old_names",

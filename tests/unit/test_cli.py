@@ -55,7 +55,7 @@ def test_the_command_is_installed(start):
     assert cc.__version__ in done.stdout
 
 
-@pytest.mark.parametrize("command", ["info", "demo", "convert", "capture", "example"])
+@pytest.mark.parametrize("command", ["info", "demo", "convert", "capture", "example", "view"])
 def test_every_command_has_help(command):
     result = cubecam(command, "--help")
     assert result.exit_code == 0
@@ -67,7 +67,7 @@ def test_every_command_has_help(command):
 TYPE_NAMES = (
     r"\b(TEXT|INTEGER|FLOAT|RANGE|BOOLEAN|PATH|FILENAME|CHOICE)\b|x>=|<(str|int|float|bool)|\["
 )
-COMMANDS = ["info", "demo", "convert", "capture", "example"]
+COMMANDS = ["info", "demo", "convert", "capture", "example", "view"]
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -77,7 +77,12 @@ def test_help_says_what_to_write_and_not_types(command):
     assert re.search(TYPE_NAMES, rows) is None
     for line in text.splitlines():
         assert len(line) <= 100
-    flags = {"--help", "--version", "--json", "--half", "--srgb", "--list", "--all"}
+    flags = {"--help", "--version", "--json", "--half", "--srgb", "--list", "--all"} | {
+        "--page",
+        "--window",
+        "--terminal",
+        "--no-browser",
+    }
     for line in text.splitlines():
         found = re.match(r"^  (?:-\w, )?(--[\w-]+)(.*)", line)
         if found and found[1] not in flags and " if " not in line:

@@ -39,6 +39,8 @@ def test_what_is_loaded_late_looks_as_if_it_were_there():
         late = vars(cc.CubeMap)["save"]
         assert not inspect.isfunction(late)
         assert "io.cubemap_save" not in " ".join(sys.modules)
+        assert "_repr_html_" in vars(cc.Scene)
+        assert "cubecam.pictures" not in sys.modules
         # Programs that write documentation unwrap what a class's __dict__ holds.
         assert inspect.unwrap(late).__doc__.startswith("Write a cubemap")
         assert cc.CubeMap.save is vars(cc.CubeMap)["save"]

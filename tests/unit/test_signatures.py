@@ -15,12 +15,13 @@ import re
 import pytest
 
 import cubecam as cc
-from cubecam import demo, navigation, pictures, plot
+from cubecam import demo, navigation, plot
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
+from cubecam.pictures import results
 
 CAMERAS = ("PerspectiveCamera", "OrthographicCamera")
-MODULES = (navigation, pictures, demo, images, cubemaps, meshes, cubemap_save)
+MODULES = (navigation, results, demo, images, cubemaps, meshes, cubemap_save)
 STUB = pathlib.Path(cc.__file__).with_name("_core.pyi")
 
 #: Callable: its arguments that may be given by position, without self. A callable that is not
@@ -107,10 +108,10 @@ BY_POSITION = {
     "navigation.strafe": ["camera", "distance"],
     "navigation.orbit": ["camera"],
     "navigation.look": ["camera", "direction"],
-    "pictures.cube_picture": ["cube"],
-    "pictures.cube_png": ["cube"],
-    "pictures.frame_png": ["frame"],
-    "pictures.image_png": ["image"],
+    "results.cube_picture": ["cube"],
+    "results.cube_png": ["cube"],
+    "results.frame_png": ["frame"],
+    "results.image_png": ["image"],
     "plot.cross": ["cube", "labels"],
     "plot.faces": ["cube"],
     "plot.panorama": ["cube"],
@@ -366,7 +367,7 @@ def test_one_line_tells_what_is_wrong(call, message):
 
 
 #: Modules whose functions users call by names of cubecam or as methods only.
-INNER = ("pictures.", "images.", "cubemaps.", "meshes.", "cubemap_save.")
+INNER = ("results.", "images.", "cubemaps.", "meshes.", "cubemap_save.")
 ANSWERING = sorted({name for name, _ in FOUND if not name.startswith(INNER)})
 
 

@@ -1,4 +1,4 @@
-"""The command `cubecam`: info, demo, convert, capture, example.
+"""The command `cubecam`: info, demo, convert, capture, example, view.
 
 Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 141 if the program that
 reads the output has ended, as in `cubecam info | head -1`.
@@ -17,6 +17,7 @@ from .example import example
 from .help import Command, Group, option
 from .info import info
 from .terminal import guard_streams
+from .view import view
 
 __all__ = ["app", "main"]
 
@@ -51,7 +52,7 @@ def demo(out: str, frames: int, size: int, device: str | None) -> None:
         run(out, frames=frames, size=size, device=parse_device(device))
 
 
-for _command in (info, demo, convert, capture, example):
+for _command in (info, demo, convert, capture, example, view):
     app.add_command(_command)
 
 

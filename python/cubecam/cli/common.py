@@ -113,6 +113,34 @@ def look_options(note: str = "neutral", group: str = "Options") -> Callable[[F],
     return declare
 
 
+def place_options(function: F) -> F:
+    """Declare where a live picture is shown: `page`, `window`, `terminal` and `no_browser` of a command."""
+    for name, text in reversed(
+        (
+            ("--page", "Show it on a page in the browser."),
+            ("--window", "Show it in a window of its own."),
+            ("--terminal", "Show it in the terminal, also over SSH."),
+            ("--no-browser", "Print the page's address, and open no browser."),
+        )
+    ):
+        function = option(name, is_flag=True, group="Live", help=text)(function)
+    return function
+
+
+def parse_place(page: bool, window: bool, terminal: bool) -> str | None:
+    """Return the place that was chosen; None leaves the choice to the viewer."""
+    chosen = [
+        name
+        for name, given in (("page", page), ("window", window), ("terminal", terminal))
+        if given
+    ]
+    if len(chosen) > 1:
+        raise click.BadParameter(
+            f"expected one of --page, --window and --terminal, got --{' and --'.join(chosen)}"
+        )
+    return chosen[0] if chosen else None
+
+
 @contextlib.contextmanager
 def clipping_told(path: str) -> Iterator[None]:
     """Tell in one line that numbers were clipped on their way into a file, and which options help."""

@@ -8,10 +8,20 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from .. import Image, Renderer, examples
-from .common import FILE, NUMBER, WholeNumber, device_option, failures_reported, parse_device
+from .common import (
+    FILE,
+    NUMBER,
+    WholeNumber,
+    device_option,
+    failures_reported,
+    parse_device,
+    parse_place,
+    place_options,
+)
 from .help import Command, argument, option
 
 if TYPE_CHECKING:
@@ -77,6 +87,8 @@ def _names(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
     help="With --list: draw thumbnails of all programs into this picture.",
 )
 @option("--all", "everything", is_flag=True, help="Draw every program into the folder --out.")
+@option("--live", is_flag=True, group="Live", help="Show the program live: turn it, walk in it.")
+@place_options
 @device_option
 def example(
     name: str | None,
@@ -88,13 +100,21 @@ def example(
     listed: bool,
     sheet: str | None,
     everything: bool,
+    live: bool,
+    page: bool,
+    window: bool,
+    terminal: bool,
+    no_browser: bool,
     device: str | None,
 ) -> None:
     """Draw a program of the course documents.
 
-    Examples: cubecam example --list; cubecam example dynamic_reflection -o ball.gif; cubecam example P4 --frames 1
+    Examples: cubecam example --list; cubecam example dynamic_reflection -o ball.gif; cubecam example P4 --frames 1;
+    cubecam example P2 --live
     """
     _check_options(name, out, frames, fps, listed, sheet, everything)
+    place = parse_place(page, window, terminal)
+    _check_live(name, live, place, no_browser, click.get_current_context())
     with failures_reported():
         if listed:
             from rich.console import Console
@@ -104,6 +124,8 @@ def example(
                 with Renderer(device=parse_device(device)) as renderer:
                     _save_sheet(sheet, renderer)
                 _tell([sheet])
+        elif live:
+            _show(_load(name), place, no_browser, device)
         elif everything:
             folder = Path(out or "examples")
             folder.mkdir(parents=True, exist_ok=True)
@@ -119,7 +141,7 @@ def example(
             module = _load(name)
             path = out or f"{module.__name__.rpartition('.')[2]}.png"
             if path.lower().endswith(".mp4"):
-                from .movie import find_ffmpeg
+                from ..io.movie import find_ffmpeg
 
                 find_ffmpeg(Path(path))  # a missing ffmpeg is an error before anything is drawn
             with Renderer(device=parse_device(device)) as renderer:
@@ -156,6 +178,30 @@ def _check_options(
             )
 
 
+def _check_live(
+    name: str | None, live: bool, place: str | None, no_browser: bool, ctx: click.Context
+) -> None:
+    if not live:
+        for given, option in ((place, f"--{place}"), (no_browser, "--no-browser")):
+            if given:
+                raise click.BadParameter("expected with --live only", param_hint=option)
+        return
+    if name is None:
+        raise click.BadParameter("expected a NAME with it", param_hint="--live")
+    for parameter in ("out", "frames", "start", "size", "fps"):
+        if ctx.get_parameter_source(parameter) is not ParameterSource.DEFAULT:
+            raise click.BadParameter("expected without --live", param_hint=f"--{parameter}")
+    if not examples.is_live(name):
+        listed = ", ".join(
+            f"{examples.load(known).PROGRAM} {known}"
+            for known in examples.NAMES
+            if examples.is_live(known)
+        )
+        raise click.BadParameter(
+            f"expected a program that is live ({listed}), got {name!r}", param_hint="NAME"
+        )
+
+
 def _load(name: str | None) -> Any:
     try:
         return examples.load(name or "")
@@ -175,10 +221,18 @@ def _table() -> Table:
     for heading in ("", "name", "shows"):
         table.add_column(heading, no_wrap=heading != "shows")
     table.add_column("frames", justify="right")
+    table.add_column("")
     for known in examples.NAMES:
         module = examples.load(known)
-        table.add_row(module.PROGRAM, known, module.TITLE, str(module.FRAMES))
+        live = "live" if examples.is_live(known) else ""
+        table.add_row(module.PROGRAM, known, module.TITLE, str(module.FRAMES), live)
     return table
+
+
+def _show(module: Any, place: str | None, no_browser: bool, device: str | None) -> None:
+    """Show a program live, until its window is closed or Ctrl-C ends it."""
+    with Renderer(device=parse_device(device)) as renderer:
+        module.live(renderer=renderer).show(place, browser=not no_browser)
 
 
 def _save(
@@ -217,7 +271,7 @@ def _save(
             yield module.draw(program, renderer, frame, size=(width, height), **options)[..., :3]
 
     if ending == ".mp4":
-        from .movie import save_mp4
+        from ..io.movie import save_mp4
 
         save_mp4(path, pictures(), fps)
     else:

@@ -6,6 +6,8 @@ Each module has
 - ``draw(program, renderer, frame, size=SIZE, **options)``, which returns frame 0, 1, 2, ... as an array (H, W, 4), row
   0 on top. A frame depends only on its number, so frames may be drawn in any order. The options are those of
   `Renderer.render`, such as ``format="rgba32f"``;
+- in most modules ``live(...)``, which returns a `cubecam.Viewer` of the program, with the mouse and the keys of its
+  document;
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
   ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels).
 
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
 
 from .._calls import checked_call
 
-__all__ = ["NAMES", "Example", "load"]
+__all__ = ["NAMES", "Example", "is_live", "load"]
 
 #: The names in the order of the programs' numbers, P1 to P17.
 NAMES: tuple[str, ...] = (
@@ -116,6 +118,33 @@ def load(name: str) -> Example:
             return found
     listed = ", ".join(f"{_module(known).PROGRAM} {known}" for known in NAMES)
     raise ValueError(f"name: expected one of {listed}; got {name!r}")
+
+
+@checked_call
+def is_live(name: str) -> bool:
+    """Report whether an example has a live form, ``load(name).live()``.
+
+    Parameters
+    ----------
+    name : str
+        As for `load`.
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    ValueError
+        As `load`.
+
+    Examples
+    --------
+    >>> from cubecam import examples
+    >>> examples.is_live("P14"), examples.is_live("additive_blur")
+    (True, False)
+    """
+    return hasattr(load(name), "live")
 
 
 def _module(name: str) -> Example:

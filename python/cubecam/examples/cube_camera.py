@@ -24,11 +24,13 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import LIGHT, Photographs, Picture, on_circle, picture, surroundings, teapot
+from ._live import Clock, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P12"
 TITLE = "Cube camera: a mirror for a skybox and for moving cubes in front of it"
@@ -75,15 +77,19 @@ def build(
         scene.add(cc.Mesh.box(edge), cc.PhongMaterial(color=color, ka=0.4))
         for color, edge, *_ in CUBES
     )
-    mesh = cc.Mesh.sphere(1.5) if reflector == "sphere" else teapot(4)
-    mirror = scene.add(mesh, cc.MirrorMaterial())
+    mirror = scene.add(shape(reflector), cc.MirrorMaterial())
     probe = cc.Probe(position=(0, 0, 0), size=probe_size, near=NEAR, far=FAR, format=probe_format)
     mirror.environment = probe
     camera = cc.PerspectiveCamera(fov=50, position=(0, 2, 12), target=(0, 0, 0), near=NEAR, far=FAR)
     return Program(scene, camera, mirror, cubes, probe)
 
 
-def place(program: Program, frame: int) -> None:
+def shape(reflector: Literal["sphere", "teapot"]) -> cc.Mesh:
+    """Return the mesh of a reflector."""
+    return cc.Mesh.sphere(1.5) if reflector == "sphere" else teapot(4)
+
+
+def place(program: Program, frame: float) -> None:
     """Place the cubes of a frame: they spin on circles round +Y, every second one backwards."""
     for index, (node, (_, _, radius, height, start)) in enumerate(
         zip(program.cubes, CUBES, strict=True)
@@ -103,3 +109,23 @@ def draw(
     """Draw a frame; the probe is brought up to date with it."""
     place(program, frame)
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: a drag moves the camera round the reflector, and t changes ball and teapot."""
+    program = build(images)
+    place(program, 0)
+    shapes = [shape("teapot"), shape("sphere")]
+
+    def exchange() -> None:
+        program.reflector.mesh = shapes[0]
+        shapes.reverse()
+
+    return live_view(
+        program,
+        SIZE,
+        TITLE,
+        renderer,
+        clock=Clock(lambda frame, _: place(program, frame)),
+        keys={"t": (exchange, "ball or teapot")},
+    )

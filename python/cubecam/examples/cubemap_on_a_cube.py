@@ -22,11 +22,13 @@ import cubecam as cc
 from cubecam.typing import DepthFormat, Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
+from ._live import SCREEN, Clock, Visitor, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P13"
 TITLE = "A cubemap drawn on the fly, shown on a turning cube"
@@ -98,6 +100,18 @@ def draw(
     **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: the cube's matrix is translate * scale * rotate(0.45 k, (1, 1, 1))."""
+    turn(program, frame)
+    return picture(renderer, program.scene, program.camera, size, options)
+
+
+def turn(program: Program, frame: float) -> None:
+    """Turn the cube as in a frame."""
     # The scale is the same for all axes, so the node's own order, translate * rotate * scale, gives the same matrix.
     program.cube.rotation = cc.axis_angle(AXIS, TURN * frame)
-    return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: the cube turns, a drag turns the view, w and s walk."""
+    program = build(probe_size)
+    clock = Clock(lambda frame, _: turn(program, frame), rate=SCREEN)
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

@@ -21,6 +21,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, on_circle, picture, teapot
+from ._live import Clock, Visitor, live_view
 from .cubemap_on_a_cube import (
     BUNNY,
     DEPTH,
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P14"
 TITLE = "Dynamic reflection: a ball mirrors the actors that circle it"
@@ -106,7 +108,7 @@ def circle(actor: cc.Node, radians: float) -> None:
     actor.rotation = cc.axis_angle((0, 1, 0), math.degrees(radians))
 
 
-def go_round(actors: tuple[cc.Node, cc.Node], frame: int) -> None:
+def go_round(actors: tuple[cc.Node, cc.Node], frame: float) -> None:
     """Place the actors, opposite each other; they move by a tenth of a radian a frame."""
     for index, actor in enumerate(actors):
         circle(actor, TURN * frame + index * math.pi)
@@ -122,3 +124,10 @@ def draw(
     """Draw a frame: the actors, opposite each other, move by a tenth of a radian a frame."""
     go_round(program.actors, frame)
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: the actors circle, a drag turns the view, w and s walk."""
+    program = build(probe_size)
+    clock = Clock(lambda frame, _: go_round(program.actors, frame))
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

@@ -20,6 +20,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import Picture, picture
+from ._live import Clock, Visitor, live_view
 from .cubemap_on_a_cube import FAR, NEAR, PROBE
 from .dynamic_reflection import (
     BALL,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P17"
 TITLE = "Dynamic refraction: a glass ball beside a mirror"
@@ -89,3 +91,15 @@ def draw(
     """Draw a frame: the actors move by a tenth of a radian a frame."""
     go_round(program.actors, frame)
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(
+    eta: float = ETA,
+    fresnel: bool = False,
+    probe_size: int = PROBE,
+    renderer: cc.Renderer | None = None,
+) -> Viewer:
+    """Show the program live: the actors circle, a drag turns the view, w and s walk."""
+    program = build(eta, fresnel, probe_size)
+    clock = Clock(lambda frame, _: go_round(program.actors, frame))
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

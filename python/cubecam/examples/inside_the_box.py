@@ -15,7 +15,6 @@ person's head.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -23,11 +22,13 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
+from ._live import STEP, Visitor, direction, live_view, look
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P2"
 TITLE = "Inside the box: drags turn the view, w and s walk"
@@ -36,7 +37,6 @@ SIZE = (512, 512)  # aspect 1
 FOV, NEAR, FAR = 60.0, 1.0, 15.0  # degrees, world units
 CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 SCALE = 2.0
-STEP = 0.1  # world units, one press of w or s
 FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
 
 #: "w", "s", or a drag (angleX, angleY) in degrees.
@@ -76,12 +76,6 @@ def walker() -> cc.PerspectiveCamera:
     return cc.PerspectiveCamera(fov=FOV, position=(0, 0, 0), target=FIRST, near=NEAR, far=FAR)
 
 
-def direction(angle_x: float, angle_y: float) -> tuple[float, float, float]:
-    """Return Rx(angle_y) Ry(angle_x) (0, 0, 1), angles in degrees."""
-    x, y = math.radians(angle_x), math.radians(angle_y)
-    return math.sin(x), -math.sin(y) * math.cos(x), math.cos(y) * math.cos(x)
-
-
 def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
     """Put the camera at its start, and replay the events."""
     camera.target = None
@@ -95,10 +89,7 @@ def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
             raise ValueError(f'script: expected "w", "s" or a drag of two angles, got {event!r}')
         else:
             angle_x, angle_y = angle_x + event[0], angle_y + event[1]
-            view = direction(angle_x, angle_y)
-            # Straight up and straight down there is no view with +Y up; the last view stays.
-            if math.hypot(view[0], view[2]) > 1e-6:
-                camera.look(view)
+            look(camera, direction(angle_x, angle_y))
 
 
 def draw(
@@ -111,3 +102,9 @@ def draw(
     """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: a drag turns the view, w and s walk."""
+    program = build(images)
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))

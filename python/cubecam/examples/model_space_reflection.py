@@ -30,11 +30,13 @@ import numpy.typing as npt
 import cubecam as cc
 
 from ._common import Photographs, Picture, picture, surroundings, teapot
+from ._live import Clock, Followed, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P6"
 TITLE = "Reflection in model space, from a cubemap of one image"
@@ -180,10 +182,30 @@ def draw(
     **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame: both teapots have turned by 4 degrees a frame."""
+    turn(program, frame)
+    return picture(renderer, program.scene, program.camera, size, options)
+
+
+def turn(program: Program, frame: float) -> None:
+    """Turn both teapots, and tell the shader where the eye is in model space."""
     for node in (program.model, program.world):
         node.rotation = cc.axis_angle((0, 1, 0), TURN * frame)
     program.material.uniforms = {
         "camPosModel": eye_in_model_space(program.camera, program.model),
         "matModelToWorld": program.model.world_matrix[:3, :3],
     }
-    return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(
+    image: str | os.PathLike[str] | npt.NDArray[np.generic] | None = None,
+    stretch: tuple[float, float, float] = (1.0, 1.0, 1.0),
+    per_vertex: bool = False,
+    skybox: bool = False,
+    renderer: cc.Renderer | None = None,
+) -> Viewer:
+    """Show the program live: the teapots turn, and a drag moves the camera round them."""
+    program = build(image, stretch, per_vertex, skybox)
+    clock = Clock(lambda frame, _: turn(program, frame))
+    # The shader must know the eye's new place, also while the clock stands still.
+    controls = Followed(lambda: turn(program, clock.frame))
+    return live_view(program, SIZE, TITLE, renderer, controls=controls, clock=clock)

@@ -22,6 +22,7 @@ from cubecam.typing import Format
 
 from . import dynamic_reflection
 from ._common import Picture, picture
+from ._live import Clock, Visitor, live_view
 from .cubemap_on_a_cube import PROBE
 from .dynamic_reflection import TURN, circle, go_round
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P15"
 TITLE = "No picture is drawn again while nothing in it changes"
@@ -72,6 +74,28 @@ def draw(
     """Draw a frame; `views_drawn` then returns how many pictures it took."""
     circle(program.walker, TURN * steps(frame))
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: the bunny walks and rests, a drag turns the view, w and s walk.
+
+    The line below the picture tells how many views the last picture took.
+    """
+    program = build(probe_size)
+
+    def walk(frame: float, _: float) -> None:
+        circle(program.walker, TURN * steps(int(frame)))
+
+    clock = Clock(walk)
+    controls = Visitor(program.camera)
+    viewer = live_view(program, SIZE, TITLE, renderer, controls=controls, clock=clock)
+
+    def walk_and_tell(frame: float, step: float) -> None:
+        viewer.text = f"views drawn: {viewer.renderer.stats.views_drawn}"
+        walk(frame, step)
+
+    clock.place = walk_and_tell
+    return viewer
 
 
 def views_drawn(program: Program, renderer: cc.Renderer) -> int:

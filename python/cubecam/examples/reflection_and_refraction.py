@@ -24,11 +24,13 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import Photographs, Picture, on_circle, picture, surroundings, teapot
+from ._live import Clock, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P4"
 TITLE = "Reflection and refraction of a still environment"
@@ -84,3 +86,17 @@ def draw(
     # In frame 0 the camera is on +Z.
     program.camera.position = on_circle(DISTANCE, HEIGHT, math.radians(TURN * frame - 90))
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(
+    images: Photographs | None = None, eta: float = ETA, renderer: cc.Renderer | None = None
+) -> Viewer:
+    """Show the program live: a drag moves the camera round the four objects, and both turn on together."""
+    program = build(images, eta)
+
+    def turn_on(frame: float, step: float) -> None:
+        program.group.rotation = cc.axis_angle((0, 1, 0), TURN * frame)
+        # The camera turns on from where the last drag left it; yaw is counted clockwise, seen from above.
+        program.camera.orbit(yaw=-TURN * step)
+
+    return live_view(program, SIZE, TITLE, renderer, clock=Clock(turn_on))

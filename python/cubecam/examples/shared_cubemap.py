@@ -33,6 +33,7 @@ import cubecam as cc
 from cubecam.typing import Format
 
 from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
+from ._live import Clock, Visitor, live_view
 from ._truth import Truth, mirror_image
 from .cubemap_on_a_cube import (
     BUNNY,
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P16"
 TITLE = "One cubemap shared by neighbouring mirrors, and its error"
@@ -123,7 +125,7 @@ def share(program: Program, whose: Whose) -> None:
         ball.environment = program.probes[1] if whose == "shared" else own
 
 
-def distance(frame: int) -> float:
+def distance(frame: float) -> float:
     """Give the neighbours' distance in a frame: from `NEAREST` to `FARTHEST` and back."""
     return NEAREST + (FARTHEST - NEAREST) * (1 - math.cos(2 * math.pi * frame / FRAMES)) / 2
 
@@ -152,6 +154,29 @@ def draw(
         exact, _ = truth(program, half)
         shared, own = _apart(shared, exact), _apart(own, exact)
     return np.concatenate([shared, own])
+
+
+def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: the balls move apart, and p gives each a probe of its own or one to all.
+
+    A drag turns the view, w and s walk. The picture is the upper one of `draw`, and after p the lower one.
+    """
+    program = build(probe_size)
+    order: list[Whose] = ["own", "shared"]
+
+    def exchange() -> None:
+        share(program, order[0])
+        order.reverse()
+
+    return live_view(
+        program,
+        (SIZE[0], SIZE[1] // 2),
+        TITLE,
+        renderer,
+        controls=Visitor(program.camera),
+        clock=Clock(lambda frame, _: place(program, distance(frame))),
+        keys={"p": (exchange, "one probe for all, or one each")},
+    )
 
 
 def truth(program: Program, size: tuple[int, int]) -> Truth:

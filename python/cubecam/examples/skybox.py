@@ -24,12 +24,14 @@ import cubecam as cc
 
 from . import inside_the_box
 from ._common import Photographs, Picture, picture, surroundings
+from ._live import Visitor, live_view
 from .inside_the_box import SCRIPT, Event, replay
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P3"
 TITLE = "Skybox: a background that walking never reaches"
@@ -74,3 +76,11 @@ def draw(
     """Draw the view after the first `frame` events of the script."""
     replay(program.camera, program.script[: max(frame, 0)])
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(
+    images: Photographs | None = None, boxes: bool = True, renderer: cc.Renderer | None = None
+) -> Viewer:
+    """Show the program live: a drag turns the view, w and s walk, and the sky stays where it is."""
+    program = build(images, boxes=boxes)
+    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))

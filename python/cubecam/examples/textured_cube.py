@@ -21,11 +21,13 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
+from ._live import Drags, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P1"
 TITLE = "A cube textured by a cubemap of six photographs"
@@ -73,6 +75,19 @@ def draw(
 ) -> Picture:
     """Draw a frame: the model matrix is Rx(angleY) Ry(angleX) scale(2), as the document writes it."""
     angle_x = angle_y = START + DRAG * frame
+    turn(program, angle_x, angle_y)
+    return picture(renderer, program.scene, program.camera, size, options)
+
+
+def turn(program: Program, angle_x: float, angle_y: float) -> None:
+    """Turn the cube: angle_x degrees round Y, then angle_y degrees round X."""
     program.tilt.rotation = cc.axis_angle((1, 0, 0), angle_y)
     program.cube.rotation = cc.axis_angle((0, 1, 0), angle_x)
-    return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
+    """Show the program live: a drag turns the cube."""
+    program = build(images)
+    turn(program, START, START)
+    drags = Drags(lambda x, y: turn(program, x, y), start=(START, START))
+    return live_view(program, SIZE, TITLE, renderer, controls=drags)

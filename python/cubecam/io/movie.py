@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from .._core import FileError
-from ..io.files import PathLike, as_path, replacing
+from .files import PathLike, as_path, replacing
 
 
 def find_ffmpeg(path: Path) -> str:

@@ -1,4 +1,4 @@
-"""Pictures of objects for notebooks and the command line: the same numbers as in files (`to_screen`)."""
+"""Pictures of results (cubemaps, frames, images): the same numbers as in files (`to_screen`)."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ._core import CubeMap
-from .io import oiio
-from .io.images import encode_picture
-from .io.screen import to_screen
-from .typing import Tonemap
+from .._core import CubeMap
+from ..io import oiio
+from ..io.images import encode_picture
+from ..io.screen import to_screen
+from ..typing import Tonemap
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from ._core import Frame, Image
+    from .._core import Frame, Image
 
 # A notebook keeps every picture in its file: larger faces are shown at this size.
 _LARGEST_FACE = 256

@@ -1,0 +1,160 @@
+"""Where a live view is shown: the canvas of rendercanvas that serves it, and the extra of cubecam that has it."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import os
+import sys
+import threading
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .live import LiveView
+
+__all__ = ["PLACES", "choose", "needs", "show"]
+
+PLACES = ("notebook", "page", "window", "terminal", "offscreen")
+#: Toolkits for windows, in the order in which they are tried; rendercanvas presents bitmaps to them.
+_QT = ("PySide6", "PyQt6")
+
+
+def needs(module: str, extra: str) -> Any:
+    """Import a module that an extra of cubecam installs.
+
+    Raises
+    ------
+    ImportError
+        If it is missing; the message names the extra.
+    """
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        package = module.split(".")[0]
+        raise ImportError(
+            f"expected the package {package}, which is not installed or cannot be loaded ({error}); "
+            f'pip install "cubecam[{extra}]" installs it',
+            name=package,
+        ) from error
+
+
+def choose() -> str:
+    """Choose where a view is shown: notebook, window, terminal or page."""
+    if in_notebook():
+        return "notebook"
+    screen = bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    if screen and any(importlib.util.find_spec(name) for name in _QT):
+        return "window"
+    if os.environ.get("SSH_CONNECTION") and sys.stdout is not None and sys.stdout.isatty():
+        return "terminal"
+    return "page"
+
+
+def in_notebook() -> bool:
+    """Whether this process is the kernel of a notebook."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    return getattr(shell, "kernel", None) is not None
+
+
+def interactive() -> bool:
+    """Whether a person types at Python's prompt or in a notebook."""
+    ipython = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython is not None else None
+    return shell is not None or hasattr(sys, "ps1") or bool(sys.flags.interactive)
+
+
+def show(view: LiveView, where: str | None, *, browser: bool, block: bool | None) -> None:
+    """Show a view at one of `PLACES`; None chooses."""
+    place = choose() if where is None else where
+    if place not in PLACES:
+        raise ValueError(f"where: expected None or one of {', '.join(PLACES)}, got {where!r}")
+    waits = not interactive() if block is None else block
+    if place == "notebook":
+        view._ipython_display_()
+    elif place == "page":
+        show_page(view, browser=browser, block=waits)
+    else:
+        _open(view, place, waits)
+
+
+def show_page(
+    view: LiveView,
+    *,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    password: str | None = None,
+    browser: bool = True,
+    block: bool = True,
+) -> str:
+    """Show a view on a page of its own server; print and return the address.
+
+    The server ends with the view. With `block` the call ends with the view, or at Ctrl-C, which closes it.
+    """
+    needs("rendercanvas", "viewer")
+    needs("uvicorn", "viewer")
+    needs("websockets", "viewer")
+    from .page.server import PageServer
+
+    server = PageServer(host, port, password=password)
+    try:
+        address = server.add(view)
+        view.add_listener(lambda name, _: _end(server) if name == "closed" else None)
+        print(address, flush=True)
+        if browser:
+            import webbrowser
+
+            webbrowser.open(address)
+        if block:
+            while not server.wait(0.5):
+                pass
+    except KeyboardInterrupt:
+        view.close()
+        server.close()
+    except BaseException:
+        server.close()
+        raise
+    return str(address)
+
+
+def _end(server: Any) -> None:
+    """End a server from any thread, also from its own."""
+    threading.Thread(target=server.close, name="cubecam page ends").start()
+
+
+def _open(view: LiveView, place: str, block: bool) -> None:
+    module = _canvas_module(place)
+    options = {} if place == "offscreen" else {"max_fps": 30}
+    canvas = module.RenderCanvas(size=view.size, title=view.title, **options)
+    canvas._cubecam_owns_view = place in ("window", "terminal")
+    view._attach(canvas)
+    if place == "window":
+        view.add_listener(
+            lambda name, value: canvas.set_title(_title(view, value)) if name == "text" else None
+        )
+    if place != "offscreen" and block:
+        try:
+            module.loop.run()
+        except KeyboardInterrupt:
+            pass
+        finally:
+            view.close()
+
+
+def _title(view: LiveView, text: str) -> str:
+    return f"{view.title}: {text}" if text else view.title
+
+
+def _canvas_module(place: str) -> Any:
+    if place == "window":
+        needs("rendercanvas", "viewer")
+        for name in _QT:
+            if importlib.util.find_spec(name):
+                return importlib.import_module(f"rendercanvas.{name.lower()}")
+        if importlib.util.find_spec("glfw") and importlib.util.find_spec("wgpu"):
+            return importlib.import_module("rendercanvas.glfw")
+        raise ImportError(
+            "expected PySide6, PyQt6, or glfw and wgpu for a window, found none of them; "
+            'pip install "cubecam[window]" installs PySide6'
+        )
+    return needs(f"rendercanvas.{place}", "viewer")

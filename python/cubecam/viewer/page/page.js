@@ -1,0 +1,152 @@
+// The page of a live view: pictures come over a websocket, events and changes of the panel go back over it.
+// renderview.js is rendercanvas' own; it turns what mouse, touch and keyboard do into events.
+
+import { showPanel, showProblem } from './panel.js'
+
+/* global BaseRenderView */
+const byId = (id) => document.getElementById(id)
+const picture = byId('picture')
+const help = byId('help')
+const FIRST_WAIT = 250 // milliseconds until a lost connection is tried again; the wait doubles up to LAST_WAIT
+const LAST_WAIT = 4000
+
+let socket = null
+let wait = FIRST_WAIT
+
+const send = (message) => {
+  if (socket !== null && socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify(message))
+}
+
+// ---- the picture
+
+class PageView extends BaseRenderView {
+  constructor () {
+    picture.style.width = picture.style.height = '100%'
+    super(picture, null)
+    this.setThrottle(16)
+    this.newest = null
+    this.planned = false
+    this.lastSize = null
+    this.fingers = new Map()
+    picture.addEventListener('wheel', () => this._focusElement.focus({ preventScroll: true }), { capture: true })
+    picture.addEventListener('pointerenter', () => { if (!isTyping()) this._focusElement.focus({ preventScroll: true }) })
+    for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) {
+      picture.addEventListener(type, (event) => this.pinch(event), { capture: true })
+    }
+    this._focusElement.setAttribute('aria-label', 'Keys for the view')
+  }
+
+  onEvent (event) {
+    if (event.type === 'resize') this.lastSize = event
+    if (event.type === 'key_down' && event.key === 'h' && byId('help-text').textContent) help.showModal()
+    send(event)
+  }
+
+  // Of the frames that arrive between two pictures of the screen the last one is shown, and that one is confirmed.
+  push (frame) {
+    this.newest = frame
+    if (!this.planned) {
+      this.planned = true
+      requestAnimationFrame(() => this.show())
+    }
+  }
+
+  show () {
+    this.planned = false
+    const frame = this.newest
+    const address = URL.createObjectURL(new Blob([frame.data], { type: frame.mimetype }))
+    const old = picture.src
+    picture.onload = picture.onerror = () => { if (old.startsWith('blob:')) URL.revokeObjectURL(old) }
+    picture.src = address
+    document.body.classList.add('live')
+    picture.dataset.frame = frame.index
+    picture.dataset.kind = frame.mimetype
+    send({ type: '_framefeedback', index: frame.index, timestamp: frame.timestamp })
+  }
+
+  // Two fingers that move apart or together are a wheel.
+  pinch (event) {
+    if (event.pointerType !== 'touch') return
+    const apart = () => {
+      const [a, b] = [...this.fingers.values()]
+      return Math.hypot(a.x - b.x, a.y - b.y)
+    }
+    const before = this.fingers.size === 2 ? apart() : 0
+    if (event.type === 'pointerup' || event.type === 'pointercancel') this.fingers.delete(event.pointerId)
+    else if (event.type === 'pointerdown' || this.fingers.has(event.pointerId)) {
+      this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY })
+    }
+    if (this.fingers.size < 2) return
+    event.stopImmediatePropagation()
+    if (event.type === 'pointermove' && before > 0) {
+      const [a, b] = [...this.fingers.values()]
+      const dy = 500 * Math.log(before / Math.max(apart(), 1))
+      send({ type: 'wheel', x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, dx: 0, dy, buttons: [], modifiers: [] })
+    }
+  }
+}
+
+const isTyping = () => document.activeElement !== null && document.activeElement.closest('#panel input:not([type=range]):not([type=checkbox])') !== null
+const view = new PageView()
+
+// ---- the connection
+
+const receivers = {
+  title: (value) => { document.title = byId('title').textContent = value },
+  text: (value) => { byId('text').textContent = value },
+  cursor: (value) => { picture.style.cursor = value },
+  help: (value) => {
+    byId('help-text').textContent = value
+    byId('ask').hidden = !value
+  },
+  panel: (value) => showPanel(byId('sections'), value, (control, newValue) => send({ type: 'control', control, value: newValue }), foldPanel)
+}
+
+function connect () {
+  let head = null // the message whose picture comes next
+  socket = new WebSocket(`ws://${location.host}${location.pathname}`)
+  socket.binaryType = 'arraybuffer'
+  socket.onopen = () => {
+    wait = FIRST_WAIT
+    byId('notice').hidden = true
+    if (view.lastSize !== null) send(view.lastSize)
+  }
+  socket.onmessage = (event) => {
+    if (typeof event.data !== 'string') {
+      if (head !== null) view.push({ ...head, data: event.data })
+      head = null
+      return
+    }
+    const message = JSON.parse(event.data)
+    if (message.type === 'framebufferdata') head = message
+    else if (message.type in receivers) receivers[message.type](message.value)
+    else if (message.type.startsWith('problem ')) showProblem(message.type.slice(8).split(' '), message.value)
+  }
+  socket.onclose = () => {
+    const notice = byId('notice')
+    notice.textContent = 'The connection to the program is lost; the page tries again.'
+    notice.hidden = false
+    setTimeout(connect, wait)
+    wait = Math.min(2 * wait, LAST_WAIT)
+  }
+}
+
+// ---- the panel and the help
+
+let folded = window.matchMedia('(max-width: 640px)').matches
+
+function foldPanel (fold = folded) {
+  folded = fold
+  const some = byId('sections').children.length > 0
+  byId('panel').hidden = folded || !some
+  byId('unfold').hidden = !folded || !some
+}
+
+byId('fold').onclick = () => foldPanel(true)
+byId('unfold').onclick = () => foldPanel(false)
+byId('ask').onclick = () => help.showModal()
+byId('sections').onsubmit = (event) => event.preventDefault()
+help.onclick = () => help.close()
+help.onkeydown = (event) => { if (event.key === 'h') help.close() }
+
+connect()

@@ -1,0 +1,420 @@
+"""`Viewer`: a scene that one can turn, walk in, pick from and change."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from .._calls import checked_call
+from .._core import (
+    Frame,
+    Node,
+    OrthographicCamera,
+    PerspectiveCamera,
+    Probe,
+    Renderer,
+    Scene,
+    _newest_revision,
+)
+from ..typing import ControlsName, Place, Tonemap
+from .controls import Controls, FirstPerson, make_controls
+from .live import LiveView
+from .outputs import OUTPUTS, output_picture, probe_picture
+from .picking import Pick, pick_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from .panel import Section
+
+__all__ = ["Output", "Viewer", "show_scene"]
+
+#: What a viewer can show of a scene, besides what a probe sees.
+Output: TypeAlias = Literal["color", "distance", "normal", "id"]
+_PICKED = ("id", "position", "normal", "distance")
+
+
+class Viewer(LiveView):
+    """Explore a scene: drag to turn, wheel to come nearer, double click to set the pivot, ``h`` for all keys.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is shown. Changes of the scene show at once.
+    camera : PerspectiveCamera or OrthographicCamera, optional
+        The view, which the controls move. Default: a camera that sees the whole scene, or one that stands at the
+        origin in a scene without nodes.
+    controls : {"orbit", "first_person", "fly"} or Controls
+        What mouse and keys do: turn the scene round the camera's target, or stand in it.
+    size : (int, int)
+        The (width, height) in logical pixels.
+    renderer : Renderer, optional
+        What draws; several viewers may share one. Default: a renderer of its own, which `close` closes.
+    samples : int
+        Samples of each pixel at rest, as in `Renderer.render`. While something moves there is one.
+    exposure : float
+        Stops, as in `Renderer.render`.
+    tonemap : {"neutral", "reinhard", "aces"} or None
+        The tone curve, as in `Renderer.render`.
+    output : {"color", "distance", "normal", "id"} or Probe
+        What the picture shows: the colour; the distance to the camera, near is bright; normals, (n + 1) / 2; one
+        colour for each node; or the cubemap that a probe sees, as a cross.
+    title : str
+        The title of the page or of the window.
+
+    Raises
+    ------
+    TypeError
+        For an object that is no scene, camera, renderer or probe.
+    ValueError
+        For another name of controls or outputs, or a size below 1.
+
+    Notes
+    -----
+    At rest the picture equals ``renderer.render(scene, camera, size, samples=samples, exposure=exposure,
+    tonemap=tonemap, encode="srgb").color`` bit for bit.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background="white")
+    >>> ball = scene.add(cc.Mesh.sphere(1), cc.BasicMaterial(color="red"), name="ball")
+    >>> with cc.Viewer(scene, size=(64, 48)) as viewer:
+    ...     picture = viewer.draw()
+    ...     found = viewer.pick(32, 24)
+    >>> picture.shape, found.node is ball
+    ((48, 64, 4), True)
+    """
+
+    __module__ = "cubecam"
+
+    def __init__(
+        self,
+        scene: Scene,
+        camera: PerspectiveCamera | OrthographicCamera | None = None,
+        controls: ControlsName | Controls = "orbit",
+        *,
+        size: tuple[int, int] = (640, 480),
+        renderer: Renderer | None = None,
+        samples: int = 4,
+        exposure: float = 0.0,
+        tonemap: Tonemap | None = "neutral",
+        output: Output | Probe = "color",
+        title: str = "cubecam",
+    ) -> None:
+        _expect(scene, Scene, "scene")
+        if camera is not None:
+            _expect(camera, (PerspectiveCamera, OrthographicCamera), "camera")
+        if renderer is not None:
+            _expect(renderer, Renderer, "renderer")
+        super().__init__(size=size, title=title)
+        self.scene = scene
+        bounds = scene.bounds
+        if camera is None:
+            camera = PerspectiveCamera()
+            if bounds is not None:
+                camera.fit(scene, aspect=self.size[0] / self.size[1])
+            elif controls == "orbit":
+                controls = "first_person"  # there is nothing to turn
+        self.camera: PerspectiveCamera | OrthographicCamera = camera
+        self.controls = make_controls(controls)
+        if camera.target is None and controls == "orbit":
+            _give_target(camera, bounds)
+        self._owned: Renderer | None = None
+        self._renderer = renderer
+        self._samples = samples
+        self._exposure = float(exposure)
+        self._tonemap: Tonemap | None = tonemap
+        self._output: Output | Probe = "color"
+        self.output = output
+        self._home = _pose(camera)
+        self._frame: tuple[tuple[int, tuple[int, int]], Frame] | None = None
+        self._node_of: tuple[int, dict[int, Node]] = (-1, {})
+        self._clicked: tuple[float, float] | None = None
+        self.picked: Pick | None = None
+
+    # ----- settings
+
+    @property
+    def renderer(self) -> Renderer:
+        """What draws; made at its first use, if none was given."""
+        self._check_open()
+        if self._renderer is None:
+            self._renderer = self._owned = Renderer()
+        return self._renderer
+
+    @property
+    def samples(self) -> int:
+        """Samples of each pixel at rest."""
+        return self._samples
+
+    @samples.setter
+    def samples(self, value: int) -> None:
+        self._samples = int(value)
+        self._set_something()
+
+    @property
+    def exposure(self) -> float:
+        """Stops: the light is multiplied by ``2**exposure``."""
+        return self._exposure
+
+    @exposure.setter
+    def exposure(self, value: float) -> None:
+        number = float(value)
+        if not np.isfinite(number):
+            raise ValueError(f"exposure: expected a finite number of stops, got {value}")
+        self._exposure = number
+        self._set_something()
+
+    @property
+    def tonemap(self) -> Tonemap | None:
+        """The tone curve, or None."""
+        return self._tonemap
+
+    @tonemap.setter
+    def tonemap(self, value: Tonemap | None) -> None:
+        from ..io.screen import CURVES
+
+        if value is not None and value not in CURVES:
+            raise ValueError(f"tonemap: expected None or one of {', '.join(CURVES)}, got {value!r}")
+        self._tonemap = value
+        self._set_something()
+
+    @property
+    def output(self) -> Output | Probe:
+        """What the picture shows."""
+        return self._output
+
+    @output.setter
+    def output(self, value: Output | Probe) -> None:
+        if not isinstance(value, Probe) and value not in OUTPUTS:
+            raise ValueError(
+                f"output: expected {', '.join(map(repr, OUTPUTS))} or a Probe, got {value!r}"
+            )
+        self._output = value
+        self._set_something()
+
+    @property
+    def help(self) -> str:
+        """What mouse and keys do, one line each."""
+        lines = [self.controls.help, "click  pick", "r  the first view again"]
+        if "o" not in self.controls.keys:
+            lines.append("o  colour, distance, normals, ids")
+        return "\n".join([*lines, super().help])
+
+    def panel(self) -> list[Section]:
+        """Give the sections for the scene's objects: see `cubecam.viewer.scene_panel`."""
+        from .scene_panel import scene_sections
+
+        return list(scene_sections(self))
+
+    def _set_something(self) -> None:
+        self.changed()
+        self._tell("panel", None)
+
+    # ----- pictures
+
+    def _picture(self, size: tuple[int, int], moving: bool) -> npt.NDArray[np.uint8]:
+        output = self._output
+        if isinstance(output, Probe):
+            return probe_picture(
+                self.renderer, self.scene, output, size, self._exposure, self._tonemap
+            )
+        if output != "color":
+            frame = self.renderer.render(
+                self.scene, self.camera, size, outputs=(output,), format=None
+            )
+            return output_picture(frame, output)
+        frame = self.renderer.render(
+            self.scene,
+            self.camera,
+            size,
+            samples=1 if moving else self._samples,
+            exposure=self._exposure,
+            tonemap=self._tonemap,
+            encode="srgb",
+        )
+        return np.asarray(frame.color, np.uint8)
+
+    # ----- picking
+
+    def pick(self, x: float, y: float, *, size: tuple[float, float] | None = None) -> Pick | None:
+        """Find what a pixel shows.
+
+        Parameters
+        ----------
+        x, y : float
+            Logical pixels from the top left corner.
+        size : (float, float), optional
+            The (width, height) of the picture in the same pixels; the view's `size` by default.
+
+        Returns
+        -------
+        Pick or None
+            None where the picture shows the background.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(1), name="ball")
+        >>> with cc.Viewer(scene, size=(64, 64)) as viewer:
+        ...     print(viewer.pick(32, 32).node.name, viewer.pick(0, 0))
+        ball None
+        """
+        width, height = self.size if size is None else size
+        if not (0 <= x < width and 0 <= y < height):
+            return None
+        with self._lock:
+            frame = self._outputs((max(1, round(width)), max(1, round(height))))
+            return pick_of(frame, x / width, y / height, self._nodes(), self)
+
+    def _outputs(self, size: tuple[int, int]) -> Frame:
+        """Draw what picking needs, or give it again while nothing has changed."""
+        key = (_newest_revision(), size)
+        if self._frame is None or self._frame[0] != key:
+            frame = self.renderer.render(
+                self.scene, self.camera, size, outputs=_PICKED, format=None
+            )
+            self._frame = ((_newest_revision(), size), frame)
+        return self._frame[1]
+
+    def _nodes(self) -> dict[int, Node]:
+        revision = _newest_revision()
+        if self._node_of[0] != revision:
+            self._node_of = (revision, {node.id: node for node in self.scene.nodes})
+        return self._node_of[1]
+
+    # ----- events
+
+    def _handle(self, event: dict[str, Any]) -> None:
+        kind = event["event_type"]
+        size = event.get("size", self.size)
+        if kind == "double_click":
+            self._set_pivot(event, size)
+        elif kind == "key_down" and not event.get("modifiers"):
+            self._key(str(event.get("key", "")))
+        if kind == "pointer_leave":
+            self.controls.let_go_of_pointer()
+        if self.controls.handle(event, self.camera, size):
+            self._clicked = None
+            self.changed()
+        elif kind == "pointer_down":
+            self._clicked = (event["x"], event["y"])
+        elif kind == "pointer_up" and self._clicked == (event["x"], event["y"]):
+            self.picked = self.pick(event["x"], event["y"], size=size)
+            self.text = "background" if self.picked is None else str(self.picked)
+            self._tell("picked", self.picked)
+        elif kind == "pointer_move" and not event.get("buttons") and not self.moving:
+            found = self.pick(event["x"], event["y"], size=size)
+            self.text = "" if found is None else found.short()
+
+    def _key(self, key: str) -> None:
+        if key in self.controls.keys:
+            return
+        if key == "r":
+            for name, value in self._home.items():
+                setattr(self.camera, name, value)
+            self.changed()
+        elif key == "o":
+            now = OUTPUTS.index(self._output) if self._output in OUTPUTS else -1
+            self.output = OUTPUTS[(now + 1) % len(OUTPUTS)]  # type: ignore[assignment]
+
+    def _set_pivot(self, event: dict[str, Any], size: tuple[float, float]) -> None:
+        if isinstance(self.controls, FirstPerson):
+            return
+        found = self.pick(event["x"], event["y"], size=size)
+        if found is not None and (found.position != self.camera.position).any():
+            self.camera.target = found.position
+            self.changed()
+
+    def _tick(self, now: float) -> None:
+        with self._lock:
+            if not self.closed and self.controls.tick(now, self.camera):
+                self.changed()
+
+    def _release(self) -> None:
+        self._frame = None
+        if self._owned is not None:
+            self._owned.close()
+
+
+@checked_call
+def show_scene(
+    self: Scene,
+    where: Place | None = None,
+    *,
+    camera: PerspectiveCamera | OrthographicCamera | None = None,
+    controls: ControlsName | Controls = "orbit",
+    browser: bool = True,
+    block: bool | None = None,
+    **options: Any,
+) -> Viewer:
+    """Explore the scene: in the notebook, in a window, on a page of the browser or in the terminal.
+
+    Parameters
+    ----------
+    where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+        Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+        for a browser on this machine.
+    camera, controls
+        As in `Viewer`.
+    browser : bool
+        Whether a page is opened in the browser.
+    block : bool, optional
+        Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+        notebooks and in Python's prompt no.
+    **options
+        Other arguments of `Viewer`, for example ``size=(800, 600)``.
+
+    Returns
+    -------
+    Viewer
+
+    Raises
+    ------
+    ValueError, TypeError
+        As `Viewer`.
+    ImportError
+        If a package is missing; the message names the extra of cubecam that has it.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> ball = scene.add(cc.Mesh.sphere(1))
+    >>> viewer = scene.show("offscreen", size=(64, 48))
+    >>> viewer.camera.orbit(yaw=30)
+    >>> viewer.draw().shape
+    (48, 64, 4)
+    >>> viewer.close()
+    """
+    viewer = Viewer(self, camera, controls, **options)
+    try:
+        return viewer.show(where, browser=browser, block=block)
+    except BaseException:
+        viewer.close()
+        raise
+
+
+def _expect(value: object, kinds: type | tuple[type, ...], name: str) -> None:
+    if not isinstance(value, kinds):
+        known = kinds if isinstance(kinds, tuple) else (kinds,)
+        words = " or ".join(f"a cubecam.{kind.__name__}" for kind in known)
+        raise TypeError(f"{name}: expected {words}, got {type(value).__name__}")
+
+
+def _give_target(camera: PerspectiveCamera | OrthographicCamera, bounds: Any) -> None:
+    """Give a camera that looks along -Z a target in the depth of the scene's middle."""
+    ahead = 1.0
+    if bounds is not None:
+        middle = (np.asarray(bounds[0]) + np.asarray(bounds[1])) / 2
+        ahead = max(float(camera.position[2] - middle[2]), 1.0)
+    camera.target = camera.position + np.array([0.0, 0.0, -ahead])
+
+
+def _pose(camera: PerspectiveCamera | OrthographicCamera) -> dict[str, Any]:
+    names = ["target", "position", "target", "up"]
+    names.append("height" if isinstance(camera, OrthographicCamera) else "fov")
+    return {name: getattr(camera, name) for name in names}

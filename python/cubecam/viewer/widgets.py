@@ -1,0 +1,285 @@
+"""The panel of a live view as ipywidgets, for notebooks. ipywidgets is imported when the first panel is drawn."""
+
+from __future__ import annotations
+
+import contextlib
+import html
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+from .._calls import checked_call
+from .control import Control, Section
+from .panel import panel_to_json, set_control
+
+if TYPE_CHECKING:
+    from .live import LiveView
+
+__all__ = ["PanelWidgets", "panel_widgets"]
+
+
+@checked_call
+def panel_widgets(view: LiveView) -> PanelWidgets:
+    """Draw the panel of a live view with ipywidgets.
+
+    The widgets change the objects, and follow what a program changes. What a property refuses is written under its
+    widget, which then shows the present value again. The widgets close with the view.
+
+    Parameters
+    ----------
+    view : LiveView
+
+    Returns
+    -------
+    PanelWidgets
+        Its `box` is an ipywidgets.VBox, with one Accordion for each section.
+
+    Raises
+    ------
+    ImportError
+        If ipywidgets is not installed.
+
+    Examples
+    --------
+    ::
+
+        viewer = cc.Viewer(scene)
+        panel = panel_widgets(viewer)
+        display(panel.box)
+    """
+    return PanelWidgets(view)
+
+
+class PanelWidgets:
+    """A view's panel as widgets.
+
+    Attributes
+    ----------
+    box : ipywidgets.VBox
+        All sections, to be displayed beside or below the picture.
+    """
+
+    def __init__(self, view: LiveView) -> None:
+        widgets = _ipywidgets()
+        self._view = view
+        self._sections: list[Section] = []
+        self._shape: object = None
+        self._rows: list[list[_Row]] = []
+        self._closed = False
+        self.box = widgets.VBox([], layout=widgets.Layout(width="100%"))
+        self.box.add_class("cubecam-panel")
+        self.refresh()
+        view.add_listener(self._heard)
+
+    def refresh(self) -> None:
+        """Show today's values; draw the widgets again if there are other controls than before."""
+        if self._closed:
+            return
+        self._sections = list(self._view.panel())
+        described = panel_to_json(self._sections)
+        values = [[control.pop("value") for control in one["controls"]] for one in described]
+        if described != self._shape:
+            self._shape = described
+            self._build()
+        for rows, numbers in zip(self._rows, values, strict=True):
+            for row, value in zip(rows, numbers, strict=True):
+                row.show(value)
+
+    def close(self) -> None:
+        """Close all widgets and stop listening to the view; closing again does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        with contextlib.suppress(ValueError):
+            self._view.remove_listener(self._heard)
+        self._close_rows()
+        _close(self.box)
+
+    def _heard(self, name: str, value: object) -> None:
+        if name == "panel":
+            self.refresh()
+        elif name == "closed":
+            self.close()
+
+    def _build(self) -> None:
+        widgets = _ipywidgets()
+        unfolded = {one.titles[0]: one.selected_index == 0 for one in self.box.children}
+        old = list(self.box.children)
+        self._close_rows()
+        self._rows = [
+            [self._row(s, c, control) for c, control in enumerate(section.controls)]
+            for s, section in enumerate(self._sections)
+        ]
+        self.box.children = [
+            widgets.Accordion(
+                [widgets.VBox([row.box for row in rows])],
+                titles=(section.title,),
+                selected_index=0 if unfolded.get(section.title, section.open) else None,
+            )
+            for section, rows in zip(self._sections, self._rows, strict=True)
+        ]
+        for one in old:
+            _close(one)
+
+    def _row(self, section: int, index: int, control: Control) -> _Row:
+        return _Row(control, lambda value: self._set(section, index, value))
+
+    def _set(self, section: int, index: int, value: object) -> None:
+        row = self._rows[section][index]
+        try:
+            set_control(self._sections, section, index, value)
+        except (ValueError, TypeError) as error:
+            row.problem(str(error))
+            row.show(self._sections[section].controls[index].get())
+        else:
+            row.problem("")
+            self._view.changed()
+            self.refresh()
+
+    def _close_rows(self) -> None:
+        for rows in self._rows:
+            for row in rows:
+                row.close()
+        for one in self.box.children:
+            _close(one)
+        self._rows = []
+        self.box.children = []
+
+
+def _ipywidgets() -> Any:
+    from .canvases import needs
+
+    return needs("ipywidgets", "jupyter")
+
+
+def _close(widget: Any) -> None:
+    """Close a widget and everything in it."""
+    for child in getattr(widget, "children", ()):
+        _close(child)
+    for name in ("layout", "style"):
+        part = getattr(widget, name, None)
+        if part is not None:
+            part.close()
+    widget.close()
+
+
+class _Row:
+    """One control: a label, what changes its value, and a line for what the property refuses."""
+
+    def __init__(self, control: Control, change: Callable[[Any], object]) -> None:
+        widgets = _ipywidgets()
+        self._control = control
+        self._change = change
+        self._quiet = False
+        self._inputs: list[Any] = list(_inputs(control))
+        if control.kind == "button":
+            self._inputs[0].on_click(self._clicked)
+        else:
+            for one in self._inputs:
+                one.observe(self._changed, "value")
+        for one in self._inputs:
+            one.add_class("cubecam-" + _css_word(control.name))
+        label = widgets.Label(
+            "" if control.kind == "button" else control.name,
+            tooltip=control.help,
+            layout=widgets.Layout(width="11em"),
+        )
+        unit = [widgets.Label(control.unit)] if control.unit else []
+        self._problem = widgets.HTML("", layout=widgets.Layout(display="none"))
+        line = widgets.HBox([label, *self._inputs, *unit])
+        self.box = widgets.VBox([line, self._problem])
+
+    def show(self, value: Any) -> None:
+        """Show a value; the widgets report nothing while it is set."""
+        if self._control.kind == "button":
+            return
+        values = value if self._control.kind == "vector" else [value]
+        with self._silent():
+            for one, number in zip(self._inputs, values, strict=True):
+                if self._control.kind == "choice" and number not in one.options:
+                    one.options = (*one.options, number)
+                if one.value != number:
+                    one.value = number
+
+    def problem(self, text: str) -> None:
+        """Write why a value was refused; an empty text removes the line."""
+        self._problem.value = (
+            f'<span role="alert" style="color: var(--jp-error-color1, #c62828)">{html.escape(text)}</span>'
+            if text
+            else ""
+        )
+        self._problem.layout.display = None if text else "none"
+
+    def close(self) -> None:
+        """Close the widgets of the row."""
+        for one in self._inputs:
+            one.unobserve_all()
+            if self._control.kind == "button":
+                one.on_click(self._clicked, remove=True)
+        _close(self.box)
+
+    @contextlib.contextmanager
+    def _silent(self) -> Iterator[None]:
+        before, self._quiet = self._quiet, True
+        try:
+            yield
+        finally:
+            self._quiet = before
+
+    def _changed(self, _: object) -> None:
+        if self._quiet:
+            return
+        values = [one.value for one in self._inputs]
+        self._change(values if self._control.kind == "vector" else values[0])
+
+    def _clicked(self, _: object) -> None:
+        self._change(None)
+
+
+def _css_word(name: str) -> str:
+    """Write a control's name as part of a CSS class: "f0 is None" is "f0-is-none"."""
+    return "-".join(name.lower().replace("_", " ").split())
+
+
+def _inputs(control: Control) -> Iterator[Any]:
+    """Make the widgets that change the value of a control."""
+    widgets = _ipywidgets()
+    wide = widgets.Layout(width="20em")
+    kind = control.kind
+    ranged = control.low is not None and control.high is not None
+    if kind == "flag":
+        yield widgets.Checkbox(indent=False, layout=wide)
+    elif kind == "choice":
+        yield widgets.Dropdown(options=control.choices, layout=wide)
+    elif kind == "color":
+        yield widgets.ColorPicker(layout=wide)
+    elif kind == "vector":
+        for _ in control.get():
+            yield widgets.FloatText(layout=widgets.Layout(width="6.5em"))
+    elif kind == "button":
+        yield widgets.Button(description=control.name, tooltip=control.help)
+    elif kind == "text":
+        yield widgets.Text(continuous_update=False, layout=wide)
+    elif kind == "integer":
+        yield _whole(control, wide) if ranged else widgets.IntText(layout=wide)
+    elif ranged:
+        yield _slider(control, wide)
+    else:
+        yield widgets.FloatText(layout=wide)
+
+
+def _whole(control: Control, layout: Any) -> Any:
+    widgets = _ipywidgets()
+    return widgets.IntSlider(min=int(control.low or 0), max=int(control.high or 0), layout=layout)
+
+
+def _slider(control: Control, layout: Any) -> Any:
+    widgets = _ipywidgets()
+    low, high = control.low or 0.0, control.high or 0.0
+    if control.logarithmic:
+        ends = math.log10(low), math.log10(high)
+        return widgets.FloatLogSlider(
+            min=ends[0], max=ends[1], step=(ends[1] - ends[0]) / 200, layout=layout
+        )
+    step = control.step or (high - low) / 200
+    return widgets.FloatSlider(min=low, max=high, step=step, readout_format=".3g", layout=layout)

@@ -1,0 +1,286 @@
+"""The live forms of the programs: mouse, keys and animation against the documents' formulas in numpy."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+from cubecam import examples
+from tests.programs.oracle import rx, ry, scaled
+
+PROGRAMS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17")
+#: The programs whose camera stands in the scene, with the view before any drag.
+VISITORS = {
+    "P2": (0, 0, 1),
+    "P3": (0, 0, 1),
+    "P13": (0, -1, -5),
+    "P14": (0, -1, -5),
+    "P15": (0, -1, -5),
+    "P16": (0, -0.9, -3.2),
+    "P17": (0, -1, -5),
+}
+ORBITS = ("P4", "P6", "P12")
+#: Frames a second.
+RATES = {"P4": 25, "P6": 25, "P12": 25, "P13": 60, "P14": 25, "P15": 25, "P16": 25, "P17": 25}
+#: The parameters that make a program's textures small.
+SMALL = {"probe_size": 64}
+
+
+class Driver:
+    """A live form on an offscreen canvas, and the hands of its user."""
+
+    def __init__(self, name, renderer, size=None):
+        from rendercanvas.offscreen import OffscreenRenderCanvas
+
+        self.module = examples.load(name)
+        self.options = {k: v for k, v in SMALL.items() if k in _parameters(self.module.live)}
+        self.view = self.module.live(renderer=renderer, **self.options)
+        self.size = self.view.size if size is None else size
+        self.canvas = OffscreenRenderCanvas(size=self.size)
+        self.view._attach(self.canvas)
+
+    def send(self, **event):
+        self.canvas.submit_event(event)
+        self.canvas._process_events()
+
+    def drag(self, dx, dy):
+        """Press the left button in the middle, move in two steps, and let go."""
+        x, y = self.size[0] / 2, self.size[1] / 2
+        pointer = {"button": 1, "modifiers": (), "ntouches": 0, "touches": {}}
+        self.send(event_type="pointer_down", x=x, y=y, buttons=(1,), **pointer)
+        for part in (0.25, 1.0):
+            place = {"x": x + part * dx, "y": y + part * dy}
+            self.send(event_type="pointer_move", **place, buttons=(1,), **pointer)
+        self.send(event_type="pointer_up", x=x + dx, y=y + dy, buttons=(), **pointer)
+
+    def press(self, key):
+        for kind in ("key_down", "key_up"):
+            self.send(event_type=kind, key=key, modifiers=())
+
+    def at(self, seconds):
+        """Move everything to where it is so many seconds after the animation began."""
+        assert self.view._animation is not None
+        self.view._animation(seconds)
+
+    def example(self, frame, program=None, **options):
+        """What `draw` of the module gives in the place of the live picture."""
+        program = program or self.module.build(**self.options)
+        width, height = self.size
+        size = (width, 2 * height) if self.module.PROGRAM == "P16" else (width, height)
+        return self.module.draw(program, self.view.renderer, frame, size=size, samples=4)[:height]
+
+
+def _parameters(function):
+    return inspect.signature(function).parameters
+
+
+@pytest.fixture
+def drive(renderer):
+    """A function that makes drivers; their views are closed at the end."""
+    made = []
+
+    def make(name, size=None):
+        made.append(Driver(name, renderer, size))
+        return made[-1]
+
+    yield make
+    for driver in made:
+        driver.view.close()
+
+
+def nearly_equal(got, want):
+    """Whether two pictures have the same pixels, except for a few on edges, which rounding moves."""
+    assert got.shape == want.shape
+    assert np.ptp(want[..., :3]) > 50
+    return (got != want).any(axis=-1).mean() < 0.002
+
+
+def test_the_programs_of_the_issue_are_live():
+    live = [examples.load(name).PROGRAM for name in examples.NAMES if examples.is_live(name)]
+    assert tuple(live) == PROGRAMS
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_the_first_picture_is_that_of_the_example(drive, name):
+    driver = drive(name)
+    assert driver.view.title == driver.module.TITLE
+    width, height = driver.module.SIZE
+    assert driver.view.size == ((width, height // 2) if name == "P16" else (width, height))
+    np.testing.assert_array_equal(driver.view.draw(), driver.example(0))
+
+
+@pytest.mark.parametrize("name", RATES)
+def test_the_animation_is_that_of_the_example(drive, name):
+    driver = drive(name)
+    for frame in (7, 30):
+        driver.at(frame / RATES[name])
+        assert nearly_equal(driver.view.draw(), driver.example(frame))
+    assert not nearly_equal(driver.view.draw(), driver.example(7))
+
+
+@pytest.mark.parametrize("name", sorted(set(PROGRAMS) - set(RATES)))
+def test_what_the_documents_do_not_animate_stands_still(drive, name):
+    assert drive(name).view._animation is None
+
+
+@pytest.mark.parametrize("name", VISITORS)
+@pytest.mark.parametrize("size", [(512, 512), (300, 200)], ids=["square", "wide"])
+def test_a_drag_turns_the_view_and_w_and_s_walk(drive, name, size):
+    driver = drive(name, size)
+    camera = driver.view.camera
+    first = np.array(VISITORS[name], float) / np.linalg.norm(VISITORS[name])
+    place, angle_x, angle_y = camera.position.copy(), 0.0, 0.0
+    for event in ((48, 0), "w", (-10, 30), "s", "s", (25, -80), "w"):
+        if isinstance(event, str):
+            driver.press(event)
+            step = 0.1 if event == "w" else -0.1
+            place = place + step * (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
+        else:
+            driver.drag(*event)
+            angle_x += 100 * event[0] / size[1]
+            angle_y += 100 * event[1] / size[1]
+        view = (rx(angle_y) @ ry(angle_x))[:3, :3] @ first
+        gaze = camera.target - camera.position
+        np.testing.assert_allclose(gaze / np.linalg.norm(gaze), view, atol=1e-9)
+        np.testing.assert_allclose(camera.position, place, atol=1e-9)
+    assert abs(angle_x) > 1
+    assert abs(angle_y) > 1
+
+
+@pytest.mark.parametrize("name", ["P2", "P3"])
+def test_live_and_scripted_walks_show_the_same(drive, name):
+    driver = drive(name)
+    driver.drag(128, 0)
+    driver.press("w")
+    driver.drag(-64, 64)
+    script = ((25.0, 0.0), "w", (-12.5, 12.5))
+    program = driver.module.build(script=script)
+    want = driver.example(len(script), program)
+    assert nearly_equal(driver.view.draw(), want)
+    assert not nearly_equal(driver.view.draw(), driver.example(1, program))
+
+
+def test_a_drag_turns_the_cube_of_p1(drive):
+    driver = drive("P1")
+    cube = driver.view.scene.nodes[-1]
+    for dx, dy, angle_x, angle_y in ((0, 0, 30, 30), (102.4, 0, 50, 30), (0, -256, 50, -20)):
+        driver.drag(dx, dy)
+        matrix = rx(angle_y) @ ry(angle_x) @ scaled(2)
+        np.testing.assert_allclose(cube.world_matrix, matrix, atol=1e-6)
+    np.testing.assert_allclose(driver.view.camera.position, (0, 0, 7))
+
+
+@pytest.mark.parametrize("name", ORBITS)
+def test_a_drag_moves_the_camera_round_where_documents_have_no_mouse(drive, name):
+    driver = drive(name)
+    camera = driver.view.camera
+    start, height = camera.position.copy(), driver.size[1]
+    driver.drag(0.1 * height, 0)
+    turned = ry(-36)[:3, :3] @ start  # the scene follows the hand to the right
+    np.testing.assert_allclose(camera.position, turned, atol=1e-6)
+    np.testing.assert_allclose(camera.target, (0, 0, 0), atol=1e-12)
+    if name == "P4":  # the camera turns on from there, 4 degrees a frame
+        driver.at(10 / 25)
+        np.testing.assert_allclose(camera.position, ry(40)[:3, :3] @ turned, atol=1e-6)
+
+
+@pytest.mark.parametrize("stopped", [False, True])
+def test_the_eye_in_model_space_follows_a_drag(drive, stopped):
+    driver = drive("P6")
+    driver.at(0.4)
+    if stopped:
+        driver.press(" ")
+    driver.drag(40, 20)
+    if not stopped:
+        driver.at(0.4)
+    left = driver.view.scene.nodes[0]
+    view = driver.view.camera.view
+    want = (np.linalg.inv(view @ left.world_matrix) @ (0, 0, 0, 1))[:3]
+    np.testing.assert_allclose(left.material.uniforms["camPosModel"], want, atol=1e-5)
+    np.testing.assert_allclose(left.world_matrix[:3, :3], ry(40)[:3, :3], atol=1e-6)
+
+
+@pytest.mark.parametrize("name", RATES)
+def test_the_space_bar_stops_the_animation_and_lets_it_go_on(drive, name):
+    driver = drive(name)
+    driver.at(12 / RATES[name])
+    before = driver.view.draw().copy()
+    driver.press(" ")
+    assert driver.view._animation is None
+    np.testing.assert_array_equal(driver.view.draw(), before)
+    driver.press(" ")
+    driver.at(0.0)
+    np.testing.assert_array_equal(driver.view.draw(), before)
+    driver.at(8 / RATES[name])
+    assert nearly_equal(driver.view.draw(), driver.example(20))
+
+
+def test_t_changes_ball_and_teapot(drive):
+    driver = drive("P12")
+    ball = driver.view.draw().copy()
+    driver.press("t")
+    pot = driver.module.build(reflector="teapot")
+    np.testing.assert_array_equal(driver.view.draw(), driver.example(0, pot))
+    driver.press("t")
+    np.testing.assert_array_equal(driver.view.draw(), ball)
+
+
+def test_p_shares_one_probe_or_gives_each_its_own(drive):
+    driver = drive("P16")
+    driver.at(30 / 25)  # the balls are farthest apart
+    width, height = driver.size
+    both = driver.module.draw(
+        driver.module.build(**driver.options),
+        driver.view.renderer,
+        30,
+        size=(width, 2 * height),
+        samples=4,
+    )
+    for key, want in ((None, both[:height]), ("p", both[height:]), ("p", both[:height])):
+        if key:
+            driver.press(key)
+        assert nearly_equal(driver.view.draw(), want)
+    assert not nearly_equal(both[:height], both[height:])
+
+
+def test_p15_counts_the_views_of_the_last_picture(drive):
+    driver = drive("P15")
+    counts = []
+    for frame in (0, 1, 2, 10, 11, 12):
+        driver.at(frame / 25)
+        driver.view._picture((64, 64), True)
+        driver.at(frame / 25)
+        counts.append(int(driver.view.text.removeprefix("views drawn: ")))
+    assert counts[0] > 0
+    assert counts[1:3] == [0, 0]
+    assert all(2 <= count < 7 for count in counts[3:])
+    driver.drag(30, 0)
+    driver.view._picture((64, 64), True)
+    driver.at(12 / 25)
+    assert driver.view.text == "views drawn: 1"
+
+
+@pytest.mark.parametrize(
+    ("name", "keys"),
+    [
+        ("P1", {"drag"}),
+        ("P2", {"drag", "w s"}),
+        ("P4", {"drag", "wheel", "space"}),
+        ("P12", {"drag", "space", "t"}),
+        ("P14", {"drag", "w s", "space"}),
+        ("P16", {"drag", "w s", "space", "p"}),
+    ],
+)
+def test_the_help_lists_the_keys(drive, name, keys):
+    driver = drive(name)
+    for key in keys:
+        assert any(line.startswith(key) for line in driver.view.help.splitlines()), key
+    driver.press("h")
+    assert all(key in driver.view.text for key in keys)
+
+
+def test_the_help_of_one_view_does_not_change_that_of_another(drive):
+    first = drive("P12").view.help
+    drive("P16")
+    assert drive("P12").view.help == first
+    assert "space" not in drive("P2").view.help
