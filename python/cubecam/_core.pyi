@@ -13,12 +13,15 @@ import numpy as np
 import numpy.typing
 
 import cubecam._shader_inputs
+import cubecam.viewer.controls
+import cubecam.viewer.cube_view
 from cubecam.typing import (
     BlendEquation,
     BlendFactor,
     BlendMode,
     Center,
     Convention,
+    CubeMode,
     DepthFormat,
     DepthOrder,
     Encode,
@@ -33,6 +36,7 @@ from cubecam.typing import (
     StencilFunc,
     StencilOp,
     StereoLayout,
+    Theme,
     Tonemap,
     Wrap,
 )
@@ -515,7 +519,7 @@ class Probe:
     @property
     def faces_per_frame(self) -> int:
         """
-        int: the greatest number of faces that one call draws, from 1 to 6.
+        int: the greatest number of faces that one call draws.
         """
 
     @faces_per_frame.setter
@@ -1132,6 +1136,57 @@ class Scene:
         [0.0, 1.0, 0.0]
         """
 
+    def show(
+        self,
+        where: Place | None = None,
+        *,
+        camera: PerspectiveCamera | OrthographicCamera | None = None,
+        controls: ControlsName | cubecam.viewer.controls.Controls = "orbit",
+        browser: bool = True,
+        block: bool | None = None,
+        **options: object,
+    ) -> cubecam.Viewer:
+        """
+        Explore the scene: in the notebook, in a window, on a page of the browser or in the terminal.
+
+        Parameters
+        ----------
+        where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+            Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+            for a browser on this machine.
+        camera, controls
+            As in `Viewer`.
+        browser : bool
+            Whether a page is opened in the browser.
+        block : bool, optional
+            Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+            notebooks and in Python's prompt no.
+        **options
+            Other arguments of `Viewer`, for example ``size=(800, 600)``.
+
+        Returns
+        -------
+        Viewer
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `Viewer`.
+        ImportError
+            If a package is missing; the message names the extra of cubecam that has it.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(1))
+        >>> viewer = scene.show("offscreen", size=(64, 48))
+        >>> viewer.camera.orbit(yaw=30)
+        >>> viewer.draw().shape
+        (48, 64, 4)
+        >>> viewer.close()
+        """
+
     @property
     def background(self) -> np.typing.NDArray[np.float32] | CubeMap | None:
         """
@@ -1619,6 +1674,90 @@ class CubeMap:
         >>> cube.set_face("+y", np.full((2, 2, 1), 255, np.uint8))
         >>> cube.sample([0, 1, 0])
         array([1.], dtype=float32)
+        """
+
+    def show(
+        self,
+        where: Place | None = None,
+        *,
+        mode: CubeMode = "cross",
+        size: tuple[int, int] = (800, 600),
+        convention: Convention = "inside",
+        center: Center = "-z",
+        level: int = 0,
+        exposure: float = 0.0,
+        tonemap: Tonemap | None = "neutral",
+        seams: bool = False,
+        names: bool = True,
+        smooth: bool = True,
+        background: Theme = "dark",
+        browser: bool = True,
+        block: bool | None = None,
+    ) -> cubecam.viewer.cube_view.CubeView:
+        """
+        Show the cube live: as a cross, as a panorama, or from inside. The method `CubeMap.show`.
+
+        Dragging moves the cross and the panorama and turns the look; the wheel zooms; a double click looks at the place
+        that was clicked; the key h lists the keys. The text under the picture says what is under the pointer: face, row and
+        column in the three conventions "gl", "inside" and "three", direction, and value as linear floats.
+
+        Parameters
+        ----------
+        where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+            Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+            for a browser on this machine.
+        mode : {"cross", "panorama", "look"}
+            How the cube is shown first; a control of the panel and the keys 1, 2 and 3 change it.
+        size : (int, int)
+            Width and height of the picture in logical pixels.
+        convention : {"inside", "gl", "three"}
+            The convention of the faces in the cross.
+        center : {"-z", "+z", "+x", "-x"}
+            The direction in the middle of the panorama.
+        level : int
+            The level that is shown first. A cube with ``mipmaps=True`` has levels.
+        exposure : float
+            Stops: the light is multiplied by ``2**exposure``.
+        tonemap : {"neutral", "reinhard", "aces"} or None
+            The curve for linear floats, see `to_screen`.
+        seams : bool
+            Whether the edges show how much the cube changes over them: blue where the step over the edge is no more than
+            the steps beside it, red from 2.5 times as much (`cc.plot.seams`).
+        names : bool
+            Whether the faces show their names.
+        smooth : bool
+            True shows bilinear lookups in the panorama and the look, as a shader's; False shows each texel.
+        background : {"dark", "light"}
+            The colour around the faces.
+        browser : bool
+            Whether a page is opened in the browser.
+        block : bool, optional
+            Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+            notebooks and in Python's prompt no.
+
+        Returns
+        -------
+        CubeView
+            The live view, whose properties have the names of these options.
+
+        Raises
+        ------
+        ValueError
+            For an unknown name, or a level that the cube does not have.
+        TypeError
+            For a value of another type.
+        ImportError
+            If a package is missing; the message names the extra of cubecam that has it.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=64)
+        >>> with cube.show("offscreen", mode="look") as view:
+        ...     view.yaw, view.exposure = 30, 1
+        ...     picture = view.draw()
+        >>> picture.shape
+        (600, 800, 4)
         """
 
     def to_convention(
@@ -3891,7 +4030,7 @@ class SpotLight(Light):
     @property
     def angle(self) -> float:
         """
-        float: angle from the axis to the cone's edge, above 0 and below 90 degrees.
+        float: angle from the axis to the cone's edge, degrees.
         """
 
     @angle.setter
@@ -3915,7 +4054,7 @@ class SpotLight(Light):
     @property
     def penumbra(self) -> float:
         """
-        float: share of the angle over which the light fades, from 0 to 1.
+        float: share of the angle over which the light fades.
         """
 
     @penumbra.setter
@@ -4518,7 +4657,7 @@ class PerspectiveCamera(Camera):
     @property
     def fov(self) -> float:
         """
-        float: vertical, above 0 and below 180 degrees.
+        float: vertical, in degrees.
         """
 
     @fov.setter
@@ -5853,6 +5992,11 @@ class Renderer:
 def _check_pickle(format: object) -> None:
     """
     For unpickling: raises TypeError for a format that is not this version's.
+    """
+
+def _newest_revision() -> int:
+    """
+    The newest revision of this process. While it stays the same, no object has changed.
     """
 
 def _restore_frame(state: tuple[object, ...]) -> Frame:

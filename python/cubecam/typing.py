@@ -38,6 +38,8 @@ __all__ = [
     "Center",
     "Color",
     "Convention",
+    "ControlsName",
+    "CubeMode",
     "DepthFormat",
     "DepthOrder",
     "Encode",
@@ -49,12 +51,14 @@ __all__ = [
     "Layout",
     "Outputs",
     "Pixels",
+    "Place",
     "ProbeUpdate",
     "RenderOptions",
     "Sampling",
     "StencilFunc",
     "StencilOp",
     "StereoLayout",
+    "Theme",
     "Tonemap",
     "Wrap",
 ]
@@ -113,6 +117,8 @@ FaceName: TypeAlias = Literal[
 ]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
+CubeMode: TypeAlias = Literal["cross", "panorama", "look"]
+Theme: TypeAlias = Literal["dark", "light"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]

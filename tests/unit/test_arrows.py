@@ -43,6 +43,7 @@ PYTHON_ORDER = (
     "navigation",
     "optics",
     "viewer",
+    "explore",
     "_shader_inputs",
     "_pickling",
     "_old_names",

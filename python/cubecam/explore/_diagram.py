@@ -143,7 +143,7 @@ class Ground:
         if key not in self._kept:
             last = list(self._kept.items())[-1:]
             self._kept = {**dict(last), key: self._draw(layout, plane, theme, exposure, tonemap)}
-        return self._kept[key].copy()
+        return np.array(self._kept[key])
 
     def _draw(
         self, layout: Layout, plane: Plane, theme: str, exposure: float, tonemap: Tonemap | None

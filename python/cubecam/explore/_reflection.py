@@ -10,17 +10,16 @@ import numpy.typing as npt
 
 from .._calls import checked_call
 from .._core import CubeMap
-from ..typing import Tonemap
+from ..typing import Place, Theme, Tonemap
 from ..viewer.live import LiveView
 from ..viewer.panel import Control, Section
-from ..viewer.settings import choice, number
+from ..viewer.settings import choice, number, shown_at
 from ..viewer.texels import Texel, texel_of
 from ._diagram import BAND, EYE, Diagram, Ground, Layout, in_band, light_on_screen, shown
 from ._optics import Facts, Plane, facts_of, turned
 
 if TYPE_CHECKING:
     Mode = Literal["reflection", "refraction"]
-    Theme = Literal["dark", "light"]
 
 __all__ = ["ReflectionView", "reflection"]
 
@@ -330,7 +329,9 @@ def reflection(
     tonemap: Tonemap | None = "neutral",
     background: Theme = "dark",
     size: tuple[int, int] = (960, 600),
-    where: str | None = None,
+    where: Place | None = None,
+    browser: bool = True,
+    block: bool | None = None,
 ) -> ReflectionView:
     """Show live how a surface reflects or refracts a cubemap: the rays I and R or T, the normal N, and the texel hit.
 
@@ -361,7 +362,13 @@ def reflection(
     size : (int, int)
         Width and height of the picture in logical pixels.
     where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
-        Where to show it. None chooses.
+        Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+        for a browser on this machine.
+    browser : bool
+        Whether a page is opened in the browser.
+    block : bool, optional
+        Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+        notebooks and in Python's prompt no.
 
     Returns
     -------
@@ -373,6 +380,8 @@ def reflection(
     ------
     TypeError, ValueError
         For an option of another type, an unknown name or a number out of range.
+    ImportError
+        If a package is missing; the message names the extra of cubecam that has it.
 
     Notes
     -----
@@ -383,13 +392,12 @@ def reflection(
     Examples
     --------
     >>> import cubecam as cc
-    >>> with cc.explore.reflection(where="offscreen", angle=0, eye=45) as diagram:
+    >>> with cc.explore.reflection(where="offscreen", angle=20, eye=55) as diagram:
     ...     print(diagram.hit.places["gl"], diagram.reflected.round(3).tolist())
-    +X row 0 column 15 [0.707, 0.707, 0.0]
+    +Y row 16 column 20 [0.259, 0.966, 0.0]
     """
     view = ReflectionView(
         environment, mode=mode, angle=angle, eye=eye, azimuth=azimuth, ior=ior, roughness=roughness,
         exposure=exposure, tonemap=tonemap, background=background, size=size,
     )  # fmt: skip
-    view.show(where)
-    return view
+    return shown_at(view, where, browser, block)

@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 """Live views: explore a scene or a cubemap in a notebook, on a page, in a window or in a terminal.
 
 `scene.show()` and `cube.show()` begin here. The canvases are those of the package rendercanvas, which the extras
@@ -10,6 +9,3 @@ from __future__ import annotations
 from .viewer import Viewer
 
 __all__ = ["Viewer"]
-=======
-"""Live views."""
->>>>>>> v-cube

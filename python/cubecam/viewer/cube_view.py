@@ -5,25 +5,21 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
 from .._core import CubeMap
-from ..typing import Center, Convention, Tonemap
+from ..typing import Center, Convention, CubeMode, Place, Theme, Tonemap
 from .cube_drawing import THEMES, Painter, draw_legend, draw_names, outline
 from .cube_maps import Cross, Look, Panorama
 from .lettering import Lettering
 from .live import LiveView
 from .panel import Control, Section
-from .settings import choice, flag, number
+from .settings import choice, flag, number, shown_at
 from .texels import Texel, levels_of, texel_of
-
-if TYPE_CHECKING:
-    Mode = Literal["cross", "panorama", "look"]
-    Theme = Literal["dark", "light"]
 
 __all__ = ["CubeView", "show_cube"]
 
@@ -129,7 +125,7 @@ class CubeView(LiveView):
         self,
         cube: CubeMap | Sequence[CubeMap],
         *,
-        mode: Mode = "cross",
+        mode: CubeMode = "cross",
         level: int = 0,
         size: tuple[int, int] = (800, 600),
         title: str = "cubemap",
@@ -458,9 +454,9 @@ class CubeView(LiveView):
 @checked_call
 def show_cube(
     cube: CubeMap,
+    where: Place | None = None,
     *,
-    mode: Mode = "cross",
-    where: str | None = None,
+    mode: CubeMode = "cross",
     size: tuple[int, int] = (800, 600),
     convention: Convention = "inside",
     center: Center = "-z",
@@ -471,6 +467,8 @@ def show_cube(
     names: bool = True,
     smooth: bool = True,
     background: Theme = "dark",
+    browser: bool = True,
+    block: bool | None = None,
 ) -> CubeView:
     """Show the cube live: as a cross, as a panorama, or from inside. The method `CubeMap.show`.
 
@@ -480,10 +478,11 @@ def show_cube(
 
     Parameters
     ----------
+    where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+        Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+        for a browser on this machine.
     mode : {"cross", "panorama", "look"}
         How the cube is shown first; a control of the panel and the keys 1, 2 and 3 change it.
-    where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
-        Where to show it. None chooses.
     size : (int, int)
         Width and height of the picture in logical pixels.
     convention : {"inside", "gl", "three"}
@@ -505,6 +504,11 @@ def show_cube(
         True shows bilinear lookups in the panorama and the look, as a shader's; False shows each texel.
     background : {"dark", "light"}
         The colour around the faces.
+    browser : bool
+        Whether a page is opened in the browser.
+    block : bool, optional
+        Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+        notebooks and in Python's prompt no.
 
     Returns
     -------
@@ -517,12 +521,14 @@ def show_cube(
         For an unknown name, or a level that the cube does not have.
     TypeError
         For a value of another type.
+    ImportError
+        If a package is missing; the message names the extra of cubecam that has it.
 
     Examples
     --------
     >>> import cubecam as cc
     >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=64)
-    >>> with cube.show(where="offscreen", mode="look") as view:
+    >>> with cube.show("offscreen", mode="look") as view:
     ...     view.yaw, view.exposure = 30, 1
     ...     picture = view.draw()
     >>> picture.shape
@@ -533,5 +539,4 @@ def show_cube(
         exposure=exposure, tonemap=tonemap, seams=seams, names=names, smooth=smooth,
         background=background,
     )  # fmt: skip
-    view.show(where)
-    return view
+    return shown_at(view, where, browser, block)

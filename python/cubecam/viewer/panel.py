@@ -1,4 +1,3 @@
-<<<<<<< HEAD
 """What can be set of a live view, as data: controls in sections, for widgets, a page, or a test.
 
 A control knows how to read and to set one value; it draws nothing. `widgets` draws controls in notebooks, `page` in a
@@ -220,40 +219,3 @@ class _Known:
     shape: object
     controls: tuple[Control, ...]
     back: dict[str, Callable[[], object]]
-=======
-"""What can be set in a live view, as data."""
-
-from __future__ import annotations
-
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
-
-__all__ = ["Control", "Section"]
-
-
-@dataclass(frozen=True)
-class Control:
-    """One thing that can be set."""
-
-    name: str
-    kind: str
-    get: Callable[[], Any]
-    set: Callable[[Any], object]
-    low: float | None = None
-    high: float | None = None
-    step: float | None = None
-    logarithmic: bool = False
-    choices: tuple[str, ...] = ()
-    unit: str = ""
-    help: str = ""
-
-
-@dataclass(frozen=True)
-class Section:
-    """Controls that belong together."""
-
-    title: str
-    controls: tuple[Control, ...]
-    open: bool = True
->>>>>>> v-cube
