@@ -1,5 +1,8 @@
 """`cube.show()`: its pictures, what it says is under the pointer, its events and its panel, against numpy."""
 
+# Places are known to hold a texel, and options are passed as dicts.
+# mypy: disable-error-code="arg-type, union-attr"
+
 import numpy as np
 import pytest
 
@@ -156,7 +159,7 @@ def test_a_flipped_face_is_seen():
 
 def test_hovering_says_what_is_there():
     view = CubeView(cc.CubeMap(noise()), size=(400, 300))
-    heard: list[object] = []
+    heard: list[tuple] = []
     view.add_listener(lambda name, value: heard.append((name, value)))
     move(view, (200, 150))
     texel = view.at(200, 150)
