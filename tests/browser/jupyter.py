@@ -171,5 +171,7 @@ _FINISHED = f"() => {_PROMPTS}.every(text => /\\[\\d+\\]/.test(text))"
 
 def errors(page: Any) -> list[str]:
     """The tracebacks that cells have printed."""
-    found: list[str] = page.locator('[data-mime-type="application/vnd.jupyter.error"]').all_inner_texts()
+    found: list[str] = page.locator(
+        '[data-mime-type="application/vnd.jupyter.error"]'
+    ).all_inner_texts()
     return found
