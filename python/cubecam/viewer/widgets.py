@@ -182,11 +182,11 @@ class _Row:
         label = widgets.Label(
             "" if control.kind == "button" else control.name,
             tooltip=control.help,
-            layout=widgets.Layout(width="11em"),
+            layout=widgets.Layout(width="8.5em", min_width="8.5em"),
         )
         unit = [widgets.Label(control.unit)] if control.unit else []
         self._problem = widgets.HTML("", layout=widgets.Layout(display="none"))
-        line = widgets.HBox([label, *self._inputs, *unit])
+        line = widgets.HBox([label, *self._inputs, *unit], layout=widgets.Layout(width="100%"))
         self.box = widgets.VBox([line, self._problem])
 
     def show(self, value: Any) -> None:
@@ -244,7 +244,7 @@ def _css_word(name: str) -> str:
 def _inputs(control: Control) -> Iterator[Any]:
     """Make the widgets that change the value of a control."""
     widgets = _ipywidgets()
-    wide = widgets.Layout(width="20em")
+    wide = widgets.Layout(width="auto", min_width="0", flex="1 1 0%")
     kind = control.kind
     ranged = control.low is not None and control.high is not None
     if kind == "flag":
@@ -255,7 +255,9 @@ def _inputs(control: Control) -> Iterator[Any]:
         yield widgets.ColorPicker(layout=wide)
     elif kind == "vector":
         for _ in control.get():
-            yield widgets.FloatText(layout=widgets.Layout(width="6.5em"))
+            yield widgets.FloatText(
+                layout=widgets.Layout(width="auto", min_width="0", flex="1 1 0%")
+            )
     elif kind == "button":
         yield widgets.Button(description=control.name, tooltip=control.help)
     elif kind == "text":
