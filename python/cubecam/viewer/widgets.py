@@ -230,10 +230,29 @@ class _Row:
         if self._quiet:
             return
         values = [one.value for one in self._inputs]
+        if self._control.kind == "number" and _is_rounding(
+            self._inputs[0], self._control.get(), values[0]
+        ):
+            return
         self._change(values if self._control.kind == "vector" else values[0])
 
     def _clicked(self, _: object) -> None:
         self._change(None)
+
+
+def _is_rounding(widget: Any, today: float, reported: float) -> bool:
+    """Whether a slider only reports today's value rounded to its step, as browsers do when they draw the slider."""
+    step = getattr(widget, "step", None)
+    if not hasattr(widget, "readout") or not step:
+        return False
+    low, now, new = widget.min, today, reported
+    if hasattr(widget, "base"):  # the steps of a logarithmic slider multiply
+        if min(now, new) <= 0:
+            return False
+        now, new = math.log10(now), math.log10(new)
+    steps = (new - low) / step
+    on_a_step = abs(steps - round(steps)) < 1e-4
+    return on_a_step and abs(new - now) <= 0.5001 * step
 
 
 def _css_word(name: str) -> str:
@@ -283,5 +302,11 @@ def _slider(control: Control, layout: Any) -> Any:
         return widgets.FloatLogSlider(
             min=ends[0], max=ends[1], step=(ends[1] - ends[0]) / 200, layout=layout
         )
-    step = control.step or (high - low) / 200
+    step = control.step or _nice_step((high - low) / 200)
     return widgets.FloatSlider(min=low, max=high, step=step, readout_format=".3g", layout=layout)
+
+
+def _nice_step(value: float) -> float:
+    """Give the number of 1, 2, 5, 10, ... that is not above a value, so that sliders show round numbers."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(k * power for k in (5, 2, 1) if k * power <= value * (1 + 1e-9))
