@@ -43,7 +43,17 @@ else:
             "optics": ["fresnel", "reflect", "refract", "schlick"],
             "viewer.viewer": ["Viewer"],
         },
-        modules=["demo", "examples", "explore", "io", "navigation", "pictures", "plot", "typing", "viewer"],
+        modules=[
+            "demo",
+            "examples",
+            "explore",
+            "io",
+            "navigation",
+            "pictures",
+            "plot",
+            "typing",
+            "viewer",
+        ],
     )
 
 __all__ = [

@@ -14,10 +14,7 @@ import numpy.typing
 
 import cubecam._shader_inputs
 import cubecam.viewer.controls
-<<<<<<< HEAD
-=======
 import cubecam.viewer.cube_view
->>>>>>> v-cube
 from cubecam.typing import (
     BlendEquation,
     BlendFactor,
