@@ -31,15 +31,16 @@ class PageView extends BaseRenderView {
     picture.addEventListener('wheel', () => this._focusElement.focus({ preventScroll: true }), { capture: true })
     picture.addEventListener('pointerenter', () => { if (!isTyping()) this._focusElement.focus({ preventScroll: true }) })
     for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) {
-      picture.addEventListener(type, (event) => this.pinch(event), { capture: true })
+      picture.addEventListener(type, (event) => this.touch(event), { capture: true })
     }
     this._focusElement.setAttribute('aria-label', 'Keys for the view')
   }
 
   onEvent (event) {
     if (event.type === 'resize') this.lastSize = event
-    if (event.type === 'key_down' && event.key === 'h' && byId('help-text').textContent) help.showModal()
-    send(event)
+    if (event.key === 'h' && byId('help-text').textContent && event.modifiers.length === 0) {
+      if (event.type === 'key_down') help.showModal()
+    } else send(event)
   }
 
   // Of the frames that arrive between two pictures of the screen the last one is shown, and that one is confirmed.
@@ -64,25 +65,19 @@ class PageView extends BaseRenderView {
     send({ type: '_framefeedback', index: frame.index, timestamp: frame.timestamp })
   }
 
-  // Two fingers that move apart or together are a wheel.
-  pinch (event) {
+  // renderview.js knows one finger. With two, the view gets both in `touches`, as rendercanvas describes it.
+  touch (event) {
     if (event.pointerType !== 'touch') return
-    const apart = () => {
-      const [a, b] = [...this.fingers.values()]
-      return Math.hypot(a.x - b.x, a.y - b.y)
-    }
-    const before = this.fingers.size === 2 ? apart() : 0
+    const before = this.fingers.size
     if (event.type === 'pointerup' || event.type === 'pointercancel') this.fingers.delete(event.pointerId)
     else if (event.type === 'pointerdown' || this.fingers.has(event.pointerId)) {
       this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY })
     }
-    if (this.fingers.size < 2) return
+    if (before < 2 && this.fingers.size < 2) return
     event.stopImmediatePropagation()
-    if (event.type === 'pointermove' && before > 0) {
-      const [a, b] = [...this.fingers.values()]
-      const dy = 500 * Math.log(before / Math.max(apart(), 1))
-      send({ type: 'wheel', x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, dx: 0, dy, buttons: [], modifiers: [] })
-    }
+    const type = { pointerdown: 'pointer_down', pointermove: 'pointer_move' }[event.type] ?? 'pointer_up'
+    const touches = this.fingers.size < 2 ? {} : Object.fromEntries(this.fingers)
+    send({ type, x: event.offsetX, y: event.offsetY, button: 1, buttons: [1], modifiers: [], touches })
   }
 }
 
@@ -95,8 +90,11 @@ const receivers = {
   title: (value) => { document.title = byId('title').textContent = value },
   text: (value) => { byId('text').textContent = value },
   cursor: (value) => { picture.style.cursor = value },
-  help: (value) => {
-    byId('help-text').textContent = value
+  help: (value) => { // a line for each: what one does, two spaces, what happens then
+    byId('help-text').replaceChildren(...value.split('\n').filter((line) => line.trim()).flatMap((line) => {
+      const [, does, happens] = line.trim().match(/^(.*?)(?: {2,}(.*))?$/)
+      return [['dt', does], ['dd', happens ?? '']].map(([tag, text]) => Object.assign(document.createElement(tag), { textContent: text }))
+    }))
     byId('ask').hidden = !value
   },
   panel: (value) => showPanel(byId('sections'), value, (control, newValue) => send({ type: 'control', control, value: newValue }), foldPanel)
