@@ -208,6 +208,7 @@ class TestPanel:
     def test_a_slider_changes_the_material(self, panel, viewer, scene):
         material = scene["box"].material
         slider = panel.locator("input[type=range][data-name=opacity]").first
+        slider.scroll_into_view_if_needed()
         box = slider.bounding_box()
         panel.mouse.move(box["x"] + box["width"] - 7, box["y"] + box["height"] / 2)
         panel.mouse.down()

@@ -9,6 +9,7 @@ const picture = byId('picture')
 const help = byId('help')
 const FIRST_WAIT = 250 // milliseconds until a lost connection is tried again; the wait doubles up to LAST_WAIT
 const LAST_WAIT = 4000
+const PAUSE = 16
 
 let socket = null
 let wait = FIRST_WAIT
@@ -23,7 +24,8 @@ class PageView extends BaseRenderView {
   constructor () {
     picture.style.width = picture.style.height = '100%'
     super(picture, null)
-    this.setThrottle(16)
+    this.setThrottle(0) // its own throttle lets a move overtake the press that follows it; see `onEvent`
+    this.waiting = null
     this.newest = null
     this.planned = false
     this.lastSize = null
@@ -40,7 +42,29 @@ class PageView extends BaseRenderView {
     if (event.type === 'resize') this.lastSize = event
     if (event.key === 'h' && byId('help-text').textContent && event.modifiers.length === 0) {
       if (event.type === 'key_down') help.showModal()
-    } else send(event)
+    } else if (event.type === 'pointer_move' || event.type === 'wheel') {
+      this.sendSoon(event)
+    } else {
+      this.sendWaiting()
+      send(event)
+    }
+  }
+
+  // Moves and wheels become one message in PAUSE milliseconds; they never overtake other events.
+  sendSoon (event) {
+    const last = this.waiting
+    const same = last !== null && ['type', 'buttons', 'modifiers'].every((key) => String(last[key]) === String(event[key]))
+    if (same && event.type === 'wheel') {
+      event.dx += last.dx
+      event.dy += last.dy
+    } else if (!same) this.sendWaiting()
+    if (this.waiting === null) setTimeout(() => this.sendWaiting(), PAUSE)
+    this.waiting = event
+  }
+
+  sendWaiting () {
+    if (this.waiting !== null) send(this.waiting)
+    this.waiting = null
   }
 
   // Of the frames that arrive between two pictures of the screen the last one is shown, and that one is confirmed.
