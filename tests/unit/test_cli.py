@@ -78,6 +78,7 @@ def test_help_says_what_to_write_and_not_types(command):
     for line in text.splitlines():
         assert len(line) <= 100
     flags = {"--help", "--version", "--json", "--half", "--srgb", "--list", "--all"} | {
+        "--live",
         "--page",
         "--window",
         "--terminal",
