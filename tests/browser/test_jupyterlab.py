@@ -208,6 +208,14 @@ def test_a_slider_changes_the_material(page, lab):
     assert np.array_equal(picture(page), before)
 
 
+def test_a_panel_shows_what_a_program_sets(page, lab):
+    lab.ask("setattr(scene['bunny'].material, 'env_weight', 0.25)")
+    readout = page.locator(".cubecam-env-weight .widget-readout", has_text="0.250")
+    readout.wait_for(timeout=10_000)
+    lab.ask("setattr(scene['bunny'].material, 'env_weight', 1)")
+    settle(page)
+
+
 def test_a_refused_value_is_explained(page, lab):
     far = lab.ask("camera.far")
     lab.ask("setattr(camera, 'near', 20)")

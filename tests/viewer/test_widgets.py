@@ -1,5 +1,8 @@
 """The panel as ipywidgets: values go both ways, refused values are explained, and nothing stays when a view closes."""
 
+# A small class stands for a LiveView.
+# mypy: disable-error-code="arg-type"
+
 import gc
 from typing import Any
 

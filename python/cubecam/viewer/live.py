@@ -468,6 +468,7 @@ class _Shown:
             told, self._told = self._told, False
             outside = not told and self._still and view._animation is None
             revision = _newest_revision()
+            came_to_rest = not self._still
             if view.moving or outside:
                 picture = self._quick_picture(view, (width, height), outside)
             else:
@@ -475,6 +476,8 @@ class _Shown:
             self._revision = revision
             self.canvas._quality = _PNG if self._still else _JPEG
             self._context.set_bitmap(picture)
+            if came_to_rest and self._still:
+                view._tell("panel", None)  # what moved may have been set by a program
 
     def _quick_picture(
         self, view: LiveView, size: tuple[int, int], outside: bool

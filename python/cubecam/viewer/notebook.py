@@ -28,12 +28,12 @@ def notebook_canvas(view: LiveView) -> Any:
 @functools.cache
 def _canvas_class() -> Any:
     """Give rendercanvas' canvas for notebooks, whose closing ends."""
-    base = needs("rendercanvas.anywidget", "jupyter").RenderCanvas
+    base: Any = needs("rendercanvas.anywidget", "jupyter").RenderCanvas
 
     class NotebookCanvas(base):  # type: ignore[misc]
         def _rc_close(self) -> None:
             # rendercanvas 2.7 sends itself the message that the canvas was closed, and answers it by closing again.
-            if not self._is_closed:
+            if not self.get_closed():
                 self._is_closed = True
                 super()._rc_close()
 

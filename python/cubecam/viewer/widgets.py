@@ -252,7 +252,7 @@ def _is_rounding(widget: Any, today: float, reported: float) -> bool:
         now, new = math.log10(now), math.log10(new)
     steps = (new - low) / step
     on_a_step = abs(steps - round(steps)) < 1e-4
-    return on_a_step and abs(new - now) <= 0.5001 * step
+    return bool(on_a_step and abs(new - now) <= 0.5001 * step)
 
 
 def _css_word(name: str) -> str:
