@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import weakref
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +20,24 @@ _displayed: weakref.WeakKeyDictionary[LiveView, object] = weakref.WeakKeyDiction
 def notebook_canvas(view: LiveView) -> Any:
     """Make a canvas for notebooks (anywidget): JupyterLab, Notebook, VS Code, Marimo."""
     needs("anywidget", "jupyter")
-    module = needs("rendercanvas.anywidget", "jupyter")
-    canvas = module.RenderCanvas(size=view.size, title="", max_fps=30)
+    canvas = _canvas_class()(size=view.size, title="", max_fps=30)
     view._attach(canvas)
     return canvas
+
+
+@functools.cache
+def _canvas_class() -> Any:
+    """Give rendercanvas' canvas for notebooks, whose closing ends."""
+    base: Any = needs("rendercanvas.anywidget", "jupyter").RenderCanvas
+
+    class NotebookCanvas(base):  # type: ignore[misc]
+        def _rc_close(self) -> None:
+            # rendercanvas 2.7 sends itself the message that the canvas was closed, and answers it by closing again.
+            if not self.get_closed():
+                self._is_closed = True
+                super()._rc_close()
+
+    return NotebookCanvas
 
 
 def notebook_widget(view: LiveView) -> Any:
@@ -52,8 +67,9 @@ def notebook_widget(view: LiveView) -> Any:
 
             line.value = html.escape(str(value)) or "&nbsp;"
         elif name == "closed":
-            for widget in (line, picture, box):
-                widget.close()
+            from .widgets import close_widget
+
+            close_widget(box)
 
     view.add_listener(heard)
     _widgets[view] = box
