@@ -155,6 +155,7 @@ def test_a_parallel_camera_zooms_by_its_height():
     Orbit().handle(event("wheel", dx=0, dy=-600, x=1, y=1), seen, SIZE)
     assert seen.height == pytest.approx(2)
     drag(Orbit(), seen, (0, 0), (200, 0), button=2, buttons=(2,))
+    assert seen.target is not None
     np.testing.assert_allclose(seen.target, (-1, 0, 0), atol=1e-9)
 
 

@@ -168,12 +168,16 @@ def test_a_mirror_says_what_it_sees():
     camera = cc.PerspectiveCamera(position=(0, 0, 3), target=(0, 0, 0))
     with cc.Viewer(scene, camera, size=(65, 65)) as viewer:
         found = viewer.pick(32, 32)
+        assert found is not None
+        assert found.seen is not None
         assert found.node.name == "mirror"
         np.testing.assert_allclose(found.seen.direction, (0, 0, 1), atol=1e-6)
         assert found.seen.face == "+z"
         np.testing.assert_allclose(found.seen.value[:3], 5)
         assert "face +z" in str(found)
         side = viewer.pick(60, 32)
+        assert side is not None
+        assert side.seen is not None
         incident = side.position - camera.position
         incident /= np.linalg.norm(incident)
         expected = incident * [1, 1, -1]
@@ -335,7 +339,7 @@ def test_wrong_arguments(arguments, message):
 
 def test_a_wrong_place_is_named():
     with pytest.raises(ValueError, match="where: expected None or one of notebook, page"):
-        cc.Scene().show("paper")
+        cc.Scene().show("paper")  # type: ignore[arg-type]
 
 
 def test_a_missing_package_names_the_extra():
