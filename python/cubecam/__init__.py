@@ -23,7 +23,7 @@ from ._core import __version__
 from ._late import late_names
 
 if TYPE_CHECKING:
-    from . import plot
+    from . import explore, plot
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -43,13 +43,24 @@ else:
             "optics": ["fresnel", "reflect", "refract", "schlick"],
             "viewer.viewer": ["Viewer"],
         },
-        modules=["demo", "examples", "io", "navigation", "pictures", "plot", "typing", "viewer"],
+        modules=[
+            "demo",
+            "examples",
+            "explore",
+            "io",
+            "navigation",
+            "pictures",
+            "plot",
+            "typing",
+            "viewer",
+        ],
     )
 
 __all__ = [
     "ClippingWarning",
     "Viewer",
     "__version__",
+    "explore",
     "fresnel",
     "load_cubemap",
     "load_environment",

@@ -14,6 +14,7 @@ import numpy.typing
 
 import cubecam._shader_inputs
 import cubecam.viewer.controls
+import cubecam.viewer.cube_view
 from cubecam.typing import (
     BlendEquation,
     BlendFactor,
@@ -21,6 +22,7 @@ from cubecam.typing import (
     Center,
     ControlsName,
     Convention,
+    CubeMode,
     DepthFormat,
     DepthOrder,
     Encode,
@@ -36,6 +38,7 @@ from cubecam.typing import (
     StencilFunc,
     StencilOp,
     StereoLayout,
+    Theme,
     Tonemap,
     Wrap,
 )
@@ -1673,6 +1676,90 @@ class CubeMap:
         >>> cube.set_face("+y", np.full((2, 2, 1), 255, np.uint8))
         >>> cube.sample([0, 1, 0])
         array([1.], dtype=float32)
+        """
+
+    def show(
+        self,
+        where: Place | None = None,
+        *,
+        mode: CubeMode = "cross",
+        size: tuple[int, int] = (800, 600),
+        convention: Convention = "inside",
+        center: Center = "-z",
+        level: int = 0,
+        exposure: float = 0.0,
+        tonemap: Tonemap | None = "neutral",
+        seams: bool = False,
+        names: bool = True,
+        smooth: bool = True,
+        background: Theme = "dark",
+        browser: bool = True,
+        block: bool | None = None,
+    ) -> cubecam.viewer.cube_view.CubeView:
+        """
+        Show the cube live: as a cross, as a panorama, or from inside. The method `CubeMap.show`.
+
+        Dragging moves the cross and the panorama and turns the look; the wheel zooms; a double click looks at the place
+        that was clicked; the key h lists the keys. The text under the picture says what is under the pointer: face, row and
+        column in the three conventions "gl", "inside" and "three", direction, and value as linear floats.
+
+        Parameters
+        ----------
+        where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+            Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+            for a browser on this machine.
+        mode : {"cross", "panorama", "look"}
+            How the cube is shown first; a control of the panel and the keys 1, 2 and 3 change it.
+        size : (int, int)
+            Width and height of the picture in logical pixels.
+        convention : {"inside", "gl", "three"}
+            The convention of the faces in the cross.
+        center : {"-z", "+z", "+x", "-x"}
+            The direction in the middle of the panorama.
+        level : int
+            The level that is shown first. A cube with ``mipmaps=True`` has levels.
+        exposure : float
+            Stops: the light is multiplied by ``2**exposure``.
+        tonemap : {"neutral", "reinhard", "aces"} or None
+            The curve for linear floats, see `to_screen`.
+        seams : bool
+            Whether the edges show how much the cube changes over them: blue where the step over the edge is no more than
+            the steps beside it, red from 2.5 times as much (`cc.plot.seams`).
+        names : bool
+            Whether the faces show their names.
+        smooth : bool
+            True shows bilinear lookups in the panorama and the look, as a shader's; False shows each texel.
+        background : {"dark", "light"}
+            The colour around the faces.
+        browser : bool
+            Whether a page is opened in the browser.
+        block : bool, optional
+            Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+            notebooks and in Python's prompt no.
+
+        Returns
+        -------
+        CubeView
+            The live view, whose properties have the names of these options.
+
+        Raises
+        ------
+        ValueError
+            For an unknown name, or a level that the cube does not have.
+        TypeError
+            For a value of another type.
+        ImportError
+            If a package is missing; the message names the extra of cubecam that has it.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=64)
+        >>> with cube.show("offscreen", mode="look") as view:
+        ...     view.yaw, view.exposure = 30, 1
+        ...     picture = view.draw()
+        >>> picture.shape
+        (600, 800, 4)
         """
 
     def to_convention(

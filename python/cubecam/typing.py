@@ -39,6 +39,7 @@ __all__ = [
     "Color",
     "ControlsName",
     "Convention",
+    "CubeMode",
     "DepthFormat",
     "DepthOrder",
     "Encode",
@@ -57,6 +58,7 @@ __all__ = [
     "StencilFunc",
     "StencilOp",
     "StereoLayout",
+    "Theme",
     "Tonemap",
     "Wrap",
 ]
@@ -115,6 +117,8 @@ FaceName: TypeAlias = Literal[
 ]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
+CubeMode: TypeAlias = Literal["cross", "panorama", "look"]
+Theme: TypeAlias = Literal["dark", "light"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import contextlib
 import json
 import os
@@ -69,6 +70,25 @@ class Lab:
         address = f"http://127.0.0.1:{self._port}/api/{path}?token={self._token}"
         with urllib.request.urlopen(address, timeout=10) as answer:
             return json.load(answer)
+
+    def ask(self, expression: str) -> Any:
+        """Evaluate an expression in the only kernel; its value must be a literal."""
+        from jupyter_client.blocking.client import BlockingKernelClient
+
+        [connection] = (self.folder / ".runtime").glob("kernel-*.json")
+        client = BlockingKernelClient(connection_file=str(connection))
+        client.load_connection_file()
+        client.start_channels()
+        try:
+            answer = client.execute(
+                "", user_expressions={"it": expression}, reply=True, timeout=30, silent=True
+            )
+        finally:
+            client.stop_channels()
+        result = answer["content"]["user_expressions"]["it"]
+        if result["status"] != "ok":
+            raise RuntimeError(f"{result['ename']}: {result['evalue']}")
+        return ast.literal_eval(result["data"]["text/plain"])
 
     def close(self) -> None:
         """End the server and its kernels."""
@@ -151,14 +171,17 @@ def run_all(page: Any, timeout: int = 120_000) -> None:
     """Run all cells of the notebook that the page shows, and wait until the last one has finished."""
     page.wait_for_selector(".jp-Notebook", timeout=60_000)
     # The kernel must be there before the menu entry does something.
-    page.wait_for_selector('.jp-Notebook-ExecutionIndicator[data-status="idle"]', timeout=60_000)
-    for _ in range(5):
+    page.locator("#jp-main-statusbar", has_text="| Idle").wait_for(timeout=60_000)
+    for _ in range(10):
         page.get_by_role("menuitem", name="Run", exact=True).click()
         page.get_by_role("menuitem", name="Run All Cells", exact=True).click()
-        # JupyterLab ignores the entry while it still restores its windows.
+        # JupyterLab ignores the entry while it restores its windows, and asks for a kernel while it connects to one.
         with contextlib.suppress(Exception):
-            page.wait_for_function(_STARTED, timeout=3_000)
+            page.wait_for_function(_STARTED, timeout=2_000)
             break
+        select = page.locator(".jp-Dialog .jp-mod-accept")
+        if select.count():
+            select.click()
     page.wait_for_function(_FINISHED, timeout=timeout)
 
 
@@ -171,5 +194,7 @@ _FINISHED = f"() => {_PROMPTS}.every(text => /\\[\\d+\\]/.test(text))"
 
 def errors(page: Any) -> list[str]:
     """The tracebacks that cells have printed."""
-    found: list[str] = page.locator('[data-mime-type="application/vnd.jupyter.error"]').all_inner_texts()
+    kinds = ("error", "stderr")
+    selector = ", ".join(f'[data-mime-type="application/vnd.jupyter.{kind}"]' for kind in kinds)
+    found: list[str] = page.locator(selector).all_inner_texts()
     return found

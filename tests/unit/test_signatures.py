@@ -15,7 +15,7 @@ import re
 import pytest
 
 import cubecam as cc
-from cubecam import demo, navigation, plot
+from cubecam import demo, explore, navigation, plot
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
 from cubecam.pictures import results
@@ -54,6 +54,8 @@ BY_POSITION = {
     "save_image": ["path", "pixels"],
     "save_animation": ["path", "frames"],
     "CubeMap.save": ["path"],
+    "CubeMap.show": ["where"],
+    "explore.reflection": ["environment"],
     "ShaderMaterial": ["fragment"],
     "ImageEffect": ["fragment"],
     "Blend": ["src", "dst"],
@@ -173,6 +175,7 @@ def of_python():
             if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not exported:
                 functions[f"{short}.{name}"] = thing
     functions |= {f"plot.{n}": vars(plot)[n] for n in plot.__all__ if callable(vars(plot)[n])}
+    functions["explore.reflection"] = explore.reflection
     functions["DemoScene.turn"] = demo.DemoScene.turn
     for name, function in functions.items():
         if name.rpartition(".")[2].startswith("_"):
@@ -199,7 +202,7 @@ def by_name(name):
 def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
-    modules = {module.__name__.rpartition(".")[2]: module for module in (*MODULES, plot)}
+    modules = {module.__name__.rpartition(".")[2]: module for module in (*MODULES, explore, plot)}
     if not owner:
         return getattr(cc, name)
     if owner in modules:

@@ -190,6 +190,30 @@ def test_a_refused_value_is_explained_and_the_old_one_shown():
     panel.close()
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "logarithmic", "today", "rounded", "next_step"),
+    [(1, 179, False, 50.3, 50.5, 51), (0.01, 100, True, 0.3, 10 ** (-2 + 74 * 0.02), 0.5)],
+)
+def test_what_a_browser_rounds_is_no_change(low, high, logarithmic, today, rounded, next_step):
+    """A browser moves the knob of a new slider to the nearest step, and reports that value."""
+    values = [today]
+    control = Control(
+        "it", "number", get=lambda: values[-1], set=values.append, low=low, high=high,
+        logarithmic=logarithmic,
+    )  # fmt: skip
+    view = View(lambda: [Section("s", (control,))])
+    panel = panel_widgets(view)
+    [slider] = inputs(panel, "it")
+    slider.value = rounded
+    assert values == [today]
+    slider.value = next_step
+    assert values == [today, next_step]
+    slider.value = next_step * 1.0003  # typed: on no step
+    assert values[-1] == pytest.approx(next_step * 1.0003)
+    assert view.changes == 2
+    panel.close()
+
+
 def test_a_button_resets():
     scene = cc.Scene(environment=cc.CubeMap(np.zeros((6, 2, 2, 3), np.float32)))
     ball = scene.add(cc.Mesh.sphere(1), cc.GlassMaterial(ior=1.5), name="ball")

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from .._core import CubeMap
 from ..io.screen import to_screen
-from ..viewer.cube_drawing import THEMES, Painter, draw_names, face_places, pixel_middles
+from ..viewer.cube_drawing import THEMES, Painter, face_places, pixel_middles
 from ..viewer.cube_maps import Cross
 from ..viewer.lettering import Lettering
 from ..viewer.texels import CONVENTIONS
@@ -50,15 +50,16 @@ RAYS = {
 
 @dataclass(frozen=True)
 class Layout:
-    """Where everything stands in a picture of some size, in pixels."""
+    """Where everything stands in a picture of some size, in pixels; `ratio` of them make a logical pixel."""
 
-    size: tuple[int, int]
+    size: tuple[float, float]
+    ratio: float
     room: tuple[float, float, float]  # left, top, edge of the square with the plane
     cross: tuple[int, int, int, int]  # left, top, width, height; width 0: there is none
     words: tuple[float, float, float, float]  # left, top, width, height
 
     @classmethod
-    def of(cls, size: tuple[int, int]) -> Layout:
+    def of(cls, size: tuple[float, float], ratio: float = 1.0) -> Layout:
         """Place the plane on the left and the rest on its right, or below it in a picture that is not wide."""
         width, height = size
         if width >= 1.25 * height:
@@ -67,7 +68,7 @@ class Layout:
             across = round(rest * 0.94)
             high = min(round(across * 0.75), round(height * 0.46))
             return cls(
-                size, (0, (height - edge) / 2, edge),
+                size, ratio, (0, (height - edge) / 2, edge),
                 (round(left), round(height * 0.03), across, high),
                 (left + 0.02 * rest, height * 0.04 + high, rest * 0.94, height * 0.96 - high),
             )  # fmt: skip
@@ -75,7 +76,7 @@ class Layout:
         rest = height - edge
         across = round(min(width * 0.45, rest * 1.25))
         return cls(
-            size, ((width - edge) / 2, 0, edge),
+            size, ratio, ((width - edge) / 2, 0, edge),
             (round(width * 0.02), round(edge), across, round(rest * 0.96)),
             (width * 0.04 + across, edge + 0.02 * rest, width * 0.94 - across, rest * 0.96),
         )  # fmt: skip
@@ -83,10 +84,15 @@ class Layout:
     @property
     def unit(self) -> float:
         """The height of letters in pixels."""
-        width, height = self.size
+        width, height = (side / self.ratio for side in self.size)
         wide = width >= 1.25 * height
         fitting = min(width / 56, height / 35) if wide else min(width / 40, height / 50)
-        return max(9.0, min(fitting, 30.0))
+        return self.ratio * max(9.0, min(fitting, 30.0))
+
+    @property
+    def has_cross(self) -> bool:
+        """Whether the cross is large enough to be drawn."""
+        return self.cross[2] / self.ratio >= 80
 
     def scale(self, plane: Plane) -> float:
         """Pixels for a unit of the diagram: half the edge of the cube."""
@@ -96,7 +102,7 @@ class Layout:
         """Convert (..., 2) of the diagram, y up, to pixels."""
         left, top, edge = self.room
         at = np.asarray(flat, float) * (1, -1) * self.scale(plane)
-        return np.asarray(at + (left + edge / 2, top + edge / 2))
+        return np.asarray(at + np.array([left + edge / 2, top + edge / 2]))
 
     def flat(self, x: npt.ArrayLike, y: npt.ArrayLike, plane: Plane) -> Array:
         """Convert pixels to (..., 2) of the diagram."""
@@ -118,11 +124,11 @@ def in_band(flat: Array, plane: Plane) -> Array:
 
 
 class Ground:
-    """What does not change while the surface turns: the band of texels and the cross. One picture is kept."""
+    """What does not change while the surface turns: the band of texels and the cross. Two pictures are kept."""
 
     def __init__(self, environment: CubeMap) -> None:
         self._painter = Painter(environment)
-        self._kept: tuple[Any, Array] | None = None
+        self._kept: dict[Any, Array] = {}
 
     def fresh(self) -> bool:
         """Whether the environment still has the faces that were drawn."""
@@ -133,18 +139,20 @@ class Ground:
     ) -> Array:
         """Draw paper, band and cross, (height, width, 3), a new array."""
         key = (layout, plane, theme, exposure, tonemap)
-        if self._kept is None or self._kept[0] != key:
-            self._kept = (key, self._draw(layout, plane, theme, exposure, tonemap))
-        return self._kept[1].copy()
+        # A moving view and one at rest take turns at two sizes.
+        if key not in self._kept:
+            last = list(self._kept.items())[-1:]
+            self._kept = {**dict(last), key: self._draw(layout, plane, theme, exposure, tonemap)}
+        return np.array(self._kept[key])
 
     def _draw(
         self, layout: Layout, plane: Plane, theme: str, exposure: float, tonemap: Tonemap | None
     ) -> Array:
         inks, cube = THEMES[theme], self._painter.cube
-        width, height = layout.size
+        width, height = (round(side) for side in layout.size)
         picture = np.empty((height, width, 3), np.uint8)
         picture[:] = inks.paper
-        flat = layout.flat(*pixel_middles(layout.size), plane)
+        flat = layout.flat(*pixel_middles((width, height)), plane)
         band = in_band(flat, plane)
         # Each pixel of the band shows the texel in its direction, so that a ray ends at the texel that it hits.
         face, s, t = face_places(plane.world(flat[band]))
@@ -153,7 +161,7 @@ class Ground:
         colors = shown(cube, cube.faces[face, row, column][:, None], exposure, tonemap)[:, 0]
         picture[band] = colors
         left, top, across, high = layout.cross
-        if across >= 80:
+        if layout.has_cross:
             small = self._painter.paint(
                 layout.of_cross(), (across, high), exposure=exposure, tonemap=tonemap,
                 smooth=False, paper=inks.paper,
@@ -196,13 +204,12 @@ class Diagram:
         facts: Facts,
         theme: str,
         color: Color,
-        unit: float,
     ) -> None:
         self.layout, self.plane, self.facts = layout, plane, facts
         inks = THEMES[theme]
         self.inks, self.rays, self.color = inks, RAYS[theme], color
-        self.letters = Lettering(ground, inks.ink, inks.paper, unit)
-        self.unit = unit
+        self.unit = layout.unit
+        self.letters = Lettering(ground, inks.ink, inks.paper, self.unit)
         self.pen = self.letters.draw
         self.scale = layout.scale(plane)
 
@@ -394,13 +401,13 @@ class Diagram:
         self.pen.ellipse((px - s, py - s, px + s, py + s), fill=self.inks.ink)
 
     def cross(self) -> None:
-        left, top, across, high = self.layout.cross
-        if across < 80:
+        if not self.layout.has_cross:
             return
+        corner = np.array(self.layout.cross[:2])
         cross = self.layout.of_cross()
         edge = cross.sheet.scale
         for cell in cross.cells:
-            x, y = cross.sheet.pixels(cell.column, cell.row) + (left, top)
+            x, y = cross.sheet.pixels(cell.column, cell.row) + corner
             self.letters.write(
                 cell.name, (x + 0.06 * edge, y + 0.05 * edge), scale=min(0.9, edge / 60)
             )
@@ -409,9 +416,10 @@ class Diagram:
         color = rays.refracted if self.facts.main is self.facts.refracted else rays.reflected
         dot = max(1.0, 0.08 * self.unit)
         if len(self.facts.spread):
-            for x, y in (cross.places(self.facts.spread) + (left, top)).tolist():
+            for x, y in (cross.places(self.facts.spread) + corner).tolist():
                 self.pen.ellipse((x - dot, y - dot, x + dot, y + dot), fill=(*color, 190))
-        self.target(*(cross.places(self.facts.main) + (left, top)).tolist(), color)
+        x, y = (cross.places(self.facts.main) + corner).tolist()
+        self.target(x, y, color)
 
     def target(self, x: float, y: float, color: Color) -> None:
         """Mark the texel that is hit: a ring in the ray's colour between dark and white ones."""

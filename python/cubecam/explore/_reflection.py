@@ -10,23 +10,27 @@ import numpy.typing as npt
 
 from .._calls import checked_call
 from .._core import CubeMap
-from ..typing import Tonemap
+from ..typing import Place, Theme, Tonemap
 from ..viewer.live import LiveView
 from ..viewer.panel import Control, Section
-from ..viewer.settings import choice, number
+from ..viewer.settings import choice, number, shown_at
 from ..viewer.texels import Texel, texel_of
-from ._diagram import Diagram, Ground, Layout, in_band, light_on_screen, shown
+from ._diagram import BAND, EYE, Diagram, Ground, Layout, in_band, light_on_screen, shown
 from ._optics import Facts, Plane, facts_of, turned
 
 if TYPE_CHECKING:
     Mode = Literal["reflection", "refraction"]
-    Theme = Literal["dark", "light"]
 
 __all__ = ["ReflectionView", "reflection"]
 
 _HELP = (
-    "drag: turn the surface, or the eye   arrows left and right: turn the surface   up and down: turn the plane   "
-    "m: reflection or refraction   r: reset"
+    "drag  turn the surface; at the eye, move the eye\n"
+    "left, right  turn the surface\n"
+    "up, down  turn the plane\n"
+    "wheel  roughness\n"
+    "m  reflection, refraction\n"
+    "r  as at first\n"
+    "h  this list"
 )
 #: How near to the eye, in units of half the cube's edge, a drag begins that moves the eye.
 _NEAR_THE_EYE = 0.16
@@ -92,6 +96,9 @@ class ReflectionView(LiveView):
             )
         self.environment = environment
         self._ground = Ground(environment)
+        self._logical: tuple[float, float] = (
+            self.size
+        )  # the size of the canvas on which something happened last
         self._grabbed: tuple[str, float] | None = None
         for name, value in {**self._SETTINGS, **settings}.items():
             if name not in self._SETTINGS:
@@ -99,7 +106,7 @@ class ReflectionView(LiveView):
 
                 raise TypeError(unknown_name("ReflectionView()", name, list(self._SETTINGS)))
             setattr(self, name, value)
-        self._tell()
+        self._say()
 
     # Numbers --------------------------------------------------------------------------------------------------
 
@@ -147,7 +154,7 @@ class ReflectionView(LiveView):
 
     @property
     def color(self) -> npt.NDArray[np.float64]:
-        """ndarray (C,): the linear light that the eye gets: bilinear lookups, for a rough surface their mean over the lobe.
+        """ndarray (C,): the linear light that the eye gets: a bilinear lookup, or the mean over the lobe.
 
         Glass mixes both: ``share`` of the light comes along R, the rest along T.
         """
@@ -158,15 +165,24 @@ class ReflectionView(LiveView):
 
         `x` and `y` count logical pixels from the top left corner. None elsewhere.
         """
-        layout = Layout.of(self.size)
+        layout = self._layout
         left, top, across, high = layout.cross
-        if across >= 80 and 0 <= x - left < across and 0 <= y - top < high:
+        if layout.has_cross and 0 <= x - left < across and 0 <= y - top < high:
             direction = layout.of_cross().directions(x - left, y - top)
             return texel_of(self.environment, direction) if np.isfinite(direction).all() else None
         flat = layout.flat(x, y, self.plane)
         if in_band(flat, self.plane):
             return texel_of(self.environment, self.plane.world(flat))
         return None
+
+    @property
+    def help(self) -> str:
+        """What mouse and keys do, one line each."""
+        return _HELP
+
+    @property
+    def _layout(self) -> Layout:
+        return Layout.of(self._logical)
 
     # Drawing --------------------------------------------------------------------------------------------------
 
@@ -176,14 +192,14 @@ class ReflectionView(LiveView):
         # Lines are drawn twice as large and averaged at rest, which makes them smooth.
         times = 1 if moving else 2
         large = (size[0] * times, size[1] * times)
-        layout, facts = Layout.of(large), self.facts
+        ratio = math.sqrt(size[0] * size[1] / (self._logical[0] * self._logical[1]))
+        small, layout, facts = Layout.of(size, ratio), Layout.of(large, ratio * times), self.facts
         ground = self._ground.picture(
-            Layout.of(size), self.plane, self.background, self.exposure, self.tonemap
+            small, self.plane, self.background, self.exposure, self.tonemap
         )
         ground = np.repeat(np.repeat(ground, times, axis=0), times, axis=1)
         color = light_on_screen(facts.color, self.exposure, self.tonemap)
-        unit = times * Layout.of(size).unit
-        diagram = Diagram(ground, layout, self.plane, facts, self.background, color, unit)
+        diagram = Diagram(ground, layout, self.plane, facts, self.background, color)
         texel = np.asarray(facts.hit.stored).astype(self.environment.dtype)[None, None]
         r, g, b = shown(self.environment, texel, self.exposure, self.tonemap)[0, 0].tolist()
         diagram.texel_color = (r, g, b)
@@ -198,7 +214,7 @@ class ReflectionView(LiveView):
         opaque = np.full((*picture.shape[:2], 1), 255, np.uint8)
         return np.concatenate([picture, opaque], axis=-1)
 
-    def _tell(self) -> None:
+    def _say(self) -> None:
         self.text = f"{'R' if self.refracted is None else 'T'} hits {self.hit}"
 
     # Events ---------------------------------------------------------------------------------------------------
@@ -206,31 +222,45 @@ class ReflectionView(LiveView):
     def changed(self, moving: bool = True) -> None:
         """Draw soon, and say what is hit now."""
         if "_background" in vars(self):  # all properties are set
-            self._tell()
+            self._say()
         super().changed(moving)
 
     def _handle(self, event: dict[str, Any]) -> None:
-        kind = event.get("event_type")
-        if kind == "pointer_down":
-            flat = Layout.of(self.size).flat(event["x"], event["y"], self.plane)
-            at_eye = float(np.linalg.norm(flat - 0.86 * turned(self.eye))) < _NEAR_THE_EYE
-            self._grabbed = ("eye" if at_eye else "angle", _degrees(flat))
-        elif kind == "pointer_up":
-            self._grabbed = None
-        elif kind == "pointer_move" and self._grabbed is not None:
-            # The surface turns as far as the pointer goes round the middle.
-            name, before = self._grabbed
-            now = _degrees(Layout.of(self.size).flat(event["x"], event["y"], self.plane))
-            setattr(self, name, getattr(self, name) + now - before)
-            self._grabbed = (name, now)
-        elif kind == "pointer_move":
-            texel = self.at(event["x"], event["y"])
-            if texel is not None:
-                self.text = str(texel)
-            else:
-                self._tell()
+        kind = event.get("event_type", "")
+        if "size" in event:
+            self._logical = tuple(event["size"])
+        if kind in ("pointer_down", "pointer_move", "pointer_up"):
+            self._point(kind, event)
+        elif kind == "pointer_leave":
+            self._say()
+        elif kind == "wheel":
+            self.roughness = min(1.0, max(0.0, self.roughness + event.get("dy", 0.0) / 4000))
         elif kind == "key_down":
             self._key(str(event.get("key", "")))
+        if kind in ("pointer_up", "wheel", "key_down"):
+            self._tell("panel", None)
+
+    def _point(self, kind: str, event: dict[str, Any]) -> None:
+        x, y = float(event["x"]), float(event["y"])
+        flat = self._layout.flat(x, y, self.plane)
+        if kind == "pointer_down":
+            if float(np.abs(flat).max()) > max(self.plane.reach) + BAND:
+                return
+            apart = float(np.linalg.norm(flat - EYE * turned(self.eye)))
+            self._grabbed = ("eye" if apart < _NEAR_THE_EYE else "angle", _degrees(flat))
+        elif kind == "pointer_up" or event.get("buttons") == ():  # the button may be let go outside
+            self._grabbed = None
+        elif self._grabbed is not None:
+            # The surface turns as far as the pointer goes round the middle.
+            name, before = self._grabbed
+            setattr(self, name, getattr(self, name) + _degrees(flat) - before)
+            self._grabbed = (name, _degrees(flat))
+        else:
+            texel = self.at(x, y)
+            if texel is None:
+                self._say()
+            else:
+                self.text = str(texel)
 
     def _key(self, key: str) -> None:
         turns = {
@@ -246,8 +276,6 @@ class ReflectionView(LiveView):
             self.mode = "refraction" if self.mode == "reflection" else "reflection"
         elif key == "r":
             self.reset()
-        elif key == "h":
-            self.text = _HELP
 
     def reset(self) -> None:
         """Set everything as at first, except the mode and the background."""
@@ -301,9 +329,11 @@ def reflection(
     tonemap: Tonemap | None = "neutral",
     background: Theme = "dark",
     size: tuple[int, int] = (960, 600),
-    where: str | None = None,
+    where: Place | None = None,
+    browser: bool = True,
+    block: bool | None = None,
 ) -> ReflectionView:
-    """Show live how a surface reflects or refracts a cubemap: the incident ray I, the normal N, R or T, and the texel hit.
+    """Show live how a surface reflects or refracts a cubemap: the rays I and R or T, the normal N, and the texel hit.
 
     The diagram is a section through the middle of the cube. The band around the room shows the texels of the faces that
     the plane cuts, each in its direction: a ray ends at the texel that it hits. A drag turns the surface; a drag that
@@ -332,7 +362,13 @@ def reflection(
     size : (int, int)
         Width and height of the picture in logical pixels.
     where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
-        Where to show it. None chooses.
+        Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+        for a browser on this machine.
+    browser : bool
+        Whether a page is opened in the browser.
+    block : bool, optional
+        Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+        notebooks and in Python's prompt no.
 
     Returns
     -------
@@ -344,6 +380,8 @@ def reflection(
     ------
     TypeError, ValueError
         For an option of another type, an unknown name or a number out of range.
+    ImportError
+        If a package is missing; the message names the extra of cubecam that has it.
 
     Notes
     -----
@@ -354,13 +392,12 @@ def reflection(
     Examples
     --------
     >>> import cubecam as cc
-    >>> with cc.explore.reflection(where="offscreen", angle=0, eye=45) as diagram:
+    >>> with cc.explore.reflection(where="offscreen", angle=20, eye=55) as diagram:
     ...     print(diagram.hit.places["gl"], diagram.reflected.round(3).tolist())
-    +X row 0 column 15 [0.707, 0.707, 0.0]
+    +Y row 16 column 20 [0.259, 0.966, 0.0]
     """
     view = ReflectionView(
         environment, mode=mode, angle=angle, eye=eye, azimuth=azimuth, ior=ior, roughness=roughness,
         exposure=exposure, tonemap=tonemap, background=background, size=size,
     )  # fmt: skip
-    view.show(where)
-    return view
+    return shown_at(view, where, browser, block)

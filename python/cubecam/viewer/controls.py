@@ -185,7 +185,7 @@ class Orbit(Controls):
         return True
 
     def _wheel(self, camera: AnyCamera, dy: float, size: tuple[float, float]) -> bool:
-        return _scale(camera, 2.0 ** (dy / WHEEL_DOUBLE))
+        return _scale(camera, _zoom(dy))
 
     def _pinch(self, camera: AnyCamera, ratio: float, dx: float, dy: float, height: float) -> bool:
         moved = _pan(camera, dx, dy, height) if dx or dy else False
@@ -224,8 +224,8 @@ class FirstPerson(Controls):
 
     def _wheel(self, camera: AnyCamera, dy: float, size: tuple[float, float]) -> bool:
         if isinstance(camera, OrthographicCamera):
-            return _scale(camera, 2.0 ** (dy / WHEEL_DOUBLE))
-        camera.fov = min(max(camera.fov * 2.0 ** (dy / WHEEL_DOUBLE), 5.0), 140.0)
+            return _scale(camera, _zoom(dy))
+        camera.fov = min(max(camera.fov * _zoom(dy), 5.0), 140.0)
         return True
 
     def _pinch(self, camera: AnyCamera, ratio: float, dx: float, dy: float, height: float) -> bool:
@@ -260,6 +260,11 @@ def make_controls(name: str | Controls) -> Controls:
 
 
 # ----- the camera
+
+
+def _zoom(dy: float) -> float:
+    """Return the factor for a wheel's delta, limited to 20 doublings."""
+    return float(2.0 ** min(max(dy / WHEEL_DOUBLE, -20.0), 20.0))
 
 
 def _unit(vector: Any) -> Any:

@@ -127,7 +127,9 @@ class Painter:
 
     def _kept(self, key: Any, make: Any) -> Array:
         if key not in self._resized:
-            self._resized = {key: make()}  # one at a time: a view has one size
+            # A moving view and one at rest take turns at two sizes.
+            last = list(self._resized.items())[-1:]
+            self._resized = {**dict(last), key: make()}
         return self._resized[key]
 
     # Pictures -------------------------------------------------------------------------------------------------

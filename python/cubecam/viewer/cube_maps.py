@@ -53,7 +53,7 @@ class Sheet:
     `middle` is the place of the sheet, in units, that stands in the middle of the picture.
     """
 
-    size: tuple[int, int]
+    size: tuple[float, float]
     wide: float
     high: float
     zoom: float
@@ -85,7 +85,7 @@ class Cross:
 
     def __init__(
         self,
-        size: tuple[int, int],
+        size: tuple[float, float],
         convention: Convention,
         zoom: float = 1.0,
         middle: tuple[float, float] = (2.0, 1.5),
@@ -137,7 +137,7 @@ class Panorama:
 
     def __init__(
         self,
-        size: tuple[int, int],
+        size: tuple[float, float],
         center: Center,
         zoom: float = 1.0,
         middle: tuple[float, float] = (1.0, 0.5),
@@ -178,7 +178,7 @@ class Look:
     field of view in degrees, below 180.
     """
 
-    def __init__(self, size: tuple[int, int], yaw: float, pitch: float, fov: float) -> None:
+    def __init__(self, size: tuple[float, float], yaw: float, pitch: float, fov: float) -> None:
         self.size = size
         turn, rise = np.radians([yaw, pitch])
         level = np.array([-np.sin(turn), 0.0, -np.cos(turn)])

@@ -5,36 +5,42 @@ from __future__ import annotations
 import math
 import numbers
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
 from .._core import CubeMap
-from ..typing import Center, Convention, Tonemap
+from ..typing import Center, Convention, CubeMode, Place, Theme, Tonemap
 from .cube_drawing import THEMES, Painter, draw_legend, draw_names, outline
 from .cube_maps import Cross, Look, Panorama
 from .lettering import Lettering
 from .live import LiveView
 from .panel import Control, Section
-from .settings import choice, flag, number
+from .settings import choice, flag, number, shown_at
 from .texels import Texel, levels_of, texel_of
-
-if TYPE_CHECKING:
-    Mode = Literal["cross", "panorama", "look"]
-    Theme = Literal["dark", "light"]
 
 __all__ = ["CubeView", "show_cube"]
 
 MODES = ("cross", "panorama", "look")
 _HELP = (
-    "1 cross   2 panorama   3 look   drag: move or turn   wheel: zoom   double click: look there   "
-    "arrows: turn   + and -: exposure   s: seams   n: names   r: reset"
+    "1 2 3  cross, panorama, look\n"
+    "drag  move, or turn the look\n"
+    "wheel, pinch  nearer, farther\n"
+    "double click  look there\n"
+    "arrows  turn the look\n"
+    "+ -  exposure\n"
+    "s  seams\n"
+    "n  names of the faces\n"
+    "r  show everything\n"
+    "h  this list"
 )
-#: Pixels that a picture has at most while something moves; larger pictures are drawn at half their size.
-_QUICK = 180_000
+#: After these events a panel shows what they changed.
+_ENDS = ("pointer_up", "wheel", "double_click", "key_down")
 _HIGHEST_ZOOM = 256.0
+#: What a wheel reports for twice the zoom: four notches of 100.
+_DOUBLES = 400
 
 
 class CubeView(LiveView):
@@ -119,7 +125,7 @@ class CubeView(LiveView):
         self,
         cube: CubeMap | Sequence[CubeMap],
         *,
-        mode: Mode = "cross",
+        mode: CubeMode = "cross",
         level: int = 0,
         size: tuple[int, int] = (800, 600),
         title: str = "cubemap",
@@ -135,7 +141,11 @@ class CubeView(LiveView):
             0.5,
             0.5,
         )  # the place of the sheet in the middle of the picture, as shares of the sheet
+        self._logical: tuple[float, float] = (
+            self.size
+        )  # the size of the canvas on which something happened last
         self._grabbed: tuple[float, float] | None = None
+        self._touches: dict[Any, tuple[float, float]] = {}
         for name, value in {"mode": mode, **self._SETTINGS, **settings}.items():
             if name not in self._SETTINGS and name != "mode":
                 from .._calls import unknown_name
@@ -171,9 +181,14 @@ class CubeView(LiveView):
         """CubeMap: the level that is shown."""
         return self._painter().cube
 
-    def projection(self, size: tuple[int, int] | None = None) -> Cross | Panorama | Look:
-        """Give the map between the pixels of a picture and directions, for a size in pixels (None: the view's own)."""
-        size = self.size if size is None else size
+    @property
+    def help(self) -> str:
+        """What mouse and keys do, one line each."""
+        return _HELP
+
+    def projection(self, size: tuple[float, float] | None = None) -> Cross | Panorama | Look:
+        """Give the map between the pixels of a picture and directions, for a size in pixels (None: the canvas's)."""
+        size = self._logical if size is None else size
         if self.mode == "look":
             return Look(size, self.yaw, self.pitch, self.fov)
         x, y = self._middle
@@ -187,7 +202,8 @@ class CubeView(LiveView):
         Parameters
         ----------
         x, y : float
-            Logical pixels from the top left corner of the picture; the middle of the first pixel is (0.5, 0.5).
+            Pixels from the top left corner of a picture of the view's `size`; the middle of the first pixel is
+            (0.5, 0.5). On a canvas of another size, logical pixels of the canvas that had the last event.
 
         Returns
         -------
@@ -242,11 +258,6 @@ class CubeView(LiveView):
         return self._painters[self._level]
 
     def _picture(self, size: tuple[int, int], moving: bool) -> npt.NDArray[np.uint8]:
-        if moving and size[0] * size[1] > _QUICK:
-            half = self._painted((size[0] // 2, size[1] // 2))
-            twice = np.repeat(np.repeat(half, 2, axis=0), 2, axis=1)
-            odd = ((0, size[1] - twice.shape[0]), (0, size[0] - twice.shape[1]), (0, 0))
-            return self._lettered(np.pad(twice, odd, mode="edge"), size)
         return self._lettered(self._painted(size), size)
 
     def _painted(self, size: tuple[int, int]) -> npt.NDArray[np.uint8]:
@@ -269,7 +280,7 @@ class CubeView(LiveView):
         inks = THEMES[self.background]
         legend = self.seams and self.shown.size > 1
         if self.names or legend:
-            letters = Lettering(picture, inks.ink, inks.paper)
+            letters = Lettering(picture, inks.ink, inks.paper, unit=self._unit(size))
             if self.names:
                 draw_names(letters, self.projection(size))
             if legend:
@@ -283,22 +294,22 @@ class CubeView(LiveView):
         opaque = np.full((*picture.shape[:2], 1), 255, np.uint8)
         return np.concatenate([picture, opaque], axis=-1)
 
+    def _unit(self, size: tuple[int, int]) -> float:
+        """Give the height of letters: a small picture that stands in for a large one has smaller letters."""
+        ratio = math.sqrt(size[0] * size[1] / (self._logical[0] * self._logical[1]))
+        return ratio * max(11.0, min(min(size) / ratio / 32, 40.0))
+
     # Events ---------------------------------------------------------------------------------------------------
 
     def _handle(self, event: dict[str, Any]) -> None:
-        kind = event.get("event_type")
-        if kind == "pointer_down" and event.get("button", 1) in (0, 1, 2, 3):
-            self._grabbed = (event["x"], event["y"])
-        elif kind == "pointer_up":
-            self._grabbed = None
-        elif kind == "pointer_move":
-            if self._grabbed is not None:
-                self._drag(event["x"] - self._grabbed[0], event["y"] - self._grabbed[1])
-                self._grabbed = (event["x"], event["y"])
-            self._tell(event["x"], event["y"])
+        kind = event.get("event_type", "")
+        if "size" in event:
+            self._logical = tuple(event["size"])
+        if kind.startswith("pointer"):
+            self._point(kind, event)
         elif kind == "wheel":
-            self._wheel(event["x"], event["y"], event.get("dy", 0.0))
-            self._tell(event["x"], event["y"])
+            self._zoom_by(event["x"], event["y"], 2 ** (-event.get("dy", 0.0) / _DOUBLES))
+            self._say(event["x"], event["y"])
         elif kind == "double_click":
             texel = self.at(event["x"], event["y"])
             if texel is not None:
@@ -306,10 +317,40 @@ class CubeView(LiveView):
                 self.mode = "look"
         elif kind == "key_down":
             self._key(str(event.get("key", "")))
-        elif kind == "pointer_leave":
-            self.text = ""
+        if kind in _ENDS:
+            self._tell("panel", None)
 
-    def _tell(self, x: float, y: float) -> None:
+    def _point(self, kind: str, event: dict[str, Any]) -> None:
+        if kind == "pointer_leave":
+            self.text = ""
+            return
+        here = (float(event["x"]), float(event["y"]))
+        touches = {
+            k: (float(t["x"]), float(t["y"])) for k, t in (event.get("touches") or {}).items()
+        }
+        if len(touches) >= 2:
+            self._pinch(touches)
+            return
+        self._touches = {}
+        if kind == "pointer_down":
+            self._grabbed = here
+        elif kind == "pointer_up" or event.get("buttons") == ():  # the button may be let go outside
+            self._grabbed = None
+        elif self._grabbed is not None:
+            self._drag(here[0] - self._grabbed[0], here[1] - self._grabbed[1])
+            self._grabbed = here
+        self._say(*here)
+
+    def _pinch(self, touches: dict[Any, tuple[float, float]]) -> None:
+        """Zoom as far as two fingers part, about the middle between them."""
+        both = [key for key in touches if key in self._touches][:2]
+        before, after = ([found[key] for key in both] for found in (self._touches, touches))
+        self._touches, self._grabbed = touches, None
+        if len(both) == 2 and math.dist(*before) > 0 and math.dist(*after) > 0:
+            x, y = np.mean(after, axis=0).tolist()
+            self._zoom_by(x, y, math.dist(*after) / math.dist(*before))
+
+    def _say(self, x: float, y: float) -> None:
         texel = self.at(x, y)
         self.text = "" if texel is None else str(texel)
 
@@ -317,7 +358,7 @@ class CubeView(LiveView):
         """Move what is shown along with the pointer."""
         if self.mode == "look":
             # The middle of the picture follows the pointer.
-            degrees = math.degrees(2 * math.tan(math.radians(self.fov) / 2) / self.size[1])
+            degrees = math.degrees(2 * math.tan(math.radians(self.fov) / 2) / self._logical[1])
             self.yaw += dx * degrees
             self.pitch = min(90.0, max(-90.0, self.pitch + dy * degrees))
             return
@@ -327,8 +368,7 @@ class CubeView(LiveView):
             self._middle[1] - dy / sheet.scale / sheet.high,
         )
 
-    def _wheel(self, x: float, y: float, dy: float) -> None:
-        factor = 2 ** (-dy / 400)  # a notch of a wheel is 100: four of them double
+    def _zoom_by(self, x: float, y: float, factor: float) -> None:
         if self.mode == "look":
             self.fov = min(150.0, max(1.0, self.fov / factor))
             return
@@ -378,8 +418,6 @@ class CubeView(LiveView):
             self.names = not self.names
         elif key == "r":
             self.reset()
-        elif key == "h":
-            self.text = _HELP
 
     def reset(self) -> None:
         """Show everything again: zoom 1, the look along -Z with a field of view of 75 degrees, exposure 0."""
@@ -416,9 +454,9 @@ class CubeView(LiveView):
 @checked_call
 def show_cube(
     cube: CubeMap,
+    where: Place | None = None,
     *,
-    mode: Mode = "cross",
-    where: str | None = None,
+    mode: CubeMode = "cross",
     size: tuple[int, int] = (800, 600),
     convention: Convention = "inside",
     center: Center = "-z",
@@ -429,6 +467,8 @@ def show_cube(
     names: bool = True,
     smooth: bool = True,
     background: Theme = "dark",
+    browser: bool = True,
+    block: bool | None = None,
 ) -> CubeView:
     """Show the cube live: as a cross, as a panorama, or from inside. The method `CubeMap.show`.
 
@@ -438,10 +478,11 @@ def show_cube(
 
     Parameters
     ----------
+    where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
+        Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
+        for a browser on this machine.
     mode : {"cross", "panorama", "look"}
         How the cube is shown first; a control of the panel and the keys 1, 2 and 3 change it.
-    where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
-        Where to show it. None chooses.
     size : (int, int)
         Width and height of the picture in logical pixels.
     convention : {"inside", "gl", "three"}
@@ -463,6 +504,11 @@ def show_cube(
         True shows bilinear lookups in the panorama and the look, as a shader's; False shows each texel.
     background : {"dark", "light"}
         The colour around the faces.
+    browser : bool
+        Whether a page is opened in the browser.
+    block : bool, optional
+        Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
+        notebooks and in Python's prompt no.
 
     Returns
     -------
@@ -475,12 +521,14 @@ def show_cube(
         For an unknown name, or a level that the cube does not have.
     TypeError
         For a value of another type.
+    ImportError
+        If a package is missing; the message names the extra of cubecam that has it.
 
     Examples
     --------
     >>> import cubecam as cc
     >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=64)
-    >>> with cube.show(where="offscreen", mode="look") as view:
+    >>> with cube.show("offscreen", mode="look") as view:
     ...     view.yaw, view.exposure = 30, 1
     ...     picture = view.draw()
     >>> picture.shape
@@ -491,5 +539,4 @@ def show_cube(
         exposure=exposure, tonemap=tonemap, seams=seams, names=names, smooth=smooth,
         background=background,
     )  # fmt: skip
-    view.show(where)
-    return view
+    return shown_at(view, where, browser, block)

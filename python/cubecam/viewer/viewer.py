@@ -113,7 +113,7 @@ class Viewer(LiveView):
             _expect(renderer, Renderer, "renderer")
         super().__init__(size=size, title=title)
         self.scene = scene
-        bounds = scene.bounds
+        bounds = _extent(scene)
         if camera is None:
             camera = PerspectiveCamera()
             if bounds is not None:
@@ -400,6 +400,13 @@ def show_scene(
     except BaseException:
         viewer.close()
         raise
+
+
+def _extent(scene: Scene) -> Any:
+    """Return the scene's bounds, or None if nothing in it has an extent."""
+    low, high = (np.asarray(corner) for corner in scene.bounds)
+    seen = bool(np.isfinite(low).all() and np.isfinite(high).all() and (high > low).any())
+    return (low, high) if seen else None
 
 
 def _expect(value: object, kinds: type | tuple[type, ...], name: str) -> None:

@@ -182,11 +182,11 @@ class _Row:
         label = widgets.Label(
             "" if control.kind == "button" else control.name,
             tooltip=control.help,
-            layout=widgets.Layout(width="11em"),
+            layout=widgets.Layout(width="8.5em", min_width="8.5em"),
         )
         unit = [widgets.Label(control.unit)] if control.unit else []
         self._problem = widgets.HTML("", layout=widgets.Layout(display="none"))
-        line = widgets.HBox([label, *self._inputs, *unit])
+        line = widgets.HBox([label, *self._inputs, *unit], layout=widgets.Layout(width="100%"))
         self.box = widgets.VBox([line, self._problem])
 
     def show(self, value: Any) -> None:
@@ -230,10 +230,29 @@ class _Row:
         if self._quiet:
             return
         values = [one.value for one in self._inputs]
+        if self._control.kind == "number" and _is_rounding(
+            self._inputs[0], self._control.get(), values[0]
+        ):
+            return
         self._change(values if self._control.kind == "vector" else values[0])
 
     def _clicked(self, _: object) -> None:
         self._change(None)
+
+
+def _is_rounding(widget: Any, today: float, reported: float) -> bool:
+    """Whether a slider only reports today's value rounded to its step, as browsers do when they draw the slider."""
+    step = getattr(widget, "step", None)
+    if not hasattr(widget, "readout") or not step:
+        return False
+    low, now, new = widget.min, today, reported
+    if hasattr(widget, "base"):  # the steps of a logarithmic slider multiply
+        if min(now, new) <= 0:
+            return False
+        now, new = math.log10(now), math.log10(new)
+    steps = (new - low) / step
+    on_a_step = abs(steps - round(steps)) < 1e-4
+    return on_a_step and abs(new - now) <= 0.5001 * step
 
 
 def _css_word(name: str) -> str:
@@ -244,7 +263,7 @@ def _css_word(name: str) -> str:
 def _inputs(control: Control) -> Iterator[Any]:
     """Make the widgets that change the value of a control."""
     widgets = _ipywidgets()
-    wide = widgets.Layout(width="20em")
+    wide = widgets.Layout(width="auto", min_width="0", flex="1 1 0%")
     kind = control.kind
     ranged = control.low is not None and control.high is not None
     if kind == "flag":
@@ -255,7 +274,9 @@ def _inputs(control: Control) -> Iterator[Any]:
         yield widgets.ColorPicker(layout=wide)
     elif kind == "vector":
         for _ in control.get():
-            yield widgets.FloatText(layout=widgets.Layout(width="6.5em"))
+            yield widgets.FloatText(
+                layout=widgets.Layout(width="auto", min_width="0", flex="1 1 0%")
+            )
     elif kind == "button":
         yield widgets.Button(description=control.name, tooltip=control.help)
     elif kind == "text":
@@ -281,5 +302,11 @@ def _slider(control: Control, layout: Any) -> Any:
         return widgets.FloatLogSlider(
             min=ends[0], max=ends[1], step=(ends[1] - ends[0]) / 200, layout=layout
         )
-    step = control.step or (high - low) / 200
+    step = control.step or _nice_step((high - low) / 200)
     return widgets.FloatSlider(min=low, max=high, step=step, readout_format=".3g", layout=layout)
+
+
+def _nice_step(value: float) -> float:
+    """Give the number of 1, 2, 5, 10, ... that is not above a value, so that sliders show round numbers."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(k * power for k in (5, 2, 1) if k * power <= value * (1 + 1e-9))
