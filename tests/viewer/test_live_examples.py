@@ -6,6 +6,7 @@ import io
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,7 +41,7 @@ class Driver:
     def __init__(self, name, renderer, size=None):
         from rendercanvas.offscreen import OffscreenRenderCanvas
 
-        self.module = examples.load(name)
+        self.module: Any = examples.load(name)
         self.options = {k: v for k, v in SMALL.items() if k in _parameters(self.module.live)}
         self.view = self.module.live(renderer=renderer, **self.options)
         self.size = self.view.size if size is None else size
@@ -304,7 +305,8 @@ def test_an_example_of_another_size_keeps_its_formula(drive):
 
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_a_lesson_shows_it(name):
-    module = examples.load(name).__name__.rpartition(".")[2]
+    example: Any = examples.load(name)
+    module = example.__name__.rpartition(".")[2]
     lessons = [
         json.loads(path.read_text(encoding="utf-8"))
         for path in (ROOT / "notebooks").glob("*.ipynb")
@@ -323,6 +325,9 @@ def test_a_lesson_keeps_a_picture(drive):
     with Image.open(io.BytesIO(base64.b64decode(data["image/png"]))) as kept:
         np.testing.assert_array_equal(np.asarray(kept.convert("RGB")), view.draw()[..., :3])
     assert "application/vnd.jupyter.widget-view+json" in data
+    canvases = [shown.canvas for shown in view._canvases]
+    view.close()
+    assert [canvas.get_closed() for canvas in canvases] == [True, True]  # Driver's and the lesson's
 
 
 # ----- the command

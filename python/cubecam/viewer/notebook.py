@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import weakref
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +20,24 @@ _displayed: weakref.WeakKeyDictionary[LiveView, object] = weakref.WeakKeyDiction
 def notebook_canvas(view: LiveView) -> Any:
     """Make a canvas for notebooks (anywidget): JupyterLab, Notebook, VS Code, Marimo."""
     needs("anywidget", "jupyter")
-    module = needs("rendercanvas.anywidget", "jupyter")
-    canvas = module.RenderCanvas(size=view.size, title="", max_fps=30)
+    canvas = _canvas_class()(size=view.size, title="", max_fps=30)
     view._attach(canvas)
     return canvas
+
+
+@functools.cache
+def _canvas_class() -> Any:
+    module = needs("rendercanvas.anywidget", "jupyter")
+
+    class Canvas(module.RenderCanvas):  # type: ignore[misc,name-defined] # rendercanvas has no types
+        """In rendercanvas 2.7 closing runs in a circle: `close`, `_rc_close`, the message "close", `close`."""
+
+        def _rc_close(self) -> None:
+            if not self._is_closed:
+                self._is_closed = True
+                super()._rc_close()
+
+    return Canvas
 
 
 def notebook_widget(view: LiveView) -> Any:
