@@ -37,7 +37,7 @@ class _Times:
     render: list[float] = field(default_factory=list)
 
     def median(self, stage: str) -> float:
-        return statistics.median(getattr(self, stage))
+        return float(statistics.median(getattr(self, stage)))
 
 
 def _knot(renderer: Any) -> Any:

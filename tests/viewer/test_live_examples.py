@@ -1,15 +1,22 @@
 """The live forms of the programs: mouse, keys and animation against the documents' formulas in numpy."""
 
+import base64
 import inspect
+import io
+import json
 import re
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from cubecam import examples
 from tests.helpers import DEVICE
 from tests.programs.oracle import rx, ry, scaled
 
+ROOT = Path(__file__).parents[2]
 PROGRAMS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17")
 #: The programs whose camera stands in the scene, with the view before any drag.
 VISITORS = {
@@ -34,7 +41,7 @@ class Driver:
     def __init__(self, name, renderer, size=None):
         from rendercanvas.offscreen import OffscreenRenderCanvas
 
-        self.module = examples.load(name)
+        self.module: Any = examples.load(name)
         self.options = {k: v for k, v in SMALL.items() if k in _parameters(self.module.live)}
         self.view = self.module.live(renderer=renderer, **self.options)
         self.size = self.view.size if size is None else size
@@ -294,6 +301,33 @@ def test_an_example_of_another_size_keeps_its_formula(drive):
     driver.drag(20, 0)
     gaze = driver.view.camera.target - driver.view.camera.position
     np.testing.assert_allclose(gaze, (np.sin(np.radians(10)), 0, np.cos(np.radians(10))), atol=1e-9)
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_a_lesson_shows_it(name):
+    example: Any = examples.load(name)
+    module = example.__name__.rpartition(".")[2]
+    lessons = [
+        json.loads(path.read_text(encoding="utf-8"))
+        for path in (ROOT / "notebooks").glob("*.ipynb")
+    ]
+    sources = ["".join(cell["source"]) for lesson in lessons for cell in lesson["cells"]]
+    imported = rf"import {module} as (\w+)"
+    names = {module, *(found for source in sources for found in re.findall(imported, source))}
+    assert any(f"{one}.live()" in source for one in names for source in sources)
+
+
+def test_a_lesson_keeps_a_picture(drive):
+    from cubecam.viewer.notebook import bundle
+
+    view = drive("P14").view
+    data = bundle(view)
+    with Image.open(io.BytesIO(base64.b64decode(data["image/png"]))) as kept:
+        np.testing.assert_array_equal(np.asarray(kept.convert("RGB")), view.draw()[..., :3])
+    assert "application/vnd.jupyter.widget-view+json" in data
+    canvases = [shown.canvas for shown in view._canvases]
+    view.close()
+    assert [canvas.get_closed() for canvas in canvases] == [True, True]  # Driver's and the lesson's
 
 
 # ----- the command

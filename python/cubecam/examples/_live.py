@@ -70,7 +70,7 @@ class Visitor(Drags):
         assert camera.target is not None
         gaze = camera.target - camera.position
         x, y, z = (gaze / math.hypot(*gaze)).tolist()
-        super().__init__(lambda *angles: look(camera, direction(*angles, first=(x, y, z))))
+        super().__init__(lambda a, b: look(camera, direction(a, b, first=(x, y, z))))
         self.step = STEP
 
 
