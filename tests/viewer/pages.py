@@ -25,7 +25,7 @@ class Tiny:
         self.quality = 100
         self.sections = []
         self.on_draw = None
-        self._canvas = None
+        self._canvas: Any = None
         self._listeners = []
 
     def panel(self):
@@ -92,7 +92,7 @@ def get(url, path=None, headers=None, method="GET", body=None):
 def open_socket(url, origin=ANY, headers=None):
     """Open the websocket of a page as a browser does."""
     parts = urlsplit(url)
-    chosen = f"http://{parts.netloc}" if origin is ANY else origin
+    chosen: Any = f"http://{parts.netloc}" if origin is ANY else origin
     return connect(
         url.replace("http://", "ws://"),
         origin=chosen,

@@ -118,7 +118,7 @@ def _mesh(path: str) -> Shown:
     for direction, strength in _LAMPS:
         scene.add(DirectionalLight(direction, intensity=strength))
     camera = PerspectiveCamera(position=(1.0, 0.7, 2.2), target=(0, 0, 0), fov=40)
-    camera.fit(scene, margin=0.12)
+    camera.fit(scene, margin=0.06)
     told = f"{len(mesh.positions):,} vertices, {len(mesh.indices):,} triangles"
     return Shown(scene, camera, {"tonemap": "neutral"}, told=told)
 
