@@ -19,7 +19,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 .PHONY: help demo test test-fast test-build test-browser test-asan dev lint format stubs bench docs gallery sdist wheel mutants clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
 
 demo: $(VENV)/.installed ## set up, build, and render a scene with a mirror ball to out/
 	@$(PY) -m cubecam demo --out out
@@ -28,14 +28,15 @@ test: $(VENV)/.installed $(VENV)/.deps-test ## set up, build, and run the whole 
 	@$(PYTEST) --durations=10 $(PYTEST_ARGS)
 
 test-fast: $(VENV)/.installed $(VENV)/.deps-test ## run the tests that take less than a second, without notebooks
-	@$(PYTEST) -m "not slow and not build" tests $(PYTEST_ARGS)
+	@$(PYTEST) -m "not slow and not build and not browser" tests $(PYTEST_ARGS)
 
 test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile C++: warnings as errors, ctest, example, materials
 	@PATH="$(abspath $(VENV))/bin:$$PATH"; \
 	cmake --preset debug -G Ninja -DPython_EXECUTABLE=$(abspath $(PY)) && cmake --build --preset debug && ctest --preset debug
 	@$(PY) -m pytest -m build tests/build $(PYTEST_ARGS)
 
-test-browser: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages and JupyterLab with the Chromium on PATH
+test-browser: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages and JupyterLab with Chromium, which apt installs
+	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
 test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitizer and UndefinedBehaviorSanitizer

@@ -5,6 +5,7 @@ Ubuntu, apt installs what is missing, as root or by sudo; on another Linux the s
 missing and stops. If nothing is missing, nothing is installed and the network is not used.
 
     python3 scripts/system.py .venv
+    python3 scripts/system.py --browser     Chromium, which `make test-browser` drives
 """
 
 from __future__ import annotations
@@ -141,6 +142,16 @@ def needs(venv: Path) -> list[Need]:
     ]
 
 
+def browser() -> Need:
+    return Need(
+        "Chromium",
+        lambda: shutil.which("chromium") is not None,
+        ("chromium",),
+        "chromium",
+        "chromium",
+    )
+
+
 def distribution() -> set[str]:
     """The names of this Linux in /etc/os-release: its own name and those of similar systems."""
     try:
@@ -233,6 +244,14 @@ def prepare_system(venv: Path) -> None:
         raise SetupError(f"expected a compiler with C++20 (GCC 11 or newer), got {compiler()}")
 
 
+def prepare_browser() -> None:
+    need = browser()
+    if not need.present() and has_apt():
+        install_with_apt(list(need.debian))
+    if not need.present():
+        raise SetupError(f"install what is missing and try again:\n{describe([need])}")
+
+
 def works(venv: Path) -> bool:
     python = venv / "bin" / "python"
     command = [str(python), "-c", "import pip"]
@@ -259,10 +278,13 @@ def say(message: str) -> None:
 
 def main(arguments: list[str]) -> int:
     if len(arguments) != 1:
-        print(f"usage: {Path(__file__).name} VENV", file=sys.stderr)
+        print(f"usage: {Path(__file__).name} VENV or --browser", file=sys.stderr)
         return 2
     venv = Path(arguments[0])
     try:
+        if arguments == ["--browser"]:
+            prepare_browser()
+            return 0
         prepare_system(venv)
         make_venv(venv)
     except SetupError as error:

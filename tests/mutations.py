@@ -38,6 +38,9 @@ INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
+CUBE_MAPS = ("tests/viewer/test_cube_maps.py",)
+CUBE_VIEW = ("tests/viewer/test_cube_view.py",)
+EXPLORE = ("tests/viewer/test_explore.py",)
 OBJECT_PICTURES = ("tests/gl/test_object_pictures.py",)
 DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
 NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
@@ -1218,5 +1221,41 @@ MUTATIONS = [
         "begin = begin - vector if name in towards else begin",
         "begin = begin",
         PLOTS,
+    ),
+    # The live views of a cube and of a reflection.
+    Mutation(
+        "live cross: each cell mirrored",
+        "viewer/cube_maps.py",
+        "right, down = 2 * (u - column) - 1, 2 * (v - row) - 1",
+        "right, down = 1 - 2 * (u - column), 2 * (v - row) - 1",
+        CUBE_MAPS,
+    ),
+    Mutation(
+        "hover: columns of a mirrored face counted from 1",
+        "viewer/texels.py",
+        "size - 1 - column if cell.mirrored_s",
+        "size - column if cell.mirrored_s",
+        CUBE_MAPS,
+    ),
+    Mutation(
+        "live seams: left and right side swapped",
+        "viewer/cube_drawing.py",
+        "apart = np.stack([s, 1 - s, t, 1 - t])",
+        "apart = np.stack([1 - s, s, t, 1 - t])",
+        CUBE_VIEW,
+    ),
+    Mutation(
+        "diagram: glass has the same eta from within",
+        "explore/_optics.py",
+        "eta = ior if behind else 1 / ior",
+        "eta = 1 / ior",
+        EXPLORE,
+    ),
+    Mutation(
+        "diagram: half vector of the wrong side of Snell's law",
+        "explore/_lobe.py",
+        "half = eta * i - o",
+        "half = i - eta * o",
+        EXPLORE,
     ),
 ]

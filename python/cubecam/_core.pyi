@@ -521,7 +521,7 @@ class Probe:
     @property
     def faces_per_frame(self) -> int:
         """
-        int: the greatest number of faces that one call draws.
+        int: the greatest number of faces that one call draws, from 1 to 6.
         """
 
     @faces_per_frame.setter
@@ -4032,7 +4032,7 @@ class SpotLight(Light):
     @property
     def angle(self) -> float:
         """
-        float: angle from the axis to the cone's edge, degrees.
+        float: angle from the axis to the cone's edge, above 0 and below 90 degrees.
         """
 
     @angle.setter
@@ -4056,7 +4056,7 @@ class SpotLight(Light):
     @property
     def penumbra(self) -> float:
         """
-        float: share of the angle over which the light fades.
+        float: share of the angle over which the light fades, from 0 to 1.
         """
 
     @penumbra.setter
@@ -4659,7 +4659,7 @@ class PerspectiveCamera(Camera):
     @property
     def fov(self) -> float:
         """
-        float: vertical, in degrees.
+        float: vertical, above 0 and below 180 degrees.
         """
 
     @fov.setter

@@ -77,7 +77,8 @@ def test_help_says_what_to_write_and_not_types(command):
     assert re.search(TYPE_NAMES, rows) is None
     for line in text.splitlines():
         assert len(line) <= 100
-    flags = {"--help", "--version", "--json", "--half", "--srgb", "--list", "--all", "--live"} | {
+    flags = {"--help", "--version", "--json", "--half", "--srgb", "--list", "--all"} | {
+        "--live",
         "--page",
         "--window",
         "--terminal",

@@ -309,9 +309,10 @@ def test_levels():
     assert direction == texel.direction
     plain = cc.CubeMap(cube.sample(cube_faces.texel_directions(2), lod=2))
     assert (shot(view) == shot(CubeView(plain, size=(320, 240), **PLAIN))).all()
-    for wrong, error in ((4, ValueError), (-1, ValueError), (1.0, TypeError), (True, TypeError)):
+    wrong: list[tuple] = [(4, ValueError), (-1, ValueError), (1.0, TypeError), (True, TypeError)]
+    for value, error in wrong:
         with pytest.raises(error, match="level: expected"):
-            view.level = wrong
+            view.level = value
     assert view.level == 2
 
 
@@ -416,8 +417,29 @@ def test_a_mirrored_face_has_red_edges_and_a_whole_world_has_blue_ones():
         view.seams, view.names = True, False
         changed = (shot(view) != without).any(axis=-1)
         assert changed[near].mean() > 0.9
+    # All red places lie at the four edges of +Z: on +Z, or on a neighbour on the side of +Z.
+    x, y = np.meshgrid(np.arange(800) + 0.5, np.arange(600) + 0.5)
+    directions = view.projection().directions(x, y)[red]
+    axes = np.abs(directions).argsort(axis=-1)[:, 1:]
+    assert (axes == 2).any(axis=-1).all()
+    assert (directions[:, 2] > 0).all()
     assert shares[0] == 0
     assert 0.2 < shares[1] < 0.4  # four of twelve edges, without the places where both sides agree
+
+
+@pytest.mark.parametrize("mode", ["cross", "panorama", "look"])
+def test_one_bright_texel_at_an_edge_is_red_on_both_sides(mode):
+    faces = np.zeros((6, N, N, 1), np.float32)
+    faces[4, 1, 0] = 1  # on +Z, beside -X
+    view = CubeView(cc.CubeMap(faces), mode=mode, size=(800, 600), yaw=135, **PLAIN)
+    colors, near = view._painter().seam_band(view.projection(), view.size)
+    red = near & (colors == seam_color(9.0)).all(axis=-1)
+    x, y = np.meshgrid(np.arange(800) + 0.5, np.arange(600) + 0.5)
+    face, s, t = cube_faces.direction_to_face_uv(view.projection().directions(x, y)[red])
+    texels = {
+        *zip(face.tolist(), (t * N).astype(int).tolist(), (s * N).astype(int).tolist(), strict=True)
+    }
+    assert texels == {(4, 1, 0), (1, 1, N - 1)}
 
 
 def test_the_colours_of_seams():

@@ -158,7 +158,9 @@ class TestSize:
 
     def test_an_enormous_window_gets_a_smaller_picture(self):
         message = {"type": "resize", "pwidth": 20_000, "pheight": 10_000, "ratio": 2.0}
-        width, height, ratio = to_size(message)
+        size = to_size(message)
+        assert size is not None
+        width, height, ratio = size
         assert (width, height) == (LARGEST_SIDE, LARGEST_SIDE // 2)
         assert width / ratio == pytest.approx(10_000)
 
@@ -223,7 +225,7 @@ class TestEvents:
 
 class TestTextAndPanel:
     def test_text_help_and_title_come_at_once_and_when_they_change(self, opened, view):
-        got = {}
+        got: dict[str, object] = {}
         while set(got) < {"title", "text", "help", "panel"}:
             message = json.loads(opened.recv(10))
             got[message["type"]] = message.get("value")
@@ -367,7 +369,7 @@ class Footprint:
 def tasks_of(server):
     import asyncio
 
-    found = []
+    found: list[object] = []
     done = threading.Event()
 
     def look():
@@ -408,7 +410,7 @@ def test_closing_is_quick_with_browsers_that_do_nothing():
     with open_socket(url), open_socket(url):
         import socket
 
-        with socket.create_connection((parts.hostname, parts.port)):
+        with socket.create_connection((parts.hostname, server.port)):
             start = time.monotonic()
             server.close()
             assert time.monotonic() - start < 3
@@ -480,8 +482,7 @@ def test_a_process_that_ends_needs_no_close():
     run_python(
         """
         from cubecam.viewer.page.server import PageServer
-        from tests.documents import ROOT
-from tests.viewer.pages import TinyView, get
+        from tests.viewer.pages import TinyView, get
         assert get(PageServer().add(TinyView()))[0] == 200
         """,
         PYTHONPATH=os.pathsep.join([os.environ.get("PYTHONPATH", ""), str(ROOT)]),

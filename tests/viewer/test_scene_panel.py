@@ -1,5 +1,8 @@
 """The panel of a viewer: which sections a scene has, what they change, and the button that brings all back."""
 
+# A small class stands for a Viewer.
+# mypy: disable-error-code="arg-type"
+
 import gc
 import json
 import weakref

@@ -1,4 +1,4 @@
-"""`cubecam view`: explore a mesh, a cubemap, a panorama or a script's scene; what changes on the disk is shown at once."""
+"""`cubecam view`: explore a mesh, a cubemap, a panorama or a script's scene, which are read again when written."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _PAGE = "Options for a page"
     "path",
     type=FILE,
     metavar="FILE",
-    help="A mesh (GLB, glTF, OBJ, PLY, STL, OFF), a cubemap (for six files, a name with {face}), a panorama, or a Python "
-    "script that makes `scene` and, if it likes, `camera`, or `view`.",
+    help="A mesh (GLB, glTF, OBJ, PLY, STL, OFF), a cubemap (for six files, a name with {face}), a panorama, or a "
+    "Python script that makes `scene` and, if it likes, `camera`, or `view`.",
 )
 @option("--page", is_flag=True, help="Show a page for a browser. Default.")
 @option("--window", is_flag=True, help="Show a window.")
@@ -46,7 +46,7 @@ _PAGE = "Options for a page"
 )  # fmt: skip
 @option(
     "--password",
-    metavar="TEXT",
+    metavar="WORD",
     envvar="CUBECAM_PASSWORD",
     group=_PAGE,
     help="What a visitor has to write first; better in CUBECAM_PASSWORD, since other users see options.",
@@ -88,8 +88,10 @@ def view(
 
 def _check_extras(where: str) -> None:
     """Miss a package before a large file is read."""
-    if where == "page":
-        from ..viewer.page import server as server
+    from ..viewer.canvases import needs
+
+    for module in ("rendercanvas", *(("uvicorn", "websockets") if where == "page" else ())):
+        needs(module, "viewer")
 
 
 def _show_page(
@@ -170,9 +172,12 @@ class _Watched:
             old.close()
             return
         view: Any = self.view
-        if shown.placed != before.placed:
-            view.camera = shown.camera
-        view.scene = shown.scene
+        with view._lock:
+            if shown.placed != before.placed and shown.camera is not None:
+                view.camera = shown.camera
+            view.scene = shown.scene
+        view.changed()
+        view._tell("panel", None)
         view.text = shown.told or "read again"
 
     def close(self) -> None:

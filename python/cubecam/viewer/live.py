@@ -411,6 +411,7 @@ class _Shown:
             None  # the last quick picture, while it is up to date
         )
         self._still = False  # whether the canvas shows full quality
+        self._pressed = 0.0  # when a button of the pointer went down
         self._told = True  # whether the view itself reported a change
         canvas.add_event_handler(self._answer, *EVENTS)
         canvas.request_draw(self._present)
@@ -440,12 +441,19 @@ class _Shown:
 
     def _answer(self, event: dict[str, Any]) -> None:
         view = self._view()
-        if view is None or view.closed:
+        if view is None or view.closed or self._is_late(event):
             return
         with view._lock:
             if event.get("event_type", "").startswith("pointer") or "x" in event:
                 event = {**event, "size": self.canvas.get_logical_size()}
             view._answer(event)
+
+    def _is_late(self, event: dict[str, Any]) -> bool:
+        """Whether a move is older than the press that came before it: rendercanvas holds moves back to unite them."""
+        kind, at = event.get("event_type"), float(event.get("time_stamp", 0.0))
+        if kind == "pointer_down":
+            self._pressed = at
+        return kind == "pointer_move" and at < self._pressed
 
     def _present(self) -> None:
         """Draw what the canvas needs now; called by rendercanvas."""
@@ -460,6 +468,7 @@ class _Shown:
             told, self._told = self._told, False
             outside = not told and self._still and view._animation is None
             revision = _newest_revision()
+            came_to_rest = not self._still
             if view.moving or outside:
                 picture = self._quick_picture(view, (width, height), outside)
             else:
@@ -467,6 +476,8 @@ class _Shown:
             self._revision = revision
             self.canvas._quality = _PNG if self._still else _JPEG
             self._context.set_bitmap(picture)
+            if came_to_rest and self._still:
+                view._tell("panel", None)  # what moved may have been set by a program
 
     def _quick_picture(
         self, view: LiveView, size: tuple[int, int], outside: bool

@@ -27,17 +27,17 @@ def notebook_canvas(view: LiveView) -> Any:
 
 @functools.cache
 def _canvas_class() -> Any:
-    module = needs("rendercanvas.anywidget", "jupyter")
+    """Give rendercanvas' canvas for notebooks, whose closing ends."""
+    base: Any = needs("rendercanvas.anywidget", "jupyter").RenderCanvas
 
-    class Canvas(module.RenderCanvas):  # type: ignore[misc,name-defined] # rendercanvas has no types
-        """In rendercanvas 2.7 closing runs in a circle: `close`, `_rc_close`, the message "close", `close`."""
-
+    class NotebookCanvas(base):  # type: ignore[misc]
         def _rc_close(self) -> None:
-            if not self._is_closed:
+            # rendercanvas 2.7 sends itself the message that the canvas was closed, and answers it by closing again.
+            if not self.get_closed():
                 self._is_closed = True
                 super()._rc_close()
 
-    return Canvas
+    return NotebookCanvas
 
 
 def notebook_widget(view: LiveView) -> Any:
@@ -67,8 +67,9 @@ def notebook_widget(view: LiveView) -> Any:
 
             line.value = html.escape(str(value)) or "&nbsp;"
         elif name == "closed":
-            for widget in (line, picture, box):
-                widget.close()
+            from .widgets import close_widget
+
+            close_widget(box)
 
     view.add_listener(heard)
     _widgets[view] = box

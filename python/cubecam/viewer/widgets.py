@@ -15,7 +15,7 @@ from .panel import panel_to_json, set_control
 if TYPE_CHECKING:
     from .live import LiveView
 
-__all__ = ["PanelWidgets", "panel_widgets"]
+__all__ = ["PanelWidgets", "close_widget", "panel_widgets"]
 
 
 @checked_call
@@ -93,7 +93,7 @@ class PanelWidgets:
         with contextlib.suppress(ValueError):
             self._view.remove_listener(self._heard)
         self._close_rows()
-        _close(self.box)
+        close_widget(self.box)
 
     def _heard(self, name: str, value: object) -> None:
         if name == "panel":
@@ -119,7 +119,7 @@ class PanelWidgets:
             for section, rows in zip(self._sections, self._rows, strict=True)
         ]
         for one in old:
-            _close(one)
+            close_widget(one)
 
     def _row(self, section: int, index: int, control: Control) -> _Row:
         return _Row(control, lambda value: self._set(section, index, value))
@@ -141,7 +141,7 @@ class PanelWidgets:
             for row in rows:
                 row.close()
         for one in self.box.children:
-            _close(one)
+            close_widget(one)
         self._rows = []
         self.box.children = []
 
@@ -152,10 +152,10 @@ def _ipywidgets() -> Any:
     return needs("ipywidgets", "jupyter")
 
 
-def _close(widget: Any) -> None:
-    """Close a widget and everything in it."""
+def close_widget(widget: Any) -> None:
+    """Close a widget and everything in it, with the models of its layout and its style."""
     for child in getattr(widget, "children", ()):
-        _close(child)
+        close_widget(child)
     for name in ("layout", "style"):
         part = getattr(widget, name, None)
         if part is not None:
@@ -216,7 +216,7 @@ class _Row:
             one.unobserve_all()
             if self._control.kind == "button":
                 one.on_click(self._clicked, remove=True)
-        _close(self.box)
+        close_widget(self.box)
 
     @contextlib.contextmanager
     def _silent(self) -> Iterator[None]:
@@ -252,7 +252,7 @@ def _is_rounding(widget: Any, today: float, reported: float) -> bool:
         now, new = math.log10(now), math.log10(new)
     steps = (new - low) / step
     on_a_step = abs(steps - round(steps)) < 1e-4
-    return on_a_step and abs(new - now) <= 0.5001 * step
+    return bool(on_a_step and abs(new - now) <= 0.5001 * step)
 
 
 def _css_word(name: str) -> str:
@@ -263,47 +263,49 @@ def _css_word(name: str) -> str:
 def _inputs(control: Control) -> Iterator[Any]:
     """Make the widgets that change the value of a control."""
     widgets = _ipywidgets()
-    wide = widgets.Layout(width="auto", min_width="0", flex="1 1 0%")
     kind = control.kind
     ranged = control.low is not None and control.high is not None
     if kind == "flag":
-        yield widgets.Checkbox(indent=False, layout=wide)
+        yield widgets.Checkbox(indent=False, layout=_wide())
     elif kind == "choice":
-        yield widgets.Dropdown(options=control.choices, layout=wide)
+        yield widgets.Dropdown(options=control.choices, layout=_wide())
     elif kind == "color":
-        yield widgets.ColorPicker(layout=wide)
+        yield widgets.ColorPicker(layout=_wide())
     elif kind == "vector":
         for _ in control.get():
-            yield widgets.FloatText(
-                layout=widgets.Layout(width="auto", min_width="0", flex="1 1 0%")
-            )
+            yield widgets.FloatText(layout=_wide())
     elif kind == "button":
         yield widgets.Button(description=control.name, tooltip=control.help)
     elif kind == "text":
-        yield widgets.Text(continuous_update=False, layout=wide)
+        yield widgets.Text(continuous_update=False, layout=_wide())
     elif kind == "integer":
-        yield _whole(control, wide) if ranged else widgets.IntText(layout=wide)
+        yield _whole(control) if ranged else widgets.IntText(layout=_wide())
     elif ranged:
-        yield _slider(control, wide)
+        yield _slider(control)
     else:
-        yield widgets.FloatText(layout=wide)
+        yield widgets.FloatText(layout=_wide())
 
 
-def _whole(control: Control, layout: Any) -> Any:
+def _wide() -> Any:
+    """Make the layout of a widget that fills the rest of its row; each widget closes a layout of its own."""
+    return _ipywidgets().Layout(width="auto", min_width="0", flex="1 1 0%")
+
+
+def _whole(control: Control) -> Any:
     widgets = _ipywidgets()
-    return widgets.IntSlider(min=int(control.low or 0), max=int(control.high or 0), layout=layout)
+    return widgets.IntSlider(min=int(control.low or 0), max=int(control.high or 0), layout=_wide())
 
 
-def _slider(control: Control, layout: Any) -> Any:
+def _slider(control: Control) -> Any:
     widgets = _ipywidgets()
     low, high = control.low or 0.0, control.high or 0.0
     if control.logarithmic:
         ends = math.log10(low), math.log10(high)
         return widgets.FloatLogSlider(
-            min=ends[0], max=ends[1], step=(ends[1] - ends[0]) / 200, layout=layout
+            min=ends[0], max=ends[1], step=(ends[1] - ends[0]) / 200, layout=_wide()
         )
     step = control.step or _nice_step((high - low) / 200)
-    return widgets.FloatSlider(min=low, max=high, step=step, readout_format=".3g", layout=layout)
+    return widgets.FloatSlider(min=low, max=high, step=step, readout_format=".3g", layout=_wide())
 
 
 def _nice_step(value: float) -> float:

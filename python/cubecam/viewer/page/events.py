@@ -48,7 +48,8 @@ def to_event(message: dict[str, Any]) -> dict[str, Any] | None:
             return None
         event[name] = value
     if "x" in event and "dx" not in event:
-        event |= {"ntouches": 0, "touches": {}}  # the page turns two fingers into a wheel
+        event["touches"] = touches = _touches(message.get("touches"))
+        event["ntouches"] = len(touches)
     return event
 
 
@@ -77,3 +78,14 @@ def _checked(value: Any, kind: type) -> Any:
             return tuple(value)
         return None
     return value if isinstance(value, str) and len(value) <= 32 else None
+
+
+def _touches(sent: Any) -> dict[str, dict[str, float]]:
+    """Return the fingers on the picture: {id: {"x", "y", "pressure"}}."""
+    touches: dict[str, dict[str, float]] = {}
+    for key, value in list(sent.items())[:10] if isinstance(sent, dict) else ():
+        if isinstance(value, dict) and len(key) < 20:
+            x, y = _checked(value.get("x"), float), _checked(value.get("y"), float)
+            if x is not None and y is not None:
+                touches[key] = {"x": x, "y": y, "pressure": 1.0}
+    return touches

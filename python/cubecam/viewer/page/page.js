@@ -9,6 +9,7 @@ const picture = byId('picture')
 const help = byId('help')
 const FIRST_WAIT = 250 // milliseconds until a lost connection is tried again; the wait doubles up to LAST_WAIT
 const LAST_WAIT = 4000
+const PAUSE = 16
 
 let socket = null
 let wait = FIRST_WAIT
@@ -23,7 +24,8 @@ class PageView extends BaseRenderView {
   constructor () {
     picture.style.width = picture.style.height = '100%'
     super(picture, null)
-    this.setThrottle(16)
+    this.setThrottle(0) // its own throttle lets a move overtake the press that follows it; see `onEvent`
+    this.waiting = null
     this.newest = null
     this.planned = false
     this.lastSize = null
@@ -31,15 +33,38 @@ class PageView extends BaseRenderView {
     picture.addEventListener('wheel', () => this._focusElement.focus({ preventScroll: true }), { capture: true })
     picture.addEventListener('pointerenter', () => { if (!isTyping()) this._focusElement.focus({ preventScroll: true }) })
     for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointercancel']) {
-      picture.addEventListener(type, (event) => this.pinch(event), { capture: true })
+      picture.addEventListener(type, (event) => this.touch(event), { capture: true })
     }
     this._focusElement.setAttribute('aria-label', 'Keys for the view')
   }
 
   onEvent (event) {
     if (event.type === 'resize') this.lastSize = event
-    if (event.type === 'key_down' && event.key === 'h' && byId('help-text').textContent) help.showModal()
-    send(event)
+    if (event.key === 'h' && byId('help-text').textContent && event.modifiers.length === 0) {
+      if (event.type === 'key_down') help.showModal()
+    } else if (event.type === 'pointer_move' || event.type === 'wheel') {
+      this.sendSoon(event)
+    } else {
+      this.sendWaiting()
+      send(event)
+    }
+  }
+
+  // Moves and wheels become one message in PAUSE milliseconds; they never overtake other events.
+  sendSoon (event) {
+    const last = this.waiting
+    const same = last !== null && ['type', 'buttons', 'modifiers'].every((key) => String(last[key]) === String(event[key]))
+    if (same && event.type === 'wheel') {
+      event.dx += last.dx
+      event.dy += last.dy
+    } else if (!same) this.sendWaiting()
+    if (this.waiting === null) setTimeout(() => this.sendWaiting(), PAUSE)
+    this.waiting = event
+  }
+
+  sendWaiting () {
+    if (this.waiting !== null) send(this.waiting)
+    this.waiting = null
   }
 
   // Of the frames that arrive between two pictures of the screen the last one is shown, and that one is confirmed.
@@ -64,25 +89,19 @@ class PageView extends BaseRenderView {
     send({ type: '_framefeedback', index: frame.index, timestamp: frame.timestamp })
   }
 
-  // Two fingers that move apart or together are a wheel.
-  pinch (event) {
+  // renderview.js knows one finger. With two, the view gets both in `touches`, as rendercanvas describes it.
+  touch (event) {
     if (event.pointerType !== 'touch') return
-    const apart = () => {
-      const [a, b] = [...this.fingers.values()]
-      return Math.hypot(a.x - b.x, a.y - b.y)
-    }
-    const before = this.fingers.size === 2 ? apart() : 0
+    const before = this.fingers.size
     if (event.type === 'pointerup' || event.type === 'pointercancel') this.fingers.delete(event.pointerId)
     else if (event.type === 'pointerdown' || this.fingers.has(event.pointerId)) {
       this.fingers.set(event.pointerId, { x: event.offsetX, y: event.offsetY })
     }
-    if (this.fingers.size < 2) return
+    if (before < 2 && this.fingers.size < 2) return
     event.stopImmediatePropagation()
-    if (event.type === 'pointermove' && before > 0) {
-      const [a, b] = [...this.fingers.values()]
-      const dy = 500 * Math.log(before / Math.max(apart(), 1))
-      send({ type: 'wheel', x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, dx: 0, dy, buttons: [], modifiers: [] })
-    }
+    const type = { pointerdown: 'pointer_down', pointermove: 'pointer_move' }[event.type] ?? 'pointer_up'
+    const touches = this.fingers.size < 2 ? {} : Object.fromEntries(this.fingers)
+    send({ type, x: event.offsetX, y: event.offsetY, button: 1, buttons: [1], modifiers: [], touches })
   }
 }
 
@@ -95,8 +114,11 @@ const receivers = {
   title: (value) => { document.title = byId('title').textContent = value },
   text: (value) => { byId('text').textContent = value },
   cursor: (value) => { picture.style.cursor = value },
-  help: (value) => {
-    byId('help-text').textContent = value
+  help: (value) => { // a line for each: what one does, two spaces, what happens then
+    byId('help-text').replaceChildren(...value.split('\n').filter((line) => line.trim()).flatMap((line) => {
+      const [, does, happens] = line.trim().match(/^(.*?)(?: {2,}(.*))?$/)
+      return [['dt', does], ['dd', happens ?? '']].map(([tag, text]) => Object.assign(document.createElement(tag), { textContent: text }))
+    }))
     byId('ask').hidden = !value
   },
   panel: (value) => showPanel(byId('sections'), value, (control, newValue) => send({ type: 'control', control, value: newValue }), foldPanel)
