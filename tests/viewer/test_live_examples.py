@@ -35,15 +35,21 @@ RATES = {"P4": 25, "P6": 25, "P12": 25, "P13": 60, "P14": 25, "P15": 25, "P16": 
 SMALL = {"probe_size": 64}
 
 
+def example(name) -> Any:
+    """A module, with the members that only some have."""
+    return examples.load(name)
+
+
 class Driver:
     """A live form on an offscreen canvas, and the hands of its user."""
 
     def __init__(self, name, renderer, size=None):
         from rendercanvas.offscreen import OffscreenRenderCanvas
 
-        self.module: Any = examples.load(name)
-        self.options = {k: v for k, v in SMALL.items() if k in _parameters(self.module.live)}
-        self.view = self.module.live(renderer=renderer, **self.options)
+        self.module = example(name)
+        known = inspect.signature(self.module.live).parameters
+        self.options: dict[str, Any] = {k: v for k, v in SMALL.items() if k in known}
+        self.view: Any = self.module.live(renderer=renderer, **self.options)
         self.size = self.view.size if size is None else size
         self.canvas = OffscreenRenderCanvas(size=self.size)
         self.view._attach(self.canvas)
@@ -77,10 +83,6 @@ class Driver:
         width, height = self.size
         size = (width, 2 * height) if self.module.PROGRAM == "P16" else (width, height)
         return self.module.draw(program, self.view.renderer, frame, size=size, samples=4)[:height]
-
-
-def _parameters(function):
-    return inspect.signature(function).parameters
 
 
 @pytest.fixture
@@ -305,8 +307,7 @@ def test_an_example_of_another_size_keeps_its_formula(drive):
 
 @pytest.mark.parametrize("name", PROGRAMS)
 def test_a_lesson_shows_it(name):
-    example: Any = examples.load(name)
-    module = example.__name__.rpartition(".")[2]
+    module = example(name).__name__.rpartition(".")[2]
     lessons = [
         json.loads(path.read_text(encoding="utf-8"))
         for path in (ROOT / "notebooks").glob("*.ipynb")
