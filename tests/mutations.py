@@ -481,10 +481,10 @@ MUTATIONS = [
         ("tests/programs/test_p01_textured_cube.py",),
     ),
     Mutation(
-        "P2: a drag turns about the camera's axes",
-        "inside_the_box.py",
-        "math.sin(x), -math.sin(y) * math.cos(x), math.cos(y) * math.cos(x)",
-        "math.sin(x) * math.cos(y), -math.sin(y), math.cos(y) * math.cos(x)",
+        "P2: a drag downwards looks up",
+        "_live.py",
+        "math.cos(y) * first[1] - math.sin(y) * depth",
+        "math.cos(y) * first[1] + math.sin(y) * depth",
         ("tests/programs/test_p02_inside_the_box.py",),
     ),
     Mutation(

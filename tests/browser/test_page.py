@@ -371,6 +371,9 @@ def test_a_password_is_asked_for_first(tab, viewer):
     with PageServer(password="Grüße") as server:
         address = server.add(viewer)
         tab.goto(address)
+        assert tab.locator("#picture").count() == 0
         tab.fill("#password", "Grüße")
         tab.press("#password", "Enter")
-        tab.locator("#picture[data-kind='image/png']").wait_for(timeout=10_000)
+        picture = tab.locator("#picture[data-kind='image/png']")
+        picture.wait_for(timeout=10_000)
+        assert picture.count() == 1

@@ -78,6 +78,7 @@ BY_POSITION = {
     "StereoCamera.off_axis": ["camera"],
     "StereoCamera.toe_in": ["camera"],
     "Scene.remove": ["thing"],
+    "Scene.show": ["where"],
     "Scene.set_positions": ["nodes", "positions"],
     "Scene.set_matrices": ["nodes", "matrices"],
     "Renderer.update_probes": ["scene"],

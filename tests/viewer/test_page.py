@@ -122,9 +122,10 @@ class TestPictures:
         frame(opened)
         view.on_draw = view.changed
         view.changed()
-        for _ in range(5):
-            frame(opened)
+        pictures = [frame(opened)[1] for _ in range(5)]
         view.on_draw = None
+        assert len(pictures) == 5
+        assert all(picture.ndim == 3 for picture in pictures)
 
     def test_an_error_in_a_drawing_does_not_end_the_page(self, opened, view, caplog):
         frame(opened)

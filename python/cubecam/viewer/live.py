@@ -482,14 +482,14 @@ class _Shown:
     def _quick_picture(
         self, view: LiveView, size: tuple[int, int], outside: bool
     ) -> npt.NDArray[np.uint8]:
-        """Draw a small picture; cancel if what changed elsewhere in the process is not seen here."""
+        """Draw a small picture; cancel if it shows what the last one showed, which is not sent again."""
         with self._quality.measured(size) as reduced:
             picture = view._picture(reduced, True)
-        if outside:
-            known = self._quick
-            if known is not None and known.shape == picture.shape and (known == picture).all():
-                self._revision = _newest_revision()
-                raise DrawCancelled
+        known = self._quick
+        if known is not None and known.shape == picture.shape and (known == picture).all():
+            self._revision = _newest_revision()
+            raise DrawCancelled
+        if outside:  # what changed elsewhere in the process is seen here
             view._moving_until = time.monotonic() + REST
         self._quick, self._still = picture.copy(), False
         return picture

@@ -17,7 +17,7 @@ from .._core import (
     Scene,
     _newest_revision,
 )
-from ..typing import ControlsName, Place, Tonemap
+from ..typing import ControlsName, Encode, Place, Tonemap
 from .controls import Controls, FirstPerson, make_controls
 from .live import LiveView
 from .outputs import OUTPUTS, output_picture, probe_picture
@@ -102,7 +102,7 @@ class Viewer(LiveView):
         samples: int = 4,
         exposure: float = 0.0,
         tonemap: Tonemap | None = "neutral",
-        encode: Literal["srgb"] | None = "srgb",
+        encode: Encode | None = "srgb",
         output: Output | Probe = "color",
         title: str = "cubecam",
     ) -> None:
@@ -129,7 +129,7 @@ class Viewer(LiveView):
         self._samples = samples
         self._exposure = float(exposure)
         self._tonemap: Tonemap | None = tonemap
-        self._encode: Literal["srgb"] | None = encode
+        self._encode: Encode | None = encode
         self._output: Output | Probe = "color"
         self.output = output
         self._home = _pose(camera)
@@ -353,7 +353,14 @@ def show_scene(
     controls: ControlsName | Controls = "orbit",
     browser: bool = True,
     block: bool | None = None,
-    **options: Any,
+    size: tuple[int, int] = (640, 480),
+    renderer: Renderer | None = None,
+    samples: int = 4,
+    exposure: float = 0.0,
+    tonemap: Tonemap | None = "neutral",
+    encode: Encode | None = "srgb",
+    output: Output | Probe = "color",
+    title: str = "cubecam",
 ) -> Viewer:
     """Explore the scene: in the notebook, in a window, on a page of the browser or in the terminal.
 
@@ -362,15 +369,13 @@ def show_scene(
     where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
         Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
         for a browser on this machine.
-    camera, controls
+    camera, controls, size, renderer, samples, exposure, tonemap, encode, output, title
         As in `Viewer`.
     browser : bool
         Whether a page is opened in the browser.
     block : bool, optional
         Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
         notebooks and in Python's prompt no.
-    **options
-        Other arguments of `Viewer`, for example ``size=(800, 600)``.
 
     Returns
     -------
@@ -394,7 +399,19 @@ def show_scene(
     (48, 64, 4)
     >>> viewer.close()
     """
-    viewer = Viewer(self, camera, controls, **options)
+    viewer = Viewer(
+        self,
+        camera,
+        controls,
+        size=size,
+        renderer=renderer,
+        samples=samples,
+        exposure=exposure,
+        tonemap=tonemap,
+        encode=encode,
+        output=output,
+        title=title,
+    )
     try:
         return viewer.show(where, browser=browser, block=block)
     except BaseException:
