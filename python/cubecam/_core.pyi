@@ -31,6 +31,7 @@ from cubecam.typing import (
     FileLayout,
     Format,
     Layout,
+    Output,
     Pixels,
     Place,
     ProbeUpdate,
@@ -1146,7 +1147,14 @@ class Scene:
         controls: ControlsName | cubecam.viewer.controls.Controls = "orbit",
         browser: bool = True,
         block: bool | None = None,
-        **options: object,
+        size: tuple[int, int] = (640, 480),
+        renderer: Renderer | None = None,
+        samples: int = 4,
+        exposure: float = 0.0,
+        tonemap: Tonemap | None = "neutral",
+        encode: Encode | None = "srgb",
+        output: Output | Probe = "color",
+        title: str = "cubecam",
     ) -> cubecam.Viewer:
         """
         Explore the scene: in the notebook, in a window, on a page of the browser or in the terminal.
@@ -1156,15 +1164,13 @@ class Scene:
         where : {"notebook", "page", "window", "terminal", "offscreen"}, optional
             Default: the notebook in Jupyter, a window where there is a screen and Qt, the terminal over SSH, else a page
             for a browser on this machine.
-        camera, controls
+        camera, controls, size, renderer, samples, exposure, tonemap, encode, output, title
             As in `Viewer`.
         browser : bool
             Whether a page is opened in the browser.
         block : bool, optional
             Whether the call returns only after the view was closed or Ctrl-C was typed. Default: in scripts yes, in
             notebooks and in Python's prompt no.
-        **options
-            Other arguments of `Viewer`, for example ``size=(800, 600)``.
 
         Returns
         -------

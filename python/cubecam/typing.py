@@ -49,6 +49,7 @@ __all__ = [
     "FilePixels",
     "Format",
     "Layout",
+    "Output",
     "Outputs",
     "Pixels",
     "Place",
@@ -119,6 +120,7 @@ Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
 CubeMode: TypeAlias = Literal["cross", "panorama", "look"]
 Theme: TypeAlias = Literal["dark", "light"]
+Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]

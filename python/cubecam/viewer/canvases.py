@@ -7,10 +7,12 @@ import importlib.util
 import os
 import sys
 import threading
+import time
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .live import LiveView
+    from .page.server import PageServer
 
 __all__ = ["PLACES", "choose", "needs", "show"]
 
@@ -30,7 +32,7 @@ def needs(module: str, extra: str) -> Any:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        package = module.split(".")[0]
+        package = error.name or module.split(".")[0]
         raise ImportError(
             f"expected the package {package}, which is not installed or cannot be loaded ({error}); "
             f'pip install "cubecam[{extra}]" installs it',
@@ -78,48 +80,70 @@ def show(view: LiveView, where: str | None, *, browser: bool, block: bool | None
         _open(view, place, waits)
 
 
-def show_page(
-    view: LiveView,
-    *,
-    host: str = "127.0.0.1",
-    port: int = 0,
-    password: str | None = None,
-    browser: bool = True,
-    block: bool = True,
-) -> str:
-    """Show a view on a page of its own server; print and return the address.
+def show_page(view: LiveView, *, browser: bool = True, block: bool = True) -> str:
+    """Show a view on a page of this process's server; print and return the address.
 
-    The server ends with the view. With `block` the call ends with the view, or at Ctrl-C, which closes it.
+    All views of a process share one server, each at an address of its own. The server ends with the last view. With
+    `block` the call ends with the view, or at Ctrl-C, which closes it.
     """
-    needs("rendercanvas", "viewer")
-    needs("uvicorn", "viewer")
-    needs("websockets", "viewer")
-    from .page.server import PageServer
-
-    server = PageServer(host, port, password=password)
+    server = _server()
     try:
-        address = server.add(view)
-        view.add_listener(lambda name, _: _end(server) if name == "closed" else None)
+        address = str(server.add(view))
+        view.add_listener(lambda name, _: _end_if_empty() if name == "closed" else None)
         print(address, flush=True)
         if browser:
-            import webbrowser
-
-            webbrowser.open(address)
-        if block:
-            while not server.wait(0.5):
-                pass
+            threading.Thread(
+                target=_open_browser, args=(address, view), name="cubecam browser", daemon=True
+            ).start()
+        while block and not view.closed and not server.wait(0.2):
+            pass
     except KeyboardInterrupt:
         view.close()
-        server.close()
     except BaseException:
-        server.close()
+        view.close()
+        _end_if_empty()
         raise
-    return str(address)
+    return address
 
 
-def _end(server: Any) -> None:
-    """End a server from any thread, also from its own."""
-    threading.Thread(target=server.close, name="cubecam page ends").start()
+_lock = threading.Lock()
+_shared: PageServer | None = None
+
+
+def _server() -> PageServer:
+    """Give the server of this process; make one if there is none."""
+    global _shared
+    for package in ("rendercanvas", "uvicorn", "websockets"):
+        needs(package, "viewer")
+    from .page.server import PageServer
+
+    with _lock:
+        if _shared is None or _shared.closed:
+            _shared = PageServer()
+        return _shared
+
+
+def _end_if_empty() -> None:
+    """End the server when it shows nothing any more; from any thread, also from its own."""
+    threading.Thread(target=_close_if_empty, name="cubecam page ends").start()
+
+
+def _close_if_empty() -> None:
+    global _shared
+    with _lock:
+        if _shared is not None and all(view.closed for view in _shared.views):
+            _shared.close()
+            _shared = None
+
+
+def _open_browser(address: str, view: LiveView) -> None:
+    from .page.browser import open_browser
+
+    with open_browser(address):
+        for _ in range(150):  # 30 s are enough for a slow browser to read the file
+            if view.closed:
+                return
+            time.sleep(0.2)
 
 
 def _open(view: LiveView, place: str, block: bool) -> None:

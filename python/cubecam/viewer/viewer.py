@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from .._core import (
     Scene,
     _newest_revision,
 )
-from ..typing import ControlsName, Encode, Place, Tonemap
+from ..typing import ControlsName, Encode, Output, Place, Tonemap
 from .controls import Controls, FirstPerson, make_controls
 from .live import LiveView
 from .outputs import OUTPUTS, output_picture, probe_picture
@@ -28,10 +28,8 @@ if TYPE_CHECKING:
 
     from .panel import Section
 
-__all__ = ["Output", "Viewer", "show_scene"]
+__all__ = ["Viewer", "show_scene"]
 
-#: What a viewer can show of a scene, besides what a probe sees.
-Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 _PICKED = ("id", "position", "normal", "distance")
 
 
