@@ -104,8 +104,9 @@ PYBIND11_MODULE(_core, module) {
     bind_scene(module);
     bind_scene_queries(module);
     bind_renderer(module);
-    module.def("_newest_revision", &newest_revision,
-               "The newest revision of this process. While it stays the same, no object has changed.");
+    module.def(
+        "_newest_revision", &newest_revision,
+        "The newest revision of this process. While it stays the same, no object has changed.");
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
     cubecam::bindings::explain_all_arguments(module);
