@@ -1,5 +1,6 @@
 """Fixtures: a session's renderer, a fresh one, the two drawing paths, fixed random numbers."""
 
+import importlib.util
 import os
 import sys
 from pathlib import Path
@@ -9,6 +10,9 @@ import pytest
 from hypothesis import settings
 
 from tests.helpers import DEVICE
+
+#: Only `make test-browser` installs what these tests need.
+collect_ignore = [] if importlib.util.find_spec("playwright") else ["browser"]
 
 # Plots are drawn without a window, whatever the machine has.
 os.environ.setdefault("MPLBACKEND", "agg")
