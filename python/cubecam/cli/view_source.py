@@ -127,9 +127,9 @@ def _mesh(path: str) -> Shown:
 
 def _picture(path: str) -> Shown:
     """Show a cubemap as `CubeMap.show` does, and a panorama as a person sees it who stands in it."""
-    from ..io.cubemaps import load_shown
+    from ..io.cubemaps import _load_shown
 
-    cube, panorama = load_shown(path)
+    cube, panorama = _load_shown(path)
     told = f"six faces of {cube.size} x {cube.size} texels, {cube.faces.dtype}"
     return Shown(cube=cube, options={"mode": "look" if panorama else "cross"}, told=told)
 

@@ -186,7 +186,7 @@ def load_environment(
     )
 
 
-def load_shown(path: str) -> tuple[CubeMap, bool]:
+def _load_shown(path: str) -> tuple[CubeMap, bool]:
     """Read a file as `load_cubemap` does, in one go; also return whether it is a panorama."""
     if six_paths(path, for_reading=True) is not None:
         return load_cubemap(path), False
