@@ -61,6 +61,7 @@ def test_a_panorama_is_looked_at_from_within_and_a_cubemap_is_a_cross(tmp_path, 
     cube.save(str(tmp_path / name), layout=layout)
     with read(str(tmp_path / name)).as_view("x") as view:
         assert view.mode == ("look" if name == "panorama.png" else "cross")
+        assert view.names == (name != "panorama.png")
         assert view.cube == cc.load_cubemap(str(tmp_path / name))
         assert view.text == f"six faces of {view.cube.size} x {view.cube.size} texels, uint8"
         assert view.draw((40, 30))[..., :3].std() > 5

@@ -131,7 +131,8 @@ def _picture(path: str) -> Shown:
 
     cube, panorama = _load_shown(path)
     told = f"six faces of {cube.size} x {cube.size} texels, {cube.faces.dtype}"
-    return Shown(cube=cube, options={"mode": "look" if panorama else "cross"}, told=told)
+    mode = "look" if panorama else "cross"
+    return Shown(cube=cube, options={"mode": mode, "names": not panorama}, told=told)
 
 
 def _script(path: str) -> Shown:
