@@ -41,6 +41,11 @@ PLOTS = ("tests/plot",)
 CUBE_MAPS = ("tests/viewer/test_cube_maps.py",)
 CUBE_VIEW = ("tests/viewer/test_cube_view.py",)
 EXPLORE = ("tests/viewer/test_explore.py",)
+ACCESS = ("tests/viewer/test_page_access.py",)
+CONTROLS = ("tests/viewer/test_controls.py",)
+VIEWER = ("tests/viewer/test_viewer.py",)
+CANVASES = ("tests/viewer/test_canvases.py",)
+VIEW_COMMAND = ("tests/viewer/test_view_command.py",)
 OBJECT_PICTURES = ("tests/gl/test_object_pictures.py",)
 DEPTH_ORDER = ("tests/gl/test_depth_order.py",)
 NAMED_OUTPUTS = ("tests/gl/test_named_outputs.py",)
@@ -1257,5 +1262,104 @@ MUTATIONS = [
         "half = eta * i - o",
         "half = i - eta * o",
         EXPLORE,
+    ),
+    # The pages of live views, the controls and what a pixel shows.
+    Mutation(
+        "page: a token's beginning is enough",
+        "page/access.py",
+        "known = secrets.compare_digest(token, self._token)",
+        "known = self._token.startswith(token)",
+        ACCESS,
+    ),
+    Mutation(
+        "page: any Host",
+        "page/access.py",
+        "named = host is not None and host.lower() in self._hosts",
+        "named = host is not None",
+        ACCESS,
+    ),
+    Mutation(
+        "page: any Origin",
+        "page/access.py",
+        "same = origin is not None and origin.lower() in self._origins",
+        "same = origin is not None",
+        ACCESS,
+    ),
+    Mutation(
+        "page: a websocket without an Origin",
+        "page/access.py",
+        'if scope["type"] == "http" and _count(scope, b"origin") == 0:',
+        'if _count(scope, b"origin") == 0:',
+        ACCESS,
+    ),
+    Mutation(
+        "page: a password is answered with yes",
+        "page/access.py",
+        'return secrets.compare_digest(written, self._password or b"") and bool(self._password)',
+        "return bool(self._password)",
+        ACCESS,
+    ),
+    Mutation(
+        "orbit: a drag turns the other way",
+        "viewer/controls.py",
+        "yaw=ORBIT_TURN * dx / height",
+        "yaw=-ORBIT_TURN * dx / height",
+        CONTROLS,
+    ),
+    Mutation(
+        "first person: a drag down looks down",
+        "viewer/controls.py",
+        "navigation.pitch(camera, degrees * dy / height)",
+        "navigation.pitch(camera, -degrees * dy / height)",
+        CONTROLS,
+    ),
+    Mutation(
+        "pan: against the pointer",
+        "viewer/controls.py",
+        "(-dx * right + dy * up)",
+        "(-dx * right - dy * up)",
+        CONTROLS,
+    ),
+    Mutation(
+        "pinch: fingers apart go away",
+        "viewer/controls.py",
+        "ratio = was / now if",
+        "ratio = now / was if",
+        CONTROLS,
+    ),
+    Mutation(
+        "pick: rows and columns swapped",
+        "viewer/picking.py",
+        "position = np.asarray(frame.position[row, column], np.float64)",
+        "position = np.asarray(frame.position[column, row], np.float64)",
+        VIEWER,
+    ),
+    Mutation(
+        "pick: weights of two corners swapped",
+        "viewer/picking.py",
+        "np.stack([1 - v - w, v, w], axis=1)",
+        "np.stack([1 - v - w, w, v], axis=1)",
+        VIEWER,
+    ),
+    Mutation(
+        "pick: a mirror sees along the view",
+        "viewer/picking.py",
+        "incident = position - camera.position",
+        "incident = camera.position - position",
+        VIEWER,
+    ),
+    Mutation(
+        "live: windows get memory that is not the picture's",
+        "viewer/live.py",
+        "picture if picture.base is None else picture.copy()",
+        "picture",
+        CANVASES,
+    ),
+    Mutation(
+        "cubecam view: panoramas opened as crosses",
+        "cli/view_source.py",
+        '"look" if panorama else "cross"',
+        '"cross"',
+        VIEW_COMMAND,
     ),
 ]

@@ -262,6 +262,23 @@ def test_the_page_comes_back_after_the_connection_was_lost(tab, server, viewer):
     until(lambda: viewer.camera.position[2] > 7, tab)
 
 
+def test_nothing_lies_on_the_picture_in_a_large_window(tab, server):
+    cube = cc.CubeMap(np.ones((6, 8, 8, 3), np.float32))
+    tab.set_viewport_size({"width": 1200, "height": 700})
+    with cube.show("offscreen") as view:
+        opened(tab, server.add(view))
+        tab.mouse.move(330, 325)
+        until(lambda: "three: -Z" in tab.locator("#text").text_content(), tab)
+        picture = tab.locator("#picture").bounding_box()
+        panel, status = (tab.locator(name).bounding_box() for name in ("#panel", "#status"))
+        assert picture["x"] + picture["width"] <= panel["x"]
+        assert picture["y"] + picture["height"] <= status["y"]
+        assert panel["y"] + panel["height"] <= status["y"]
+        assert tab.locator("#text").evaluate("text => text.scrollWidth <= text.clientWidth")
+        tab.locator("#fold").click()
+        until(lambda: tab.locator("#picture").bounding_box()["width"] == 1200, tab)
+
+
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_the_colours_follow_the_system(chromium, server, viewer, scheme):
     context = chromium.new_context(color_scheme=scheme)

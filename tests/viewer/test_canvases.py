@@ -6,14 +6,16 @@ import os
 import pty
 import re
 import select
+import signal
 import struct
-import subprocess
 import sys
 import termios
 import time
 import urllib.request
 
 import pytest
+from rendercanvas.contexts import BitmapContext
+from rendercanvas.offscreen import RenderCanvas
 
 import cubecam as cc
 from cubecam.viewer import canvases
@@ -69,41 +71,77 @@ def test_views_share_a_server_that_ends_with_the_last(capsys):
         time.sleep(0.02)
 
 
-@pytest.mark.slow
-def test_the_terminal_shows_a_picture_in_blocks_of_colour():
-    script = (
-        "import cubecam as cc\n"
-        "scene = cc.Scene(background=(1, 0, 0))\n"
-        "scene.show('terminal', size=(40, 20), tonemap=None)\n"
-    )
-    master, slave = pty.openpty()
-    process = subprocess.Popen(
-        [sys.executable, "-c", script],
-        stdin=slave,
-        stdout=slave,
-        stderr=slave,
-        env={
-            **os.environ,
+class _Terminal:
+    """A program in a pseudo-terminal of 80 x 24 characters, which answers where the cursor is, as terminals do."""
+
+    def __init__(self, *command):
+        self.seen = b""
+        colors = {
             "TERM": "xterm-256color",
             "COLORTERM": "truecolor",
             "COLUMNS": "80",
             "LINES": "24",
-        },
-        close_fds=True,
-    )
-    os.close(slave)
-    fcntl.ioctl(master, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
-    seen = b""
-    try:
-        deadline = time.monotonic() + 60
-        while b"255;0;0" not in seen and time.monotonic() < deadline:
-            if select.select([master], [], [], 0.2)[0]:
-                more = os.read(master, 65536)
-                seen += more
-                # Terminals answer where the cursor is; the program waits for that.
-                os.write(master, b"\x1b[1;1R" * more.count(b"\x1b[6n"))
-        assert b"255;0;0" in seen, seen[-2000:]
-    finally:
-        process.terminate()
-        process.wait(10)
-        os.close(master)
+        }
+        self.process, self.master = pty.fork()
+        if self.process == 0:
+            os.execve(sys.executable, [sys.executable, *command], {**os.environ, **colors})
+        fcntl.ioctl(self.master, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+
+    def read_until(self, condition, seconds=60):
+        deadline = time.monotonic() + seconds
+        while not condition(self.seen) and time.monotonic() < deadline:
+            if select.select([self.master], [], [], 0.2)[0]:
+                try:
+                    more = os.read(self.master, 65536)
+                except OSError:  # the program has ended
+                    break
+                self.seen += more
+                os.write(self.master, b"\x1b[1;1R" * more.count(b"\x1b[6n"))
+        return condition(self.seen)
+
+    def end(self):
+        """End the program by Ctrl-C and return its exit code."""
+        os.write(self.master, b"\x03")
+        deadline = time.monotonic() + 15
+        done = status = 0
+        while done == 0 and time.monotonic() < deadline:
+            self.read_until(lambda seen: False, seconds=0.2)
+            done, status = os.waitpid(self.process, os.WNOHANG)
+        if done == 0:
+            os.kill(self.process, signal.SIGKILL)
+            os.waitpid(self.process, 0)
+        os.close(self.master)
+        return os.waitstatus_to_exitcode(status) if done else "it went on"
+
+
+SCRIPT = "import cubecam as cc\nscene = cc.Scene(background=(1, 0, 0))\n"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", ["show", "cubecam view"])
+def test_the_terminal_shows_a_picture_in_blocks_of_colour(tmp_path, how):
+    path = tmp_path / "scene.py"
+    if how == "show":
+        path.write_text(SCRIPT + "scene.show('terminal', size=(40, 20), tonemap=None)\n")
+        terminal = _Terminal(str(path))
+    else:
+        path.write_text(SCRIPT + "view = cc.Viewer(scene, size=(40, 20), tonemap=None)\n")
+        terminal = _Terminal("-m", "cubecam", "view", str(path), "--terminal")
+    shown = terminal.read_until(lambda seen: b"255;0;0" in seen)
+    code = terminal.end()
+    assert shown, terminal.seen[-2000:]
+    assert code == 0
+
+
+def test_windows_get_pictures_that_own_their_memory(monkeypatch):
+    """The window of rendercanvas reads the memory of `picture.base`, which is nothing that Qt knows."""
+    given = []
+    monkeypatch.setattr(BitmapContext, "set_bitmap", lambda self, bitmap: given.append(bitmap))
+    with cc.Viewer(cc.Scene(background="red"), size=(16, 12)) as viewer:
+        canvas = RenderCanvas(size=(16, 12))
+        viewer._attach(canvas)
+        for moving in (True, False):
+            viewer.changed(moving)
+            canvas.draw()
+    assert len(given) >= 2
+    assert all(picture.base is None for picture in given)

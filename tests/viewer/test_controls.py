@@ -100,6 +100,15 @@ def test_first_person_looks_where_the_drag_points():
     np.testing.assert_array_equal(seen.position, position)
 
 
+def test_first_person_looks_up_when_the_scene_is_dragged_down():
+    seen = cc.PerspectiveCamera(position=(1, 2, 5), target=(1, 2, 3), fov=60)
+    assert drag(FirstPerson(), seen, (0, 0), (0, 40))
+    up = math.radians(60 * 40 / 400)
+    assert seen.target is not None
+    gaze = (seen.target - seen.position) / np.linalg.norm(seen.target - seen.position)
+    np.testing.assert_allclose(gaze, (0, math.sin(up), -math.cos(up)), atol=1e-9)
+
+
 @pytest.mark.parametrize(
     ("key", "move"),
     [

@@ -55,14 +55,36 @@ def test_a_mesh_is_lit_and_fills_the_picture():
 
 
 @pytest.mark.parametrize("name", ["panorama.png", "cross.png", "{face}.png"])
-def test_pictures_surround_a_mirror_ball(tmp_path, name):
+def test_a_panorama_is_looked_at_from_within_and_a_cubemap_is_a_cross(tmp_path, name):
     cube = cc.load_environment(cc.sample_data("studio.exr"), size=16)
     layout: Any = {"panorama.png": "equirect", "cross.png": "cross", "{face}.png": "faces"}[name]
     cube.save(str(tmp_path / name), layout=layout)
     with read(str(tmp_path / name)).as_view("x") as view:
-        assert isinstance(view.scene["mirror ball"].material, cc.MirrorMaterial)
-        assert view.scene.environment.size >= 16
-        assert view.draw((40, 30)).std() > 5
+        assert view.mode == ("look" if name == "panorama.png" else "cross")
+        assert view.names == (name != "panorama.png")
+        assert view.cube == cc.load_cubemap(str(tmp_path / name))
+        assert view.text == f"six faces of {view.cube.size} x {view.cube.size} texels, uint8"
+        assert view.draw((40, 30))[..., :3].std() > 5
+
+
+def test_a_cubemap_that_is_written_again_is_shown_and_the_view_stays(tmp_path):
+    path = tmp_path / "cross.png"
+    cc.CubeMap(np.full((6, 4, 4, 3), 200, np.uint8)).save(str(path), layout="cross")
+    watched = _Watched(str(path))
+    view: Any = watched.view
+    try:
+        view.look_at((1, 0, 0))
+        view.mode, view.names = "look", False
+        assert view.draw((8, 6))[3, 4].tolist() == [200, 200, 200, 255]
+        cc.CubeMap(np.full((6, 8, 8, 3), 90, np.uint8)).save(str(path), layout="cross")
+        watched.look()
+        kept = watched.view is view
+        assert kept
+        assert (view.mode, view.yaw, view.cube.size) == ("look", -90, 8)
+        assert view.draw((8, 6))[3, 4].tolist() == [90, 90, 90, 255]
+        assert "8 x 8" in view.text
+    finally:
+        watched.close()
 
 
 def test_a_script_gives_its_scene_camera_and_view(script):

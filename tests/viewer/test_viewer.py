@@ -12,6 +12,7 @@ from PIL import Image as Picture
 import cubecam as cc
 from cubecam._core import _newest_revision
 from cubecam.viewer.canvases import needs
+from cubecam.viewer.picking import uv_at
 from cubecam.viewer.quality import STEPS, Quality
 from tests.compare import assert_identical
 
@@ -151,6 +152,25 @@ def test_picking_finds_node_place_normal_and_texture_coordinates(shown):
     assert (found.uv <= high + 0.05).all()
     assert viewer.pick(1, 1) is None
     assert viewer.pick(-1, 10) is None
+
+
+def test_texture_coordinates_are_those_of_the_triangle(rng):
+    """Coordinates that depend linearly on the place are found exactly, in each of two triangles of a moved node."""
+    corners = np.array([(-1, -1, 0), (2, -1, 0), (2, 1, 1), (-1, 1, 1)], np.float32)
+    linear = np.array([(0.25, -0.125, 0), (0.0625, 0.25, 0)])
+    mesh = cc.Mesh(
+        corners, [(0, 1, 2), (0, 2, 3)], uvs=(corners @ linear.T + 0.5).astype(np.float32)
+    )
+    scene = cc.Scene()
+    node = scene.add(
+        mesh, cc.BasicMaterial(), position=(3, 1, -2), rotation=cc.axis_angle((1, 2, 3), 40)
+    )
+    for triangle in mesh.indices:
+        local = rng.dirichlet((1, 1, 1)) @ corners[triangle].astype(float)
+        world = (np.asarray(node.world_matrix) @ [*local, 1])[:3]
+        found = uv_at(node, world)
+        assert found is not None
+        np.testing.assert_allclose(found, local @ linear.T + 0.5, atol=1e-6)
 
 
 def test_a_mirror_says_what_it_sees():

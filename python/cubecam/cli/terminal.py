@@ -18,8 +18,13 @@ Stream = TypeVar("Stream", bound=io.TextIOWrapper)
 
 def guard_streams() -> Callable[[], None]:
     """Replace `sys.stdout` and `sys.stderr`; return the function to call at the end, which writes what is left."""
-    sys.stdout = _replaced(sys.stdout, _Output)
-    sys.stderr = _replaced(sys.stderr, _Messages)
+    output, messages = _replaced(sys.stdout, _Output), _replaced(sys.stderr, _Messages)
+    # The old streams have lost their buffers; a view in the terminal writes to `sys.__stdout__`.
+    if sys.__stdout__ is sys.stdout:
+        sys.__stdout__ = output  # type: ignore[misc, assignment]
+    if sys.__stderr__ is sys.stderr:
+        sys.__stderr__ = messages  # type: ignore[misc, assignment]
+    sys.stdout, sys.stderr = output, messages
 
     def finish() -> None:
         for stream in (sys.stdout, sys.stderr):

@@ -10,7 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .common import FILE, WholeNumber, complain, describe, failures_reported
+from .common import (
+    FILE,
+    WholeNumber,
+    complain,
+    describe,
+    failures_reported,
+    parse_place,
+    place_options,
+)
 from .help import Command, argument, option
 
 if TYPE_CHECKING:
@@ -29,10 +37,7 @@ _PAGE = "Options for a page"
     help="A mesh (GLB, glTF, OBJ, PLY, STL, OFF), a cubemap (for six files, a name with {face}), a panorama, or a "
     "Python script that makes `scene` and, if it likes, `camera`, or `view`.",
 )
-@option("--page", is_flag=True, help="Show a page for a browser. Default.")
-@option("--window", is_flag=True, help="Show a window.")
-@option("--terminal", is_flag=True, help="Show the view in this terminal.")
-@option("--no-browser", is_flag=True, group=_PAGE, help="Print the address and open no browser.")
+@place_options()
 @option(
     "--host",
     metavar="ADDRESS",
@@ -66,9 +71,7 @@ def view(
     The picture follows the file: write it again, and the new contents are shown. While the file is broken the old
     contents stay, and the line below the picture says what is wrong.
     """
-    if page + window + terminal > 1:
-        raise click.BadParameter("expected one of --page, --window and --terminal")
-    where = "window" if window else "terminal" if terminal else "page"
+    where = parse_place(page, window, terminal)
     if where != "page" and (host != "127.0.0.1" or port or password is not None):
         raise click.BadParameter("--host, --port and --password: expected with --page only")
     if port > 65535:
@@ -162,6 +165,11 @@ class _Watched:
     def _show(self, shown: Shown) -> None:
         """Put the new scene into the view; the camera stays where it was moved to, unless the file places it anew."""
         before, self._shown = self._shown, shown
+        if shown.cube is not None and before.cube is not None:
+            cube_view: Any = self.view
+            cube_view.cube = shown.cube
+            cube_view.text = shown.told
+            return
         if shown.scene is None or before.scene is None:
             if self.on_new_view is None:
                 raise ValueError(

@@ -8,15 +8,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from .. import (
     AmbientLight,
     CubeMap,
     DirectionalLight,
     Error,
-    Mesh,
-    MirrorMaterial,
     OrthographicCamera,
     PerspectiveCamera,
     PhongMaterial,
@@ -42,11 +38,12 @@ _FACES = ("px", "nx", "py", "ny", "pz", "nz")
 
 @dataclass
 class Shown:
-    """What a file holds: a scene with a camera and how it is shown, or a view that a script made."""
+    """What a file holds: a scene with a camera and how it is shown, a cubemap, or a view that a script made."""
 
     scene: Scene | None = None
     camera: PerspectiveCamera | OrthographicCamera | None = None
     options: dict[str, Any] = field(default_factory=dict)
+    cube: CubeMap | None = None
     view: LiveView | None = None
     placed: str = ""  # where a script puts the camera, before a person moves it
     told: str = ""  # what is shown, for the line below the picture
@@ -54,10 +51,15 @@ class Shown:
 
     def as_view(self, title: str) -> LiveView:
         """Make the view."""
+        from ..viewer.cube_view import CubeView
         from ..viewer.viewer import Viewer
 
         if self.view is not None:
             return self.view
+        if self.cube is not None:
+            view = CubeView(self.cube, title=title, **self.options)
+            view.text = self.told
+            return view
         assert self.scene is not None
         viewer = Viewer(self.scene, self.camera, **self.options)
         viewer.title, viewer.text = title, self.told
@@ -124,22 +126,13 @@ def _mesh(path: str) -> Shown:
 
 
 def _picture(path: str) -> Shown:
-    """Surround a mirror ball with the picture, so that all directions are seen at once and by turning."""
-    from ..io.cubemaps import load_environment
+    """Show a cubemap as `CubeMap.show` does, and a panorama as a person sees it who stands in it."""
+    from ..io.cubemaps import _load_shown
 
-    cube = load_environment(path)
-    if cube.faces.dtype == np.uint8:
-        options: dict[str, Any] = {}
-    else:
-        options = {"tonemap": "neutral"}
-    scene = Scene(environment=cube)
-    scene.add(Mesh.sphere(1, 96), MirrorMaterial(), name="mirror ball")
-    camera = PerspectiveCamera(position=(0, 0, 4.5), target=(0, 0, 0), fov=50)
-    return Shown(scene, camera, options, told=_described(cube))
-
-
-def _described(cube: CubeMap) -> str:
-    return f"six faces of {cube.size} x {cube.size} texels, {cube.faces.dtype}"
+    cube, panorama = _load_shown(path)
+    told = f"six faces of {cube.size} x {cube.size} texels, {cube.faces.dtype}"
+    mode = "look" if panorama else "cross"
+    return Shown(cube=cube, options={"mode": mode, "names": not panorama}, told=told)
 
 
 def _script(path: str) -> Shown:

@@ -186,6 +186,27 @@ def load_environment(
     )
 
 
+def _load_shown(path: str) -> tuple[CubeMap, bool]:
+    """Read a file as `load_cubemap` does, in one go; also return whether it is a panorama."""
+    if six_paths(path, for_reading=True) is not None:
+        return load_cubemap(path), False
+    found = _one_file(path)
+    picture = oiio.read(found)
+    try:
+        cube = _from_picture(picture, False, None, None, None, None, False, None)
+    except ValueError as error:
+        raise ValueError(f"{found}: {error}") from error
+    return cube, _is_panorama(picture)
+
+
+def _is_panorama(picture: Picture) -> bool:
+    """Whether a picture of no given layout is a panorama: twice as wide as high, or named so by its file."""
+    height, width = picture.pixels.shape[:2]
+    return picture.environment != "cube" and (
+        width == 2 * height or picture.environment == "latlong"
+    )
+
+
 def _one_file(path: object) -> Path:
     try:
         return existing_file(path)
@@ -252,9 +273,7 @@ def _from_picture(
             dtype=dtype if size is None else None,
             encoding=encoding,
         )
-    if layout == "equirect" or (
-        layout is None and (width == 2 * height or picture.environment == "latlong")
-    ):
+    if layout == "equirect" or (layout is None and _is_panorama(picture)):
         borders = picture.environment == "latlong"
         return CubeMap.from_equirect(
             pixels,

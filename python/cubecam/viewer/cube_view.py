@@ -132,11 +132,8 @@ class CubeView(LiveView):
         **settings: Any,
     ) -> None:
         super().__init__(title=title, size=size)
-        self.cube = cube
-        self._mipmapped = isinstance(cube, CubeMap) and cube.mipmaps
-        self._source = Painter(cube if isinstance(cube, CubeMap) else levels_of(cube)[0])
-        self._painters = [Painter(found) for found in levels_of(cube)]
         self._level = 0
+        self._take(cube)
         self._middle = (
             0.5,
             0.5,
@@ -155,6 +152,27 @@ class CubeView(LiveView):
         self.level = level
 
     # What is shown --------------------------------------------------------------------------------------------
+
+    @property
+    def cube(self) -> CubeMap | Sequence[CubeMap]:
+        """CubeMap or sequence of CubeMap: what is shown. Setting it keeps the view; a level that is gone becomes 0."""
+        return self._cube
+
+    @cube.setter
+    def cube(self, value: CubeMap | Sequence[CubeMap]) -> None:
+        with self._lock:
+            self._take(value)
+        self.changed()
+        self._tell("panel", None)
+
+    def _take(self, cube: CubeMap | Sequence[CubeMap]) -> None:
+        levels = levels_of(cube)
+        self._cube = cube
+        self._mipmapped = isinstance(cube, CubeMap) and cube.mipmaps
+        self._source = Painter(cube if isinstance(cube, CubeMap) else levels[0])
+        self._painters = [Painter(found) for found in levels]
+        if self._level >= len(levels):
+            self._level = 0
 
     @property
     def levels(self) -> int:

@@ -475,7 +475,8 @@ class _Shown:
                 picture = self._still_picture(view, (width, height))
             self._revision = revision
             self.canvas._quality = _PNG if self._still else _JPEG
-            self._context.set_bitmap(picture)
+            # Windows of rendercanvas read the memory of `picture.base`, which must be the picture itself.
+            self._context.set_bitmap(picture if picture.base is None else picture.copy())
             if came_to_rest and self._still:
                 view._tell("panel", None)  # what moved may have been set by a program
 
