@@ -143,6 +143,8 @@ class Controls:
         key = str(event.get("key", ""))
         name = key.lower() if len(key) == 1 else key
         modifiers = event.get("modifiers") or ()
+        if key in ("Control", "Alt", "Meta"):  # for example Alt + Tab: keys end elsewhere
+            self._held.clear()
         if name not in self.keys or any(m in modifiers for m in ("Control", "Alt", "Meta")):
             return False
         if name.lower() in self._held:  # the keyboard's own repetition

@@ -8,6 +8,8 @@ and compares the newest revision of this process (`core/revision.hpp`) with the 
 from __future__ import annotations
 
 import contextlib
+import logging
+import os
 import threading
 import time
 import weakref
@@ -42,9 +44,9 @@ EVENTS = (
     "key_up",
 )
 #: Seconds without a change after which a picture is drawn in full quality.
-REST = 0.12
+REST = 0.1
 #: Seconds between two looks of the watching thread.
-WATCH = 0.03
+WATCH = 0.025
 _JPEG, _PNG = 80, 100  # rendercanvas' words for how its canvases encode a picture
 
 
@@ -73,12 +75,10 @@ class LiveView:
     """
 
     def __init__(self, *, size: tuple[int, int] = (640, 480), title: str = "cubecam") -> None:
-        width, height = (int(side) for side in size)
-        if width < 1 or height < 1:
-            raise ValueError(f"size: expected two numbers above 0, got {size}")
-        self.size = (width, height)
+        self.size = size
         self.title = title
         self._text = ""
+        self._reported: set[str] = set()
         self._closed = False
         self._lock = threading.RLock()  # a page draws in its server's thread
         self._canvases: list[_Shown] = []
@@ -99,7 +99,7 @@ class LiveView:
         """Answer an event of rendercanvas; x and y are logical pixels from the top left corner."""
 
     def _tick(self, now: float) -> None:
-        """Do what goes on while a key is held; called about 30 times a second while the view is shown."""
+        """Do what goes on while a key is held; called about 40 times a second while the view is shown."""
 
     def _release(self) -> None:
         """Give back what the view owns."""
@@ -114,6 +114,21 @@ class LiveView:
         return "h  this list"
 
     # ----- state
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """The (width, height) in logical pixels of `draw`, and of canvases that are opened later."""
+        return self._size
+
+    @size.setter
+    def size(self, value: tuple[int, int]) -> None:
+        try:
+            width, height = (int(side) for side in value)
+        except (TypeError, ValueError, OverflowError):
+            width = height = 0
+        if width < 1 or height < 1:
+            raise ValueError(f"size: expected two whole numbers above 0, got {value!r}")
+        self._size = (width, height)
 
     @property
     def text(self) -> str:
@@ -137,7 +152,7 @@ class LiveView:
         return self._animation is not None or time.monotonic() < self._moving_until
 
     def changed(self, moving: bool = True) -> None:
-        """Draw soon, quickly; a picture of full quality follows as soon as nothing has changed for 0.12 seconds.
+        """Draw soon, quickly; a picture of full quality follows as soon as nothing has changed for 0.1 seconds.
 
         Parameters
         ----------
@@ -178,7 +193,10 @@ class LiveView:
             self._listeners.remove(function)
 
     def animate(self, function: Callable[[float], object] | None) -> None:
-        """Move things: call a function before each picture, with the seconds since now. None ends the animation."""
+        """Move things: call a function before each picture, with the seconds since now. None ends the animation.
+
+        If the function fails, the error is logged, the view's text shows it, and the animation ends.
+        """
         self._began = time.monotonic()
         self._animation = function
         self.changed()
@@ -243,21 +261,26 @@ class LiveView:
             raise ValueError(f"expected seconds and fps above 0, got {seconds} and {fps}")
         count = max(1, round(seconds * fps))
 
-        def pictures() -> Any:
-            for index in range(count):
-                with self._lock:
-                    if self._animation is not None:
-                        self._animation(index / fps)
-                    yield self.draw().copy()
+        def picture(index: int) -> npt.NDArray[np.uint8]:
+            with (
+                self._lock
+            ):  # not while the film is written: a generator that fails would keep the lock
+                if self._animation is not None:
+                    self._animation(index / fps)
+                drawn: npt.NDArray[np.uint8] = self.draw().copy()
+                return drawn
+
+        self._check_open()
+        pictures = (picture(index) for index in range(count))
 
         if Path(path).suffix.lower() == ".mp4":
             from ..io.movie import save_mp4
 
-            save_mp4(path, pictures(), fps)
+            save_mp4(path, pictures, fps)
         else:
             from ..io.images import save_animation
 
-            save_animation(path, pictures(), fps=fps)
+            save_animation(path, pictures, fps=fps)
         self._began = time.monotonic()
 
     # ----- life
@@ -373,11 +396,26 @@ class LiveView:
 
     def _tell(self, name: str, value: Any) -> None:
         for function in list(self._listeners):
-            function(name, value)
+            try:
+                function(name, value)
+            except Exception as error:  # the other listeners, and `close`, go on
+                self._report(error)
+
+    def _report(self, error: Exception) -> None:
+        """Log an error, the same one only once, and show it as the view's text."""
+        words = f"{type(error).__name__}: {error}"
+        if words not in self._reported:
+            self._reported.add(words)
+            logging.getLogger("cubecam").error("%r: %s", self, words, exc_info=error)
+            self.text = words
 
     def _animate_now(self) -> None:
         if self._animation is not None:
-            self._animation(time.monotonic() - self._began)
+            try:
+                self._animation(time.monotonic() - self._began)
+            except Exception as error:
+                self._animation = None
+                self._report(error)
 
     def _watch(self) -> None:
         """Request what is due; called by the watching thread."""
@@ -413,12 +451,16 @@ class _Shown:
         self._still = False  # whether the canvas shows full quality
         self._pressed = 0.0  # when a button of the pointer went down
         self._told = True  # whether the view itself reported a change
+        self._doubt_until = (
+            0.0  # when to see whether full quality shows a change that the quick picture does not
+        )
+        self._last: npt.NDArray[np.uint8] | None = None  # the still picture that the canvas shows
         canvas.add_event_handler(self._answer, *EVENTS)
         canvas.request_draw(self._present)
 
     def forget(self) -> None:
         """Take the handlers off the canvas."""
-        self._quick = None
+        self._quick = self._last = None
         with contextlib.suppress(Exception):
             self.canvas.remove_event_handler(self._answer, *EVENTS)
 
@@ -436,6 +478,7 @@ class _Shown:
             newest != self._revision
             or view._animation is not None
             or (not self._still and not moving)
+            or 0 < self._doubt_until < time.monotonic()
         ):
             self.canvas.request_draw()
 
@@ -469,10 +512,18 @@ class _Shown:
             outside = not told and self._still and view._animation is None
             revision = _newest_revision()
             came_to_rest = not self._still
-            if view.moving or outside:
-                picture = self._quick_picture(view, (width, height), outside)
-            else:
-                picture = self._still_picture(view, (width, height))
+            doubt = 0 < self._doubt_until < time.monotonic() and revision == self._revision
+            try:
+                if view.moving or (outside and not doubt):
+                    picture = self._quick_picture(view, (width, height), outside)
+                else:
+                    picture = self._still_picture(view, (width, height), told, revision)
+            except DrawCancelled:
+                raise
+            except Exception as error:  # the next change draws again
+                self._revision, self._still, self._doubt_until = _newest_revision(), True, 0.0
+                view._report(error)
+                raise DrawCancelled from error
             self._revision = revision
             self.canvas._quality = _PNG if self._still else _JPEG
             # Windows of rendercanvas read the memory of `picture.base`, which must be the picture itself.
@@ -487,19 +538,37 @@ class _Shown:
         with self._quality.measured(size) as reduced:
             picture = view._picture(reduced, True)
         known = self._quick
-        if known is not None and known.shape == picture.shape and (known == picture).all():
+        if known is not None and np.array_equal(known, picture):
             self._revision = _newest_revision()
+            if outside:
+                self._doubt_until = time.monotonic() + REST
             raise DrawCancelled
         if outside:  # what changed elsewhere in the process is seen here
             view._moving_until = time.monotonic() + REST
         self._quick, self._still = picture.copy(), False
         return picture
 
-    def _still_picture(self, view: LiveView, size: tuple[int, int]) -> npt.NDArray[np.uint8]:
-        """Draw in full quality, and a small picture to compare later ones with."""
-        self._quick = view._picture(self._quality.reduced(size), True).copy()
-        self._still = True
-        return view._picture(size, False)
+    def _still_picture(
+        self, view: LiveView, size: tuple[int, int], told: bool, revision: int
+    ) -> npt.NDArray[np.uint8]:
+        """Draw in full quality, and a small picture to compare later ones with; cancel if the canvas shows it."""
+        doubt, self._doubt_until = self._doubt_until > 0, 0.0
+        reduced = self._quality.reduced(size)
+        known = self._quick
+        same = known is not None and known.shape[1::-1] == reduced
+        if told or doubt or not same or revision != self._revision:
+            self._quick = view._picture(reduced, True).copy()
+        picture = view._picture(size, False)
+        if (
+            self._still
+            and not told
+            and self._last is not None
+            and np.array_equal(self._last, picture)
+        ):
+            self._revision = revision
+            raise DrawCancelled
+        self._still, self._last = True, picture.copy()
+        return picture
 
 
 class _Watcher:
@@ -526,8 +595,17 @@ class _Watcher:
                     self._thread = None
                     return
             for view in views:
-                view._watch()
+                try:
+                    view._watch()
+                except Exception as error:  # the other views go on
+                    view._report(error)
             del view, views
+
+    def after_fork(self) -> None:
+        """Begin anew in a child process, which has no thread, and a lock that nobody opens."""
+        self.__init__()  # type: ignore[misc]
 
 
 _watcher = _Watcher()
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_watcher.after_fork)

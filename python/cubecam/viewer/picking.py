@@ -148,9 +148,10 @@ def _nearest_weights(a: Any, b: Any, c: Any, point: Any) -> Any:
     area = d00 * d11 - d01 * d01
     with np.errstate(divide="ignore", invalid="ignore"):
         v, w = (d11 * d20 - d01 * d21) / area, (d00 * d21 - d01 * d20) / area
-    weights = np.clip(np.nan_to_num(np.stack([1 - v - w, v, w], axis=1)), 0.0, 1.0)
-    total = weights.sum(axis=1, keepdims=True)
-    return weights / np.where(total > 0, total, 1.0)
+    weights = np.stack([1 - v - w, v, w], axis=1)
+    weights[~np.isfinite(weights).all(axis=1)] = (1.0, 0.0, 0.0)  # without area: its first corner
+    weights = np.clip(weights, 0.0, 1.0)
+    return weights / weights.sum(axis=1, keepdims=True)
 
 
 def _seen(node: Node, position: Any, normal: Any, viewer: Viewer) -> Seen | None:

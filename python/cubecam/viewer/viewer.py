@@ -18,7 +18,7 @@ from .._core import (
     _newest_revision,
 )
 from ..typing import ControlsName, Encode, Output, Place, Tonemap
-from .controls import Controls, FirstPerson, make_controls
+from .controls import Controls, FirstPerson, Orbit, make_controls
 from .live import LiveView
 from .outputs import OUTPUTS, output_picture, probe_picture
 from .picking import Pick, pick_of
@@ -110,7 +110,9 @@ class Viewer(LiveView):
         if renderer is not None:
             _expect(renderer, Renderer, "renderer")
         super().__init__(size=size, title=title)
-        self.scene = scene
+        self._frame: tuple[tuple[int, tuple[int, int]], Frame] | None = None
+        self._node_of: tuple[int, dict[int, Node]] = (-1, {})
+        self._scene = scene
         bounds = _extent(scene)
         if camera is None:
             camera = PerspectiveCamera()
@@ -118,25 +120,62 @@ class Viewer(LiveView):
                 camera.fit(scene, aspect=self.size[0] / self.size[1])
             elif controls == "orbit":
                 controls = "first_person"  # there is nothing to turn
-        self.camera: PerspectiveCamera | OrthographicCamera = camera
-        self.controls = make_controls(controls)
-        if camera.target is None and controls == "orbit":
-            _give_target(camera, bounds)
+        self._controls = make_controls(controls)
         self._owned: Renderer | None = None
         self._renderer = renderer
-        self._samples = samples
-        self._exposure = float(exposure)
-        self._tonemap: Tonemap | None = tonemap
-        self._encode: Encode | None = encode
-        self._output: Output | Probe = "color"
+        self.samples = samples
+        self.exposure = exposure
+        self.tonemap = tonemap
+        self.encode = encode
         self.output = output
-        self._home = _pose(camera)
-        self._frame: tuple[tuple[int, tuple[int, int]], Frame] | None = None
-        self._node_of: tuple[int, dict[int, Node]] = (-1, {})
+        self.camera = camera
         self._clicked: tuple[float, float] | None = None
         self.picked: Pick | None = None
 
     # ----- settings
+
+    @property
+    def scene(self) -> Scene:
+        """What is shown; another scene shows at once."""
+        return self._scene
+
+    @scene.setter
+    def scene(self, value: Scene) -> None:
+        _expect(value, Scene, "scene")
+        with self._lock:
+            self._scene = value
+            self._frame, self._node_of = None, (-1, {})
+        self._set_something()
+
+    @property
+    def camera(self) -> PerspectiveCamera | OrthographicCamera:
+        """The view, which the controls move; the key r gives it the pose that it has when it is set here."""
+        return self._camera
+
+    @camera.setter
+    def camera(self, value: PerspectiveCamera | OrthographicCamera) -> None:
+        _expect(value, (PerspectiveCamera, OrthographicCamera), "camera")
+        with self._lock:
+            self._camera = value
+            self._frame = None
+            if value.target is None and isinstance(self._controls, Orbit):
+                _give_target(value, _extent(self._scene))
+            self._home = _pose(value)
+        self._set_something()
+
+    @property
+    def controls(self) -> Controls:
+        """What mouse and keys do; a name, "orbit", "first_person" or "fly", can be set as well."""
+        return self._controls
+
+    @controls.setter
+    def controls(self, value: ControlsName | Controls) -> None:
+        made = make_controls(value)
+        with self._lock:
+            self._controls = made
+            if self._camera.target is None and isinstance(made, Orbit):
+                _give_target(self._camera, _extent(self._scene))
+        self._set_something()
 
     @property
     def renderer(self) -> Renderer:
@@ -153,6 +192,8 @@ class Viewer(LiveView):
 
     @samples.setter
     def samples(self, value: int) -> None:
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
+            raise ValueError(f"samples: expected a whole number above 0, got {value!r}")
         self._samples = int(value)
         self._set_something()
 
@@ -163,9 +204,12 @@ class Viewer(LiveView):
 
     @exposure.setter
     def exposure(self, value: float) -> None:
-        number = float(value)
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            number = np.nan
         if not np.isfinite(number):
-            raise ValueError(f"exposure: expected a finite number of stops, got {value}")
+            raise ValueError(f"exposure: expected a finite number of stops, got {value!r}")
         self._exposure = number
         self._set_something()
 
@@ -181,6 +225,18 @@ class Viewer(LiveView):
         if value is not None and value not in CURVES:
             raise ValueError(f"tonemap: expected None or one of {', '.join(CURVES)}, got {value!r}")
         self._tonemap = value
+        self._set_something()
+
+    @property
+    def encode(self) -> Encode | None:
+        """How colours become 8 bits: "srgb", or None for the numbers unchanged."""
+        return self._encode
+
+    @encode.setter
+    def encode(self, value: Encode | None) -> None:
+        if value not in (None, "srgb"):
+            raise ValueError(f"encode: expected None or 'srgb', got {value!r}")
+        self._encode = value
         self._set_something()
 
     @property
@@ -298,7 +354,7 @@ class Viewer(LiveView):
         elif kind == "key_down" and not event.get("modifiers"):
             self._key(str(event.get("key", "")))
         if kind == "pointer_leave":
-            self.controls.let_go_of_pointer()
+            self.controls.let_go()  # what is let go of elsewhere is not reported
         if self.controls.handle(event, self.camera, size):
             self._clicked = None
             self.changed()

