@@ -18,6 +18,8 @@ import urllib.request
 from pathlib import Path
 from typing import Any
 
+import cubecam
+
 ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or "/usr/bin/chromium"
 #: Software rendering, which every machine has; containers allow no sandbox.
@@ -36,7 +38,8 @@ class Lab:
         self._log = (folder / ".lab.log").open("w")
         environment = {
             **os.environ,
-            "PYTHONPATH": os.pathsep.join([str(ROOT / "python"), str(ROOT)]),
+            # Kernels import the same cubecam as this process, installed or in a checkout.
+            "PYTHONPATH": os.pathsep.join([str(Path(cubecam.__file__).parents[1]), str(ROOT)]),
             "PYTHONDONTWRITEBYTECODE": "1",
             "JUPYTER_CONFIG_DIR": str(folder / ".config"),
             "JUPYTER_DATA_DIR": str(folder / ".data"),
