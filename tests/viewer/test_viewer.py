@@ -17,6 +17,7 @@ from cubecam.viewer.canvases import needs
 from cubecam.viewer.picking import uv_at
 from cubecam.viewer.quality import STEPS, Quality
 from tests.compare import assert_identical
+from tests.helpers import run_python
 
 SIZE = (96, 64)
 
@@ -620,3 +621,37 @@ def test_on_a_page_full_quality_follows_soon(pixels, new_renderer):
     times = [asyncio.run(drag()) for _ in range(2)]
     assert [len(each) for each in times] == [1, 1]
     assert min(each[0] for each in times) < 0.6  # 0.3 is the aim; the tests may share their cores
+
+
+@pytest.mark.parametrize(
+    ("kind", "fields"),
+    [("pointer_leave", {}), ("key_down", {"key": "Alt"}), ("key_up", {"key": "w"})],
+)
+def test_a_held_key_ends_also_when_its_end_is_not_seen(shown, kind, fields):
+    viewer, _ = shown
+    viewer.controls = "first_person"
+    before = viewer.camera.position
+    send(viewer, "key_down", key="w")
+    assert np.linalg.norm(viewer.camera.position - before) == pytest.approx(0.1)
+    send(viewer, kind, **fields)
+    after = viewer.camera.position
+    assert not viewer.controls.tick(time.monotonic() + 100, viewer.camera)
+    np.testing.assert_array_equal(viewer.camera.position, after)
+
+
+def test_a_forked_process_goes_on_without_the_watching_thread():
+    run_python(
+        "import os, warnings, cubecam as cc\n"
+        "warnings.simplefilter('ignore')  # Python warns of forks beside threads\n"
+        "viewer = cc.Viewer(cc.Scene(background='red'), size=(8, 8)).show('offscreen')\n"
+        "viewer.draw()\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    import threading\n"
+        "    from cubecam.viewer import live\n"
+        "    left = [thread.name for thread in threading.enumerate()]\n"
+        "    taken = live._watcher._lock.acquire(timeout=5)\n"
+        "    os._exit(0 if taken and 'cubecam views' not in left else 1)\n"
+        "assert os.waitpid(child, 0)[1] == 0\n"
+        "viewer.close()\n"
+    )
