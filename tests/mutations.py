@@ -1344,13 +1344,13 @@ MUTATIONS = [
     Mutation(
         "pick: a mirror sees along the view",
         "viewer/picking.py",
-        "incident = position - camera.position",
-        "incident = camera.position - position",
+        "if parallel else position - camera.position",
+        "if parallel else camera.position - position",
         VIEWER,
     ),
     Mutation(
         "live: windows get memory that is not the picture's",
-        "viewer/live.py",
+        "viewer/shown.py",
         "picture if picture.base is None else picture.copy()",
         "picture",
         CANVASES,

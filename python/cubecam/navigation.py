@@ -58,7 +58,7 @@ def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     angle = math.radians(_number(degrees, "degrees"))
     if angle == 0:
         return
-    standing = _Standing(camera)
+    standing = Standing(camera)
     camera.target = standing.ahead(_turned(standing.direction, standing.up, angle))
 
 
@@ -93,7 +93,7 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
     change = _number(degrees, "degrees")
     if change == 0:
         return
-    standing = _Standing(camera)
+    standing = Standing(camera)
     camera.target = standing.ahead(_raised(standing.direction, standing.up, change))
 
 
@@ -122,7 +122,7 @@ def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> Non
     >>> camera.position.tolist(), camera.target.tolist()
     ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
     """
-    standing = _Standing(camera)
+    standing = Standing(camera)
     standing.move(_number(distance, "distance") * standing.direction)
 
 
@@ -149,9 +149,8 @@ def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> N
     >>> camera.position.tolist()
     [0.5, 0.0, 0.0]
     """
-    standing = _Standing(camera)
-    right = _unit(np.cross(standing.direction, standing.up))
-    standing.move(_number(distance, "distance") * right)
+    standing = Standing(camera)
+    standing.move(_number(distance, "distance") * standing.right)
 
 
 @checked_call
@@ -191,7 +190,7 @@ def orbit(
     [-2.0, 0.0, 3.464]
     """
     turn, rise = _number(yaw, "yaw"), _number(pitch, "pitch")
-    standing = _Standing(camera)
+    standing = Standing(camera)
     if standing.target is None:
         raise ValueError("target: expected a camera with a target to orbit, got None")
     # From the target the camera lies opposite to the view.
@@ -233,10 +232,10 @@ def look(camera: PerspectiveCamera | OrthographicCamera, direction: npt.ArrayLik
     >>> camera.target.tolist()
     [1.0, 0.0, 1.0]
     """
-    camera.target = _Standing(camera).ahead(_direction(direction))
+    camera.target = Standing(camera).ahead(_direction(direction))
 
 
-class _Standing:
+class Standing:
     """The position and the direction of a camera, read once."""
 
     def __init__(self, camera: PerspectiveCamera | OrthographicCamera) -> None:
@@ -253,6 +252,11 @@ class _Standing:
         else:
             offset = self.target - self.position
             self.direction, self.distance = _unit(offset), float(_length(offset))
+
+    @property
+    def right(self) -> Vector:
+        """The direction to the right, of length 1."""
+        return _unit(np.cross(self.direction, self.up))
 
     def ahead(self, direction: Vector) -> Vector:
         """Return the target at the present distance in a direction of length 1."""

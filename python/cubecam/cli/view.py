@@ -91,10 +91,12 @@ def view(
 
 def _check_extras(where: str) -> None:
     """Miss a package before a large file is read."""
-    from ..viewer.canvases import needs
+    from ..viewer.canvases import needs, needs_page
 
-    for module in ("rendercanvas", *(("uvicorn", "websockets") if where == "page" else ())):
-        needs(module, "viewer")
+    if where == "page":
+        needs_page()
+    else:
+        needs("rendercanvas", "viewer")
 
 
 def _show_page(
@@ -147,7 +149,7 @@ class _Watched:
         self.view: LiveView = self._shown.as_view(Path(path).name)
 
     def look(self) -> None:
-        """Read the file again if it was written; what is broken is told below the picture."""
+        """Read the file again if it was written; the line below the picture reports an error in it."""
         from .view_source import FAILURES, read, stamp
 
         now = stamp(self.path, self._shown)

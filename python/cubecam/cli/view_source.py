@@ -18,6 +18,7 @@ from .. import (
     PhongMaterial,
     Scene,
 )
+from ..io.cubemap_names import FACE_NAMES
 
 if TYPE_CHECKING:
     from ..viewer.live import LiveView
@@ -33,7 +34,6 @@ _BACK = (0.055, 0.06, 0.07)  # the colour behind a mesh, linear
 _GREY = (0.62, 0.62, 0.62)
 #: Light of three lamps that every side of a mesh gets something of: direction and strength.
 _LAMPS = (((-0.5, -1.0, -0.8), 1.0), ((1.0, -0.3, -0.4), 0.45), ((0.2, 0.4, 1.0), 0.35))
-_FACES = ("px", "nx", "py", "ny", "pz", "nz")
 
 
 @dataclass
@@ -68,11 +68,12 @@ class Shown:
 
 def stamp(path: str, shown: Shown | None = None) -> tuple[object, ...]:
     """Say in which state the files are: another answer means that one of them was written again."""
-    names = [Path(path.replace("{face}", face)) for face in _FACES] if "{face}" in path else [path]
+    faces = [face for row in FACE_NAMES for face in row] if "{face}" in path else [""]
+    names = [Path(path.replace("{face}", face)) for face in faces]
     found: list[object] = []
     for name in (*names, *(shown.files if shown else ())):
         try:
-            state = Path(name).stat()
+            state = name.stat()
             found.append((state.st_mtime_ns, state.st_size, state.st_ino))
         except OSError:
             found.append(None)  # an editor that writes a new file leaves none for a moment

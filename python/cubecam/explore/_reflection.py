@@ -11,9 +11,9 @@ import numpy.typing as npt
 from .._calls import checked_call
 from .._core import CubeMap
 from ..typing import Place, Theme, Tonemap
-from ..viewer.live import LiveView
+from ..viewer.live import LiveView, shown_at
 from ..viewer.panel import Control, Section
-from ..viewer.settings import choice, number, shown_at
+from ..viewer.settings import choice, number
 from ..viewer.texels import Texel, texel_of
 from ._diagram import BAND, EYE, Diagram, Ground, Layout, in_band, light_on_screen, shown
 from ._optics import Facts, Plane, facts_of, turned

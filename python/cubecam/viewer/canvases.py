@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from .live import LiveView
     from .page.server import PageServer
 
-__all__ = ["PLACES", "choose", "needs", "show"]
+__all__ = ["PLACES", "choose", "needs", "needs_page", "show"]
 
 PLACES = ("notebook", "page", "window", "terminal", "offscreen")
 #: Toolkits for windows, in the order in which they are tried; rendercanvas presents bitmaps to them.
@@ -40,6 +40,12 @@ def needs(module: str, extra: str) -> Any:
         ) from error
 
 
+def needs_page() -> None:
+    """Import what a page takes; ImportError names the extra, as in `needs`."""
+    for package in ("rendercanvas", "uvicorn", "websockets"):
+        needs(package, "viewer")
+
+
 def choose() -> str:
     """Choose where a view is shown: notebook, window, terminal or page."""
     if in_notebook():
@@ -54,16 +60,18 @@ def choose() -> str:
 
 def in_notebook() -> bool:
     """Whether this process is the kernel of a notebook."""
-    ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
-    return getattr(shell, "kernel", None) is not None
+    return getattr(_shell(), "kernel", None) is not None
 
 
 def interactive() -> bool:
     """Whether a person types at Python's prompt or in a notebook."""
+    return _shell() is not None or hasattr(sys, "ps1") or bool(sys.flags.interactive)
+
+
+def _shell() -> Any:
+    """Return IPython's shell, or None; IPython itself is not imported."""
     ipython = sys.modules.get("IPython")
-    shell = ipython.get_ipython() if ipython is not None else None
-    return shell is not None or hasattr(sys, "ps1") or bool(sys.flags.interactive)
+    return None if ipython is None else ipython.get_ipython()
 
 
 def show(view: LiveView, where: str | None, *, browser: bool, block: bool | None) -> None:
@@ -113,8 +121,7 @@ _shared: PageServer | None = None
 def _server() -> PageServer:
     """Give the server of this process; make one if there is none."""
     global _shared
-    for package in ("rendercanvas", "uvicorn", "websockets"):
-        needs(package, "viewer")
+    needs_page()
     from .page.server import PageServer
 
     with _lock:

@@ -165,7 +165,8 @@ class Controls:
         if strafe:
             navigation.strafe(camera, strafe)
         if rise:
-            _move(camera, rise * _unit(camera.up))
+            standing = navigation.Standing(camera)
+            standing.move(rise * standing.up)
 
 
 class Orbit(Controls):
@@ -269,46 +270,21 @@ def _zoom(dy: float) -> float:
     return float(2.0 ** min(max(dy / WHEEL_DOUBLE, -20.0), 20.0))
 
 
-def _unit(vector: Any) -> Any:
-    return np.asarray(vector) / math.hypot(*vector)
-
-
 def _field(camera: AnyCamera) -> float:
     return 45.0 if isinstance(camera, OrthographicCamera) else float(camera.fov)
 
 
-def _forward(camera: AnyCamera) -> tuple[Any, float]:
-    """Return the view direction, of length 1, and the distance to the target (1 without one)."""
-    if camera.target is None:
-        return np.array([0.0, 0.0, -1.0]), 1.0
-    offset = camera.target - camera.position
-    distance = math.hypot(*offset)
-    return offset / distance, distance
-
-
 def _pan(camera: AnyCamera, dx: float, dy: float, height: float) -> bool:
     """Move camera and target so that what lies in the target's plane follows the pointer."""
-    forward, distance = _forward(camera)
+    standing = navigation.Standing(camera)
     if isinstance(camera, OrthographicCamera):
         seen = float(camera.height)
     else:
-        seen = 2.0 * distance * math.tan(math.radians(camera.fov) / 2)
-    right = _unit(np.cross(forward, camera.up))
-    up = np.cross(right, forward)
-    _move(camera, (-dx * right + dy * up) * (seen / height))
+        seen = 2.0 * standing.distance * math.tan(math.radians(camera.fov) / 2)
+    right = standing.right
+    up = np.cross(right, standing.direction)
+    standing.move((-dx * right + dy * up) * (seen / height))
     return True
-
-
-def _move(camera: AnyCamera, offset: Any) -> None:
-    """Move position and target."""
-    position, target = camera.position, camera.target
-    if target is None:
-        camera.position = position + offset
-        return
-    far = target + 2.0 * (target - position) + offset  # position and target are never equal
-    camera.target = far
-    camera.position = position + offset
-    camera.target = target + offset
 
 
 def _scale(camera: AnyCamera, factor: float) -> bool:
@@ -320,7 +296,7 @@ def _scale(camera: AnyCamera, factor: float) -> bool:
         return True
     if camera.target is None:
         return False
-    forward, distance = _forward(camera)
-    nearest = 1.01 * float(camera.near)
-    camera.position = camera.target - forward * max(distance * factor, min(nearest, distance))
+    standing = navigation.Standing(camera)
+    nearest = min(1.01 * float(camera.near), standing.distance)
+    camera.position = camera.target - standing.direction * max(standing.distance * factor, nearest)
     return True

@@ -16,9 +16,9 @@ from ..typing import Center, Convention, CubeMode, Place, Theme, Tonemap
 from .cube_drawing import THEMES, Painter, draw_legend, draw_names, outline
 from .cube_maps import Cross, Look, Panorama
 from .lettering import Lettering
-from .live import LiveView
+from .live import LiveView, shown_at
 from .panel import Control, Section
-from .settings import choice, flag, number, shown_at
+from .settings import choice, flag, number
 from .texels import Texel, levels_of, texel_of
 
 __all__ = ["CubeView", "show_cube"]

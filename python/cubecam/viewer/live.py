@@ -9,10 +9,8 @@ from __future__ import annotations
 
 import contextlib
 import logging
-import os
 import threading
 import time
-import weakref
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -21,37 +19,18 @@ import numpy as np
 
 from .._core import _newest_revision
 from ..io.files import PathLike
-from .quality import Quality
+from .shown import REST, Shown
+from .watcher import watch
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from ..typing import Place
     from .panel import Section
 
-__all__ = ["EVENTS", "LiveView"]
+__all__ = ["LiveView", "shown_at"]
 
 Self = TypeVar("Self", bound="LiveView")
-
-#: The events of rendercanvas that a view answers.
-EVENTS = (
-    "pointer_down",
-    "pointer_move",
-    "pointer_up",
-    "pointer_leave",
-    "double_click",
-    "wheel",
-    "key_down",
-    "key_up",
-)
-#: Seconds without a change after which a picture is drawn in full quality.
-REST = 0.1
-#: Seconds between two looks of the watching thread.
-WATCH = 0.025
-_JPEG, _PNG = 80, 100  # rendercanvas' words for how its canvases encode a picture
-
-
-class DrawCancelled(Exception):
-    """Tells rendercanvas that the last picture still stands."""
 
 
 class LiveView:
@@ -81,13 +60,12 @@ class LiveView:
         self._reported: set[str] = set()
         self._closed = False
         self._lock = threading.RLock()  # a page draws in its server's thread
-        self._canvases: list[_Shown] = []
+        self._canvases: list[Shown] = []
         self._listeners: list[Callable[[str, Any], object]] = []
         self._handlers: list[tuple[Callable[[dict[str, Any]], object], frozenset[str]]] = []
         self._animation: Callable[[float], object] | None = None
         self._began = 0.0
         self._moving_until = 0.0
-        self._on_show: list[Callable[[], object]] = []
 
     # ----- what a subclass gives
 
@@ -371,10 +349,10 @@ class LiveView:
     def _attach(self, canvas: Any) -> None:
         """Show the view on a canvas of rendercanvas, too."""
         self._check_open()
-        shown = _Shown(self, canvas)
+        shown = Shown(self, canvas)
         self._canvases.append(shown)
         shown.request()
-        _watcher.watch(self)
+        watch(self)
 
     def _detach(self, canvas: Any) -> None:
         """Forget a canvas; one that is not known is no error."""
@@ -434,178 +412,10 @@ class LiveView:
                     self.close()
 
 
-class _Shown:
-    """A view on one canvas: which picture the canvas has, and which it needs."""
-
-    def __init__(self, view: LiveView, canvas: Any) -> None:
-        self.canvas = canvas
-        #: Whether the view ends with this canvas: windows and terminals, which the user closes.
-        self.only_one = bool(getattr(canvas, "_cubecam_owns_view", False))
-        self._view = weakref.ref(view)
-        self._context = canvas.get_bitmap_context()
-        self._quality = Quality()
-        self._revision = -1  # at the last picture
-        self._quick: npt.NDArray[np.uint8] | None = (
-            None  # the last quick picture, while it is up to date
-        )
-        self._still = False  # whether the canvas shows full quality
-        self._pressed = 0.0  # when a button of the pointer went down
-        self._told = True  # whether the view itself reported a change
-        self._doubt_until = (
-            0.0  # when to see whether full quality shows a change that the quick picture does not
-        )
-        self._last: npt.NDArray[np.uint8] | None = None  # the still picture that the canvas shows
-        canvas.add_event_handler(self._answer, *EVENTS)
-        canvas.request_draw(self._present)
-
-    def forget(self) -> None:
-        """Take the handlers off the canvas."""
-        self._quick = self._last = None
-        with contextlib.suppress(Exception):
-            self.canvas.remove_event_handler(self._answer, *EVENTS)
-
-    def request(self) -> None:
-        """Draw soon, because the view reported a change."""
-        self._told = True
-        self.canvas.request_draw()
-
-    def watch(self, newest: int, moving: bool) -> None:
-        """Draw if something changed, or if the picture is a quick one and nothing moves any more."""
-        view = self._view()
-        if view is None:
-            return
-        if (
-            newest != self._revision
-            or view._animation is not None
-            or (not self._still and not moving)
-            or 0 < self._doubt_until < time.monotonic()
-        ):
-            self.canvas.request_draw()
-
-    def _answer(self, event: dict[str, Any]) -> None:
-        view = self._view()
-        if view is None or view.closed or self._is_late(event):
-            return
-        with view._lock:
-            if event.get("event_type", "").startswith("pointer") or "x" in event:
-                event = {**event, "size": self.canvas.get_logical_size()}
-            view._answer(event)
-
-    def _is_late(self, event: dict[str, Any]) -> bool:
-        """Whether a move is older than the press that came before it: rendercanvas holds moves back to unite them."""
-        kind, at = event.get("event_type"), float(event.get("time_stamp", 0.0))
-        if kind == "pointer_down":
-            self._pressed = at
-        return kind == "pointer_move" and at < self._pressed
-
-    def _present(self) -> None:
-        """Draw what the canvas needs now; called by rendercanvas."""
-        view = self._view()
-        if view is None or view.closed:
-            raise DrawCancelled
-        with view._lock:
-            view._animate_now()
-            width, height = (int(side) for side in self.canvas.get_physical_size())
-            if width < 1 or height < 1:
-                raise DrawCancelled
-            told, self._told = self._told, False
-            outside = not told and self._still and view._animation is None
-            revision = _newest_revision()
-            came_to_rest = not self._still
-            doubt = 0 < self._doubt_until < time.monotonic() and revision == self._revision
-            try:
-                if view.moving or (outside and not doubt):
-                    picture = self._quick_picture(view, (width, height), outside)
-                else:
-                    picture = self._still_picture(view, (width, height), told, revision)
-            except DrawCancelled:
-                raise
-            except Exception as error:  # the next change draws again
-                self._revision, self._still, self._doubt_until = _newest_revision(), True, 0.0
-                view._report(error)
-                raise DrawCancelled from error
-            self._revision = revision
-            self.canvas._quality = _PNG if self._still else _JPEG
-            # Windows of rendercanvas read the memory of `picture.base`, which must be the picture itself.
-            self._context.set_bitmap(picture if picture.base is None else picture.copy())
-            if came_to_rest and self._still:
-                view._tell("panel", None)  # what moved may have been set by a program
-
-    def _quick_picture(
-        self, view: LiveView, size: tuple[int, int], outside: bool
-    ) -> npt.NDArray[np.uint8]:
-        """Draw a small picture; cancel if it shows what the last one showed, which is not sent again."""
-        with self._quality.measured(size) as reduced:
-            picture = view._picture(reduced, True)
-        known = self._quick
-        if known is not None and np.array_equal(known, picture):
-            self._revision = _newest_revision()
-            if outside:
-                self._doubt_until = time.monotonic() + REST
-            raise DrawCancelled
-        if outside:  # what changed elsewhere in the process is seen here
-            view._moving_until = time.monotonic() + REST
-        self._quick, self._still = picture.copy(), False
-        return picture
-
-    def _still_picture(
-        self, view: LiveView, size: tuple[int, int], told: bool, revision: int
-    ) -> npt.NDArray[np.uint8]:
-        """Draw in full quality, and a small picture to compare later ones with; cancel if the canvas shows it."""
-        doubt, self._doubt_until = self._doubt_until > 0, 0.0
-        reduced = self._quality.reduced(size)
-        known = self._quick
-        same = known is not None and known.shape[1::-1] == reduced
-        if told or doubt or not same or revision != self._revision:
-            self._quick = view._picture(reduced, True).copy()
-        picture = view._picture(size, False)
-        if (
-            self._still
-            and not told
-            and self._last is not None
-            and np.array_equal(self._last, picture)
-        ):
-            self._revision = revision
-            raise DrawCancelled
-        self._still, self._last = True, picture.copy()
-        return picture
-
-
-class _Watcher:
-    """One thread for all views that are shown; it ends when there are none."""
-
-    def __init__(self) -> None:
-        self._views: weakref.WeakSet[LiveView] = weakref.WeakSet()
-        self._lock = threading.Lock()
-        self._thread: threading.Thread | None = None
-
-    def watch(self, view: LiveView) -> None:
-        with self._lock:
-            self._views.add(view)
-            if self._thread is None or not self._thread.is_alive():
-                self._thread = threading.Thread(target=self._run, name="cubecam views", daemon=True)
-                self._thread.start()
-
-    def _run(self) -> None:
-        while True:
-            time.sleep(WATCH)
-            with self._lock:
-                views = [view for view in self._views if not view.closed and view._canvases]
-                if not views:
-                    self._thread = None
-                    return
-            for view in views:
-                try:
-                    view._watch()
-                except Exception as error:  # the other views go on
-                    view._report(error)
-            del view, views
-
-    def after_fork(self) -> None:
-        """Begin anew in a child process, which has no thread, and a lock that nobody opens."""
-        self.__init__()  # type: ignore[misc]
-
-
-_watcher = _Watcher()
-if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_watcher.after_fork)
+def shown_at(view: Self, where: Place | None, browser: bool, block: bool | None) -> Self:
+    """Show a view that was made for this call; it is closed again if it cannot be shown."""
+    try:
+        return view.show(where, browser=browser, block=block)
+    except BaseException:
+        view.close()
+        raise

@@ -9,7 +9,8 @@ import numpy as np
 
 from .. import optics
 from .._core import CubeMap, GlassMaterial, MirrorMaterial, Node, OrthographicCamera, Probe
-from ..plot._faces import texels_of
+from ..navigation import Standing
+from ..plot._faces import NAMES, texels_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
     from .viewer import Viewer
 
 __all__ = ["Pick", "Seen", "pick_of", "uv_at"]
-
-FACES = ("+x", "-x", "+y", "-y", "+z", "-z")
 
 
 @dataclass(frozen=True)
@@ -166,11 +165,8 @@ def _seen(node: Node, position: Any, normal: Any, viewer: Viewer) -> Seen | None
     else:
         return None
     camera = viewer.camera
-    if isinstance(camera, OrthographicCamera):
-        target = camera.target if camera.target is not None else camera.position - (0, 0, 1)
-        incident = np.asarray(target - camera.position, np.float64)
-    else:
-        incident = position - camera.position
+    parallel = isinstance(camera, OrthographicCamera)
+    incident = Standing(camera).direction if parallel else position - camera.position
     incident = incident / np.linalg.norm(incident)
     length = np.linalg.norm(normal)
     if length == 0:
@@ -186,4 +182,4 @@ def _seen(node: Node, position: Any, normal: Any, viewer: Viewer) -> Seen | None
         direction = np.asarray(optics.reflect(incident, facing))
     face, row, column = texels_of(direction, cube.size)
     value = np.asarray(cube.sample(direction[None].astype(np.float32))[0])
-    return Seen(direction, FACES[int(face)], (int(row), int(column)), value)
+    return Seen(direction, NAMES[int(face)].lower(), (int(row), int(column)), value)

@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 from .panel import Control
 
 if TYPE_CHECKING:
-    from ..typing import Place
     from .live import LiveView
 
-__all__ = ["Setting", "choice", "flag", "number", "shown_at"]
+__all__ = ["Setting", "choice", "flag", "number"]
 
 T = TypeVar("T")
-View = TypeVar("View", bound="LiveView")
 
 
 class Setting(Generic[T]):
@@ -122,12 +120,3 @@ def choice(doc: str, names: Iterable[str | None]) -> Setting[Any]:
         return value  # type: ignore[no-any-return]
 
     return Setting(check, doc, kind="choice", choices=tuple(a or "none" for a in allowed))
-
-
-def shown_at(view: View, where: Place | None, browser: bool, block: bool | None) -> View:
-    """Show a view that was made for this call; it is closed again if it cannot be shown."""
-    try:
-        return view.show(where, browser=browser, block=block)
-    except BaseException:
-        view.close()
-        raise

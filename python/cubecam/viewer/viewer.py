@@ -19,7 +19,7 @@ from .._core import (
 )
 from ..typing import ControlsName, Encode, Output, Place, Tonemap
 from .controls import Controls, FirstPerson, Orbit, make_controls
-from .live import LiveView
+from .live import LiveView, shown_at
 from .outputs import OUTPUTS, output_picture, probe_picture
 from .picking import Pick, pick_of
 
@@ -466,11 +466,7 @@ def show_scene(
         output=output,
         title=title,
     )
-    try:
-        return viewer.show(where, browser=browser, block=block)
-    except BaseException:
-        viewer.close()
-        raise
+    return shown_at(viewer, where, browser, block)
 
 
 def _extent(scene: Scene) -> Any:
