@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
-    from .io.meshes import load_mesh
+    from .io.meshes.load import load_mesh
     from .io.screen import ClippingWarning, to_screen
     from .optics import fresnel, reflect, refract, schlick
     from .viewer.viewer import Viewer
@@ -38,7 +38,7 @@ else:
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
-            "io.meshes": ["load_mesh"],
+            "io.meshes.load": ["load_mesh"],
             "io.screen": ["ClippingWarning", "to_screen"],
             "optics": ["fresnel", "reflect", "refract", "schlick"],
             "viewer.viewer": ["Viewer"],

@@ -34,7 +34,7 @@ from .data import sample_data
 from .io.cubemaps import load_environment
 from .io.files import PathLike, as_path
 from .io.images import save_animation, save_image
-from .io.meshes import load_mesh
+from .io.meshes.load import load_mesh
 from .io.screen import to_screen
 from .pictures import cube_picture
 

@@ -48,7 +48,7 @@ def test_what_is_loaded_late_looks_as_if_it_were_there():
         names = {}
         exec("from cubecam import *", names)
         assert names["load_mesh"] is cc.load_mesh is vars(cc)["load_mesh"]
-        assert cc.io.meshes.load_mesh is cc.load_mesh
+        assert cc.io.meshes.load.load_mesh is cc.load_mesh
         """
     )
 

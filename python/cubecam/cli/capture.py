@@ -260,7 +260,7 @@ class _Place:
     ) -> _Place:
         import numpy as np
 
-        from ..io.meshes import load_mesh
+        from ..io.meshes.load import load_mesh
 
         if capture is not None or position is not None:
             mesh = load_mesh(path, size=size)

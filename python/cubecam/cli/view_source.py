@@ -107,7 +107,7 @@ def read(path: str) -> Shown:
 def _mesh(path: str) -> Shown:
     from ..data import sample_data
     from ..io.cubemaps import load_environment
-    from ..io.meshes import load_mesh
+    from ..io.meshes.load import load_mesh
 
     mesh = load_mesh(path)
     scene = Scene(environment=load_environment(sample_data(_SAMPLE), size=256), background=_BACK)

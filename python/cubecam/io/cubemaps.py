@@ -209,7 +209,7 @@ def _is_panorama(picture: Picture) -> bool:
 
 def _one_file(path: object) -> Path:
     try:
-        return existing_file(path)
+        return existing_file(path, ImageError)
     except IsADirectoryError as error:
         told = f"{error.strerror}; six files of a folder are named with {{face}}, such as 'sky/{{face}}.png'"
         raise IsADirectoryError(error.errno, told, error.filename) from None
@@ -217,7 +217,7 @@ def _one_file(path: object) -> Path:
 
 def _read_faces(paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
     """Read six square pictures of one size, converted to the most channels and, if types differ, to float32."""
-    pictures = [oiio.read(existing_file(path)).pixels for path in paths]
+    pictures = [oiio.read(existing_file(path, ImageError)).pixels for path in paths]
     faces = [_colors(formats.decode(pixels, srgb)) for pixels in pictures]
     encodings = {formats.encoding_after_decode(pixels, srgb) for pixels in pictures}
     shapes = [face.shape[1::-1] for face in faces]

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from .._calls import checked_call
-from .._core import CubeMap, Frame, Image
+from .._core import CubeMap, Frame, Image, ImageError
 from ..typing import FilePixels, Tonemap
 from . import oiio
 from .cubemap_save import save_cubemap
@@ -72,7 +72,7 @@ def load_image(path: PathLike, *, srgb: bool = False) -> FilePixels:
     >>> studio.shape, studio.dtype.name, float(studio.max())
     ((512, 1024, 3), 'float16', 616.5)
     """
-    return decode(oiio.read(existing_file(path)).pixels, srgb)
+    return decode(oiio.read(existing_file(path, ImageError)).pixels, srgb)
 
 
 @checked_call

@@ -1,0 +1,140 @@
+"""Parts of a mesh file, each at its place in the world, and how they become one mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..._core import Mesh
+
+
+@dataclass
+class Part:
+    """One geometry at its place: V vertices and T triangles.
+
+    `positions` is (V, 3) in world units, `faces` (T, 3) with indices of vertices, counter-clockwise seen from outside.
+    `normals` (V, 3) may have any length, `uvs` (V, 2) have (0, 0) at a picture's bottom-left, `colors` (V, 4) are 0..1
+    with alpha.
+    """
+
+    positions: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.int64]
+    normals: npt.NDArray[np.float64] | None
+    uvs: npt.NDArray[np.float64] | None
+    colors: npt.NDArray[np.float64] | None
+
+
+def placed(part: Part, matrix: npt.NDArray[np.float64]) -> Part:
+    """Move a part to its place: a 4 x 4 matrix, column vectors; a mirroring matrix keeps the outside outside."""
+    linear = matrix[:3, :3]
+    normals = part.normals
+    if normals is not None:
+        # Normals are transformed by the inverse transpose. The matrix of cofactors equals it up to a factor, and exists
+        # for a singular matrix, too.
+        cofactors = np.stack(
+            [
+                np.cross(linear[1], linear[2]),
+                np.cross(linear[2], linear[0]),
+                np.cross(linear[0], linear[1]),
+            ]
+        )
+        normals = normals @ cofactors.T
+    faces = part.faces
+    if np.linalg.det(linear) < 0:
+        normals = None if normals is None else -normals
+        faces = faces[:, ::-1]  # a mirror turns counter-clockwise into clockwise
+    positions = part.positions @ linear.T + matrix[:3, 3]
+    return Part(positions, faces, normals, part.uvs, part.colors)
+
+
+def unit_colors(values: Any) -> npt.NDArray[np.float64]:
+    """Turn vertex colours of any type into 0..1, with an alpha of 1 where there is none."""
+    given = np.asarray(values)
+    scale = np.iinfo(given.dtype).max if given.dtype.kind == "u" else 1
+    colors: npt.NDArray[np.float64] = given.astype(np.float64) / scale
+    if colors.shape[1] == 3:
+        colors = np.concatenate([colors, np.ones((len(colors), 1))], axis=1)
+    return colors
+
+
+def unique_positions(part: Part) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+    """Give each distinct position once, in the order of first use, and each vertex's index among them."""
+    # + 0.0 makes -0.0 equal to 0.0 bit for bit.
+    _, first, inverse = np.unique(
+        part.positions.astype(np.float32) + np.float32(0),
+        axis=0,
+        return_index=True,
+        return_inverse=True,
+    )
+    order = np.argsort(first, kind="stable")
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return part.positions[first[order]], rank[inverse.reshape(-1)]
+
+
+def merged(part: Part) -> Part:
+    positions, index = unique_positions(part)
+    return Part(positions, index[part.faces], None, None, None)
+
+
+def _normals(part: Part) -> npt.NDArray[np.float64]:
+    """Return the file's normals, of length 1, and smooth ones where the file has none or vectors of length 0."""
+    given = part.normals
+    if given is not None:
+        lengths = np.linalg.norm(given, axis=1, keepdims=True)
+        sound = np.isfinite(lengths[:, 0]) & (lengths[:, 0] > 0)
+        if sound.all():
+            unit: npt.NDArray[np.float64] = given / lengths
+            return unit
+    positions, index = unique_positions(part)
+    computed = np.asarray(Mesh(positions, index[part.faces]).normals, dtype=np.float64)
+    smooth: npt.NDArray[np.float64] = computed[index]
+    if given is not None:
+        smooth[sound] = given[sound] / lengths[sound]
+    return smooth
+
+
+def joined(parts: list[Part], size: float | None) -> Mesh:
+    positions = np.concatenate([part.positions for part in parts])
+    starts = np.cumsum([0] + [len(part.positions) for part in parts[:-1]])
+    indices = np.concatenate(
+        [part.faces + start for part, start in zip(parts, starts, strict=True)]
+    )
+    if indices.min() < 0 or indices.max() >= len(positions):
+        raise IndexError(
+            f"expected indices 0 to {len(positions) - 1}, got {indices.min()} to {indices.max()}"
+        )
+    if not np.isfinite(positions).all():
+        raise ValueError("expected finite positions, got NaN or infinity")
+    low, high = positions.min(axis=0), positions.max(axis=0)
+    extent = float((high - low).max())
+    if (
+        extent == 0
+    ):  # trimesh returns such triangles for glTF with a compression that it cannot decode
+        raise ValueError("expected triangles of some extent, got all vertices in one place")
+    if size is not None:
+        positions = (positions - (low + high) / 2) * (size / extent)
+    return Mesh(
+        positions,
+        indices,
+        normals=np.concatenate([_normals(part) for part in parts]),
+        uvs=_column([part.uvs for part in parts], parts, 2, 0.0),
+        colors=_column([part.colors for part in parts], parts, 4, 1.0),
+    )
+
+
+def _column(
+    values: list[npt.NDArray[np.float64] | None], parts: list[Part], width: int, missing: float
+) -> npt.NDArray[np.float64] | None:
+    """Join what some parts have; the others get a constant. None if no part has any."""
+    if all(value is None for value in values):
+        return None
+    return np.concatenate(
+        [
+            np.full((len(part.positions), width), missing) if value is None else value[:, :width]
+            for part, value in zip(parts, values, strict=True)
+        ]
+    )

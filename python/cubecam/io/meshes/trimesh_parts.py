@@ -1,0 +1,123 @@
+"""Parts from objects of trimesh, and from files that trimesh reads."""
+
+from __future__ import annotations
+
+import io
+import re
+import sys
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..._core import Mesh, MeshError
+from .parts import Part, joined, merged, placed, unit_colors
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+def _from_trimesh(mesh: object) -> Mesh:
+    """Make a mesh from a mesh or a scene of trimesh: `Mesh.from_trimesh`, which has the documentation."""
+    # Whoever has an object of trimesh has imported it.
+    trimesh = sys.modules.get("trimesh")
+    if trimesh is None or not isinstance(mesh, (trimesh.Trimesh, trimesh.Scene)):
+        raise TypeError(
+            f"mesh: expected a trimesh.Trimesh or a trimesh.Scene, got {type(mesh).__name__}"
+        )
+    scene: Any = trimesh.Scene([mesh]) if isinstance(mesh, trimesh.Trimesh) else mesh
+    for geometry in scene.geometry.values():
+        if isinstance(geometry, trimesh.Trimesh) and len(geometry.faces):
+            geometry.vertex_normals  # noqa: B018 - so that the cache of trimesh has them, as _placed expects
+    parts = _parts(scene)
+    if not parts:
+        raise ValueError("mesh: expected triangles, got none")
+    return joined(parts, None)
+
+
+def read(path: Path, data: bytes) -> list[Part]:
+    """Read the parts of a file that trimesh reads."""
+    import trimesh
+
+    extension = path.suffix.lower()
+    options: dict[str, Any] = {"skip_materials": True} if extension == ".obj" else {}
+    try:
+        # process=False: no vertex is merged, dropped or moved.
+        if extension == ".obj":
+            text = io.StringIO(_obj_text(data))
+            scene = trimesh.load_scene(text, "obj", process=False, **options)
+        else:
+            scene = trimesh.load_scene(str(path), process=False, **options)
+    except MemoryError:
+        raise
+    except (
+        Exception
+    ) as error:  # trimesh reports broken files with whatever its parsers stumble over
+        raise MeshError(
+            f"cannot be read as {extension[1:]}: {type(error).__name__}: {error}"
+        ) from error
+    parts = _parts(scene)
+    if not parts:
+        kinds = sorted({type(geometry).__name__ for geometry in scene.geometry.values()})
+        raise MeshError(f"expected triangles, got {', '.join(kinds) or 'nothing'} without any")
+    return [merged(part) for part in parts] if extension == ".stl" else parts
+
+
+def _parts(scene: Any) -> list[Part]:
+    """Read each mesh of a trimesh scene that has triangles."""
+    import trimesh
+
+    parts = []
+    for name in scene.graph.nodes_geometry:
+        matrix, key = scene.graph[name]
+        geometry = scene.geometry[key]
+        if isinstance(geometry, trimesh.Trimesh) and len(geometry.faces):
+            if geometry.vertices.shape[1] != 3:
+                got = geometry.vertices.shape[1]
+                raise ValueError(f"expected vertices of three numbers, got {got}")
+            parts.append(_placed(geometry, np.asarray(matrix, dtype=np.float64)))
+    return parts
+
+
+def _obj_text(data: bytes) -> str:
+    """Read an OBJ file as trimesh needs it: as text, and without comments after numbers."""
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")  # names and comments of older exporters
+    text = re.sub(r"^([ \t]*(?:v|vt|vn|f)[ \t][^#\r\n]*)#.*$", r"\1", text, flags=re.MULTILINE)
+    zero = re.search(r"^[ \t]*f(?:[ \t].*?)?[ \t]0(?:[/ \t\r]|$)", text, flags=re.MULTILINE)
+    if zero:
+        raise ValueError(
+            f"expected indices from 1 (or negative ones), got {zero.group().strip()!r}"
+        )
+    return text
+
+
+def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> Part:
+    """Read the data of a trimesh object, and move them to their place."""
+    normals = None
+    # The property would compute missing normals; only the cache shows whether the file has normals.
+    if "vertex_normals" in geometry._cache:
+        normals = geometry.vertex_normals
+    uvs = getattr(geometry.visual, "uv", None)
+    colors = None
+    if geometry.visual.kind == "vertex":
+        colors = unit_colors(geometry.visual.vertex_colors)
+    elif "color" in getattr(geometry.visual, "vertex_attributes", {}):
+        colors = unit_colors(geometry.visual.vertex_attributes["color"])  # beside a texture
+    count = len(geometry.vertices)
+    part = Part(
+        np.asarray(geometry.vertices, dtype=np.float64),
+        np.asarray(geometry.faces, dtype=np.int64),
+        _of_length(normals, count),
+        _of_length(uvs, count),
+        _of_length(colors, count),
+    )
+    return placed(part, matrix)
+
+
+def _of_length(values: Any, count: int) -> npt.NDArray[np.float64] | None:
+    if values is None or len(values) != count:
+        return None
+    return np.asarray(values, dtype=np.float64)
