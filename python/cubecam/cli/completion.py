@@ -42,6 +42,8 @@ def _show(ctx: click.Context, param: click.Parameter, value: str | None) -> None
 def _install(ctx: click.Context, param: click.Parameter, value: str | None) -> None:
     if value is None or ctx.resilient_parsing:
         return
+    from ..io.writing import write_files
+
     shell = _shell(value)
     home = Path.home()
     if shell == "fish":
@@ -51,14 +53,16 @@ def _install(ctx: click.Context, param: click.Parameter, value: str | None) -> N
         data = Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share")
         target = data / "cubecam" / f"complete.{shell}"
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(_script(ctx, shell) + "\n", encoding="utf-8")
+    write_files({target: (_script(ctx, shell) + "\n").encode()})
     click.echo(target)
     if shell != "fish":
         start = home / f".{shell}rc"
-        line = f"source '{target}'"
-        lines = start.read_text(encoding="utf-8") if start.exists() else ""
+        line = f"source '{target}'".encode()
+        lines = start.read_bytes() if start.exists() else b""
         if line not in lines.splitlines():
-            start.write_text(f"{lines.rstrip()}\n{line}\n".lstrip(), encoding="utf-8")
+            write_files(
+                {start: b"%s\n%s\n" % (lines.rstrip(), line) if lines.strip() else line + b"\n"}
+            )
         click.echo(start)
     click.echo("completion works in the next shell")
     ctx.exit()

@@ -11,9 +11,10 @@ from .._core import CubeMap
 from ..typing import Center, Convention, FileLayout, Layout, Tonemap
 from . import formats
 from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
-from .files import as_path, write_files
+from .files import as_path
 from .pixels import Array
 from .screen import Clipping, check_look, curve_for
+from .writing import write_files
 
 if TYPE_CHECKING:
     from pathlib import Path

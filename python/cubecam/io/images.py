@@ -16,7 +16,7 @@ from .._core import CubeMap, Frame, Image, ImageError
 from ..typing import FilePixels, Tonemap
 from . import oiio
 from .cubemap_save import save_cubemap
-from .files import PathLike, as_path, existing_file, write_files
+from .files import PathLike, as_path, existing_file
 from .formats import FORMATS, decode, encode, fit_samples, for_file, holds_light, is_opaque
 from .pixels import Array, FloatArray, check_picture, on_color, to_float32
 from .screen import (
@@ -28,6 +28,7 @@ from .screen import (
     exposed,
     numbers_of,
 )
+from .writing import write_files
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from .._core import FileError
-from .files import PathLike, as_path, replacing
+from .files import PathLike, as_path
+from .writing import replacing
 
 
 def find_ffmpeg(path: Path) -> str:
