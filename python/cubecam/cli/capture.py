@@ -27,11 +27,11 @@ from .common import (
     Triple,
     WholeNumber,
     choice,
-    clipping_told,
     device_option,
     failures_reported,
     look_options,
     parse_device,
+    warnings_reported,
     words,
 )
 from .help import Command, argument, option
@@ -225,7 +225,7 @@ def capture(
             )
             drawn_by = str(renderer.info.renderer)
         written = [output]
-        with clipping_told(output):
+        with warnings_reported(output):
             cube.save(
                 output,
                 layout=wanted,
@@ -278,7 +278,8 @@ class _Place:
 def _read(path: str, srgb: bool, convention: Convention | None) -> CubeMap:
     from ..io.cubemaps import load_environment
 
-    return load_environment(path, srgb=srgb, convention=convention)
+    with warnings_reported(path):
+        return load_environment(path, srgb=srgb, convention=convention)
 
 
 def _surround(

@@ -138,21 +138,24 @@ def parse_place(page: bool, window: bool, terminal: bool) -> Literal["page", "wi
 
 
 @contextlib.contextmanager
-def clipping_told(path: str) -> Iterator[None]:
-    """Tell in one line that numbers were clipped on their way into a file, and which options help."""
+def warnings_reported(path: str) -> Iterator[None]:
+    """Report each warning of cubecam in one line: that numbers of a file were clipped, and which options help."""
+    from .._warnings import ConventionWarning
     from ..io.screen import ClippingWarning
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", ClippingWarning)
+        warnings.simplefilter("always", ConventionWarning)
         yield
-    clipped = [item for item in caught if issubclass(item.category, ClippingWarning)]
-    if clipped:
-        what, _, how = str(clipped[0].message).partition("; ")
-        curve = "--tonemap neutral keeps highlights, " if "tonemap=" in how else ""
-        hint = f"{curve}a lower --exposure makes the picture darker"
-        complain(f"{path}: {what}; {hint}", kind="warning")
     for item in caught:
-        if item not in clipped:
+        if issubclass(item.category, ClippingWarning):
+            what, _, how = str(item.message).partition("; ")
+            curve = "--tonemap neutral keeps highlights, " if "tonemap=" in how else ""
+            hint = f"{curve}a lower --exposure makes the picture darker"
+            complain(f"{path}: {what}; {hint}", kind="warning")
+        elif issubclass(item.category, ConventionWarning):
+            complain(str(item.message), kind="warning")
+        else:
             warnings.warn_explicit(item.message, item.category, item.filename, item.lineno)
 
 

@@ -16,10 +16,10 @@ from .common import (
     Curve,
     WholeNumber,
     choice,
-    clipping_told,
     complain,
     describe,
     look_options,
+    warnings_reported,
     words,
 )
 from .help import Command, argument, option
@@ -96,9 +96,19 @@ T = TypeVar("T")
     note="by the shape of the picture",
 )
 @option(
-    "--from-convention", **choice(Convention), group=_FROM, help=f"{words(Convention)}.", note="gl"
+    "--from-convention",
+    **choice(Convention),
+    group=_FROM,
+    help=f"{words(Convention)}.",
+    note="as the file says, else gl",
 )
-@option("--from-center", **choice(Center), group=_FROM, help=f"{words(Center)}.", note="-z")
+@option(
+    "--from-center",
+    **choice(Center),
+    group=_FROM,
+    help=f"{words(Center)}.",
+    note="as the file says, else -z",
+)
 @option(
     "--srgb",
     is_flag=True,
@@ -124,8 +134,8 @@ def convert(
 ) -> None:
     """Convert cubemaps and panoramas to other layouts and files.
 
-    The format of an output follows from its extension, and the layout of an input from its shape. The convention of an
-    input does not follow from the file: give --from-convention if it is not "gl".
+    The format of an output follows from its extension, and the layout of an input from its shape. Files that cubecam
+    wrote say their convention and centre; for other files give --from-convention if it is not "gl".
     """
     from ..io.cubemaps import load_cubemap
 
@@ -144,16 +154,17 @@ def convert(
     failed = 0
     for item in _with_progress(names):
         try:
-            cube = load_cubemap(
-                item.source,
-                layout=from_layout,
-                convention=from_convention,
-                size=size,
-                center=from_center,
-                srgb=srgb,
-            )
+            with warnings_reported(item.source):
+                cube = load_cubemap(
+                    item.source,
+                    layout=from_layout,
+                    convention=from_convention,
+                    size=size,
+                    center=from_center,
+                    srgb=srgb,
+                )
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
-            with clipping_told(item.path):
+            with warnings_reported(item.path):
                 cube.save(
                     item.path,
                     layout=item.layout,

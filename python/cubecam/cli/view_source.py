@@ -18,7 +18,7 @@ from .. import (
     PhongMaterial,
     Scene,
 )
-from ..io.cubemap_names import FACE_NAMES
+from ..io.cubemap_names import spellings
 
 if TYPE_CHECKING:
     from ..viewer.live import LiveView
@@ -68,7 +68,7 @@ class Shown:
 
 def stamp(path: str, shown: Shown | None = None) -> tuple[object, ...]:
     """Say in which state the files are: another answer means that one of them was written again."""
-    faces = [face for row in FACE_NAMES for face in row] if "{face}" in path else [""]
+    faces = [face for row in spellings() for face in row] if "{face}" in path else [""]
     names = [Path(path.replace("{face}", face)) for face in faces]
     found: list[object] = []
     for name in (*names, *(shown.files if shown else ())):

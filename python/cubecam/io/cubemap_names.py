@@ -11,11 +11,20 @@ from .files import PathLike, as_path
 
 Source: TypeAlias = PathLike | Sequence[PathLike]
 
-# The texts that replace {face} in a name, in the order of the faces. The first row is written; all rows are read.
+# The texts that replace {face} in a name, in the order of the faces. The first row is written; all rows are read, in
+# this order, also in capitals.
 FACE_NAMES = (
     ("px", "nx", "py", "ny", "pz", "nz"),
     ("posx", "negx", "posy", "negy", "posz", "negz"),
     ("pos-x", "neg-x", "pos-y", "neg-y", "pos-z", "neg-z"),
+    ("pos_x", "neg_x", "pos_y", "neg_y", "pos_z", "neg_z"),
+    ("xpos", "xneg", "ypos", "yneg", "zpos", "zneg"),
+    ("+x", "-x", "+y", "-y", "+z", "-z"),
+    ("right", "left", "top", "bottom", "front", "back"),
+    ("right", "left", "up", "down", "front", "back"),
+    ("rt", "lf", "up", "dn", "ft", "bk"),
+    ("0", "1", "2", "3", "4", "5"),
+    ("1", "2", "3", "4", "5", "6"),
 )
 CONVENTIONS: tuple[Convention, ...] = get_args(Convention)
 CENTERS: tuple[Center, ...] = get_args(Center)
@@ -59,11 +68,36 @@ def six_paths(path: Source, for_reading: bool) -> list[Path] | None:
     name = str(as_path(path))
     if "{face}" not in name:
         return None
-    choices = [[Path(name.replace("{face}", face)) for face in names] for names in FACE_NAMES]
     if not for_reading:
-        return choices[0]
-    for paths in choices:
-        if any(item.exists() for item in paths):
-            return paths
-    tried = ", ".join(str(paths[0]) for paths in choices)
-    raise FileNotFoundError(2, f"no such files; {{face}} was tried as in {tried}", name)
+        return _replaced(name, FACE_NAMES[0])
+    best: list[Path] = []
+    most = 0
+    for row in spellings():
+        paths = _replaced(name, row)
+        found = sum(path.exists() for path in paths)
+        if found > most:
+            best, most = paths, found
+        if found == 6:
+            break
+    if best:
+        return best
+    tried = ", ".join(dict.fromkeys(names[0] for names in FACE_NAMES))
+    told = f"no such files; {{face}} was tried as {tried} (for +X), also in capitals"
+    raise FileNotFoundError(2, told, name)
+
+
+def spellings() -> list[tuple[str, ...]]:
+    """List all rows of names that {face} stands for when files are read: each as it is, and in capitals."""
+    forms = (
+        str,
+        str.upper,
+        str.capitalize,  # Right, Posx
+        lambda text: text[:-1] + text[-1:].upper(),  # posX
+        lambda text: text[:1].upper() + text[1:-1] + text[-1:].upper(),  # PosX
+    )
+    rows = [tuple(form(text) for text in names) for form in forms for names in FACE_NAMES]
+    return list(dict.fromkeys(rows))
+
+
+def _replaced(name: str, row: Sequence[str]) -> list[Path]:
+    return [Path(name.replace("{face}", face)) for face in row]

@@ -10,10 +10,11 @@ from .._calls import checked_call
 from .._core import CubeMap
 from ..typing import Center, Convention, FileLayout, Layout, Tonemap
 from . import formats
-from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
+from .cubemap_names import FACE_NAMES, Source, check_names, check_openexr, layout_name, six_paths
 from .files import as_path
 from .pixels import Array
 from .screen import Clipping, check_look, curve_for
+from .stored_as import StoredAs
 from .writing import write_files
 
 if TYPE_CHECKING:
@@ -110,9 +111,14 @@ def save_cubemap(
         faces = cube.to_convention(convention or "gl")
         contents = {
             target: formats.encode(
-                target, ready(face, formats.holds_light(target, cube.faces)), half=half
+                target,
+                ready(face, formats.holds_light(target, cube.faces)),
+                half=half,
+                attributes=StoredAs(
+                    layout="faces", convention=convention or "gl", face=name
+                ).attributes(),
             )
-            for target, face in zip(paths, faces, strict=True)
+            for target, face, name in zip(paths, faces, FACE_NAMES[0], strict=True)
         }
         clipping.warn()
         write_files(contents)
@@ -122,6 +128,7 @@ def save_cubemap(
             f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
         )
     target = as_path(path)
+    stored = StoredAs(layout=wanted or "cross", convention=convention or "gl")
     attributes: dict[str, Any] = {}
     # Numbers of a screen are 8-bit and hold no NaN, so that they lose their alpha later.
     light = formats.holds_light(target, cube.faces)
@@ -132,6 +139,7 @@ def save_cubemap(
     exact = formats.stores(target, cube.dtype) and (kept or light)
     resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
+        stored = StoredAs(layout=wanted, center=center)
         picture = ready(source.to_equirect(width=width, center=center, dtype=resampled), light)
     elif wanted == "openexr":
         if target.suffix.lower() != ".exr":
@@ -141,6 +149,7 @@ def save_cubemap(
         check_openexr(convention)
         picture = ready(source.to_layout("openexr", dtype=resampled), light)
         # OpenImageIO writes the attribute envmap from this text, and rejects a number under that name.
+        stored = StoredAs(layout=wanted, convention="inside")
         attributes["textureformat"] = "CubeFace Environment"
     elif shown:
         # The six faces alone are mapped and encoded, since half of a cross is empty.
@@ -149,6 +158,7 @@ def save_cubemap(
     else:
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
         picture = ready(picture, light)
+    attributes |= stored.attributes()
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
     clipping.warn()
     write_files({target: encoded})

@@ -13,9 +13,10 @@ from .._calls import checked_call
 from .._core import CubeMap, ImageError
 from ..typing import Center, Convention, FileLayout, Layout
 from . import formats, oiio
-from .cubemap_names import Source, check_names, check_openexr, layout_name, six_paths
+from .cubemap_names import FACE_NAMES, Source, check_names, check_openexr, layout_name, six_paths
 from .files import existing_file
 from .pixels import Array, to_float32
+from .stored_as import StoredAs, chosen
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -45,18 +46,20 @@ def load_cubemap(
     Parameters
     ----------
     path : path, sequence of six paths, or a name with {face}
-        Six paths are in the order +X -X +Y -Y +Z -Z. In a name such as "park/{face}.jpg", {face} stands for
-        px nx py ny pz nz, posx negx ..., or pos-x neg-x ..., depending on which files exist.
+        Six paths are in the order +X -X +Y -Y +Z -Z. In a name such as "park/{face}.jpg", {face} stands for the first
+        of these rows that has all six files: px nx py ny pz nz; posx negx ...; pos-x ...; pos_x ...; xpos xneg ...;
+        +x -x ...; right left top bottom (or up down) front back; rt lf up dn ft bk; 0 to 5; 1 to 6; also in capitals.
     layout : str, optional
         "cross", "vertical_cross", "row", "column", "equirect", "openexr", or "faces" for six files. None: the layout
         follows from the shape: 4:3, 3:4, 6:1, 1:6, 2:1.
     convention : {"gl", "inside", "three"}, optional
-        How the faces are stored. No file states its convention, so the default is "gl", except for OpenEXR environment
-        cubes, which are always "inside". A panorama has no faces and no convention.
+        How the faces are stored. None: as the file says, if cubecam wrote it as EXR, PNG, TIFF, JPEG or TGA; "inside"
+        for OpenEXR environment cubes, which always are; else "gl". A panorama has no faces and no convention.
     size : int, optional
         Texels along an edge of a face. None: as stored; for a panorama, the power of two that keeps all detail.
     center : {"-z", "+z", "+x", "-x"}, optional
-        The direction in the middle of a panorama. None: "-z", or "+z" for OpenEXR panoramas.
+        The direction in the middle of a panorama. None: as the file says, if cubecam wrote it; else "-z", or "+z" for
+        OpenEXR panoramas.
     srgb : bool
         Decode files of 8 and 16 bits to linear float32, as `load_image` does. False keeps their numbers, and the
         cube's `encoding` is "srgb".
@@ -80,6 +83,11 @@ def load_cubemap(
     ValueError
         For a shape of no layout, faces that are not square or not of one size, or unknown names.
 
+    Warns
+    -----
+    ConventionWarning
+        If cubecam wrote the file with another convention or centre than the one given here, or as another face.
+
     Notes
     -----
     In an EXR file with the attribute `envmap`, samples lie on the borders of the faces, by OpenEXR's rule. Such
@@ -98,8 +106,10 @@ def load_cubemap(
     if paths is not None:
         if wanted not in (None, "faces"):
             raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
-        faces, encoding = _read_faces(paths, srgb)
-        cube = CubeMap(faces, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding)
+        files = [oiio.read(existing_file(item, ImageError)) for item in paths]
+        convention = _convention_of_six(files, paths, convention)
+        faces, encoding = _faces(files, paths, srgb)
+        cube = CubeMap(faces, convention=convention, mipmaps=mipmaps, encoding=encoding)
     else:
         if wanted == "faces":
             raise ValueError(
@@ -107,6 +117,9 @@ def load_cubemap(
             )
         found = _one_file(path)
         picture = oiio.read(found)
+        stored = StoredAs.read(picture.attributes)
+        convention = chosen("convention", convention, stored.convention, found)
+        center = chosen("center", center, stored.center, found)
         try:
             cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps, dtype)
         except ValueError as error:
@@ -192,8 +205,11 @@ def _load_shown(path: str) -> tuple[CubeMap, bool]:
         return load_cubemap(path), False
     found = _one_file(path)
     picture = oiio.read(found)
+    stored = StoredAs.read(picture.attributes)
     try:
-        cube = _from_picture(picture, False, None, None, None, None, False, None)
+        cube = _from_picture(
+            picture, False, None, stored.convention, None, stored.center, False, None
+        )
     except ValueError as error:
         raise ValueError(f"{found}: {error}") from error
     return cube, _is_panorama(picture)
@@ -215,9 +231,9 @@ def _one_file(path: object) -> Path:
         raise IsADirectoryError(error.errno, told, error.filename) from None
 
 
-def _read_faces(paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
-    """Read six square pictures of one size, converted to the most channels and, if types differ, to float32."""
-    pictures = [oiio.read(existing_file(path, ImageError)).pixels for path in paths]
+def _faces(files: list[Picture], paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
+    """Stack six square pictures of one size, converted to the most channels and, if types differ, to float32."""
+    pictures = [file.pixels for file in files]
     faces = [_colors(formats.decode(pixels, srgb)) for pixels in pictures]
     encodings = {formats.encoding_after_decode(pixels, srgb) for pixels in pictures}
     shapes = [face.shape[1::-1] for face in faces]
@@ -232,6 +248,24 @@ def _read_faces(paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
     channels = max(face.shape[2] for face in faces)
     encoding: Encoding = "srgb" if encodings == {"srgb"} else "linear"
     return np.stack([_with_channels(face, channels) for face in faces]), encoding
+
+
+def _convention_of_six(
+    files: list[Picture], paths: list[Path], given: Convention | None
+) -> Convention:
+    """Return the convention to read six files in; warn where a file says something else."""
+    stored = [StoredAs.read(file.attributes) for file in files]
+    for path, item, name in zip(paths, stored, FACE_NAMES[0], strict=True):
+        chosen("face", name, item.face, path)
+    stated = list(dict.fromkeys(item.convention for item in stored if item.convention))
+    if given is None and len(stated) > 1:
+        raise ValueError(
+            f"expected six files of one convention, got {' and '.join(stated)} in {paths[0].parent}; "
+            "convention= reads them anyway"
+        )
+    for convention in stated:
+        given = chosen("convention", given, convention, paths[0])
+    return given or "gl"
 
 
 def _with_channels(face: Array, channels: int) -> Array:

@@ -8,17 +8,15 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import sys
-import warnings
 from contextvars import ContextVar
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from .._calls import checked_call
 from .._core import CubeMap, Frame, Image
+from .._warnings import warn_user
 from ..typing import Encode, Encoding, Tonemap
 from .pixels import Array, FloatArray, check_colors, on_color, srgb_decode, srgb_encode, to_float32
 
@@ -31,7 +29,6 @@ __all__ = ["ClippingWarning", "to_screen"]
 
 Picture: TypeAlias = Frame | CubeMap | Image
 
-_PACKAGE = str(Path(__file__).resolve().parents[1])
 _LARGEST = np.float32(
     1e18
 )  # the square of the largest light must be finite, as in shaders/passes/tonemap.frag
@@ -235,11 +232,10 @@ class Clipping:
         """Warn, at the user's line, if anything was clipped."""
         if not self.over:
             return
-        warnings.warn(
+        warn_user(
             f"{self.over} of {self.total} numbers are above 1 and are clipped, the largest is {self.largest:.4g}; "
             f"{self.advice}.exr holds all numbers",
             ClippingWarning,
-            stacklevel=_level_of_the_user(),
         )
 
 
@@ -258,14 +254,6 @@ def warn_if_clipped(color: Array, advice: str) -> None:
         clipping.advice = advice
     if gathering is None:
         clipping.warn()
-
-
-def _level_of_the_user() -> int:
-    """Count the calls from `warnings.warn` up to the first line outside this package."""
-    level, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
-        level, frame = level + 1, frame.f_back
-    return level
 
 
 def _neutral(linear: FloatArray) -> FloatArray:

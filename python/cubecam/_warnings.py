@@ -1,0 +1,25 @@
+"""Warnings that point at the user's own line."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from pathlib import Path
+
+__all__ = ["ConventionWarning", "warn_user"]
+
+_PACKAGE = str(Path(__file__).resolve().parent)
+
+
+class ConventionWarning(UserWarning):
+    """A file that cubecam wrote in one convention is read as if it were in another one."""
+
+    __module__ = "cubecam"
+
+
+def warn_user(text: str, category: type[Warning]) -> None:
+    """Warn at the first line outside this package that led to the call."""
+    level, frame = 1, sys._getframe(0)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
+    warnings.warn(text, category, stacklevel=level)

@@ -1,0 +1,64 @@
+"""What a file of cubecam says about itself: layout, convention, centre, face.
+
+The text stands in the description of the file: the attribute `comments` of EXR, the text `Description` of PNG, the tag
+`ImageDescription` of TIFF and JPEG. OpenImageIO names all of them `ImageDescription`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
+
+from .._warnings import ConventionWarning, warn_user
+from .cubemap_names import CENTERS, CONVENTIONS, FACE_NAMES, LAYOUTS
+
+Name = TypeVar("Name")
+
+ATTRIBUTE = "ImageDescription"
+_KNOWN: dict[str, tuple[str, ...]] = {
+    "layout": LAYOUTS,
+    "convention": CONVENTIONS,
+    "center": CENTERS,
+    "face": FACE_NAMES[0],
+}
+_TEXT = re.compile(r"^cubecam: (\w+=[^, ]+(?:, \w+=[^, ]+)*)\s*$")
+
+
+@dataclass(frozen=True)
+class StoredAs:
+    """How the texels of a file are stored; None where the file does not say it."""
+
+    layout: Any = None
+    convention: Any = None
+    center: Any = None
+    face: Any = None
+
+    def attributes(self) -> dict[str, str]:
+        """Give the attribute that OpenImageIO writes."""
+        named = [(field.name, getattr(self, field.name)) for field in fields(self)]
+        told = ", ".join(f"{name}={value}" for name, value in named if value is not None)
+        return {ATTRIBUTE: f"cubecam: {told}"}
+
+    @staticmethod
+    def read(attributes: Mapping[str, Any]) -> StoredAs:
+        """Read what `attributes` wrote; other texts and unknown words say nothing."""
+        match = _TEXT.match(str(attributes.get(ATTRIBUTE, "")))
+        if not match:
+            return StoredAs()
+        pairs = (pair.split("=", 1) for pair in match[1].split(", "))
+        known = {name: value for name, value in pairs if value in _KNOWN.get(name, ())}
+        return StoredAs(**known)
+
+
+def chosen(what: str, given: Name | None, stated: Name | None, file: object) -> Name | None:
+    """Return the caller's name, or else the file's; warn if they differ."""
+    if given is None or stated is None:
+        return stated if given is None else given
+    if str(given).lower() != stated:
+        warn_user(
+            f"{file}: cubecam wrote this file with {what}={stated!r}, and it is read with {what}={given!r}",
+            ConventionWarning,
+        )
+    return given
