@@ -22,10 +22,10 @@ __all__ = ["load_mesh"]
 _READERS = {
     ".obj": ".trimesh_parts",
     ".ply": ".trimesh_parts",
-    ".stl": ".trimesh_parts",
+    ".stl": ".stl",
     ".gltf": ".trimesh_parts",
     ".glb": ".trimesh_parts",
-    ".off": ".trimesh_parts",
+    ".off": ".off",
 }
 
 

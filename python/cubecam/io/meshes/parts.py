@@ -62,12 +62,14 @@ def unit_colors(values: Any) -> npt.NDArray[np.float64]:
 
 def unique_positions(part: Part) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
     """Give each distinct position once, in the order of first use, and each vertex's index among them."""
-    # + 0.0 makes -0.0 equal to 0.0 bit for bit.
+    # + 0.0 makes -0.0 equal to 0.0 bit for bit. Sorting whole numbers is much faster than sorting rows.
+    x, y, z = (
+        (part.positions.astype(np.float32) + np.float32(0)).view(np.uint32).T.astype(np.uint64)
+    )
+    half = np.uint64(32)
+    _, columns = np.unique(x << half | y, return_inverse=True)
     _, first, inverse = np.unique(
-        part.positions.astype(np.float32) + np.float32(0),
-        axis=0,
-        return_index=True,
-        return_inverse=True,
+        columns.reshape(-1).astype(np.uint64) << half | z, return_index=True, return_inverse=True
     )
     order = np.argsort(first, kind="stable")
     rank = np.empty_like(order)
