@@ -55,21 +55,42 @@ bool shape_matches(const py::array& array, std::string_view pattern) {
     return true;
 }
 
-/// The value as an array of real numbers, made by numpy if it is a list. Raises TypeError for other
-/// types.
-py::array real_array(py::handle value, const char* name) {
-    py::array array;
-    if (py::isinstance<py::array>(value)) {
-        array = py::reinterpret_borrow<py::array>(value);
-    } else {
-        try {
-            array = py::module_::import("numpy").attr("asarray")(value);
-        } catch (py::error_already_set& error) {
-            if (!error.matches(PyExc_ValueError)) throw;
-            throw py::value_error(std::string(name) +
-                                  ": expected an array of numbers, got rows of unequal length");
-        }
+/// Whether an array is of a type that can hide values, and hides some. Such a type has a mask and
+/// the method filled(): numpy.ma.MaskedArray and its subclasses, and the masked arrays of astropy.
+/// The attributes are enough to know them, so numpy.ma is not imported.
+bool hides_values(py::handle value) {
+    // Plain arrays, which most callers pass, have no mask.
+    if (Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
+    if (!py::isinstance<py::array>(value)) return false;
+    if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return false;
+    return py::bool_(py::module_::import("numpy").attr("any")(value.attr("mask")));
+}
+
+/// Raises TypeError for an array that hides values; lists and tuples are searched as deep as numpy
+/// reads them.
+void check_nothing_hidden(py::handle value, const char* name, int depth = 64) {
+    if (hides_values(value)) {
+        throw py::type_error(std::string(name) +
+                             ": expected an array without hidden values, got a masked array; fill "
+                             "them with .filled(value)");
     }
+    if (depth == 0) return;
+    const bool list = PyList_Check(value.ptr()) != 0;
+    if (!list && PyTuple_Check(value.ptr()) == 0) return;
+    const auto length = [&] {
+        return list ? PyList_GET_SIZE(value.ptr()) : PyTuple_GET_SIZE(value.ptr());
+    };
+    for (Py_ssize_t i = 0; i < length(); ++i) {
+        PyObject* item = list ? PyList_GET_ITEM(value.ptr(), i) : PyTuple_GET_ITEM(value.ptr(), i);
+        if (PyFloat_CheckExact(item) || PyLong_CheckExact(item)) continue;
+        // The attributes of an array may run Python code, which may change the list.
+        check_nothing_hidden(py::reinterpret_borrow<py::object>(item), name, depth - 1);
+    }
+}
+
+/// The value as an array of real numbers. Raises TypeError for other types.
+py::array real_array(py::handle value, const char* name) {
+    const py::array array = to_array(value, name);
     const char kind = array.dtype().kind();
     if (kind != 'f' && kind != 'i' && kind != 'u') {
         throw py::type_error(std::string(name) + ": expected real numbers, got dtype " +
@@ -161,6 +182,21 @@ py::array readonly_values(const Vector& value, std::vector<py::ssize_t> shape) {
 }
 
 }  // namespace
+
+py::array to_array(py::handle value, const char* name) {
+    check_nothing_hidden(value, name);
+    if (py::isinstance<py::array>(value)) return py::reinterpret_borrow<py::array>(value);
+    try {
+        // Of an object that gives a masked array to numpy, asarray would return the hidden values.
+        const py::object array = py::module_::import("numpy").attr("asanyarray")(value);
+        check_nothing_hidden(array, name);
+        return py::module_::import("numpy").attr("asarray")(array);
+    } catch (py::error_already_set& error) {
+        if (!error.matches(PyExc_ValueError)) throw;
+        throw py::value_error(std::string(name) +
+                              ": expected an array of numbers, got rows of unequal length");
+    }
+}
 
 std::string shape_text(const py::array& array) {
     std::string text = "(";

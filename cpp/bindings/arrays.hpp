@@ -8,6 +8,8 @@
 ///
 /// Real numbers of any width, integers included, are converted, from arrays, lists and tuples.
 /// bool, complex, object, str and dates raise TypeError; wrong shapes and values raise ValueError.
+/// A masked array raises TypeError if its mask hides a value, since the number behind the mask
+/// means nothing.
 #pragma once
 
 #include "objects.hpp"
@@ -41,6 +43,11 @@ enum class Values {
 
 template <typename T>
 using ContiguousArray = py::array_t<T, py::array::c_style>;
+
+/// The value as an array of numpy, which makes one of lists and tuples. All arguments that take an
+/// array are read by this function. Raises TypeError for a masked array that hides values, also in
+/// lists and tuples, and ValueError for rows of unequal length.
+py::array to_array(py::handle value, const char* name);
 
 /// "(3, 7)".
 std::string shape_text(const py::array& array);

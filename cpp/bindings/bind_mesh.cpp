@@ -36,7 +36,7 @@ std::string rows_of(std::optional<std::size_t> vertices, int columns) {
 /// Colours from an array (V, 3) or (V, 4); uint8 stands for value/255.
 std::vector<glm::vec4> to_vertex_colors(py::handle colors,
                                         std::optional<std::size_t> vertices = std::nullopt) {
-    const py::array given = py::module_::import("numpy").attr("asarray")(colors);
+    const py::array given = to_array(colors, "colors");
     const bool bytes = given.dtype().kind() == 'u' && given.itemsize() == 1;
     const bool rgb = given.ndim() == 2 && given.shape(1) == 3;
     const bool rgba = given.ndim() == 2 && given.shape(1) == 4;

@@ -14,6 +14,7 @@
 
 // Each function stands in the file of its name.
 void bind_pickling(pybind11::module_& module);
+void bind_arrays(pybind11::module_& module);
 void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
@@ -77,6 +78,7 @@ PYBIND11_MODULE(_core, module) {
     module.attr("__version__") = CUBECAM_VERSION;
 
     bind_pickling(module);
+    bind_arrays(module);
     bind_errors(module);
     bind_device(module);
     // These classes name each other in signatures, so they are declared before any method is

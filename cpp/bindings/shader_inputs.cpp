@@ -67,13 +67,11 @@ UserSource read_again(const UserSource& source, const char* name) {
 
 UniformValue to_uniform(py::handle value, const std::string& name) {
     py::object given = py::reinterpret_borrow<py::object>(value);
-    if (!py::isinstance<py::str>(given) && !py::isinstance<py::bytes>(given)) {
-        const py::object array = py::module_::import("numpy").attr("asarray")(given);
-        if (array.attr("dtype").attr("kind").cast<std::string>() == "b") {
-            given = array.attr("astype")("float64");
-        }
-    }
     const std::string what = "uniform " + name;
+    if (!py::isinstance<py::str>(given) && !py::isinstance<py::bytes>(given)) {
+        const py::array array = to_array(given, what.c_str());
+        if (array.dtype().kind() == 'b') given = array.attr("astype")("float64");
+    }
     const ContiguousArray<double> array = double_array(given, what.c_str(), "(...)");
     UniformValue uniform{to_vector(array), {}};
     for (py::ssize_t axis = 0; axis < array.ndim(); ++axis) {

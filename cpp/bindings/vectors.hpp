@@ -42,10 +42,9 @@ inline glm::dvec3 to_point(py::handle value, const char* name) {
 
 /// Three numbers, or one number that stands for all three.
 inline glm::dvec3 to_scale(py::handle value, const char* name) {
-    if (py::module_::import("numpy").attr("ndim")(value).cast<int>() > 0) {
-        return to_point(value, name);
-    }
-    return glm::dvec3(*double_array(value, name, "()").data());
+    const py::array given = to_array(value, name);
+    if (given.ndim() > 0) return to_point(given, name);
+    return glm::dvec3(*double_array(given, name, "()").data());
 }
 
 /// The quaternion (w, x, y, z), of any length except 0.

@@ -6017,6 +6017,11 @@ def _shaded_outputs() -> list[str]:
     Names of the outputs that shaders write, for the command line.
     """
 
+def _to_array(value: object, name: str) -> np.typing.NDArray[np.generic]:
+    """
+    The value as an array. Raises TypeError for a masked array that hides values, also in lists and tuples, and ValueError for rows of unequal length.
+    """
+
 def axis_angle(
     axis: np.typing.ArrayLike, degrees: typing.SupportsFloat | typing.SupportsIndex
 ) -> np.typing.NDArray[np.float64]:

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import checked_call
-from ._core import OrthographicCamera, PerspectiveCamera
+from ._core import OrthographicCamera, PerspectiveCamera, _to_array
 
 if TYPE_CHECKING:
     Vector: TypeAlias = npt.NDArray[np.float64]
@@ -324,7 +324,7 @@ def _number(value: Any, name: str) -> float:
 
 
 def _direction(value: Any) -> Vector:
-    given = np.asarray(value)
+    given = _to_array(value, "direction")
     if given.dtype.kind not in "iuf":
         raise TypeError(f"direction: expected three numbers, got {given.dtype}")
     vector = given.astype(np.float64)

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import checked_call
+from ._core import _to_array
 
 __all__ = ["fresnel", "reflect", "refract", "schlick"]
 
@@ -227,10 +228,7 @@ def _directions(incident: npt.ArrayLike, normal: npt.ArrayLike) -> tuple[Any, An
 
 
 def _numbers(value: npt.ArrayLike, name: str, kind: npt.DTypeLike) -> Any:
-    try:
-        array = np.asarray(value)
-    except ValueError as error:  # rows of unequal length
-        raise ValueError(f"{name}: expected an array of numbers, got {error}") from error
+    array = _to_array(value, name)
     if array.dtype.kind not in "iuf":
         got = f"dtype {array.dtype}" if array.dtype.kind in "bc" else type(value).__name__
         raise TypeError(f"{name}: expected real numbers, got {got}")

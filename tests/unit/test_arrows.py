@@ -59,7 +59,7 @@ PYTHON_KNOWS = {
     "_calls": set(),
     "_late": set(),
     "navigation": {"_core", "_calls"},
-    "optics": {"_calls"},
+    "optics": {"_core", "_calls"},
     "_shader_inputs": {"_core"},
     "_pickling": {"_core"},
 }

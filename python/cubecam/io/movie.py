@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import FileError
+from .._core import FileError, _to_array
 from .files import PathLike, as_path
 from .writing import replacing
 
@@ -76,7 +76,7 @@ def save_mp4(path: PathLike, frames: Iterable[Any], fps: float) -> None:
 def _pixels(picture: Any, shape: tuple[int, ...] | None) -> Any:
     if picture is None:
         raise ValueError("frames: expected at least one picture, got none")
-    pixels = np.asarray(picture)
+    pixels = _to_array(picture, "frames")
     if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] not in (3, 4):
         raise ValueError(
             f"frames: expected uint8 pictures (H, W, 3 or 4), got {pixels.dtype} {pixels.shape}"

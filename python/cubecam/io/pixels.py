@@ -7,6 +7,8 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from .._core import _to_array
+
 Array: TypeAlias = npt.NDArray[Any]
 FloatArray: TypeAlias = npt.NDArray[np.float32]
 
@@ -50,7 +52,7 @@ def check_picture(pixels: Any, name: str = "pixels") -> Array:
     ValueError
         For another shape, or an empty array.
     """
-    array = np.asarray(pixels)
+    array = _to_array(pixels, name)
     if array.dtype.kind not in "uif":
         hint = " (a mask: pass mask.astype(numpy.uint8) * 255)" if array.dtype.kind == "b" else ""
         raise TypeError(
@@ -78,7 +80,7 @@ def check_colors(pixels: Any, name: str = "pixels") -> Array:
     ValueError
         For another shape, or an empty array.
     """
-    array = np.asarray(pixels)
+    array = _to_array(pixels, name)
     if array.dtype.kind != "f" and array.dtype not in (np.uint8, np.uint16):
         raise TypeError(f"{name}: expected floats, uint8 or uint16, got {_describe(pixels, array)}")
     if array.ndim == 2:

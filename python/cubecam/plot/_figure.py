@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from .._core import CubeMap, Frame, Image
+from .._core import CubeMap, Frame, Image, _to_array
 from ..io import screen
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def numbers_of(thing: object) -> Array:
         raise TypeError(
             f"expected numbers, got the name {os.fspath(thing)!r}: cc.load_cubemap and cc.load_image read files"
         )
-    pixels = np.asarray(thing)
+    pixels = _to_array(thing, "numbers")
     if pixels.dtype.kind not in "buif":
         raise TypeError(f"expected an array of numbers, got dtype {pixels.dtype}")
     return pixels

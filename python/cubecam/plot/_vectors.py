@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
-from .._core import Camera, CubeMap, Frame
+from .._core import Camera, CubeMap, Frame, _to_array
 from ._faces import NAMES, TABLE, cells, cross_of
 from ._figure import APART, axes_for, is_cube, numbers_of
 from ._pictures import decorate_cross
@@ -223,7 +223,7 @@ def arrows(
         raise TypeError(
             f"vectors: expected a dict of names to vectors, got {type(vectors).__name__}"
         )
-    start = np.asarray(origins, float)
+    start = _to_array(origins, "origins").astype(float)
     if start.shape[-1:] != (3,):
         raise ValueError(f"origins: expected shape (..., 3), got {start.shape}")
     if not start.size:
@@ -233,7 +233,7 @@ def arrows(
         raise ValueError(f"towards: expected names of vectors, got {unknown[0]!r}")
     pairs: dict[str, Array] = {}
     for name, values in vectors.items():
-        vector = np.asarray(values, float)
+        vector = _to_array(values, name).astype(float)
         if vector.shape[-1:] != (3,):
             raise ValueError(f"{name}: expected shape (..., 3), got {vector.shape}")
         try:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
-from .._core import CubeMap
+from .._core import CubeMap, _to_array
 from ..typing import Center, Convention, CubeMode, Place, Theme, Tonemap
 from .cube_drawing import THEMES, Painter, draw_legend, draw_names, outline
 from .cube_maps import Cross, Look, Panorama
@@ -253,7 +253,7 @@ class CubeView(LiveView):
         ValueError
             For anything but three finite numbers that are not all 0.
         """
-        r = np.asarray(direction, float)
+        r = _to_array(direction, "direction").astype(float)
         if r.shape != (3,) or not np.isfinite(r).all() or not r.any():
             raise ValueError(
                 f"direction: expected three finite numbers, not all 0, got {direction!r}"

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import optics
-from .._core import CubeMap, GlassMaterial, MirrorMaterial, Node, OrthographicCamera, Probe
+from .._core import (
+    CubeMap,
+    GlassMaterial,
+    MirrorMaterial,
+    Node,
+    OrthographicCamera,
+    Probe,
+    _to_array,
+)
 from ..navigation import Standing
 from ..plot._faces import NAMES, texels_of
 
@@ -125,7 +133,9 @@ def uv_at(node: Node, position: npt.ArrayLike) -> tuple[float, float] | None:
     if mesh is None or mesh.uvs is None:
         return None
     world = np.asarray(node.world_matrix, np.float64)
-    local = np.linalg.solve(world, np.append(np.asarray(position, np.float64), 1.0))[:3]
+    local = np.linalg.solve(
+        world, np.append(_to_array(position, "position").astype(np.float64), 1.0)
+    )[:3]
     corners = np.asarray(mesh.indices).reshape(-1, 3)
     a, b, c = (np.asarray(mesh.positions, np.float64)[corners[:, i]] for i in range(3))
     weights = _nearest_weights(a, b, c, local)

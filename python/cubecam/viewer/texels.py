@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from .._core import CubeMap, Face
+from .._core import CubeMap, Face, _to_array
 from ..io.pixels import on_color, srgb_decode, to_float32
 from ..plot._faces import NAMES, TABLE, cells, texels_of
 from ..typing import Convention
@@ -98,7 +98,7 @@ class Texel:
 
 def texel_of(cube: CubeMap, direction: npt.ArrayLike, *, level: int = 0) -> Texel:
     """Find the texel of a cube that a direction of any length but 0 meets; `level` is noted only."""
-    r = np.asarray(direction, float)
+    r = _to_array(direction, "direction").astype(float)
     r = r / np.linalg.norm(r)
     face, row, column = (int(i) for i in texels_of(r, cube.size))
     stored = cube.faces[face, row, column]
