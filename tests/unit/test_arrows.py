@@ -35,6 +35,7 @@ PYTHON_ORDER = (
     "_core",
     "_calls",  # errors of wrong calls, in words
     "_late",
+    "_warnings",
     "data",  # the packaged files and their list
     "io",
     "pictures",
@@ -58,6 +59,7 @@ PYTHON_ORDER = (
 PYTHON_KNOWS = {
     "_calls": set(),
     "_late": set(),
+    "_warnings": set(),
     "navigation": {"_core", "_calls"},
     "optics": {"_core", "_calls"},
     "_shader_inputs": {"_core"},
