@@ -10,6 +10,8 @@ import numpy.typing as npt
 
 from ..._core import Mesh
 
+_MOST = float(np.finfo(np.float32).max)
+
 
 @dataclass
 class Part:
@@ -25,6 +27,32 @@ class Part:
     normals: npt.NDArray[np.float64] | None
     uvs: npt.NDArray[np.float64] | None
     colors: npt.NDArray[np.float64] | None
+
+    def __post_init__(self) -> None:
+        """Drop vertices without a place if no triangle has them, as scanners write them; else raise ValueError."""
+        sound = (np.abs(self.positions) <= _MOST).all(axis=1)
+        if sound.all():
+            return
+        check_indices(self.faces, len(sound))
+        used = np.zeros_like(sound)
+        used[self.faces] = True
+        bad = np.flatnonzero(used & ~sound)
+        if len(bad):
+            x, y, z = self.positions[bad[0]]
+            raise ValueError(
+                f"expected finite positions that fit float32, got ({x:g}, {y:g}, {z:g}) as vertex {bad[0]}"
+            )
+        self.positions = self.positions[sound]
+        self.faces = (np.cumsum(sound) - 1)[self.faces]
+        self.normals = None if self.normals is None else self.normals[sound]
+        self.uvs = None if self.uvs is None else self.uvs[sound]
+        self.colors = None if self.colors is None else self.colors[sound]
+
+
+def check_indices(faces: npt.NDArray[np.int64], count: int) -> None:
+    """Raise IndexError if triangles have other vertices than `count` ones."""
+    if faces.size and (faces.min() < 0 or faces.max() >= count):
+        raise IndexError(f"expected indices 0 to {count - 1}, got {faces.min()} to {faces.max()}")
 
 
 def placed(part: Part, matrix: npt.NDArray[np.float64]) -> Part:
@@ -100,22 +128,19 @@ def _normals(part: Part) -> npt.NDArray[np.float64]:
 
 
 def joined(parts: list[Part], size: float | None) -> Mesh:
+    """Make one mesh of parts; with a `size`, centred and scaled to that largest extent."""
+    for part in parts:
+        check_indices(part.faces, len(part.positions))
+    if not any(len(part.faces) for part in parts):
+        raise ValueError("expected triangles, got none")
     positions = np.concatenate([part.positions for part in parts])
     starts = np.cumsum([0] + [len(part.positions) for part in parts[:-1]])
     indices = np.concatenate(
         [part.faces + start for part, start in zip(parts, starts, strict=True)]
     )
-    if indices.min() < 0 or indices.max() >= len(positions):
-        raise IndexError(
-            f"expected indices 0 to {len(positions) - 1}, got {indices.min()} to {indices.max()}"
-        )
-    if not np.isfinite(positions).all():
-        raise ValueError("expected finite positions, got NaN or infinity")
     low, high = positions.min(axis=0), positions.max(axis=0)
     extent = float((high - low).max())
-    if (
-        extent == 0
-    ):  # trimesh returns such triangles for glTF with a compression that it cannot decode
+    if extent == 0:
         raise ValueError("expected triangles of some extent, got all vertices in one place")
     if size is not None:
         positions = (positions - (low + high) / 2) * (size / extent)
