@@ -21,7 +21,7 @@ __all__ = ["load_mesh"]
 # The module that reads each kind of file with its function `read(path, data)`.
 _READERS = {
     ".obj": ".trimesh_parts",
-    ".ply": ".trimesh_parts",
+    ".ply": ".ply",
     ".stl": ".stl",
     ".gltf": ".trimesh_parts",
     ".glb": ".trimesh_parts",
