@@ -23,8 +23,8 @@ _READERS = {
     ".obj": ".trimesh_parts",
     ".ply": ".trimesh_parts",
     ".stl": ".trimesh_parts",
-    ".gltf": ".trimesh_parts",
-    ".glb": ".trimesh_parts",
+    ".gltf": "..gltf",
+    ".glb": "..gltf",
     ".off": ".trimesh_parts",
 }
 
