@@ -70,22 +70,27 @@ def layout(entry: Entry) -> Layout:
     return Layout(count, kind, component, normalized and component.kind in "iu")
 
 
-def stored(entry: Entry, view: Callable[[Entry], View | None], most: int) -> Array:
+def stored(entry: Entry, view: Callable[[Entry], View | None], most: Callable[[], int]) -> Array:
     """Read the numbers of an accessor as they are stored: without `normalized`, with `sparse`.
 
     `view(entry)` returns the buffer view that an entry refers to. An accessor without one is all zeros; its count may
-    not be above `most`, because a file of a few bytes may claim any count. The result may show the file's own bytes.
+    not be above `most()`, because a file of a few bytes may claim any count. The result may show the file's own bytes.
     """
     form = layout(entry)
     found = view(entry)
+    entry_of_sparse = entry.entry("sparse")
+    # Before the limit is asked, because it depends on the bytes that were read.
+    sparse = None if entry_of_sparse is None else _sparse(entry_of_sparse, view, form)
     if found is not None:
         values = _elements(form, found, entry)
+    elif form.count > most():
+        raise entry.error("count", f"at most {most()} elements without a buffer view")
     else:
-        if form.count > most:
-            raise entry.error("count", f"at most {most} elements without a buffer view")
         values = np.zeros(form.shape, form.component)
-    sparse = entry.entry("sparse")
-    return values if sparse is None else _replaced(values, sparse, view, form)
+    if sparse is not None:
+        values = np.array(values)
+        values[sparse[0]] = sparse[1]
+    return values
 
 
 def decoded(values: Array, normalized: bool) -> Array:
@@ -125,6 +130,8 @@ def _elements(form: Layout, view: View, entry: Entry) -> Array:
         raise MeshError(
             f"{entry.where}: expected {end} bytes in its buffer view, got {len(view.data)}"
         )
+    if form.count == 1:
+        stride = size  # the stride has no meaning then, and may be any number
     values: Array = np.ndarray(
         (form.count, columns, rows), form.component, view.data, offset, (stride, column, width)
     )
@@ -132,10 +139,10 @@ def _elements(form: Layout, view: View, entry: Entry) -> Array:
     return values.transpose(0, 2, 1) if columns > 1 else values.reshape(form.shape)
 
 
-def _replaced(
-    values: Array, sparse: Entry, view: Callable[[Entry], View | None], form: Layout
-) -> Array:
-    """Put the sparse elements in their places (section 3.6.2.3)."""
+def _sparse(
+    sparse: Entry, view: Callable[[Entry], View | None], form: Layout
+) -> tuple[Array, Array]:
+    """Read the places of sparse elements and the elements (section 3.6.2.3)."""
     count = sparse.integer("count")
     if count > form.count:
         raise sparse.error("count", f"at most the accessor's {form.count} elements")
@@ -149,9 +156,7 @@ def _replaced(
         raise MeshError(
             f"{where.where}: expected increasing indices below {form.count}, got others"
         )
-    result = np.array(values)
-    result[places] = new
-    return result
+    return places, new
 
 
 def _sparse_part(form: Layout, entry: Entry, view: Callable[[Entry], View | None]) -> Array:

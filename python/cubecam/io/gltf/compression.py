@@ -16,6 +16,7 @@ from ..._core import MeshError
 from .accessors import Layout
 from .entries import Entry
 from .extensions import DRACO, MESHOPT
+from .limits import Limits
 
 if TYPE_CHECKING:
     from .document import Gltf
@@ -56,7 +57,8 @@ def _has_fallback(document: Gltf, view: Entry, name: str) -> bool:
         return False
     buffer = document.entry("buffers", view.integer("buffer"))
     placeholder = buffer.extension(name)
-    return "uri" in buffer and not (placeholder is not None and placeholder.flag("fallback"))
+    there = "uri" in buffer or (view.integer("buffer") == 0 and document.has_binary)
+    return there and not (placeholder is not None and placeholder.flag("fallback"))
 
 
 def _meshopt(document: Gltf, view: Entry, entry: Entry, name: str, meshopt: Any) -> memoryview:
@@ -100,21 +102,17 @@ def _meshopt(document: Gltf, view: Entry, entry: Entry, name: str, meshopt: Any)
 class Draco:
     """A decoded Draco mesh: `faces` (T, 3), `count` vertices, and `attributes`, (count, n) by unique id."""
 
-    def __init__(self, document: Gltf, entry: Entry, most: int) -> None:
-        """Decode the buffer view of a primitive's extension, if it has at most `most` vertices and triangles."""
-        view = entry.index("bufferView", document.count("bufferViews"))
-        if view is None:
-            raise entry.error("bufferView", "an index")
+    def __init__(self, entry: Entry, data: bytes, limits: Limits) -> None:
+        """Decode the bytes that a primitive's extension, `entry`, refers to."""
         draco = package("DracoPy", DRACO)
-        data = bytes(document.view(view).data)
         try:
             vertices, triangles = draco_counts(data)
         except (IndexError, ValueError) as error:
             raise self._error(entry, error) from None
-        if vertices + triangles > most:
+        if vertices + triangles > limits.left:
             raise MeshError(
-                f"{entry.where}: expected at most {most} vertices and triangles in bytes of {DRACO}, "
-                f"got {vertices} and {triangles}"
+                f"{entry.where}: expected at most {limits.left} vertices and triangles in bytes of "
+                f"{DRACO}, got {vertices} and {triangles}"
             )
         try:
             mesh = draco.decode(data)

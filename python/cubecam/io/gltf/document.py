@@ -6,7 +6,6 @@ import functools
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from ..._core import MeshError
@@ -89,6 +88,11 @@ class Gltf:
         return NodeTree(self.all("nodes"))
 
     @property
+    def has_binary(self) -> bool:
+        """Whether the file is a GLB with a chunk of binary data, which is the first buffer."""
+        return self._binary is not None
+
+    @property
     def most_bytes(self) -> int:
         """How many bytes one compressed buffer view may become: 8 MiB, and 64 for each byte of the file."""
         return _FREE_BYTES + 64 * self.size
@@ -107,7 +111,7 @@ class Gltf:
             dtype is that of the file. Read-only, except where `sparse` made a copy.
         """
         entry = self.entry("accessors", index)
-        return accessors.stored(entry, self._view_of, _FREE_ELEMENTS + 2 * self.size)
+        return accessors.stored(entry, self._view_of, lambda: _FREE_ELEMENTS + 2 * self.size)
 
     def accessor(self, index: int) -> npt.NDArray[Any]:
         """Return the numbers that an accessor stands for: those of `stored`, with `normalized` integers as float64."""
@@ -169,7 +173,3 @@ class Gltf:
                 raise MeshError(f"{entry.path('uri')}: {error}") from None
             self.size += len(self._files[uri])
         return self._files[uri]
-
-
-def as_floats(values: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
-    return np.asarray(values, dtype=np.float64)
