@@ -23,8 +23,8 @@ _READERS = {
     ".obj": ".trimesh_parts",
     ".ply": ".ply",
     ".stl": ".stl",
-    ".gltf": ".trimesh_parts",
-    ".glb": ".trimesh_parts",
+    ".gltf": "..gltf",
+    ".glb": "..gltf",
     ".off": ".off",
 }
 

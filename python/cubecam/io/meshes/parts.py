@@ -110,7 +110,7 @@ def merged(part: Part) -> Part:
     return Part(positions, index[part.faces], None, None, None)
 
 
-def _normals(part: Part) -> npt.NDArray[np.float64]:
+def unit_normals(part: Part) -> npt.NDArray[np.float64]:
     """Return the file's normals, of length 1, and smooth ones where the file has none or vectors of length 0."""
     given = part.normals
     if given is not None:
@@ -147,7 +147,7 @@ def joined(parts: list[Part], size: float | None) -> Mesh:
     return Mesh(
         positions,
         indices,
-        normals=np.concatenate([_normals(part) for part in parts]),
+        normals=np.concatenate([unit_normals(part) for part in parts]),
         uvs=_column([part.uvs for part in parts], parts, 2, 0.0),
         colors=_column([part.colors for part in parts], parts, 4, 1.0),
     )
