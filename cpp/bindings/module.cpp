@@ -19,6 +19,7 @@ void bind_errors(pybind11::module_& module);
 void bind_device(pybind11::module_& module);
 void bind_cubemap(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
+void bind_radiance(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_blend(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
@@ -90,6 +91,7 @@ PYBIND11_MODULE(_core, module) {
 
     bind_cubemap(module);
     bind_image(module);
+    bind_radiance(module);
     bind_mesh(module);
     bind_blend(module);
     bind_stencil(module);

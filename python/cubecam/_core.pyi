@@ -6007,6 +6007,18 @@ def _newest_revision() -> int:
     The newest revision of this process. While it stays the same, no object has changed.
     """
 
+def _read_radiance(
+    data: bytes,
+    start: typing.SupportsInt | typing.SupportsIndex,
+    scanlines: typing.SupportsInt | typing.SupportsIndex,
+    length: typing.SupportsInt | typing.SupportsIndex,
+) -> np.typing.NDArray[np.float32]:
+    """
+    The scanlines of a Radiance picture, (scanlines, length, 3) float32.
+
+    ValueError names the scanline that is broken.
+    """
+
 def _restore_frame(state: tuple[object, ...]) -> Frame:
     """
     For unpickling.

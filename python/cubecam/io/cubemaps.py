@@ -12,9 +12,10 @@ import numpy as np
 from .._calls import checked_call
 from .._core import CubeMap, ImageError
 from ..typing import Center, Convention, FileLayout, Layout
-from . import formats, oiio
+from . import formats
 from .cubemap_names import FACE_NAMES, Source, check_names, check_openexr, layout_name, six_paths
 from .files import existing_file
+from .picture_files import Part, read_picture
 from .pixels import Array, to_float32
 from .stored_as import StoredAs, chosen
 
@@ -40,6 +41,7 @@ def load_cubemap(
     srgb: bool = False,
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
+    part: Part | None = None,
 ) -> CubeMap:
     """Read a cubemap from six files or one.
 
@@ -67,6 +69,9 @@ def load_cubemap(
         Let lookups in the result be trilinear.
     dtype : dtype, optional
         "uint8", "float16" or "float32". None: uint8 from 8 bits, float16 from half, else float32.
+    part : int or str, optional
+        Which picture of a file that holds several, as in `load_image`; of a DDS file with several cubemaps, which
+        cubemap. Of six files, the same part of each.
 
     Returns
     -------
@@ -79,9 +84,11 @@ def load_cubemap(
     OSError
         If a file does not exist (FileNotFoundError), or may not be read.
     ImageError
-        If a file is not a picture, or ends early.
+        If a file is not a picture, ends early, or claims more pixels than its bytes can hold; for kinds that are not
+        read, such as KTX2; for a DDS cubemap without all six faces.
     ValueError
-        For a shape of no layout, faces that are not square or not of one size, or unknown names.
+        For a shape of no layout, faces that are not square or not of one size, unknown names, or a part that the file
+        does not have.
 
     Warns
     -----
@@ -92,6 +99,9 @@ def load_cubemap(
     -----
     In an EXR file with the attribute `envmap`, samples lie on the borders of the faces, by OpenEXR's rule. Such
     files are resampled; all other cubemaps are copied texel by texel.
+
+    A DDS cubemap holds its faces one by one, in the order +X -X +Y -Y +Z -Z. Its first level is read; `mipmaps=True`
+    makes levels anew from it.
 
     Examples
     --------
@@ -106,7 +116,7 @@ def load_cubemap(
     if paths is not None:
         if wanted not in (None, "faces"):
             raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
-        files = [oiio.read(existing_file(item, ImageError)) for item in paths]
+        files = [read_picture(item, part) for item in paths]
         convention = _convention_of_six(files, paths, convention)
         faces, encoding = _faces(files, paths, srgb)
         cube = CubeMap(faces, convention=convention, mipmaps=mipmaps, encoding=encoding)
@@ -116,7 +126,7 @@ def load_cubemap(
                 f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
             )
         found = _one_file(path)
-        picture = oiio.read(found)
+        picture = read_picture(found, part, faces=True)
         stored = StoredAs.read(picture.attributes)
         convention = chosen("convention", convention, stored.convention, found)
         center = chosen("center", center, stored.center, found)
@@ -147,6 +157,7 @@ def load_environment(
     srgb: bool = False,
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
+    part: Part | None = None,
 ) -> CubeMap:
     """Read the surroundings of a scene: an equirectangular photograph, or any file that `load_cubemap` reads.
 
@@ -158,7 +169,7 @@ def load_environment(
         Texels along an edge of a face. None: the next power of two from width / pi, which keeps all detail.
     center : {"-z", "+z", "+x", "-x"}, optional
         The direction in the middle of the panorama: "-z", straight ahead, by default.
-    layout, convention, srgb, mipmaps, dtype
+    layout, convention, srgb, mipmaps, dtype, part
         As in `load_cubemap`.
 
     Returns
@@ -196,6 +207,7 @@ def load_environment(
         srgb=srgb,
         mipmaps=mipmaps,
         dtype=dtype,
+        part=part,
     )
 
 
@@ -204,7 +216,7 @@ def _load_shown(path: str) -> tuple[CubeMap, bool]:
     if six_paths(path, for_reading=True) is not None:
         return load_cubemap(path), False
     found = _one_file(path)
-    picture = oiio.read(found)
+    picture = read_picture(found, faces=True)
     stored = StoredAs.read(picture.attributes)
     try:
         cube = _from_picture(
@@ -218,8 +230,10 @@ def _load_shown(path: str) -> tuple[CubeMap, bool]:
 def _is_panorama(picture: Picture) -> bool:
     """Whether a picture of no given layout is a panorama: twice as wide as high, or named so by its file."""
     height, width = picture.pixels.shape[:2]
-    return picture.environment != "cube" and (
-        width == 2 * height or picture.environment == "latlong"
+    return (
+        picture.faces is None
+        and picture.environment != "cube"
+        and (width == 2 * height or picture.environment == "latlong")
     )
 
 
@@ -293,8 +307,15 @@ def _from_picture(
     mipmaps: bool,
     dtype: npt.DTypeLike | None,
 ) -> CubeMap:
-    pixels = _colors(formats.decode(picture.pixels, srgb))
     encoding = formats.encoding_after_decode(picture.pixels, srgb)
+    if picture.faces is not None:
+        if layout is not None:
+            raise ValueError(
+                f"layout: expected None for a DDS cubemap, which holds faces, got {layout!r}"
+            )
+        faces = _colors(formats.decode(picture.faces, srgb))
+        return CubeMap(faces, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding)
+    pixels = _colors(formats.decode(picture.pixels, srgb))
     height, width = pixels.shape[:2]
     if picture.environment == "cube" and layout is None:
         layout = "openexr"

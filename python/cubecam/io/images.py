@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from .._calls import checked_call
-from .._core import CubeMap, Frame, Image, ImageError
+from .._core import CubeMap, Frame, Image
 from ..typing import FilePixels, Tonemap
-from . import oiio
 from .cubemap_save import save_cubemap
-from .files import PathLike, as_path, existing_file
+from .files import PathLike, as_path
 from .formats import FORMATS, decode, encode, fit_samples, for_file, holds_light, is_opaque
+from .picture_files import Part, read_picture
 from .pixels import Array, FloatArray, check_picture, on_color, to_float32
 from .screen import (
     CURVES,
@@ -39,17 +39,22 @@ __all__ = ["load_image", "save_animation", "save_frame", "save_image"]
 
 
 @checked_call
-def load_image(path: PathLike, *, srgb: bool = False) -> FilePixels:
+def load_image(path: PathLike, *, srgb: bool = False, part: Part | None = None) -> FilePixels:
     """Read a picture as it is stored.
 
     Parameters
     ----------
     path : str or os.PathLike
-        A file in EXR, HDR, PNG, JPEG, TIFF, WebP or another format that OpenImageIO reads. The format follows from the
-        contents, not from the name.
+        A file in EXR, HDR, PNG, JPEG, TIFF, WebP, DDS or another format that OpenImageIO reads. The format follows from
+        the contents, not from the name.
     srgb : bool
         True decodes files of 8 and 16 bits from the sRGB curve (IEC 61966-2-1) to linear float32; alpha stays as it
         is. Files of floating-point numbers are linear already and stay as they are.
+    part : int or str, optional
+        Which picture of a file that holds several: a number from 0 on (the parts of an EXR, the pages of a TIFF, the
+        frames of a GIF or WebP, the faces of a DDS cubemap), or the name of a part, a view or a layer of an EXR, or of
+        a face ("+X") of a DDS cubemap. None: the first part of an EXR with the channels R, G, B, else with Y; of other
+        files the first picture.
 
     Returns
     -------
@@ -64,7 +69,16 @@ def load_image(path: PathLike, *, srgb: bool = False) -> FilePixels:
     OSError
         If there is no file of that name (FileNotFoundError), or it may not be read.
     ImageError
-        If the contents are not a picture, or end early.
+        If the contents are not a picture, end early, or claim more pixels than their bytes can hold; for kinds that are
+        not read, such as KTX2 and deep EXR; for a DDS cubemap, which `load_cubemap` reads, without `part`.
+    ValueError
+        For a part that the file does not have.
+
+    Notes
+    -----
+    The pixels of an EXR are those of its display window, 0 outside the data window. The numbers of a Radiance file are
+    component / 256 * 2**(exponent - 128), divided by its EXPOSURE and COLORCORR, in any orientation and coding; XYZ is
+    converted to RGB of Radiance's primaries and white, and may be below 0.
 
     Examples
     --------
@@ -73,7 +87,7 @@ def load_image(path: PathLike, *, srgb: bool = False) -> FilePixels:
     >>> studio.shape, studio.dtype.name, float(studio.max())
     ((512, 1024, 3), 'float16', 616.5)
     """
-    return decode(oiio.read(existing_file(path, ImageError)).pixels, srgb)
+    return decode(read_picture(path, part).pixels, srgb)
 
 
 @checked_call

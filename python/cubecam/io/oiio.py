@@ -1,4 +1,5 @@
-"""The only file that calls OpenImageIO: it reads picture files to arrays with attributes, and writes them.
+"""The only file that calls OpenImageIO: it reads picture files to arrays with attributes, and
+writes them. `picture_files.read_picture` chooses who reads a file.
 
 OpenImageIO is imported when the first file is read or written, not with `cubecam`.
 """
@@ -13,10 +14,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import ImageError
+from .picture_kinds import FREE_PIXELS, most_bytes
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from .picture_kinds import Kind
     from .pixels import Array
 
 # OpenImageIO's names of the sample types that are read without conversion; all other types are read as float.
@@ -37,12 +40,26 @@ _SAMPLES = {
 }
 
 
+_TYPES = {"uint8": "uint8", "uint16": "uint16", "half": "float16"}
+# Packings of which a block, or a bit, may stand for any number of pixels, so that a file's length bounds nothing.
+_UNBOUNDED = {
+    "openexr": ("dwa", "htj2k"),
+    "tiff": ("ccitt", "zstd", "webp", "lerc", "lzma", "jxl", "jp2", "jpeg2000"),
+}
+_MOST_CHANNELS = 1024
+_MOST_PARTS = 4096
+
+
 @dataclass(frozen=True)
 class Picture:
-    """The contents of a file: (H, W, C) pixels, row 0 on top, C of 1, 3 or 4, and its attributes by name."""
+    """The contents of a file: (H, W, C) pixels, row 0 on top, C of 1, 3 or 4, and its attributes by name.
+
+    `faces` are those of a file that holds them one by one, (6, N, N, C) in the order +X -X +Y -Y +Z -Z.
+    """
 
     pixels: Array
     attributes: dict[str, Any] = field(default_factory=dict)
+    faces: Array | None = None
 
     @property
     def environment(self) -> str:
@@ -51,42 +68,165 @@ class Picture:
         return {"CubeFace Environment": "cube", "LatLong Environment": "latlong"}.get(text, "")
 
 
-def read(path: Path) -> Picture:
-    """Read the first picture of a file.
+def read(path: Path, kind: Kind, part: int | str | None = None) -> Picture:
+    """Read a picture of a file of a known kind.
+
+    `part` is a number or, in an EXR file, the name of a part, of a view or of a layer. None is the first part of an EXR
+    file that has colours, else the first picture.
 
     Raises
     ------
     ImageError
-        When the contents are not a picture that OpenImageIO reads, or end early.
+        When the contents are not a picture that OpenImageIO reads, end early, or claim more than their bytes hold.
+    ValueError
+        For a part that the file does not have.
     """
+    return _read(str(path), path.stat().st_size, kind, part)
+
+
+def read_bytes(data: bytes, kind: Kind) -> Picture:
+    """Read the first picture of a file that is in memory."""
+    with _MemoryFile("." + kind.name) as memory:
+        memory.write(data)
+        return _read(memory.name, len(data), kind, None)
+
+
+def _read(name: str, length: int, kind: Kind, part: int | str | None) -> Picture:
     import OpenImageIO as oiio
 
     config = oiio.ImageSpec()
     # Without this attribute colour is multiplied by alpha, and the colour where alpha is 0 is lost.
     config.attribute("oiio:UnassociatedAlpha", 1)
-    file = oiio.ImageInput.open(str(path), config)
+    file = oiio.ImageInput.open(name, config)
     if file is None:
-        raise ImageError(
-            f"{path}: expected a picture file (EXR, HDR, PNG, JPEG, ...): {_reason(oiio)}"
-        )
+        raise ImageError(f"expected {kind.told} that can be read: {_reason(oiio)}")
     try:
-        spec = file.spec()
+        # OpenImageIO tries the reader of the extension first, and some readers need no file.
+        if file.format_name() != kind.name:
+            raise ImageError(f"expected {kind.told}, which starts so, got {file.format_name()}")
+        try:
+            index, layer = _find_part(file, kind, part)
+            spec = file.spec()
+            attributes: dict[str, Any] = {item.name: item.value for item in spec.extra_attribs}
+            names = list(spec.channelnames)
+        except UnicodeDecodeError as error:
+            raise ImageError(f"expected names in UTF-8 in the header, got {error}") from error
+        chosen = _channels(names, layer)
+        _check_claim(spec, attributes, kind, length)
         stored = _STORED.get(str(spec.format), "float")
-        pixels = file.read_image(0, 0, 0, spec.nchannels, stored)
+        pixels = file.read_image(index, 0, 0, spec.nchannels, stored)
         problem = _reason(file)
     finally:
         file.close()
     # OpenImageIO fills a JPEG that ends early with grey, and reports the error only by a message.
     if pixels is None or "remature end" in problem:
-        raise ImageError(f"{path}: the picture is broken or ends early: {problem}")
-    try:
-        attributes: dict[str, Any] = {item.name: item.value for item in spec.extra_attribs}
-        names = list(spec.channelnames)
-    except UnicodeDecodeError as error:
-        raise ImageError(f"{path}: expected names in UTF-8 in the header, got {error}") from error
-    pixels = _window(np.atleast_3d(pixels), spec)
-    pixels = _by_name(pixels, names, path)
+        raise ImageError(f"the picture is broken or ends early: {problem}")
+    pixels = np.atleast_3d(pixels)
+    if chosen != list(range(len(names))):
+        pixels = pixels[:, :, chosen]
+    pixels = _window(pixels, spec)
     return Picture(_upright(pixels, int(attributes.get("Orientation", 1))), attributes)
+
+
+def _check_claim(spec: Any, attributes: dict[str, Any], kind: Kind, length: int) -> None:
+    """Compare the size that a header claims with what the bytes of the file may hold, before memory is taken."""
+    if spec.deep:
+        raise ImageError("expected one sample a pixel, got a deep EXR file")
+    if spec.depth > 1:
+        raise ImageError(f"expected a picture, got a volume of {spec.depth} layers")
+    if spec.nchannels > _MOST_CHANNELS:
+        raise ImageError(f"expected at most {_MOST_CHANNELS} channels, got {spec.nchannels}")
+    size = spec.nchannels * np.dtype(_TYPES.get(str(spec.format), "float32")).itemsize
+    # A tile is decoded as a whole, also where it is larger than the picture.
+    width = max(spec.width, spec.tile_width)
+    height = max(spec.height, spec.tile_height)
+    packing = str(attributes.get("compression", "")).lower()
+    ratio = kind.ratio
+    if packing.startswith(_UNBOUNDED.get(kind.name, ("no packing",))):
+        ratio = None
+    elif kind.name == "tiff" and ratio is not None:
+        bits = int(attributes.get("oiio:BitsPerSample", 8))
+        ratio *= max(1, 8 // max(bits, 1)) * (
+            3 if attributes.get("tiff:PhotometricInterpretation") == 3 else 1
+        )
+    most = most_bytes(ratio, length, width * height, size)
+    if width * height * size > most:
+        raise ImageError(
+            f"expected at most {most} bytes of numbers in {length} bytes of {kind.told}, got a header of "
+            f"{spec.width} x {spec.height} pixels of {size} bytes"
+            + (f" in tiles of {spec.tile_width} x {spec.tile_height}" if spec.tile_width else "")
+        )
+    # Outside the data there are zeros, which take no bytes of the file.
+    full = spec.full_width * spec.full_height
+    if full > FREE_PIXELS and full * size > most:
+        raise ImageError(
+            f"expected a display window of at most {FREE_PIXELS} pixels, or {most} bytes, for {spec.width} x "
+            f"{spec.height} pixels of data, got {spec.full_width} x {spec.full_height}"
+        )
+
+
+def _find_part(file: Any, kind: Kind, part: int | str | None) -> tuple[int, str | None]:
+    """Go to a part of a file; give its number and, if `part` names a layer, its name."""
+    if part is None and kind.name != "openexr":
+        return 0, None
+    if isinstance(part, int):
+        if file.seek_subimage(part, 0):
+            return part, None
+        parts = _parts(file)
+    else:
+        parts = _parts(file)
+        found = _first_colors(parts) if part is None else _named(parts, part)
+        if found is not None:
+            if not file.seek_subimage(found[0], 0):
+                raise ImageError(f"the header of part {found[0]} is broken: {_reason(file)}")
+            return found
+    told = ", ".join(
+        f"{index} {item.name!r}" if item.name else str(index) for index, item in enumerate(parts)
+    )
+    layers = sorted({layer for item in parts for layer in item.layers if layer})
+    more = f" or a layer: {', '.join(layers)}" if layers else ""
+    raise ValueError(f"part: expected one of {told}{more}; got {part!r}")
+
+
+@dataclass(frozen=True)
+class _Part:
+    name: str
+    view: str
+    layers: dict[str, list[str]]  # the channels of each layer, "" for those without one
+
+
+def _parts(file: Any) -> list[_Part]:
+    found: list[_Part] = []
+    while len(found) < _MOST_PARTS and file.seek_subimage(len(found), 0):
+        spec = file.spec()
+        layers: dict[str, list[str]] = {}
+        for channel in spec.channelnames:
+            layer, _, name = channel.rpartition(".")
+            layers.setdefault(layer, []).append(name.lower())
+        name = spec.getattribute("oiio:subimagename") or spec.getattribute("name") or ""
+        found.append(_Part(str(name), str(spec.getattribute("view") or ""), layers))
+    return found
+
+
+def _first_colors(parts: list[_Part]) -> tuple[int, str | None]:
+    for has in (lambda names: {"r", "g", "b"} <= names, lambda names: "y" in names):
+        for index, part in enumerate(parts):
+            if any(has(set(names)) for names in part.layers.values()):
+                return index, None
+    return 0, None
+
+
+def _named(parts: list[_Part], name: str) -> tuple[int, str | None] | None:
+    for index, part in enumerate(parts):
+        if name == part.name:
+            return index, None
+    for index, part in enumerate(parts):
+        if name == part.view:
+            return index, None
+    for index, part in enumerate(parts):
+        if name and name in part.layers:
+            return index, name
+    return None
 
 
 def encode(
@@ -132,6 +272,10 @@ class _MemoryFile:
             self._fd, self.name = tempfile.mkstemp(suffix=extension)
             self._on_disk = True
 
+    def write(self, data: bytes) -> None:
+        with open(self._fd, "wb", closefd=False) as file:
+            file.write(data)
+
     def read(self) -> bytes:
         with open(self._fd, "rb", closefd=False) as file:
             file.seek(0)
@@ -172,24 +316,35 @@ def _window(pixels: Array, spec: Any) -> Array:
     return picture
 
 
-def _by_name(pixels: Array, names: list[str], path: Path) -> Array:
-    """Pick red, green, blue and alpha by name: EXR channels of mixed types come in another order."""
-    layers = [name.rpartition(".")[0] for name in names]
+def _channels(names: list[str], layer: str | None) -> list[int]:
+    """Pick red, green, blue and alpha by name: EXR channels of mixed types come in another order.
+
+    `layer` is the one to take; None is the first one with colours, those without a layer before all others.
+    """
     lower = [name.lower() for name in names]
-    for layer in dict.fromkeys(["", *layers]):
-        prefix = layer.lower() + "." if layer else ""
-        found = [lower.index(prefix + c) for c in "rgb" if prefix + c in lower]
-        if len(found) == 3:
-            alpha = [lower.index(prefix + "a")] if prefix + "a" in lower else []
-            return pixels[:, :, found + alpha]
-    if len(names) in (1, 3, 4):
-        return pixels
-    if len(names) == 2 and "a" in lower:
-        alpha_at = lower.index("a")
-        return pixels[:, :, [1 - alpha_at] * 3 + [alpha_at]]
-    raise ImageError(
-        f"{path}: expected 1, 3 or 4 channels, or some named R, G, B; got {', '.join(names)}"
-    )
+    wanted = [layer] if layer is not None else ["", *(name.rpartition(".")[0] for name in names)]
+    if {"ry", "by"} & set(lower):
+        raise ImageError(
+            f"expected R, G, B or Y, got luminance and chroma ({', '.join(names)}), which are not read"
+        )
+    for prefix in dict.fromkeys(f"{name.lower()}." if name else "" for name in wanted):
+        places = {c: lower.index(prefix + c) for c in "rgbya" if prefix + c in lower}
+        alpha = [places["a"]] if "a" in places else []
+        if {"r", "g", "b"} <= places.keys():
+            return [places["r"], places["g"], places["b"], *alpha]
+        # Grey: a single channel is kept as one.
+        if "y" in places and (layer is not None or len(names) not in (1, 3, 4)):
+            return [places["y"]] * 3 + alpha if alpha else [places["y"]]
+    if layer is not None:
+        own = [i for i, name in enumerate(names) if name.rpartition(".")[0] == layer]
+    else:
+        own = list(range(len(names)))
+    if len(own) in (1, 3, 4):
+        return own
+    if len(own) == 2 and "a" in [lower[i].rpartition(".")[2] for i in own]:
+        alpha = [i for i in own if lower[i].rpartition(".")[2] == "a"]
+        return [i for i in own if i not in alpha] * 3 + alpha
+    raise ImageError(f"expected 1, 3 or 4 channels, or some named R, G, B; got {', '.join(names)}")
 
 
 def _upright(pixels: Array, orientation: int) -> Array:

@@ -1,0 +1,133 @@
+"""Read a picture file of any kind: by its contents, Radiance, DDS, or what OpenImageIO reads."""
+
+from __future__ import annotations
+
+import operator
+from typing import TypeAlias
+
+import numpy as np
+
+from .._core import ImageError
+from . import dds, oiio, radiance
+from .files import existing_file, read_file
+from .oiio import Picture
+from .picture_kinds import DDS, find_kind, refused_kind
+from .pixels import Array
+
+#: A part of a file that holds several pictures: a number from 0 on, or a name.
+Part: TypeAlias = int | str
+
+
+def read_picture(path: object, part: Part | None = None, *, faces: bool = False) -> Picture:
+    """Read a picture of a file.
+
+    `faces` gives a DDS cubemap as one picture with `faces`, of which `part` counts; else the parts of a DDS file are
+    its faces.
+
+    Raises
+    ------
+    OSError
+        As `existing_file`.
+    ImageError
+        When the contents are not a picture that is read, end early, or claim more than their bytes can hold.
+    ValueError
+        For a part that the file does not have.
+    TypeError
+        For a part that is neither a whole number nor a name.
+    """
+    part = _checked(part)
+    found = existing_file(path, ImageError)
+    with found.open("rb") as file:
+        start = file.read(64)
+        length = file.seek(0, 2)
+        file.seek(max(0, length - 26))
+        end = file.read(26)
+    refused = refused_kind(start)
+    if refused:
+        raise ImageError(
+            f"{found}: {refused} files are not read yet; expected EXR, HDR, PNG, JPEG, TIFF, WebP, DDS, ..."
+        )
+    try:
+        if start.startswith(radiance.MAGIC):
+            _only(part)
+            return Picture(radiance.read(read_file(found, ImageError)))
+        if start.startswith(dds.MAGIC):
+            return _read_dds(read_file(found, ImageError), part, faces)
+        kind = find_kind(start, end, found.suffix)
+        if kind is None:
+            raise ImageError(
+                f"expected a picture file (EXR, HDR, PNG, JPEG, ...), got {length} bytes of another kind"
+            )
+        return oiio.read(found, kind, part)
+    except ImageError as error:
+        raise ImageError(f"{found}: {error}") from error.__cause__
+    except ValueError as error:
+        raise ValueError(f"{found}: {error}") from error.__cause__
+
+
+def _checked(part: object) -> Part | None:
+    if part is None or isinstance(part, str):
+        return part
+    if not isinstance(part, (bool, np.bool_)):
+        try:
+            number = operator.index(part)  # type: ignore[arg-type]
+        except TypeError:
+            pass
+        else:
+            if number >= 0:
+                return number
+            raise ValueError(f"part: expected 0 or more, got {number}")
+    raise TypeError(f"part: expected a whole number or a name, got {type(part).__name__}")
+
+
+def _only(part: Part | None) -> None:
+    if part not in (None, 0):
+        raise ValueError(
+            f"part: expected 0 or None, since the file holds one picture; got {part!r}"
+        )
+
+
+def _read_dds(data: bytes, part: Part | None, faces: bool) -> Picture:
+    """Give all faces of a cubemap, or one picture."""
+    header = dds.read_header(data)
+    if header.format is None and header.images == 1:
+        _only(part)
+        return oiio.read_bytes(data, DDS)
+    pictures = header.images // 6 if faces and header.cube else header.images
+    if header.cube and not faces and part is None:
+        raise ImageError(
+            "expected a picture, got a DDS cubemap, which load_cubemap reads; part= 0 to "
+            f"{pictures - 1} or {', '.join(dds.FACES)} names a face"
+        )
+    names = dds.FACES if header.images == 6 and header.cube and not faces else ()
+    at = _index(part, pictures, names)
+    count = 6 if faces and header.cube else 1
+    blocks = _Blocks()
+    pixels = dds.decode(header, data, at * count, count, blocks)
+    if count == 6:
+        return Picture(pixels[0], blocks.attributes, faces=pixels)
+    return Picture(np.ascontiguousarray(pixels[0]), blocks.attributes)
+
+
+class _Blocks:
+    """Decodes the blocks of a DDS file of one picture."""
+
+    def __init__(self) -> None:
+        self.attributes: dict[str, object] = {}
+
+    def __call__(self, data: bytes) -> Array:
+        picture = oiio.read_bytes(data, DDS)
+        self.attributes = picture.attributes
+        return picture.pixels
+
+
+def _index(part: Part | None, count: int, names: tuple[str, ...]) -> int:
+    """Find a part by its number or name."""
+    if part is None:
+        return 0
+    if isinstance(part, int) and part < count:
+        return part
+    if part in names:
+        return names.index(str(part))
+    listed = f" or one of {', '.join(names)}" if names else ""
+    raise ValueError(f"part: expected 0 to {count - 1}{listed}, got {part!r}")
