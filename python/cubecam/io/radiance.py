@@ -72,11 +72,11 @@ def read(data: bytes) -> FloatArray:
     except ValueError as error:
         raise ImageError(str(error)) from None
     divisors = header.exposure * np.array(header.correction)
-    if (divisors != 1).any():
-        with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
+    with np.errstate(over="ignore", invalid="ignore"):  # what is not finite is refused below
+        if (divisors != 1).any():
             np.divide(pixels, divisors.astype(np.float32), out=pixels)
-    if header.xyz:
-        pixels = pixels @ _rgb_from_xyz().T.astype(np.float32)
+        if header.xyz:
+            pixels = pixels @ _rgb_from_xyz().T.astype(np.float32)
     if (header.xyz or (divisors != 1).any()) and not np.isfinite(pixels).all():
         raise ImageError(
             f"expected numbers that float32 holds, got larger ones after the division by EXPOSURE {header.exposure:g} "

@@ -30,7 +30,7 @@ class Part:
 
     def __post_init__(self) -> None:
         """Drop vertices without a place if no triangle has them, as scanners write them; else raise ValueError."""
-        sound = (np.abs(self.positions) <= _MOST).all(axis=1)
+        sound = np.asarray((np.abs(self.positions) <= _MOST).all(axis=1))
         if sound.all():
             return
         check_indices(self.faces, len(sound))
