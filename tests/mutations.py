@@ -56,6 +56,8 @@ KEPT = ("tests/gl/test_kept_snapshots.py",)
 LABELS = ("tests/gl/test_labels.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
 SCENE_QUERIES = ("tests/unit/test_scene_queries.py",)
+OBJ = ("tests/unit/test_obj.py",)
+POLYGONS = ("tests/unit/test_polygons.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -1361,5 +1363,40 @@ MUTATIONS = [
         '"look" if panorama else "cross"',
         '"cross"',
         VIEW_COMMAND,
+    ),
+    Mutation(
+        "OBJ: relative indices count from the end of the file",
+        "io/meshes/obj.py",
+        "before = np.searchsorted(listed, faces)",
+        "before = np.full(len(faces), total)",
+        OBJ,
+    ),
+    Mutation(
+        "OBJ: colours go to the next vertex",
+        "io/meshes/obj.py",
+        "None if colors is None else colors[corners[chosen]]",
+        "None if colors is None else np.roll(colors, 1, axis=0)[corners[chosen]]",
+        OBJ,
+    ),
+    Mutation(
+        "OBJ: a comment that ends in a backslash swallows the next line",
+        "io/meshes/obj_text.py",
+        "data[np.cumsum(marks, dtype=np.int8).astype(bool)] = _BLANK",
+        "data[np.cumsum(marks, dtype=np.int8).astype(bool) & (data != 92)] = _BLANK",
+        OBJ,
+    ),
+    Mutation(
+        "polygons: corners on a straight side are left out",
+        "io/meshes/polygons.py",
+        "if 0 < len(cut) < count - 2:",
+        "if len(cut) < 0:",
+        POLYGONS,
+    ),
+    Mutation(
+        "polygons: a fan from the first corner always",
+        "io/meshes/polygons.py",
+        "open_ = open_[least <= _NO_AREA]",
+        "open_ = open_[:0]",
+        POLYGONS,
     ),
 ]

@@ -317,43 +317,6 @@ def test_normals_of_a_glb_node_go_by_the_inverse_transpose(tmp_path, matrix):
     assert (np.einsum("ij,ij->i", faced, want[np.asarray(mesh.indices)[:, 0]]) > 0).all()
 
 
-def test_a_mesh_without_triangles_is_a_mesh_error(tmp_path):
-    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\n")
-    with pytest.raises(cc.MeshError, match=r"a\.obj"):
-        cc.load_mesh(tmp_path / "a.obj")
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        b"# M\xf6bel\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n",
-        b"v 0 0 0\nv 1 0 0 # the second\nv 1 1 0\nf 1 2 3 # all\n",
-        b"v 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2 -1\n",
-    ],
-    ids=["latin-1", "comments", "negative"],
-)
-def test_obj_files_as_people_write_them(tmp_path, text):
-    path = tmp_path / "a.obj"
-    path.write_bytes(text)
-    mesh = cc.load_mesh(path)
-    assert mesh.positions.tolist() == [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
-    assert mesh.indices.tolist() == [[0, 1, 2]]
-
-
-def test_vertices_of_two_numbers_are_refused(tmp_path):
-    path = tmp_path / "a.obj"
-    path.write_text("v 0 0\nv 1 0\nv 1 1\nf 1 2 3\n")
-    with pytest.raises(cc.MeshError, match="three numbers, got 2"):
-        cc.load_mesh(path)
-
-
-def test_obj_indices_start_at_1(tmp_path):
-    path = tmp_path / "a.obj"
-    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 0 1 2\n")
-    with pytest.raises(cc.MeshError, match="indices from 1"):
-        cc.load_mesh(path)
-
-
 STREAMS = {"positions": 3, "normals": 3, "uvs": 2, "colors": 4}
 
 

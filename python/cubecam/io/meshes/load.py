@@ -20,7 +20,7 @@ __all__ = ["load_mesh"]
 
 # The module that reads each kind of file with its function `read(path, data)`.
 _READERS = {
-    ".obj": ".trimesh_parts",
+    ".obj": ".obj",
     ".ply": ".ply",
     ".stl": ".stl",
     ".gltf": "..gltf",

@@ -62,7 +62,8 @@ def triangles(positions: Floats, corners: Indices, counts: Indices) -> tuple[Ind
             places = starts[which, None] + np.arange(count)
             cut = _of_one_size(positions, corners, places)
             rows = slots[which, None] + np.arange(count - 2)
-            result[rows] = np.where(cut < 0, -1, starts[which, None, None] + cut)
+            cut += np.where(cut[..., :1] < 0, 0, starts[which, None, None])
+            result[rows] = cut
     kept = result[:, 0] >= 0
     return (result, owners) if kept.all() else (result[kept], owners[kept])
 
@@ -73,7 +74,7 @@ def _of_one_size(positions: Floats, corners: Indices, places: Indices) -> Indice
     steps = np.arange(1, count - 1)
     fan = np.stack([np.zeros_like(steps), steps, steps + 1], axis=1)
     if count == 3:
-        return np.broadcast_to(fan, (polygons, 1, 3))
+        return np.tile(fan, (polygons, 1, 1))
     flat, sound = _flattened(positions[corners[places]])
     best = np.full(polygons, -np.inf)
     start = np.zeros(polygons, dtype=np.int64)
@@ -86,7 +87,8 @@ def _of_one_size(positions: Floats, corners: Indices, places: Indices) -> Indice
         open_ = open_[least <= _NO_AREA]
         if not len(open_):
             break
-    result: Indices = (fan + start[:, None, None]) % count
+    result: Indices = fan + start[:, None, None]
+    result %= count
     if count > 4:
         for index in open_.tolist():
             result[index] = _any_polygon(flat[index], result[index])
@@ -97,17 +99,26 @@ def _flattened(points: Floats) -> tuple[Floats, npt.NDArray[np.bool_]]:
     """Lay (K, N, 3) polygons into their planes: (K, N, 2), counter-clockwise, with an extent of about 1.
 
     The plane is Newell's: its normal is the sum of the cross products of consecutive corners, which also fits polygons
-    that are not flat. The second array says which polygons have an area.
+    that are not flat. The second array says which polygons have an area. `points` is overwritten.
     """
     sound: npt.NDArray[np.bool_] = np.asarray(np.isfinite(points).all(axis=(1, 2)))
-    points = np.where(sound[:, None, None], points, 0.0)
+    points[~sound] = 0
     # Powers of two scale without rounding: numbers near the largest float, and near the smallest, have products, too.
     for _ in range(2):
-        _, exponent = np.frexp(np.abs(points).max(axis=(1, 2)))
-        points = np.ldexp(points, -exponent[:, None, None])
-        points = points - points[:, :1]
-    following = np.roll(points, -1, axis=1)
-    normal = np.cross(points, following).sum(axis=1)
+        largest = np.maximum(points.max(axis=(1, 2)), -points.min(axis=(1, 2)))
+        _, exponent = np.frexp(largest)
+        np.ldexp(points, -exponent[:, None, None], out=points)
+        points -= points[:, :1].copy()
+    # The last product, from the last corner to the first, is 0: the first corner is the origin.
+    here, following = points[:, :-1], points[:, 1:]
+    normal = np.stack(
+        [
+            np.einsum("kn,kn->k", here[..., one], following[..., two])
+            - np.einsum("kn,kn->k", here[..., two], following[..., one])
+            for one, two in ((1, 2), (2, 0), (0, 1))
+        ],
+        axis=1,
+    )
     length = np.linalg.norm(normal, axis=1)
     sound &= length > _NO_AREA
     x, y, z = np.divide(normal.T, length, out=np.zeros_like(normal.T), where=sound)
@@ -126,7 +137,8 @@ def _flattened(points: Floats) -> tuple[Floats, npt.NDArray[np.bool_]]:
 
 def _fan_areas(flat: Floats, first: int) -> Floats:
     """Twice the signed areas of the triangles of a fan from one corner: (K, N - 2)."""
-    spokes = np.roll(flat, -first, axis=1)[:, 1:] - flat[:, first : first + 1]
+    turned = np.roll(flat, -first, axis=1) if first else flat
+    spokes = turned[:, 1:] - turned[:, :1]
     return np.asarray(spokes[:, :-1, 0] * spokes[:, 1:, 1] - spokes[:, :-1, 1] * spokes[:, 1:, 0])
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import re
 import sys
 from typing import TYPE_CHECKING, Any
 
@@ -40,14 +38,9 @@ def read(path: Path, data: bytes) -> list[Part]:
     import trimesh
 
     extension = path.suffix.lower()
-    options: dict[str, Any] = {"skip_materials": True} if extension == ".obj" else {}
     try:
         # process=False: no vertex is merged, dropped or moved.
-        if extension == ".obj":
-            text = io.StringIO(_obj_text(data))
-            scene = trimesh.load_scene(text, "obj", process=False, **options)
-        else:
-            scene = trimesh.load_scene(str(path), process=False, **options)
+        scene = trimesh.load_scene(str(path), process=False)
     except MemoryError:
         raise
     except (
@@ -77,21 +70,6 @@ def _parts(scene: Any) -> list[Part]:
                 raise ValueError(f"expected vertices of three numbers, got {got}")
             parts.append(_placed(geometry, np.asarray(matrix, dtype=np.float64)))
     return parts
-
-
-def _obj_text(data: bytes) -> str:
-    """Read an OBJ file as trimesh needs it: as text, and without comments after numbers."""
-    try:
-        text = data.decode("utf-8")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")  # names and comments of older exporters
-    text = re.sub(r"^([ \t]*(?:v|vt|vn|f)[ \t][^#\r\n]*)#.*$", r"\1", text, flags=re.MULTILINE)
-    zero = re.search(r"^[ \t]*f(?:[ \t].*?)?[ \t]0(?:[/ \t\r]|$)", text, flags=re.MULTILINE)
-    if zero:
-        raise ValueError(
-            f"expected indices from 1 (or negative ones), got {zero.group().strip()!r}"
-        )
-    return text
 
 
 def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> Part:
