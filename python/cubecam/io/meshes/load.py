@@ -83,8 +83,10 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
         )
     reader = import_module(_READERS[extension], __package__)
     try:
-        parts: list[Part] = reader.read(found, data)
-        return joined(parts, size)
+        # Numbers of a file may be too large or not finite: checks report those that matter, not warnings of numpy.
+        with np.errstate(all="ignore"):
+            parts: list[Part] = reader.read(found, data)
+            return joined(parts, size)
     except (MeshError, ValueError, IndexError) as error:
         # ValueError and IndexError are the core's own checks: an index out of range, a position that is not finite.
         raise MeshError(f"{found}: {error}") from error

@@ -60,6 +60,13 @@ def unit_colors(values: Any) -> npt.NDArray[np.float64]:
     return colors
 
 
+def check_positions(positions: npt.NDArray[np.float64]) -> None:
+    """Raise ValueError for positions that a mesh cannot have: its numbers are 32-bit floats."""
+    wrong = positions[~(np.abs(positions) <= np.finfo(np.float32).max)]
+    if len(wrong):
+        raise ValueError(f"expected finite positions below 3.4e38, got {wrong[0]:g}")
+
+
 def unique_positions(part: Part) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
     """Give each distinct position once, in the order of first use, and each vertex's index among them."""
     # + 0.0 makes -0.0 equal to 0.0 bit for bit. Sorting whole numbers is much faster than sorting rows.
@@ -109,8 +116,7 @@ def joined(parts: list[Part], size: float | None) -> Mesh:
         raise IndexError(
             f"expected indices 0 to {len(positions) - 1}, got {indices.min()} to {indices.max()}"
         )
-    if not np.isfinite(positions).all():
-        raise ValueError("expected finite positions, got NaN or infinity")
+    check_positions(positions)
     low, high = positions.min(axis=0), positions.max(axis=0)
     extent = float((high - low).max())
     if (

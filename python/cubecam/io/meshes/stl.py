@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import MeshError
-from .parts import Part, unique_positions
+from .parts import Part, check_positions, unique_positions
 from .plain_text import numbers, shown, unified
 from .wedges import split
 
@@ -36,6 +36,7 @@ def read(path: Path, data: bytes) -> list[Part]:
     if not len(positions):
         raise MeshError("expected triangles, got none")
     places = positions.reshape(-1, 3)
+    check_positions(places)
     corners = np.arange(len(places)).reshape(-1, 3)
     unique, index = unique_positions(Part(places, corners, None, None, None))
     if colors is None:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import MeshError
-from .parts import Part
+from .parts import Part, check_positions
 from .polygons import triangles
 
 
@@ -35,6 +35,7 @@ def part(
     colors: npt.NDArray[np.float64] | None,
 ) -> Part:
     """Cut polygons into triangles; values of corners replace those of vertices, which are split where they differ."""
+    check_positions(positions)
     used = faces.corners
     wrong = used[(used < 0) | (used >= len(positions))]
     if len(wrong):
