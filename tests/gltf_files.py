@@ -3,6 +3,7 @@
 import base64
 import json
 import struct
+from typing import Any
 
 import numpy as np
 
@@ -42,6 +43,8 @@ class GltfFile:
     def accessor(self, array, **entry):
         """Store an array: (N,), or (N, 2), (N, 3), (N, 4), (N, 16)."""
         array = np.ascontiguousarray(array)
+        if array.dtype == np.float64:
+            array = array.astype(np.float32)
         return self.add(
             "accessors",
             {
@@ -56,7 +59,7 @@ class GltfFile:
     def primitive(self, positions=CORNERS, indices=None, *, mode=None, **attributes):
         """Make a primitive. Attributes are arrays, or numbers of accessors."""
         given = {"POSITION": positions, **attributes}
-        entry = {
+        entry: dict[str, Any] = {
             "attributes": {
                 key: value if isinstance(value, int) else self.accessor(value)
                 for key, value in given.items()

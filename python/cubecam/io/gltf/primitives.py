@@ -61,7 +61,7 @@ class Attributes:
         return key in self.entry
 
     def read(self, key: str, *kinds: str) -> npt.NDArray[Any]:
-        """Read an attribute, such as TEXCOORD_1 or _CUSTOM, whose accessor has one of the types (any, if none is given).
+        """Read an attribute such as TEXCOORD_1 or _CUSTOM with an accessor of one of the types (any, if none is given).
 
         Normalized integers become floats; other numbers are as in the file.
         """
