@@ -189,7 +189,7 @@ def convert(
 
 def _is_light(source: str) -> bool:
     """Say whether files of this name hold floats, which --srgb leaves as they are."""
-    return Path(source).suffix.lower() in (".exr", ".hdr")
+    return Path(source).suffix.lower() in (".exr", ".hdr", ".pic", ".rgbe", ".xyze")
 
 
 def _curve(name: Curve | None, cube: CubeMap, decoded: bool) -> Tonemap | None:

@@ -27,7 +27,8 @@ __all__ = ["FAILURES", "Shown", "read", "stamp"]
 
 _MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 _PICTURES = (
-    ".exr", ".hdr", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga", ".gif", ".pfm", ".dds",
+    ".exr", ".hdr", ".pic", ".rgbe", ".xyze", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga", ".gif",
+    ".pfm", ".dds",
 )  # fmt: skip
 _SAMPLE = "studio.exr"  # what a mirror shows beside a mesh
 _BACK = (0.055, 0.06, 0.07)  # the colour behind a mesh, linear

@@ -81,14 +81,17 @@ def read(path: Path, kind: Kind, part: int | str | None = None) -> Picture:
     ValueError
         For a part that the file does not have.
     """
+    # For these extensions OpenImageIO makes pictures up, without looking at the file.
+    if path.suffix.lower() in (".null", ".nul", ".term"):
+        return read_bytes(path.read_bytes(), kind, part)
     return _read(str(path), path.stat().st_size, kind, part)
 
 
-def read_bytes(data: bytes, kind: Kind) -> Picture:
-    """Read the first picture of a file that is in memory."""
+def read_bytes(data: bytes, kind: Kind, part: int | str | None = None) -> Picture:
+    """Read a picture of a file that is in memory."""
     with _MemoryFile("." + kind.name) as memory:
         memory.write(data)
-        return _read(memory.name, len(data), kind, None)
+        return _read(memory.name, len(data), kind, part)
 
 
 def _read(name: str, length: int, kind: Kind, part: int | str | None) -> Picture:
