@@ -55,6 +55,9 @@ CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
 LABELS = ("tests/gl/test_labels.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
+OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
+INFINITIES = ("tests/unit/test_cubemap_infinities.py",)
+MASKED = ("tests/unit/test_masked_arrays.py",)
 SCENE_QUERIES = ("tests/unit/test_scene_queries.py",)
 OBJ = ("tests/unit/test_obj.py",)
 POLYGONS = ("tests/unit/test_polygons.py",)
@@ -891,10 +894,10 @@ MUTATIONS = [
     ),
     Mutation(
         "output maps: the convention ignored",
-        "cubemap_save.py",
-        "CubeMap(texels).to_layout(layout, convention=convention)",
-        "CubeMap(texels).to_layout(layout)",
-        ("tests/unit/test_cubemap_files.py",),
+        "cubemap_outputs.py",
+        'cube.to_layout(layout or "cross", convention=chosen, output=output)',
+        'cube.to_layout(layout or "cross", output=output)',
+        OUTPUT_MAPS,
     ),
     Mutation(
         "GLSL of vertices: the eye of a capture ignored",
@@ -1398,5 +1401,61 @@ MUTATIONS = [
         "open_ = open_[least <= _NO_AREA]",
         "open_ = open_[:0]",
         POLYGONS,
+    ),
+    Mutation(
+        "output maps: rows and columns swapped",
+        "cubemap_nearest.cpp",
+        "texel_at(uv.t), texel_at(uv.s)",
+        "texel_at(uv.s), texel_at(uv.t)",
+        OUTPUT_MAPS,
+    ),
+    Mutation(
+        "output maps: sizes take the first texel of a group",
+        "cubemap_nearest.cpp",
+        "places[i] = (2 * i + 1) *",
+        "places[i] = (2 * i) *",
+        OUTPUT_MAPS,
+    ),
+    Mutation(
+        "output maps: whole numbers of 8 bits become shares of 255",
+        "cubemap_outputs.py",
+        "pictures = pictures.astype(np.uint32)",
+        "pass",
+        OUTPUT_MAPS,
+    ),
+    Mutation(
+        "infinities: texels without weight count",
+        "box_filter.hpp",
+        "if (weight > share * (1e-6 + 1.2e-7 * tap.inner))",
+        "if (weight >= 0.0 * share)",
+        INFINITIES,
+    ),
+    Mutation(
+        "infinities: lookups count texels without weight",
+        "cube_texels.hpp",
+        "if (weight > 0) sum += seamless",
+        "sum += seamless",
+        INFINITIES,
+    ),
+    Mutation(
+        "infinities: the last texel of a box left out",
+        "box_filter.hpp",
+        "add(tap.inner + 1, last, near);",
+        "",
+        INFINITIES,
+    ),
+    Mutation(
+        "infinities: corners are sums of differences",
+        "cube_texels.hpp",
+        "return finite_or<Channels>(average, own / 3.0f + above / 3.0f + beside / 3.0f);",
+        "return average;",
+        INFINITIES,
+    ),
+    Mutation(
+        "masked arrays: what objects give to numpy is not looked at",
+        "arrays.cpp",
+        "check_nothing_hidden(array, name);",
+        "",
+        MASKED,
     ),
 ]

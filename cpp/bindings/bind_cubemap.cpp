@@ -120,7 +120,9 @@ Pixels faces_view(const CubeMap& cube) {
                          state->pixels->data(), state->pixels);
 }
 
-py::array_t<float> sample(const CubeMap& cube, const ArrayLike& directions, const ArrayLike& lod) {
+OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const ArrayLike& lod,
+                   const std::string& output_name) {
+    const OutputValues* output = to_output(cube, output_name);
     const auto towards = float_array(directions, "directions", "(..., 3)");
     const auto count = static_cast<std::size_t>(towards.size() / 3);
     const float* d = towards.data();
@@ -143,6 +145,17 @@ py::array_t<float> sample(const CubeMap& cube, const ArrayLike& directions, cons
     const auto state = cube.data();
     const bool only_zero = std::all_of(levels.data(), levels.data() + levels.size(),
                                        [](float level) { return level == 0; });
+    if (output != nullptr) {
+        if (!only_zero) {
+            throw py::value_error("lod: expected 0 for an output, which has one level, got others");
+        }
+        PixelBuffer found;
+        {
+            const py::gil_scoped_release release;
+            found = nearest_lookup(texels_of(cube, *output), d, count);
+        }
+        return output_array(std::move(found), *output, std::move(shape));
+    }
     if (!only_zero && !state->mipmaps) {
         throw py::value_error("lod: expected 0 for a cubemap without mipmaps, got other levels; "
                               "make it with mipmaps=True");
@@ -152,8 +165,10 @@ py::array_t<float> sample(const CubeMap& cube, const ArrayLike& directions, cons
     float* to = result.mutable_data();
     const float* lods = only_zero ? nullptr : levels.data();
     const std::size_t lod_count = levels.ndim() == 0 ? 1 : count;
-    const py::gil_scoped_release release;
-    cube.sample(d, count, lods, lod_count, to);
+    {
+        const py::gil_scoped_release release;
+        cube.sample(d, count, lods, lod_count, to);
+    }
     return result;
 }
 
@@ -259,6 +274,26 @@ std::string represent(const CubeMap& cube) {
 
 }  // namespace
 
+const OutputValues* to_output(const CubeMap& cube, const std::string& name) {
+    if (name == "color") return nullptr;
+    if (const OutputValues* output = find_output(cube.outputs(), name)) return output;
+    std::string held = "\"color\"";
+    for (const OutputValues& output : cube.outputs()) held += ", \"" + output.name + "\"";
+    throw py::value_error(
+        "output: expected " + held +
+        (cube.outputs().empty()
+             ? ", since this cube has no output besides; Renderer.capture has outputs="
+             : ", which this cube has") +
+        "; got '" + name + "'");
+}
+
+py::array output_array(PixelBuffer texels, const OutputValues& output,
+                       std::vector<py::ssize_t> shape) {
+    if (output.channels > 1) shape.push_back(output.channels);
+    return owned_pixels(std::make_shared<PixelBuffer>(std::move(texels)), numpy_dtype(output.type),
+                        std::move(shape));
+}
+
 }  // namespace cubecam::bindings
 
 void bind_cubemap(py::module_& module) {
@@ -308,8 +343,14 @@ void bind_cubemap(py::module_& module) {
 
     cube.def("set_face", &set_face, py::arg("face"), py::arg("pixels"), py::kw_only(),
              py::arg("convention") = "gl", docs::set_face)
+        // Two signatures, so that type checkers know the dtype of colours.
+        .def(
+            "sample",
+            [](const CubeMap& c, const ArrayLike& directions, const ArrayLike& lod)
+                -> py::array_t<float> { return sample(c, directions, lod, "color"); },
+            py::arg("directions"), py::kw_only(), py::arg("lod") = 0.0, docs::sample)
         .def("sample", &sample, py::arg("directions"), py::kw_only(), py::arg("lod") = 0.0,
-             docs::sample);
+             py::arg("output") = "color", docs::sample_output);
     bind_cubemap_pictures(cube);
 
     const auto duplicate = [](const CubeMap& c) { return std::make_shared<CubeMap>(c); };

@@ -3,6 +3,7 @@
 #include "cubemap_arguments.hpp"
 #include "docs/cubemap.hpp"
 #include "encodings.hpp"
+#include "numbers.hpp"
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
@@ -41,11 +42,30 @@ void check_picture(double width, double height, int channels, DType dtype) {
                      std::to_string(static_cast<long long>(height)) + " pixels");
 }
 
-Pixels to_equirect(const CubeMap& cube, std::optional<int> width, const CenterName& center_name,
-                   const SamplingName& sampling_name, const DTypeOrNone& dtype) {
+/// Raises ValueError for a dtype given with an output, whose numbers are not converted.
+void check_no_dtype(const DTypeOrNone& dtype, const OutputValues& output) {
+    if (dtype.is_none()) return;
+    throw py::value_error("dtype: expected None with output='" + output.name + "', which stays " +
+                          output_type_name(output.type) + ", got " + text_of(dtype));
+}
+
+PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
+                           const CenterName& center_name, const SamplingName& sampling_name,
+                           const DTypeOrNone& dtype, const std::string& output_name) {
     const Center center = parse_center(center_name);
     const Sampling sampling = parse_sampling(sampling_name);
     const auto state = cube.data();
+    if (const OutputValues* output = to_output(cube, output_name)) {
+        check_no_dtype(dtype, *output);
+        const int columns = to_texels(width.value_or(4 * state->size), "width");
+        check_picture(columns, columns / 2.0, output->channels, DType::float32);
+        PixelBuffer texels;
+        {
+            const py::gil_scoped_release release;
+            texels = nearest_equirect(texels_of(cube, *output), columns, center, sampling);
+        }
+        return output_array(std::move(texels), *output, {columns / 2, columns});
+    }
     const DType to = to_dtype(dtype, state->dtype);
     const int columns = to_texels(width.value_or(4 * state->size), "width");
     check_picture(columns, columns / 2.0, state->channels, to);
@@ -109,10 +129,19 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
                                      encoding);
 }
 
-Pixels to_convention(const CubeMap& cube, const ConventionName& name) {
+PixelsOrOutput to_convention(const CubeMap& cube, const ConventionName& name,
+                             const std::string& output_name) {
     const Convention convention = parse_convention(name);
     const auto state = cube.data();
     PixelBuffer faces;
+    if (const OutputValues* output = to_output(cube, output_name)) {
+        {
+            const py::gil_scoped_release release;
+            faces = convert_faces(output->values->data(), state->size, output->texel_size(),
+                                  Convention::gl, convention);
+        }
+        return output_array(std::move(faces), *output, {6, state->size, state->size});
+    }
     {
         const py::gil_scoped_release release;
         const std::size_t texel =
@@ -123,13 +152,37 @@ Pixels to_convention(const CubeMap& cube, const ConventionName& name) {
     return owned_pixels(std::move(faces), state->dtype, face_shape(state->size, state->channels));
 }
 
-Pixels to_layout(const CubeMap& cube, const LayoutName& layout_name,
-                 const ConventionName& convention_name, const DTypeOrNone& dtype) {
+py::array output_in_layout(const CubeMap& cube, const OutputValues& output, Layout layout,
+                           Convention convention) {
+    const int n = cube.data()->size;
+    const PictureSize shape = layout_size(layout, n);
+    PixelBuffer picture;
+    {
+        const py::gil_scoped_release release;
+        const std::size_t texel = output.texel_size();
+        const PixelBuffer faces =
+            convert_faces(output.values->data(), n, texel, Convention::gl, convention);
+        picture = faces_to_picture(faces.data(), n, texel, layout, convention);
+    }
+    return output_array(std::move(picture), output, {shape.height, shape.width});
+}
+
+PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
+                         const ConventionName& convention_name, const DTypeOrNone& dtype,
+                         const std::string& output_name) {
     const Layout layout = parse_layout(layout_name);
     const Convention convention = parse_convention(convention_name);
-    if (layout == Layout::equirect) return to_equirect(cube, std::nullopt, "-z", "centers", dtype);
+    if (layout == Layout::equirect) {
+        return to_equirect(cube, std::nullopt, "-z", "centers", dtype, output_name);
+    }
     const auto state = cube.data();
     const bool openexr = layout == Layout::openexr;
+    if (const OutputValues* output = to_output(cube, output_name)) {
+        check_no_dtype(dtype, *output);
+        // Of as many samples on the borders, each lies in the texel of its own row and column.
+        return output_in_layout(cube, *output, openexr ? Layout::column : layout,
+                                openexr ? Convention::inside : convention);
+    }
     const DType to = to_dtype(dtype, state->dtype);
     const PictureSize shape = layout_size(openexr ? Layout::column : layout, state->size);
     PixelBuffer picture;
@@ -159,16 +212,29 @@ CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
     check_picture(size, 6.0 * size, state->channels, to);
     const py::gil_scoped_release release;
     PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers, to);
+    OutputList outputs = cube.outputs();
+    for (OutputValues& output : outputs) {
+        output.values = std::make_shared<PixelBuffer>(nearest_faces(texels_of(cube, output), size));
+    }
     return std::make_shared<CubeMap>(size, state->channels, to, std::move(faces), state->mipmaps,
-                                     OutputList(), state->encoding);
+                                     std::move(outputs), state->encoding);
 }
 
 }  // namespace
 
 void bind_cubemap_pictures(Class<CubeMap>& cube) {
-    cube.def("to_equirect", &to_equirect, py::kw_only(), py::arg("width") = py::none(),
+    // Two signatures of each, so that type checkers know the dtype of colours.
+    cube.def(
+            "to_equirect",
+            [](const CubeMap& c, std::optional<int> width, const CenterName& center,
+               const SamplingName& sampling, const DTypeOrNone& dtype) -> Pixels {
+                return to_equirect(c, width, center, sampling, dtype, "color");
+            },
+            py::kw_only(), py::arg("width") = py::none(), py::arg("center") = "-z",
+            py::arg("sampling") = "centers", py::arg("dtype") = py::none(), docs::to_equirect)
+        .def("to_equirect", &to_equirect, py::kw_only(), py::arg("width") = py::none(),
              py::arg("center") = "-z", py::arg("sampling") = "centers",
-             py::arg("dtype") = py::none(), docs::to_equirect)
+             py::arg("dtype") = py::none(), py::arg("output") = "color", docs::to_equirect_output)
         .def_static(
             "from_equirect",
             [](const ArrayLike& image, std::optional<int> size, const CenterName& center,
@@ -182,9 +248,25 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
             py::arg("image"), py::kw_only(), py::arg("size") = py::none(), py::arg("center") = "-z",
             py::arg("sampling") = "centers", py::arg("mipmaps") = false,
             py::arg("dtype") = py::none(), py::arg("encoding") = py::none(), docs::from_equirect)
-        .def("to_convention", &to_convention, py::arg("convention"), docs::to_convention)
+        .def(
+            "to_convention",
+            [](const CubeMap& c, const ConventionName& convention) -> Pixels {
+                return to_convention(c, convention, "color");
+            },
+            py::arg("convention"), docs::to_convention)
+        .def("to_convention", &to_convention, py::arg("convention"), py::kw_only(),
+             py::arg("output") = "color", docs::to_convention_output)
+        .def(
+            "to_layout",
+            [](const CubeMap& c, const LayoutName& layout, const ConventionName& convention,
+               const DTypeOrNone& dtype) -> Pixels {
+                return to_layout(c, layout, convention, dtype, "color");
+            },
+            py::arg("layout") = "cross", py::kw_only(), py::arg("convention") = "gl",
+            py::arg("dtype") = py::none(), docs::to_layout)
         .def("to_layout", &to_layout, py::arg("layout") = "cross", py::kw_only(),
-             py::arg("convention") = "gl", py::arg("dtype") = py::none(), docs::to_layout)
+             py::arg("convention") = "gl", py::arg("dtype") = py::none(),
+             py::arg("output") = "color", docs::to_layout_output)
         .def_static("from_layout", &from_layout, py::arg("image"), py::kw_only(),
                     py::arg("layout") = py::none(), py::arg("convention") = "gl",
                     py::arg("size") = py::none(), py::arg("center") = "-z",

@@ -6,6 +6,7 @@
 
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
+#include "cubecam/cubemap/cubemap_nearest.hpp"
 
 #include <memory>
 #include <string>
@@ -30,6 +31,19 @@ inline int to_texels(py::ssize_t length, const char* name) {
     }
     return static_cast<int>(length);
 }
+
+/// The output of a cube that an argument `output` names; null for "color". Raises ValueError that
+/// lists the outputs of the cube.
+const OutputValues* to_output(const CubeMap& cube, const std::string& name);
+
+/// The bytes of an output's texels.
+inline TexelBytes texels_of(const CubeMap& cube, const OutputValues& output) {
+    return {output.values->data(), cube.data()->size, output.texel_size()};
+}
+
+/// An array of texels of an output's type; the axis of the channels is left out if there is one.
+py::array output_array(PixelBuffer texels, const OutputValues& output,
+                       std::vector<py::ssize_t> shape);
 
 /// The methods that turn a cube into pictures and back: panoramas, layouts, other conventions and
 /// other sizes.

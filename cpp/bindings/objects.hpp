@@ -74,6 +74,10 @@ using Pixels = Shown<"numpy.typing.NDArray[numpy.uint8 | numpy.float16 | numpy.f
 using PixelDType = Shown<"numpy.dtype[numpy.uint8 | numpy.float16 | numpy.float32]">;
 using OutputArray = Shown<"numpy.typing.NDArray[numpy.float32 | numpy.int32 | numpy.uint8]">;
 
+/// Pixels, or the numbers of an output.
+using PixelsOrOutput =
+    Shown<"numpy.typing.NDArray[numpy.uint8 | numpy.float16 | numpy.float32 | numpy.int32]">;
+
 template <class T>
 using OrNone = OneOf<T, py::none>;
 

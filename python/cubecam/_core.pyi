@@ -1270,8 +1270,8 @@ class CubeMap:
     ----------
     faces : array_like (6, N, N, C), or six of (N, N, C)
         C is 1, 3 or 4. uint8 (which stands for value/255), float16 and float32 are kept; float64 becomes
-        float32. NaN raises ValueError; inf is kept, and lookups near it give
-        inf or NaN, as on the GPU.
+        float32. NaN raises ValueError; inf is kept. Lookups and resampling
+        give inf where an infinite texel has a weight, and no NaN beside it; the GPU may give NaN there.
     convention : {"gl", "inside", "three"}, default "gl"
         The convention of `faces`: "gl" is the layout above; "inside" shows the faces as seen from the center
         of the cube (OpenEXR); "three" is that of three.js and D3D skybox files.
@@ -1526,8 +1526,8 @@ class CubeMap:
         Returns
         -------
         CubeMap
-            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`, without captured
-            outputs.
+            A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`. Its outputs are
+            the nearest texels of this cube's outputs.
 
         Raises
         ------
@@ -1542,6 +1542,7 @@ class CubeMap:
         (6, 2, 2, 3)
         """
 
+    @typing.overload
     def sample(
         self: CubeMap, directions: np.typing.ArrayLike, *, lod: np.typing.ArrayLike = 0.0
     ) -> np.typing.NDArray[np.float32]:
@@ -1581,6 +1582,37 @@ class CubeMap:
         array([0., 3., 2.], dtype=float32)
         """
 
+    @typing.overload
+    def sample(
+        self: CubeMap,
+        directions: np.typing.ArrayLike,
+        *,
+        lod: np.typing.ArrayLike = 0.0,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.float32 | np.int32 | np.uint8]:
+        """
+        Look up an output of a capture: its nearest texels.
+
+        Parameters
+        ----------
+        directions : array_like (..., 3)
+            Directions from the center of the cube outwards, in world axes, of any length except 0.
+        lod : float, default 0
+            0; outputs have one level.
+        output : str, default "color"
+            "color", or a name in `outputs`, such as "distance", "normal" or "id".
+
+        Returns
+        -------
+        ndarray (...) or (..., channels) in the output's dtype
+            A new array. Each entry is the texel that the direction meets; no two are mixed.
+
+        Raises
+        ------
+        ValueError
+            For a direction that is not finite or has length 0, another `lod`, or an output that the cube does not have.
+        """
+
     def save(
         self,
         path: str | os.PathLike[str] | collections.abc.Sequence[str | os.PathLike[str]],
@@ -1593,6 +1625,7 @@ class CubeMap:
         tonemap: Tonemap | None = "neutral",
         srgb: bool | None = None,
         half: bool = False,
+        output: str = "color",
     ) -> None:
         """
         Write a cubemap as one picture or six files. The method `CubeMap.save`.
@@ -1622,13 +1655,17 @@ class CubeMap:
             False writes the numbers as they are; None and True as described above.
         half : bool
             True stores an EXR with 16 bits a number.
+        output : str
+            "color", or the name of an output in `outputs`, such as "distance", "normal" and "id". Its numbers are written
+            to .exr as they are, as floats or whole numbers of 32 bits, in any layout, and never mixed (`to_equirect`).
 
         Raises
         ------
         OSError
             If a folder does not exist or may not be written, or the disk is full. The old files stay as they were.
         ValueError
-            For unknown names, options that do not go together, or numbers that the file cannot hold.
+            For unknown names, options that do not go together, numbers that the file cannot hold, or an output that the
+            cube does not have.
 
         Notes
         -----
@@ -1768,6 +1805,7 @@ class CubeMap:
         (600, 800, 4)
         """
 
+    @typing.overload
     def to_convention(
         self: CubeMap, convention: Convention
     ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32]:
@@ -1793,6 +1831,35 @@ class CubeMap:
         True
         """
 
+    @typing.overload
+    def to_convention(
+        self: CubeMap, convention: Convention, *, output: str = "color"
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Convert the faces of an output to another convention.
+
+        Its texels move as those of the colours do. The numbers stay as they are: normals and positions are world vectors in
+        every convention.
+
+        Parameters
+        ----------
+        convention : {"gl", "inside", "three"}
+            The convention of the result.
+        output : str, default "color"
+            "color", or a name in `outputs`.
+
+        Returns
+        -------
+        ndarray (6, N, N) or (6, N, N, channels) in the output's dtype
+            A copy.
+
+        Raises
+        ------
+        ValueError
+            For an unknown convention, or an output that the cube does not have.
+        """
+
+    @typing.overload
     def to_equirect(
         self: CubeMap,
         *,
@@ -1839,6 +1906,59 @@ class CubeMap:
         ((32, 64, 4), 'float16')
         """
 
+    @typing.overload
+    def to_equirect(
+        self: CubeMap,
+        *,
+        width: typing.SupportsInt | typing.SupportsIndex | None = None,
+        center: Center = "-z",
+        sampling: Sampling = "centers",
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make a panorama of an output of a capture.
+
+        Outputs are not filtered, since a mixture of two distances or ids belongs to no surface: each pixel is the
+        texel that its direction meets.
+
+        Parameters
+        ----------
+        width, center, sampling
+            As for the colours.
+        dtype : None
+            An output keeps its dtype.
+        output : str, default "color"
+            "color", or a name in `outputs`. "distance" is the length of the ray, as panoramas of depth hold it. "z" and "depth"
+            are measured along the axis of the face on which the direction lies. Normals and positions are world
+            vectors.
+
+        Returns
+        -------
+        ndarray (width / 2, width) or (width / 2, width, channels) in the output's dtype
+            A new array.
+
+        Raises
+        ------
+        ValueError
+            For a width that is not even and positive, an unknown center or sampling, a dtype, or an output that the
+            cube does not have.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(1), position=(0, 0, -4))
+        >>> with cc.Renderer() as renderer:
+        ...     cube = renderer.capture(scene, size=64, outputs=("distance", "id"))
+        >>> distances = cube.to_equirect(output="distance")
+        >>> distances.shape, float(distances[0, 0])
+        ((128, 256), inf)
+        >>> sorted(set(cube.to_equirect(output="id").ravel().tolist())) == [0, ball.id]
+        True
+        """
+
+    @typing.overload
     def to_layout(
         self: CubeMap,
         layout: Layout = "cross",
@@ -1879,6 +1999,40 @@ class CubeMap:
         >>> import cubecam as cc
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).to_layout("cross", convention="inside").shape
         (24, 32, 3)
+        """
+
+    @typing.overload
+    def to_layout(
+        self: CubeMap,
+        layout: Layout = "cross",
+        *,
+        convention: Convention = "gl",
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Arrange all faces of an output in one picture.
+
+        Its texels move as those of the colours do, and are never mixed, in "equirect" and "openexr", too.
+
+        Parameters
+        ----------
+        layout, convention
+            As for the colours.
+        dtype : None
+            An output keeps its dtype.
+        output : str, default "color"
+            "color", or a name in `outputs`.
+
+        Returns
+        -------
+        ndarray (H, W) or (H, W, channels) in the output's dtype
+            A new array; cells without a face are 0.
+
+        Raises
+        ------
+        ValueError
+            For an unknown layout or convention, a dtype, or an output that the cube does not have.
         """
 
     @property

@@ -58,7 +58,7 @@ def test_layouts_are_read_back_exactly(layout, convention, named):
 def test_horizontal_cross_is_another_name_of_cross():
     cube = cc.CubeMap(face_pattern(4))
     assert_identical(
-        cube.to_layout("horizontal_cross", convention="gl"),  # type: ignore[arg-type]
+        cube.to_layout("horizontal_cross", convention="gl"),  # type: ignore[call-overload]
         cube.to_layout("cross", convention="gl"),
     )
 
@@ -103,7 +103,7 @@ def test_unknown_conventions_are_refused(bad):
 
 def test_unknown_layouts_are_refused_naming_those_there_are():
     with pytest.raises(ValueError, match=r"cross.*spiral|spiral.*cross"):
-        cc.CubeMap(face_pattern(4)).to_layout("spiral", convention="gl")  # type: ignore[arg-type]
+        cc.CubeMap(face_pattern(4)).to_layout("spiral", convention="gl")  # type: ignore[call-overload]
 
 
 @pytest.mark.parametrize(

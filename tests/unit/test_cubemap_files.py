@@ -230,20 +230,6 @@ def test_six_files_are_written_by_the_first_names(tmp_path):
         assert (cc.load_image(tmp_path / f"sky {name}.png") == number).all()
 
 
-@conventions
-def test_outputs_are_laid_out_in_the_convention_as_colors_are(convention, rng):
-    from cubecam.io.cubemap_save import arrange
-
-    ids = rng.integers(-5, 2**31 - 1, (6, 4, 4), dtype=np.int32)
-    positions = rng.random((6, 4, 4, 3)).astype(np.float32)
-    positions[2, 1, 1] = np.nan
-    for layout in ("cross", "column"):
-        want = to_layout(ids[..., None], layout, convention)
-        assert_identical(arrange(ids, layout, convention), want.astype(np.int32), layout)
-        want = to_layout(positions, layout, convention)
-        assert_identical(arrange(positions, layout, convention), want.astype(np.float32), layout)
-
-
 def test_names_of_faces_go_with_the_order():
     assert FACE_NAMES == ("+x", "-x", "+y", "-y", "+z", "-z")
 

@@ -134,7 +134,6 @@ BY_POSITION = {
     "images.encode_picture": ["target", "pixels", "srgb", "half", "exposure", "tonemap"],
     "images.prepare": ["pixels", "target", "srgb", "exposure", "tonemap", "name"],
     "cubemap_save.save_cubemap": ["cube", "path"],
-    "cubemap_save.arrange": ["values", "layout", "convention"],
 }
 
 #: Callables with one signature for each kind of thing that may be given.
@@ -293,7 +292,8 @@ CALLS = {
     "too large beside choices": (
         lambda r: cc.CubeMap([[[[0.0]]]] * 6).to_equirect(width=1 << 40),
         (
-            "to_equirect(): expected (width: int or None, center: str, sampling: str, dtype: DTypeLike or None), "
+            "to_equirect(): expected (width: int or None, center: str, sampling: str, dtype: DTypeLike or None, "
+            "output: str), "
             "got (width=1099511627776)"
         ),
     ),

@@ -124,7 +124,10 @@ def reports(tmp_path_factory):
     )
     assert done.stderr == ""
     assert re.search(r"Found \d+ errors", done.stdout), done.stdout
-    found = re.findall(r"^(right|wrong)\.py:(\d+): error: (.*)$", done.stdout, re.MULTILINE)
+    # Of a function with several signatures, notes below the error have the names.
+    found = re.findall(
+        r"^(right|wrong)\.py:(\d+): (?:error|note): (.*)$", done.stdout, re.MULTILINE
+    )
     return {
         program: [(int(line), text) for name, line, text in found if name == program]
         for program in ("right", "wrong")

@@ -18,8 +18,8 @@ Parameters
 ----------
 faces : array_like (6, N, N, C), or six of (N, N, C)
     C is 1, 3 or 4. uint8 (which stands for value/255), float16 and float32 are kept; float64 becomes
-    float32. NaN raises ValueError; inf is kept, and lookups near it give
-    inf or NaN, as on the GPU.
+    float32. NaN raises ValueError; inf is kept. Lookups and resampling
+    give inf where an infinite texel has a weight, and no NaN beside it; the GPU may give NaN there.
 convention : {"gl", "inside", "three"}, default "gl"
     The convention of `faces`: "gl" is the layout above; "inside" shows the faces as seen from the center
     of the cube (OpenEXR); "three" is that of three.js and D3D skybox files.
@@ -309,8 +309,8 @@ dtype : dtype, optional
 Returns
 -------
 CubeMap
-    A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`, without captured
-    outputs.
+    A new cube in `dtype`, rounded as `to_equirect` rounds, with the same `mipmaps` and `encoding`. Its outputs are
+    the nearest texels of this cube's outputs.
 
 Raises
 ------
@@ -323,6 +323,118 @@ Examples
 >>> import cubecam as cc
 >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
 (6, 2, 2, 3)
+)doc";
+
+inline constexpr const char* sample_output =
+    R"doc(Look up an output of a capture: its nearest texels.
+
+Parameters
+----------
+directions : array_like (..., 3)
+    Directions from the center of the cube outwards, in world axes, of any length except 0.
+lod : float, default 0
+    0; outputs have one level.
+output : str, default "color"
+    "color", or a name in `outputs`, such as "distance", "normal" or "id".
+
+Returns
+-------
+ndarray (...) or (..., channels) in the output's dtype
+    A new array. Each entry is the texel that the direction meets; no two are mixed.
+
+Raises
+------
+ValueError
+    For a direction that is not finite or has length 0, another `lod`, or an output that the cube does not have.
+)doc";
+
+inline constexpr const char* to_equirect_output = R"doc(Make a panorama of an output of a capture.
+
+Outputs are not filtered, since a mixture of two distances or ids belongs to no surface: each pixel is the
+texel that its direction meets.
+
+Parameters
+----------
+width, center, sampling
+    As for the colours.
+dtype : None
+    An output keeps its dtype.
+output : str, default "color"
+    "color", or a name in `outputs`. "distance" is the length of the ray, as panoramas of depth hold it. "z" and "depth"
+    are measured along the axis of the face on which the direction lies. Normals and positions are world
+    vectors.
+
+Returns
+-------
+ndarray (width / 2, width) or (width / 2, width, channels) in the output's dtype
+    A new array.
+
+Raises
+------
+ValueError
+    For a width that is not even and positive, an unknown center or sampling, a dtype, or an output that the
+    cube does not have.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> ball = scene.add(cc.Mesh.sphere(1), position=(0, 0, -4))
+>>> with cc.Renderer() as renderer:
+...     cube = renderer.capture(scene, size=64, outputs=("distance", "id"))
+>>> distances = cube.to_equirect(output="distance")
+>>> distances.shape, float(distances[0, 0])
+((128, 256), inf)
+>>> sorted(set(cube.to_equirect(output="id").ravel().tolist())) == [0, ball.id]
+True
+)doc";
+
+inline constexpr const char* to_convention_output =
+    R"doc(Convert the faces of an output to another convention.
+
+Its texels move as those of the colours do. The numbers stay as they are: normals and positions are world vectors in
+every convention.
+
+Parameters
+----------
+convention : {"gl", "inside", "three"}
+    The convention of the result.
+output : str, default "color"
+    "color", or a name in `outputs`.
+
+Returns
+-------
+ndarray (6, N, N) or (6, N, N, channels) in the output's dtype
+    A copy.
+
+Raises
+------
+ValueError
+    For an unknown convention, or an output that the cube does not have.
+)doc";
+
+inline constexpr const char* to_layout_output = R"doc(Arrange all faces of an output in one picture.
+
+Its texels move as those of the colours do, and are never mixed, in "equirect" and "openexr", too.
+
+Parameters
+----------
+layout, convention
+    As for the colours.
+dtype : None
+    An output keeps its dtype.
+output : str, default "color"
+    "color", or a name in `outputs`.
+
+Returns
+-------
+ndarray (H, W) or (H, W, channels) in the output's dtype
+    A new array; cells without a face are 0.
+
+Raises
+------
+ValueError
+    For an unknown layout or convention, a dtype, or an output that the cube does not have.
 )doc";
 
 inline constexpr const char* outputs =

@@ -110,4 +110,29 @@ auto apply_tap(const BoxTap& tap, const Texels& texel) {
     }
 }
 
+/// Like apply_tap, but a sum of weighted texels, for boxes whose result apply_tap gives as NaN or
+/// infinite. A texel of weight 0 does not count, so infinity beside a box gives no NaN; within a
+/// box it gives infinity. A weight that may come from rounding errors alone counts as 0.
+template <typename Texels>
+auto sum_tap(const BoxTap& tap, const Texels& texel) {
+    const auto near = static_cast<double>(tap.near);
+    const auto last = static_cast<double>(tap.last);
+    std::remove_cvref_t<decltype(texel(0))> sum{};
+    // `share` is the weight of a texel that lies in the box as a whole.
+    const auto add = [&](int index, double weight, double share) {
+        if (weight > share * (1e-6 + 1.2e-7 * tap.inner)) {
+            sum += texel(index) * static_cast<float>(weight);
+        }
+    };
+    if (tap.inner == 0) {
+        add(0, 1 - near, 1);
+        add(1, near, 1);
+        return sum;
+    }
+    add(0, 1 - tap.inner * near - last, near);
+    for (int i = 1; i <= tap.inner; ++i) add(i, near, near);
+    add(tap.inner + 1, last, near);
+    return sum;
+}
+
 }  // namespace cubecam

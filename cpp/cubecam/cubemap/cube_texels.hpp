@@ -5,6 +5,7 @@
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/cube_edges.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -72,6 +73,31 @@ void store_texel(Lane<Channels> texel, float* to) {
     }
 }
 
+/// Whether all channels of a texel are finite.
+template <int Channels>
+bool is_finite(const Lane<Channels>& texel) {
+    if constexpr (Channels == 1) {
+        return texel - texel == 0.0f;
+    } else {
+        bool finite = true;
+        for (int c = 0; c < Channels; ++c) finite &= texel[c] - texel[c] == 0.0f;
+        return finite;
+    }
+}
+
+/// The texel, with the channels of `other` in place of those that are not finite.
+template <int Channels>
+Lane<Channels> finite_or(Lane<Channels> texel, const Lane<Channels>& other) {
+    if constexpr (Channels == 1) {
+        return is_finite<1>(texel) ? texel : other;
+    } else {
+        for (int c = 0; c < Channels; ++c) {
+            if (!is_finite<1>(texel[c])) texel[c] = other[c];
+        }
+        return texel;
+    }
+}
+
 /// Interpolates from a to b. Between equal texels the result is exact, unlike a (1 - w) + b w.
 template <typename LaneType>
 LaneType mix_texels(LaneType a, LaneType b, float weight) {
@@ -113,10 +139,12 @@ struct CubeTexels {
         const int next_row = row < 0 ? -1 : size;
         const int next_column = column < 0 ? -1 : size;
         const Lane<Channels> own = inside(face, near_row, near_column);
+        const Lane<Channels> above = seamless(face, next_row, near_column);
+        const Lane<Channels> beside = seamless(face, near_row, next_column);
         // A sum of differences: three equal texels give exactly the same fourth one.
-        return own + ((seamless(face, next_row, near_column) - own) +
-                      (seamless(face, near_row, next_column) - own)) /
-                         3.0f;
+        const Lane<Channels> average = own + ((above - own) + (beside - own)) / 3.0f;
+        // A difference of infinities is NaN.
+        return finite_or<Channels>(average, own / 3.0f + above / 3.0f + beside / 3.0f);
     }
 
     Lane<Channels> bilinear(Face face, float s, float t) const {
@@ -144,6 +172,35 @@ struct CubeTexels {
                               bottom_weight);
         }
         return between_faces(face, row, column, right_weight, bottom_weight);
+    }
+
+    /// Like `between`, but a sum of weighted texels, for places where `between` gives NaN or
+    /// infinity. A texel of weight 0 does not count, nor one whose weight may come from rounding
+    /// errors of x or y alone.
+    Lane<Channels> sum_between(Face face, float x, float y) const {
+        const float error = std::max(1e-6f, static_cast<float>(size) * 2.4e-7f);
+        const auto rounded = [error](float weight) {
+            return weight < error ? 0.0f : weight > 1.0f - error ? 1.0f : weight;
+        };
+        const int column = static_cast<int>(x + 1.0f) - 1;
+        const int row = static_cast<int>(y + 1.0f) - 1;
+        const float right = rounded(x - static_cast<float>(column));
+        const float bottom = rounded(y - static_cast<float>(row));
+        Lane<Channels> sum{};
+        const auto add = [&](int at_row, int at_column, float weight) {
+            if (weight > 0) sum += seamless(face, at_row, at_column) * weight;
+        };
+        add(row, column, (1.0f - bottom) * (1.0f - right));
+        add(row, column + 1, (1.0f - bottom) * right);
+        add(row + 1, column, bottom * (1.0f - right));
+        add(row + 1, column + 1, bottom * right);
+        return sum;
+    }
+
+    /// Like `bilinear`; see sum_between.
+    Lane<Channels> sum_bilinear(Face face, float s, float t) const {
+        return sum_between(face, s * static_cast<float>(size) - 0.5f,
+                           t * static_cast<float>(size) - 0.5f);
     }
 
     [[gnu::noinline]] Lane<Channels> between_faces(Face face, int row, int column,

@@ -65,16 +65,23 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
                         for (int x = 0; x < half; ++x) {
                             const BoxTap& across = taps[static_cast<std::size_t>(x)];
                             for (int c = 0; c < channels; ++c) {
-                                row[static_cast<std::size_t>(x * channels + c)] =
-                                    apply_tap<Reach::far>(down, [&](int i) {
-                                        const auto* line =
-                                            from + static_cast<std::ptrdiff_t>(down.first + i) *
-                                                       size * channels;
-                                        return apply_tap<Reach::far>(across, [&](int j) {
-                                            return to_float(
-                                                line[(across.first + j) * channels + c]);
-                                        });
+                                const auto texel = [&](int i, int j) {
+                                    return to_float(
+                                        from[(static_cast<std::ptrdiff_t>(down.first + i) * size +
+                                              across.first + j) *
+                                                 channels +
+                                             c]);
+                                };
+                                float value = apply_tap<Reach::far>(down, [&](int i) {
+                                    return apply_tap<Reach::far>(
+                                        across, [&](int j) { return texel(i, j); });
+                                });
+                                if (!is_finite<1>(value)) [[unlikely]] {
+                                    value = sum_tap(down, [&](int i) {
+                                        return sum_tap(across, [&](int j) { return texel(i, j); });
                                     });
+                                }
+                                row[static_cast<std::size_t>(x * channels + c)] = value;
                             }
                         }
                         floats_to_pixels(
@@ -239,6 +246,14 @@ void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const 
                     if (weight > 0) {
                         texel = mix_texels(texel, levels[below + 1].bilinear(uv.face, uv.s, uv.t),
                                            weight);
+                    }
+                    if (!is_finite<channels>(texel)) [[unlikely]] {
+                        Lane<channels> sum = levels[below].sum_bilinear(uv.face, uv.s, uv.t);
+                        if (weight > 0) {
+                            sum = sum * (1.0f - weight) +
+                                  levels[below + 1].sum_bilinear(uv.face, uv.s, uv.t) * weight;
+                        }
+                        texel = finite_or<channels>(texel, sum);
                     }
                     store_texel<channels>(texel, to + channels * i);
                 }

@@ -34,25 +34,16 @@ public:
     CubeToEquirect(const CubeTexels<Pixel, Channels>& cube, int width, Center center,
                    Sampling sampling, const TexelTarget<Channels>& to)
         : cube_(cube), width_(width), height_(width / 2), to_(to) {
-        const bool borders = sampling == Sampling::borders;
-        constexpr double half_turn = std::numbers::pi;
-        const double offset = borders ? 0.0 : 0.5;
-        lon_step_ = 2 * half_turn / (borders ? width_ - 1 : width_);
-        lat_step_ = half_turn / (borders ? std::max(height_ - 1, 1) : height_);
-        const glm::dvec3 forward = center_forward<double>(center);
-        const glm::dvec3 right = center_right<double>(center);
-        for (int column = 0; column < width_; ++column) {
-            const double longitude = (column + offset) * lon_step_ - half_turn;
-            const glm::dvec3 d = std::sin(longitude) * right + std::cos(longitude) * forward;
-            columns_.push_back(make_column(d));
+        const EquirectAngles angles(width, center, sampling);
+        lon_step_ = angles.longitude_step;
+        lat_step_ = angles.latitude_step;
+        for (const glm::dvec3& direction : angles.directions) {
+            columns_.push_back(make_column(direction));
         }
-        for (int row = 0; row < height_; ++row) {
-            const double latitude = half_turn / 2 - (row + offset) * lat_step_;
-            latitudes_.push_back(latitude);
-            pole_rows_.push_back(make_pole_row(latitude));
-        }
+        latitudes_ = angles.latitudes;
+        for (const double latitude : latitudes_) pole_rows_.push_back(make_pole_row(latitude));
         // After a quarter turn the next side face has the same taps as the one before.
-        if (!borders && width_ % 8 == 0) turns_ = 4;
+        if (sampling == Sampling::centers && width_ % 8 == 0) turns_ = 4;
     }
 
     void run() const {
@@ -211,7 +202,15 @@ private:
             } else {
                 scratch.filtered.filter(reach, down, taps + j, j, until - j, scratch.line);
             }
-            to_.store(scratch.line, until - j, 1, index_of(row, from));
+            const std::size_t index = index_of(row, from);
+            if (!to_.store(scratch.line, until - j, 1, index)) [[unlikely]] {
+                mend_texels<Channels>(scratch.line, until - j, [&](std::size_t i) {
+                    if (pole) return sum_pole(row, column(from + static_cast<int>(i)));
+                    return sum_box(cube_, column(from).face, down[taps + j + i],
+                                   scratch.across[j + i]);
+                });
+                to_.store(scratch.line, until - j, 1, index);
+            }
             j = until;
         }
     }
@@ -247,6 +246,22 @@ private:
             for (std::size_t i = 1; i < samples.size(); ++i) sum += look(samples[i]) - one;
             to[j] = one + sum * weight;
         }
+    }
+
+    /// Computes one texel of a row on +Y or -Y as sample_pole does, by sums of weighted texels.
+    Lane<Channels> sum_pole(int row, const PanoramaColumn& column) const {
+        const auto& samples = pole_rows_[static_cast<std::size_t>(row)].samples;
+        const float y = latitude(row) > 0 ? 1.0f : -1.0f;
+        const auto column_x = static_cast<float>(column.x);
+        const auto column_z = static_cast<float>(column.z);
+        Lane<Channels> sum{};
+        for (const auto& at : samples) {
+            const float x = column_x * at.cosine - column_z * at.sine;
+            const float z = column_z * at.cosine + column_x * at.sine;
+            const FaceUv<float> uv = direction_to_face_uv(glm::vec3(x, y, z));
+            sum += cube_.sum_bilinear(uv.face, uv.s, uv.t) / static_cast<float>(samples.size());
+        }
+        return sum;
     }
 
     static int samples_for(double texels) {
@@ -316,6 +331,10 @@ void resample_all(const CubeTexels<Pixel, Channels>& texels, Sampling from, int 
             for (std::size_t tap = 0; tap < down.size(); tap += n, index += n) {
                 scratch.filtered.filter(reach_of(down.widest()), down, tap, 0, n,
                                         scratch.line.data());
+                if (target.store(scratch.line.data(), n, 1, index)) continue;
+                mend_texels<Channels>(scratch.line.data(), n, [&](std::size_t column) {
+                    return sum_box(texels, face, down[tap + column], scratch.across[column]);
+                });
                 target.store(scratch.line.data(), n, 1, index);
             }
         }
@@ -333,12 +352,33 @@ void check_face_size(int size, Sampling sampling) {
 
 }  // namespace
 
+EquirectAngles::EquirectAngles(int width, Center center, Sampling sampling) {
+    constexpr double half_turn = std::numbers::pi;
+    const bool borders = sampling == Sampling::borders;
+    const int height = width / 2;
+    const double offset = borders ? 0.0 : 0.5;
+    longitude_step = 2 * half_turn / (borders ? width - 1 : width);
+    latitude_step = half_turn / (borders ? std::max(height - 1, 1) : height);
+    const glm::dvec3 forward = center_forward<double>(center);
+    const glm::dvec3 right = center_right<double>(center);
+    for (int column = 0; column < width; ++column) {
+        const double longitude = (column + offset) * longitude_step - half_turn;
+        directions.push_back(std::sin(longitude) * right + std::cos(longitude) * forward);
+    }
+    for (int row = 0; row < height; ++row) {
+        latitudes.push_back(half_turn / 2 - (row + offset) * latitude_step);
+    }
+}
+
+void check_equirect_width(int width) {
+    if (width >= 2 && width % 2 == 0) return;
+    throw std::invalid_argument("width: expected an even number of at least 2, got " +
+                                std::to_string(width));
+}
+
 PixelBuffer cube_to_equirect(const CubeMapData& cube, int width, Center center, Sampling sampling,
                              DType to) {
-    if (width < 2 || width % 2 != 0) {
-        throw std::invalid_argument("width: expected an even number of at least 2, got " +
-                                    std::to_string(width));
-    }
+    check_equirect_width(width);
     PixelBuffer result(static_cast<std::size_t>(width) * static_cast<std::size_t>(width / 2) *
                        static_cast<std::size_t>(cube.channels) * dtype_size(to));
     with_channels(cube.channels, [&](auto constant) {

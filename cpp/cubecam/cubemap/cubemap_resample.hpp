@@ -13,6 +13,10 @@
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/math/equirect.hpp"
 
+#include <glm/vec3.hpp>
+
+#include <vector>
+
 namespace cubecam {
 
 /// Where the samples of a picture lie. With `borders` the first and the last sample of each row and
@@ -20,6 +24,19 @@ namespace cubecam {
 /// have the same samples on their common edge, and so do the first and the last column of a
 /// panorama.
 enum class Sampling { centers, borders };
+
+/// The angles of a panorama's texels.
+struct EquirectAngles {
+    std::vector<glm::dvec3> directions;  ///< of each column: horizontal, of length 1
+    std::vector<double> latitudes;       ///< of each row, in radians
+    double longitude_step;
+    double latitude_step;
+
+    EquirectAngles(int width, Center center, Sampling sampling);
+};
+
+/// @throws std::invalid_argument unless width is even and positive.
+void check_equirect_width(int width);
 
 struct EquirectPixels {
     const std::byte* pixels;  ///< [height][width][channels]

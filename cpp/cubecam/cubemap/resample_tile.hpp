@@ -294,6 +294,16 @@ struct TexelTarget {
     }
 };
 
+/// Computes again, by exact(i), the channels of texels that are not finite.
+template <int Channels, typename Exact>
+void mend_texels(Lane<Channels>* texels, std::size_t count, const Exact& exact) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!is_finite<Channels>(texels[i])) {
+            texels[i] = finite_or<Channels>(texels[i], exact(i));
+        }
+    }
+}
+
 /// Prefetches `bytes` from an address that will be read soon. Rows of a picture lie on different
 /// pages, and the processor does not prefetch from another page by itself.
 inline void prefetch(const void* address, std::size_t bytes) {
@@ -345,6 +355,16 @@ void read_face_row(const CubeTexels<Pixel, Channels>& cube, Face face, int row, 
         }
     }
     for (; column < end; ++column) *to++ = cube.seamless(face, row, column);
+}
+
+/// The average over a box on a face by sum_tap.
+template <typename Pixel, int Channels>
+Lane<Channels> sum_box(const CubeTexels<Pixel, Channels>& cube, Face face, const BoxTap& down,
+                       const BoxTap& across) {
+    return sum_tap(down, [&](int i) {
+        return sum_tap(
+            across, [&](int j) { return cube.seamless(face, down.first + i, across.first + j); });
+    });
 }
 
 }  // namespace cubecam

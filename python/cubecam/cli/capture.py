@@ -155,7 +155,7 @@ _SAMPLE = "forest.exr"  # what a mirror shows without --environment
     "--outputs",
     metavar="NAMES",
     default="",
-    help="Further outputs, written to EXR files named after the output: "
+    help="Further outputs, written to EXR files named after the output, in the layout of the picture: "
     f"any of {', '.join(_OUTPUTS)}, separated by commas.",
 )
 @option("--near", type=NUMBER, metavar="NUMBER", default=0.05, help="Nearest distance drawn.")
@@ -235,8 +235,18 @@ def capture(
                 exposure=exposure,
                 tonemap=None if tonemap == "none" else tonemap or "neutral",
             )
+        picture = Path(output)
         for name in more:
-            written += _save_output(cube, name, output, wanted, convention or "gl")
+            target = str(picture.with_name(f"{picture.stem}_{name}.exr"))
+            cube.save(
+                target,
+                layout=wanted,
+                convention=convention,
+                width=width,
+                center=center,
+                output=name,
+            )
+            written.append(target)
         for path in written:
             click.echo(path)
         triangles = len(place.mesh.indices)
@@ -330,11 +340,6 @@ def _check_options(layout: str, output: str, width: int | None, outputs: list[st
             raise click.BadParameter(
                 f"expected some of {', '.join(_OUTPUTS)}, got {name}", param_hint="--outputs"
             )
-    if outputs and layout in ("equirect", "openexr"):
-        raise click.BadParameter(
-            f"distances, normals and ids cannot be resampled: expected a layout of whole faces, got {layout}",
-            param_hint="--outputs",
-        )
 
 
 def _material(name: MaterialName, color: Triple) -> Material:
@@ -343,25 +348,3 @@ def _material(name: MaterialName, color: Triple) -> Material:
     if name == "glass":
         return GlassMaterial(tint=color)
     return PhongMaterial(color=color)
-
-
-def _save_output(
-    cube: CubeMap, name: str, output: str, layout: FileLayout, convention: Convention
-) -> list[str]:
-    """Write an output as EXR of float or whole numbers, in the layout of the colours."""
-    from ..io.cubemap_names import FACE_NAMES
-    from ..io.cubemap_save import arrange
-    from ..io.images import save_image
-
-    values = getattr(cube, name)
-    path = Path(output)
-    target = str(path.with_name(f"{path.stem}_{name}.exr"))
-    if layout != "faces":
-        save_image(target, arrange(values, layout, convention))
-        return [target]
-    # The column has the faces in their order; it is cut into six pictures.
-    column = arrange(values, "column", convention)
-    size = column.shape[1]
-    for index, face in enumerate(FACE_NAMES[0]):
-        save_image(target.replace("{face}", face), column[index * size : (index + 1) * size])
-    return [target]

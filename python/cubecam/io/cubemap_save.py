@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._calls import checked_call
 from .._core import CubeMap
-from ..typing import Center, Convention, FileLayout, Layout, Tonemap
+from ..typing import Center, Convention, FileLayout, Tonemap
 from . import formats
 from .cubemap_names import FACE_NAMES, Source, check_names, check_openexr, layout_name, six_paths
+from .cubemap_outputs import encode_output
 from .files import as_path
 from .pixels import Array
 from .screen import Clipping, check_look, curve_for
@@ -19,10 +20,6 @@ from .writing import write_files
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import numpy.typing as npt
-
-Number = TypeVar("Number", bound=np.generic)
 
 
 @checked_call
@@ -38,6 +35,7 @@ def save_cubemap(
     tonemap: Tonemap | None = "neutral",
     srgb: bool | None = None,
     half: bool = False,
+    output: str = "color",
 ) -> None:
     """Write a cubemap as one picture or six files. The method `CubeMap.save`.
 
@@ -66,13 +64,17 @@ def save_cubemap(
         False writes the numbers as they are; None and True as described above.
     half : bool
         True stores an EXR with 16 bits a number.
+    output : str
+        "color", or the name of an output in `outputs`, such as "distance", "normal" and "id". Its numbers are written
+        to .exr as they are, as floats or whole numbers of 32 bits, in any layout, and never mixed (`to_equirect`).
 
     Raises
     ------
     OSError
         If a folder does not exist or may not be written, or the disk is full. The old files stay as they were.
     ValueError
-        For unknown names, options that do not go together, or numbers that the file cannot hold.
+        For unknown names, options that do not go together, numbers that the file cannot hold, or an output that the
+        cube does not have.
 
     Notes
     -----
@@ -94,8 +96,20 @@ def save_cubemap(
         raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
     if width is not None and wanted != "equirect":
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
-    half = half or cube.dtype == np.float16
     check_look(exposure, tonemap, srgb)
+    if output != "color":
+        if half or exposure != 0 or srgb:
+            raise ValueError(
+                f'half, exposure, srgb: expected with output="color" only, got output={output!r}, '
+                "whose numbers are written as they are"
+            )
+        contents = encode_output(
+            cube, path, paths, output,
+            layout=wanted, convention=convention, width=width, center=center,
+        )  # fmt: skip
+        write_files(contents)
+        return
+    half = half or cube.dtype == np.float16
     # What the cube's own numbers are decides, even where resampling makes floats of whole numbers.
     curve = curve_for(cube, cube.faces, tonemap)
 
@@ -162,22 +176,6 @@ def save_cubemap(
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
     clipping.warn()
     write_files({target: encoded})
-
-
-def arrange(
-    values: npt.NDArray[Number], layout: Layout, convention: Convention
-) -> npt.NDArray[Number]:
-    """Lay out six faces of any numbers, (6, N, N) or (6, N, N, C), as `CubeMap.to_layout` does with colours.
-
-    A CubeMap cannot hold ids, or positions with NaN; so each number is laid out as its four bytes.
-    """
-    channels = values[..., None] if values.ndim == 3 else values
-    pictures = []
-    for channel in np.moveaxis(channels, -1, 0):
-        texels = np.ascontiguousarray(channel)[..., None].view(np.uint8)
-        picture = CubeMap(texels).to_layout(layout, convention=convention)
-        pictures.append(np.ascontiguousarray(picture).view(values.dtype))
-    return np.concatenate(pictures, axis=-1)
 
 
 def _storable(cube: CubeMap, target: Path) -> CubeMap:
