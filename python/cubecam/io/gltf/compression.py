@@ -88,6 +88,8 @@ def _meshopt(document: Gltf, view: Entry, entry: Entry, name: str, meshopt: Any)
         raise entry.error("byteLength", f"at least {shortest} bytes of {name}")
     if count * stride > document.most_bytes:
         raise entry.error("count", f"at most {document.most_bytes // stride} elements of {name}")
+    if view.integer("byteLength") != count * stride:
+        raise view.error("byteLength", f"{count * stride}, as {name} says,")
     if count == 0:
         return memoryview(b"")
     try:
