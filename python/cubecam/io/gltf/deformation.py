@@ -58,11 +58,11 @@ def skin(document: Gltf, shape: Surface, entry: Entry) -> None:
     blended[lost], total[lost] = joints[0, :3], 1
     blended /= total[:, None, None]
     linear = blended[:, :, :3]
-    shape.positions = (linear @ shape.positions[:, :, None])[:, :, 0] + blended[:, :, 3]
+    shape.positions = np.einsum("vij,vj->vi", linear, shape.positions) + blended[:, :, 3]
     sides = np.sign(np.linalg.det(linear))
     if shape.normals is not None:
-        turned = (cofactors(linear) @ shape.normals[:, :, None])[:, :, 0]
-        shape.normals = np.where(sides < 0, -1.0, 1.0)[:, None] * turned
+        normals = np.einsum("vij,vj->vi", cofactors(linear), shape.normals)
+        shape.normals = np.where(sides < 0, -1.0, 1.0)[:, None] * normals
     # Where joints mirror, counter-clockwise becomes clockwise.
     mirrored = sides[shape.faces].sum(axis=1) < 0
     shape.faces = np.where(mirrored[:, None], shape.faces[:, ::-1], shape.faces)

@@ -15,7 +15,7 @@ from .document import Gltf
 from .entries import Entry
 from .extensions import DRACO, INSTANCING
 from .limits import Limits
-from .matrices import Matrices, cofactors, composed, rotations, unscaled
+from .matrices import Matrices, cofactors, composed, products, rotations, unscaled
 from .nodes import hidden
 from .primitives import LARGEST, MODES, Attributes, Floats, Surface, accessor_index, surface
 
@@ -168,7 +168,7 @@ class Geometry:
         times, vertices = len(matrices), len(shape.positions)
         self._limits.output((vertices + len(shape.faces)) * (times - 1), shape.entry)
         linear = matrices[:, :3, :3]
-        positions = shape.positions @ linear.transpose(0, 2, 1) + matrices[:, None, :3, 3]
+        positions = products(shape.positions, linear) + matrices[:, None, :3, 3]
         if not (np.abs(positions) <= LARGEST).all():
             raise MeshError(
                 f"{shape.entry.where}: expected positions that float32 can hold, got others"
@@ -183,7 +183,7 @@ class Geometry:
         return Part(
             positions.reshape(-1, 3),
             (faces + np.arange(times)[:, None, None] * vertices).reshape(-1, 3),
-            (normals @ turning.transpose(0, 2, 1)).reshape(-1, 3),
+            products(normals, turning).reshape(-1, 3),
             _repeated(None if shape.uvs is None else _from_bottom(shape.uvs), times),
             _repeated(shape.colors, times),
         )
