@@ -61,6 +61,9 @@ MASKED = ("tests/unit/test_masked_arrays.py",)
 SCENE_QUERIES = ("tests/unit/test_scene_queries.py",)
 OBJ = ("tests/unit/test_obj.py",)
 POLYGONS = ("tests/unit/test_polygons.py",)
+GLTF = ("tests/unit/test_gltf_geometry.py",)
+GLTF_FILES = ("tests/unit/test_gltf.py",)
+GLTF_COMPRESSION = ("tests/unit/test_gltf_compression.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -1457,5 +1460,54 @@ MUTATIONS = [
         "check_nothing_hidden(array, name);",
         "",
         MASKED,
+    ),
+    Mutation(
+        "glTF: normals of a mirrored node point inwards",
+        "gltf/geometry.py",
+        "np.where(mirrored, -1.0, 1.0) * cofactors(linear)",
+        "cofactors(linear)",
+        GLTF,
+    ),
+    Mutation(
+        "glTF: normals of a stretched node go as positions do",
+        "gltf/geometry.py",
+        "products(normals, turning)",
+        "products(normals, linear)",
+        GLTF,
+    ),
+    Mutation(
+        "glTF: a mirrored node is inside out",
+        "gltf/geometry.py",
+        "np.where(mirrored, shape.faces[:, ::-1], shape.faces)",
+        "shape.faces[None]",
+        GLTF,
+    ),
+    Mutation(
+        "glTF: every second triangle of a strip is turned",
+        "gltf/primitives.py",
+        "first + 1 + odd, first + 2 - odd",
+        "first + 1, first + 2",
+        GLTF,
+    ),
+    Mutation(
+        "glTF: inverse bind matrices after the joints",
+        "gltf/deformation.py",
+        "worlds @ bind[: len(numbers)]",
+        "bind[: len(numbers)] @ worlds",
+        GLTF,
+    ),
+    Mutation(
+        "glTF: links lead out of the folder",
+        "gltf/references.py",
+        "os.path.realpath(os.path.join(root, name))",
+        "os.path.join(root, name)",
+        GLTF_FILES,
+    ),
+    Mutation(
+        "glTF: a Draco header may claim anything",
+        "gltf/compression.py",
+        "if vertices + triangles > limits.left:",
+        "if False:",
+        GLTF_COMPRESSION,
     ),
 ]
