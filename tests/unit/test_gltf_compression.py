@@ -143,6 +143,16 @@ def test_attributes_beside_the_draco_data(load):
     refused(load, file, "TEXCOORD_0: expected 4 elements, as other attributes have, got 3")
 
 
+def test_positions_beside_the_draco_data_have_as_many_elements(load):
+    file = draco_file(encoded(), PLAIN)
+    primitive = file.tree["meshes"][0]["primitives"][0]
+    primitive["extensions"][DRACO]["attributes"] = {}
+    number = primitive["attributes"]["POSITION"] = file.accessor(SQUARE * 2)
+    np.testing.assert_array_equal(load(file).positions, SQUARE * 2)
+    file.tree["accessors"][number]["count"] = 3
+    refused(load, file, "attributes.POSITION: expected 4 elements, as other attributes have, got 3")
+
+
 def test_draco_metadata_are_skipped():
     data = DracoPy.encode(
         SQUARE, HALVES, create_metadata=True, generic_attributes={"mine": SQUARE.copy()}
@@ -216,6 +226,8 @@ def test_without_dracopy_plain_data_take_its_place(load, no_packages):
     primitive["attributes"]["POSITION"] = file.accessor(SQUARE)
     primitive["indices"] = file.accessor(HALVES.ravel())
     np.testing.assert_array_equal(load(file).positions, SQUARE)
+    file.tree["extensionsRequired"] = [DRACO]
+    refused(load, file, "expected the package DracoPy")
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -111,6 +111,7 @@ def surface(
     attributes = Attributes(
         document,
         primitive.needed("attributes"),
+        count=None if draco is None else draco.count,
         draco=(draco, ids) if draco is not None and ids is not None else None,
     )
     positions = attributes.floats("POSITION", "VEC3")
