@@ -64,6 +64,11 @@ def test_chunks_of_unknown_types_are_skipped(load):
     is_the_triangle(load(glb_of((b"JSON", text), (b"BIN\0", binary), (b"XYZ!", b"abcd"))))
 
 
+def test_a_second_binary_chunk_is_skipped(load):
+    text, binary = parts_of(shown())
+    is_the_triangle(load(glb_of((b"JSON", text), (b"BIN\0", binary), (b"BIN\0", bytes(36)))))
+
+
 BAD_CONTAINERS = {
     "shorter than a header": (b"glTF\2\0\0\0", "header of 12 bytes, got 8"),
     "version 1": (glb_of((b"JSON", b"{}"), version=1), "expected glTF 2.0, got a GLB .*version 1"),

@@ -171,6 +171,14 @@ def test_bad_draco_data_are_refused(load):
     refused(
         load, draco_file(data, {"POSITION": (5126, "VEC3", 7)}), rf"{place}.attributes.POSITION"
     )
+    pairs = encoded(generic_attributes={3: np.zeros((4, 2), np.float32)})
+    number = next(
+        a["unique_id"] for a in DracoPy.decode(pairs).attributes if a["attribute_type"] == 0
+    )
+    forms = {"POSITION": (5126, "VEC3", number), "NORMAL": (5126, "VEC3", 3)}
+    refused(
+        load, draco_file(pairs, forms), rf"{place}.attributes.NORMAL: expected an attribute of VEC3"
+    )
     refused(load, draco_file(data, {"POSITION": (5126, "VEC2", 0)}), "expected an accessor of VEC3")
     refused(
         load,

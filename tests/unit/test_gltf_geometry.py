@@ -222,12 +222,13 @@ def moved(matrix, points):
 
 
 def test_translation_rotation_and_scale(load):
-    file = shown()
+    corners = np.array([[0, 0, 1], [1, 0, -2], [0, 1, 5]], np.float32)
+    file = shown(positions=corners)
     axis = (1, 2, -0.5)
     long = [3 * q for q in quaternion(axis, 40)]  # any length
     file.tree["nodes"][0].update(translation=[5, 6, 7], rotation=long, scale=[2, 3, -4])
     want = affine(turning(axis, 40) @ np.diag([2, 3, -4]), (5, 6, 7))
-    np.testing.assert_allclose(load(file).positions, moved(want, CORNERS), atol=1e-6)
+    np.testing.assert_allclose(load(file).positions, moved(want, corners), atol=1e-5)
 
 
 def test_children_are_placed_by_their_parents(load):

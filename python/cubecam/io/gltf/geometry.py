@@ -15,7 +15,7 @@ from .document import Gltf
 from .entries import Entry
 from .extensions import DRACO, INSTANCING
 from .limits import Limits
-from .matrices import Matrices, cofactors, composed, products, rotations, unscaled
+from .matrices import Matrices, cofactors, composed, products, rotations
 from .nodes import hidden
 from .primitives import LARGEST, MODES, Attributes, Floats, Surface, accessor_index, surface
 
@@ -176,7 +176,6 @@ class Geometry:
         # The specification asks for flat normals where a file has none. load_mesh promises smooth ones for every kind
         # of file; `flat_shading` of a material draws any mesh flat.
         normals = unit_normals(Part(shape.positions, shape.faces, shape.normals, None, None))
-        linear = unscaled(linear)
         mirrored = np.linalg.det(linear)[:, None, None] < 0
         turning = np.where(mirrored, -1.0, 1.0) * cofactors(linear)
         faces = np.where(mirrored, shape.faces[:, ::-1], shape.faces)

@@ -49,12 +49,6 @@ def products(points: Matrices, linear: Matrices) -> Matrices:
     return result
 
 
-def unscaled(linear: Matrices) -> Matrices:
-    """Scale (N, 3, 3) matrices so that their largest number is 1: cofactors and determinants cannot overflow then."""
-    largest = np.abs(linear).max(axis=(1, 2), keepdims=True)
-    return np.where(largest > 0, linear / np.where(largest > 0, largest, 1), 0.0)
-
-
 def cofactors(linear: Matrices) -> Matrices:
     """Return the cofactors of (N, 3, 3) matrices: the inverse transpose up to a factor, also of a singular matrix."""
     a, b, c = linear[:, 0], linear[:, 1], linear[:, 2]
