@@ -1,6 +1,7 @@
 """PLY files by value: text and both orders of bytes, lists of any lengths, strips, wedges, colours of all types."""
 
 import struct
+import time
 
 import numpy as np
 import pytest
@@ -415,3 +416,14 @@ def everything(form):
 @every_format
 def test_broken_bytes_give_a_mesh_or_a_mesh_error(tmp_path, form):
     assert survives(tmp_path, "a.ply", everything(form), seed=len(form)) > 5
+
+
+def test_the_time_for_a_header_of_many_lists_is_linear(tmp_path):
+    count = 20_000
+    lists = [f"list uchar uchar x{i}" for i in range(count)]
+    data = ply("binary_little_endian", ("a", lists, [[[]] * count] * 2), vertices(), faces(HALVES))
+    start = time.process_time()
+    assert load(tmp_path, "a.ply", data).indices.tolist() == HALVES
+    assert (
+        time.process_time() - start < 2
+    )  # 0.2 s; about 20 s where each list is looked up among all

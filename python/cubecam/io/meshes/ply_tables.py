@@ -108,7 +108,9 @@ class Table:
         self._places: dict[str, int] = {}
         for place, each in enumerate(element.properties):
             self._places.setdefault(each.name.lower(), place)
-        self._lists = [place for place, each in enumerate(element.properties) if each.count]
+        # The columns of `_lengths` for properties that are lists.
+        lists = [place for place, each in enumerate(element.properties) if each.count]
+        self._lists = {place: column for column, place in enumerate(lists)}
         # What a row takes when all its lists are empty.
         self._fixed = sum(source.size(each.count or each.type) for each in element.properties)
         if element.count * self._fixed > source.length - start:
@@ -147,7 +149,7 @@ class Table:
         place = self._places[name]
         each = self.element.properties[place]
         offsets = self._offsets(place) + self._source.size(each.count or each.type)
-        lengths = self._lengths[:, self._lists.index(place)]
+        lengths = self._lengths[:, self._lists[place]]
         if self._starts is None:
             shape = (self.element.count, int(lengths[0]))
             grid = self._source.grid(each.type, self._start + int(offsets[0]), shape, self._stride)
@@ -163,7 +165,7 @@ class Table:
         for before, each in enumerate(self.element.properties[:place]):
             offsets += self._source.size(each.count or each.type)
             if each.count:
-                lengths = self._lengths[:, self._lists.index(before)]
+                lengths = self._lengths[:, self._lists[before]]
                 offsets += lengths * self._source.size(each.type)
         return offsets
 
@@ -172,15 +174,19 @@ class Table:
         return self._offsets(len(self.element.properties))
 
     def _is_regular(self) -> bool:
-        rows = self.element.count
         if self.end > self._source.length:
             return False
-        for column, place in enumerate(self._lists):
-            type_ = self.element.properties[place].count or ""
-            start = self._start + int(self._offsets(place)[0])
-            lengths = self._source.grid(type_, start, (rows, 1), self._stride)
-            if (lengths != self._lengths[0, column]).any():
+        place, column = self._start, 0
+        for each in self.element.properties:
+            if not each.count:
+                place += self._source.size(each.type)
+                continue
+            length = int(self._lengths[0, column])
+            shape = (self.element.count, 1)
+            if (self._source.grid(each.count, place, shape, self._stride) != length).any():
                 return False
+            place += self._source.size(each.count) + length * self._source.size(each.type)
+            column += 1
         return True
 
     def _walked(self, rows: int) -> Indices:
