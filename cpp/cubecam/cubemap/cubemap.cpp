@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -42,16 +41,6 @@ bool same_values(const std::shared_ptr<const Buffer<T>>& a,
     if (a == b) return true;
     return a && b && a->size() == b->size() &&
            std::memcmp(a->data(), b->data(), a->size() * sizeof(T)) == 0;
-}
-
-/// Whether all numbers are finite.
-bool all_finite(const float* numbers, std::size_t count) {
-    constexpr std::uint32_t exponent = 0x7f800000u;
-    std::uint32_t bad = 0;  // whole numbers and no branch, so that the compiler uses SIMD
-    for (std::size_t i = 0; i < count; ++i) {
-        bad |= (std::bit_cast<std::uint32_t>(numbers[i]) & exponent) == exponent ? 1u : 0u;
-    }
-    return bad == 0;
 }
 
 /// Computes again, by sum_tap, the numbers of a row that are not finite.
