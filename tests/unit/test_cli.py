@@ -660,6 +660,30 @@ def test_capture_a_mesh(tmp_path):
     assert distance[8, 5 * 16 + 8, 0] == pytest.approx(1.5, abs=0.02)
 
 
+@pytest.mark.parametrize("layout", ["equirect", "openexr", "cross", "faces"])
+def test_capture_writes_outputs_in_every_layout(layout, tmp_path):
+    """Each number is one that the row of whole faces has, too."""
+    options = ["capture", cc.sample_data("bunny.obj"), "-s", 16, "--outputs", "id,distance,normal"]
+    out = tmp_path / ("out_{face}.png" if layout == "faces" else "out.exr")
+    more = ["--width", 48, "--center", "+z"] if layout == "equirect" else []
+    for arguments in (["-o", tmp_path / "row.exr", "-l", "row"], ["-o", out, "-l", layout, *more]):
+        result = cubecam(*options, *arguments)
+        assert result.exit_code == 0, result.output
+    for name in ("id", "distance", "normal"):
+        path = str(out.with_name(f"{out.stem}_{name}.exr"))
+        assert path in result.output
+        row = cc.load_image(tmp_path / f"row_{name}.exr")
+        got = cc.load_image(path.replace("{face}", "nz"))
+        assert got.dtype == row.dtype
+        held = set(row.ravel().tolist()) | ({0} if layout == "cross" else set())
+        assert set(got.ravel().tolist()) <= held
+        shape = {"equirect": (24, 48), "openexr": (96, 16), "cross": (48, 64), "faces": (16, 16)}
+        assert got.shape[:2] == shape[layout]
+        assert len(np.unique(got)) > 1
+        if layout == "equirect":  # the mesh is in front, at the sides of a panorama round +Z
+            assert (got[12, 24] == row[0, 0]).all()
+
+
 def test_capture_to_a_panorama_with_an_environment(tmp_path):
     out = tmp_path / "pano.png"
     result = cubecam(

@@ -6,6 +6,7 @@
 #include "cubecam/math/cube_edges.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -71,6 +72,16 @@ void store_texel(Lane<Channels> texel, float* to) {
     } else {
         std::memcpy(to, &texel, sizeof texel);
     }
+}
+
+/// Whether all numbers are finite.
+inline bool all_finite(const float* numbers, std::size_t count) {
+    constexpr std::uint32_t exponent = 0x7f800000u;
+    std::uint32_t bad = 0;  // whole numbers and no branch, so that the compiler uses SIMD
+    for (std::size_t i = 0; i < count; ++i) {
+        bad |= (std::bit_cast<std::uint32_t>(numbers[i]) & exponent) == exponent ? 1u : 0u;
+    }
+    return bad == 0;
 }
 
 /// Whether all channels of a texel are finite.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -42,6 +43,50 @@ bool same_values(const std::shared_ptr<const Buffer<T>>& a,
            std::memcmp(a->data(), b->data(), a->size() * sizeof(T)) == 0;
 }
 
+/// Computes again, by sum_tap, the numbers of a row that are not finite.
+template <typename Pixel>
+[[gnu::noinline]] void mend_row(const Pixel* face, int size, int channels, const BoxTap& down,
+                                const std::vector<BoxTap>& taps, std::vector<float>& row) {
+    for (std::size_t at = 0; at < row.size(); ++at) {
+        if (is_finite<1>(row[at])) continue;
+        const std::size_t channel = at % static_cast<std::size_t>(channels);
+        const BoxTap& across = taps[at / static_cast<std::size_t>(channels)];
+        row[at] = sum_tap(down, [&](int i) {
+            return sum_tap(across, [&](int j) {
+                const auto texel =
+                    static_cast<std::size_t>(down.first + i) * static_cast<std::size_t>(size) +
+                    static_cast<std::size_t>(across.first + j);
+                return to_float(face[texel * static_cast<std::size_t>(channels) + channel]);
+            });
+        });
+    }
+}
+
+/// Where a lookup meets a cube: between two levels, with the weight of the second.
+struct LevelPlace {
+    FaceUv<float> uv;
+    std::size_t below;
+    float weight;
+};
+
+/// Computes again, as sums of weighted texels, the lookups begin..end that are not finite.
+template <typename Pixel, int channels, typename PlaceOf>
+[[gnu::noinline]] void mend_lookups(const std::vector<CubeTexels<Pixel, channels>>& levels,
+                                    const PlaceOf& place_of, std::size_t begin, std::size_t end,
+                                    float* to) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const Lane<channels> found = load_texel<channels>(to + channels * i);
+        if (is_finite<channels>(found)) continue;
+        const auto [uv, below, weight] = place_of(i);
+        Lane<channels> sum = levels[below].sum_bilinear(uv.face, uv.s, uv.t);
+        if (weight > 0) {
+            sum = sum * (1.0f - weight) +
+                  levels[below + 1].sum_bilinear(uv.face, uv.s, uv.t) * weight;
+        }
+        store_texel<channels>(finite_or<channels>(found, sum), to + channels * i);
+    }
+}
+
 PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType dtype) {
     const int half = std::max(1, size / 2);
     const auto from_values = static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
@@ -65,24 +110,20 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
                         for (int x = 0; x < half; ++x) {
                             const BoxTap& across = taps[static_cast<std::size_t>(x)];
                             for (int c = 0; c < channels; ++c) {
-                                const auto texel = [&](int i, int j) {
-                                    return to_float(
-                                        from[(static_cast<std::ptrdiff_t>(down.first + i) * size +
-                                              across.first + j) *
-                                                 channels +
-                                             c]);
-                                };
-                                float value = apply_tap<Reach::far>(down, [&](int i) {
-                                    return apply_tap<Reach::far>(
-                                        across, [&](int j) { return texel(i, j); });
-                                });
-                                if (!is_finite<1>(value)) [[unlikely]] {
-                                    value = sum_tap(down, [&](int i) {
-                                        return sum_tap(across, [&](int j) { return texel(i, j); });
+                                row[static_cast<std::size_t>(x * channels + c)] =
+                                    apply_tap<Reach::far>(down, [&](int i) {
+                                        const auto* line =
+                                            from + static_cast<std::ptrdiff_t>(down.first + i) *
+                                                       size * channels;
+                                        return apply_tap<Reach::far>(across, [&](int j) {
+                                            return to_float(
+                                                line[(across.first + j) * channels + c]);
+                                        });
                                     });
-                                }
-                                row[static_cast<std::size_t>(x * channels + c)] = value;
                             }
+                        }
+                        if (!all_finite(row.data(), row.size())) [[unlikely]] {
+                            mend_row(from, size, channels, down, taps, row);
                         }
                         floats_to_pixels(
                             dtype, row.data(), row.size(),
@@ -234,28 +275,29 @@ void sample_cube(const CubeMapData& data, const CubeMap::MipChain* chain, const 
                 levels.push_back({reinterpret_cast<decltype(pixels)>((*chain)[i].data()),
                                   std::max(1, levels.back().size / 2)});
             }
-            parallel_for(0, count, 1 << 14, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    const float* d = directions + 3 * i;
-                    const FaceUv<float> uv = direction_to_face_uv(glm::vec3(d[0], d[1], d[2]));
-                    const float level = lods ? lods[lod_count == 1 ? 0 : i] : 0.0f;
-                    const float lod = std::clamp(level, 0.0f, top);
-                    const auto below = static_cast<std::size_t>(lod);
-                    const float weight = lod - static_cast<float>(below);
-                    Lane<channels> texel = levels[below].bilinear(uv.face, uv.s, uv.t);
-                    if (weight > 0) {
-                        texel = mix_texels(texel, levels[below + 1].bilinear(uv.face, uv.s, uv.t),
-                                           weight);
-                    }
-                    if (!is_finite<channels>(texel)) [[unlikely]] {
-                        Lane<channels> sum = levels[below].sum_bilinear(uv.face, uv.s, uv.t);
+            const auto place_of = [&](std::size_t i) {
+                const float* d = directions + 3 * i;
+                const float level = lods ? lods[lod_count == 1 ? 0 : i] : 0.0f;
+                const float lod = std::clamp(level, 0.0f, top);
+                const auto below = static_cast<std::size_t>(lod);
+                return LevelPlace{direction_to_face_uv(glm::vec3(d[0], d[1], d[2])), below,
+                                  lod - static_cast<float>(below)};
+            };
+            constexpr std::size_t piece = 1 << 12;  // whose results stay in the cache
+            parallel_for(0, count, piece, [&](std::size_t first, std::size_t last) {
+                for (std::size_t begin = first; begin < last; begin += piece) {
+                    const std::size_t end = std::min(begin + piece, last);
+                    for (std::size_t i = begin; i < end; ++i) {
+                        const auto [uv, below, weight] = place_of(i);
+                        Lane<channels> texel = levels[below].bilinear(uv.face, uv.s, uv.t);
                         if (weight > 0) {
-                            sum = sum * (1.0f - weight) +
-                                  levels[below + 1].sum_bilinear(uv.face, uv.s, uv.t) * weight;
+                            texel = mix_texels(
+                                texel, levels[below + 1].bilinear(uv.face, uv.s, uv.t), weight);
                         }
-                        texel = finite_or<channels>(texel, sum);
+                        store_texel<channels>(texel, to + channels * i);
                     }
-                    store_texel<channels>(texel, to + channels * i);
+                    if (all_finite(to + channels * begin, channels * (end - begin))) continue;
+                    mend_lookups(levels, place_of, begin, end, to);
                 }
             });
         });

@@ -204,15 +204,22 @@ private:
             }
             const std::size_t index = index_of(row, from);
             if (!to_.store(scratch.line, until - j, 1, index)) [[unlikely]] {
-                mend_texels<Channels>(scratch.line, until - j, [&](std::size_t i) {
-                    if (pole) return sum_pole(row, column(from + static_cast<int>(i)));
-                    return sum_box(cube_, column(from).face, down[taps + j + i],
-                                   scratch.across[j + i]);
-                });
+                mend(row, from, pole, j, until - j, taps + j, scratch);
                 to_.store(scratch.line, until - j, 1, index);
             }
             j = until;
         }
+    }
+
+    /// Computes again the texels of scratch.line that are not finite: `count` texels of a row from
+    /// column `first` on, whose taps begin at down[taps] and across[tap].
+    [[gnu::noinline]] void mend(int row, int first, bool pole, std::size_t tap, std::size_t count,
+                                std::size_t taps, Scratch& scratch) const {
+        mend_texels<Channels>(scratch.line, count, [&](std::size_t i) {
+            if (pole) return sum_pole(row, column(first + static_cast<int>(i)));
+            return sum_box(cube_, column(first).face, scratch.down[taps + i],
+                           scratch.across[tap + i]);
+        });
     }
 
     /// Computes `count` texels of a row from column `first` on, which lie on +Y or -Y.
@@ -297,6 +304,16 @@ void face_taps(int n, Sampling from, int size, Sampling to, int begin, int end, 
     }
 }
 
+/// Computes again the texels of a row of a face that are not finite; `down` has one tap for each.
+template <typename Pixel, int Channels>
+[[gnu::noinline]] void mend_face_row(const CubeTexels<Pixel, Channels>& texels, Face face,
+                                     const BoxTap* down, const TapList& across,
+                                     Buffer<Lane<Channels>>& line) {
+    mend_texels<Channels>(line.data(), line.size(), [&](std::size_t column) {
+        return sum_box(texels, face, down[column], across[column]);
+    });
+}
+
 /// Resamples all faces, in bands of rows: along rows first, along columns then.
 template <typename Pixel, int Channels>
 void resample_all(const CubeTexels<Pixel, Channels>& texels, Sampling from, int size, Sampling to,
@@ -332,9 +349,7 @@ void resample_all(const CubeTexels<Pixel, Channels>& texels, Sampling from, int 
                 scratch.filtered.filter(reach_of(down.widest()), down, tap, 0, n,
                                         scratch.line.data());
                 if (target.store(scratch.line.data(), n, 1, index)) continue;
-                mend_texels<Channels>(scratch.line.data(), n, [&](std::size_t column) {
-                    return sum_box(texels, face, down[tap + column], scratch.across[column]);
-                });
+                mend_face_row(texels, face, &down[tap], scratch.across, scratch.line);
                 target.store(scratch.line.data(), n, 1, index);
             }
         }

@@ -245,6 +245,10 @@ private:
 /// to `to`. Returns whether all are finite.
 template <int Channels>
 bool store_texels(const Lane<Channels>* from, std::size_t count, int step, float* to) {
+    if (Channels == 1 && step > 0) {
+        std::memcpy(to, from, count * sizeof(float));
+        return all_finite(to, count);
+    }
     auto bad = from[0] - from[0] != 0.0f;
     // The loop runs in order of memory: each store may also write over the beginning of the next
     // texel.
