@@ -9,6 +9,7 @@ PYTEST_ARGS ?=
 WORKERS ?= auto
 PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
+FUZZ_ARGS ?=
 
 # The list has folders, too, since a removed file changes only its folder.
 SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
@@ -16,7 +17,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-asan dev lint format stubs bench docs gallery sdist wheel mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-asan dev lint format stubs bench docs gallery sdist wheel fuzz mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -76,6 +77,9 @@ sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dis
 
 wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
 	@$(PY) scripts/wheel.py
+
+fuzz: $(VENV)/.installed $(VENV)/.deps-test ## break 30,000 files of every kind and read them; FUZZ_ARGS="--seed 7 --only obj,exr" for others
+	@$(PY) -m tests.fuzz.files $(FUZZ_ARGS)
 
 mutants: $(VENV)/.installed $(VENV)/.deps-test ## break the sources one place at a time: the tests must fail each time
 	@$(PY) tests/mutation.py

@@ -227,7 +227,7 @@ void bind_mesh(pybind11::module_& module) {
         "from_trimesh",
         [](const py::object& other) {
             const py::object read =
-                py::module_::import("cubecam.io.meshes.trimesh_parts").attr("_from_trimesh");
+                py::module_::import("cubecam.io.meshes.from_trimesh").attr("_from_trimesh");
             return read(other).cast<std::shared_ptr<Mesh>>();
         },
         py::arg("mesh"), docs::from_trimesh);

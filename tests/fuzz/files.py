@@ -9,14 +9,17 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import resource
 import select
+import signal
 import subprocess
 import sys
 import tempfile
 import time
 import traceback
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -51,8 +54,13 @@ def broken(kind: str, number: int) -> bytes:
     return mutated(files[int(rng.integers(len(files)))], rng)
 
 
-def faults_in_process(kind: str, numbers: range, folder: Path) -> list[str]:
-    """Read broken files in this process; return what was not as it should be, except for crashes."""
+def faults_in_process(
+    kind: str, numbers: range, folder: Path, seconds: float = SECONDS, planted: str = ""
+) -> list[str]:
+    """Read broken files in this process; return what was not as it should be, except for crashes.
+
+    A planted fault takes the place of file 1: it shows that this program finds it.
+    """
     path = folder / f"a.{kind}"
     found = []
     for number in numbers:
@@ -62,20 +70,39 @@ def faults_in_process(kind: str, numbers: range, folder: Path) -> list[str]:
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 warnings.simplefilter("ignore", cc.ConventionWarning)
-                read(path)
+                _FAULTS[planted]() if planted and number == 1 else read(path)
         except Exception as error:
             place = traceback.extract_tb(error.__traceback__)[-1]
             found.append(f"{type(error).__name__}: {error} ({place.filename}:{place.lineno})")
-        if time.process_time() - start > SECONDS:
+        if time.process_time() - start > seconds:
             found.append(f"took {time.process_time() - start:.1f} s")
     return found
+
+
+def _error() -> None:
+    raise KeyError("planted")
+
+
+def _slow() -> None:
+    end = time.process_time() + 1.2
+    while time.process_time() < end:
+        pass
+
+
+_FAULTS: dict[str, Callable[[], object]] = {
+    "error": _error,
+    "slow": _slow,
+    "hang": lambda: time.sleep(60),
+    "crash": lambda: os.kill(os.getpid(), signal.SIGSEGV),
+    "memory": lambda: np.ones(MEMORY // 8 + (8 << 20)).sum(),
+}
 
 
 def _peak() -> int:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
 
 
-def _work(kind: str, first: int, end: int) -> None:
+def _work(kind: str, first: int, end: int, seconds: float, planted: str) -> None:
     """Read files in a worker process, which says what it does line by line."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -86,18 +113,22 @@ def _work(kind: str, first: int, end: int) -> None:
         calm = _peak()
         for number in range(first, end):
             print("start", number, flush=True)
-            for told in faults_in_process(kind, range(number, number + 1), folder):
+            for told in faults_in_process(
+                kind, range(number, number + 1), folder, seconds, planted
+            ):
                 print("fault", number, " ".join(told.split()), flush=True)
             if _peak() - calm > MEMORY:
                 print("fault", number, f"memory grew by {(_peak() - calm) >> 20} MiB", flush=True)
                 return
 
 
-def _run(kind: str, count: int, first: int, keep: Path) -> list[str]:
+def run(
+    kind: str, count: int, first: int, keep: Path, seconds: float = SECONDS, planted: str = ""
+) -> list[str]:
     """Read all files of a kind; a worker that ends early is followed by another one. Return the faults."""
     end, found = first + count, []
     while first < end:
-        told, last = _one_worker(kind, first, end)
+        told, last = _one_worker(kind, first, end, seconds, planted)
         for number, text in told:
             found.append(f"{kind} {number}: {text}")
             _keep(keep, kind, number)
@@ -107,9 +138,12 @@ def _run(kind: str, count: int, first: int, keep: Path) -> list[str]:
     return found
 
 
-def _one_worker(kind: str, first: int, end: int) -> tuple[list[tuple[int, str]], int]:
+def _one_worker(
+    kind: str, first: int, end: int, seconds: float, planted: str
+) -> tuple[list[tuple[int, str]], int]:
     """Let a worker read files `first` to `end`; return its faults and the number of the last file that it read."""
-    command = [sys.executable, "-m", "tests.fuzz.files", "--work", kind, str(first), str(end)]
+    words = [kind, str(first), str(end), str(seconds), planted]
+    command = [sys.executable, "-m", "tests.fuzz.files", "--work", *words]
     found: list[tuple[int, str]] = []
     number = first - 1
     with (
@@ -119,7 +153,7 @@ def _one_worker(kind: str, first: int, end: int) -> tuple[list[tuple[int, str]],
         assert worker.stdout is not None
         while True:
             # A worker that starts imports the package and makes the sound files.
-            limit = 4 * SECONDS if number >= first else 120
+            limit = 4 * seconds if number >= first else 120
             if not select.select([worker.stdout], [], [], limit)[0]:
                 worker.kill()
                 return [*found, (number, f"no answer within {limit:g} s")], number
@@ -148,17 +182,18 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0, help="another number gives other files")
     parser.add_argument("--only", default="", help="kinds, with commas between")
     parser.add_argument("--keep", type=Path, default=Path("tests/failures/fuzz"))
-    parser.add_argument("--work", nargs=3, help=argparse.SUPPRESS)
+    parser.add_argument("--work", nargs=5, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.work:
-        _work(options.work[0], int(options.work[1]), int(options.work[2]))
+        kind, first, end, seconds, planted = options.work
+        _work(kind, int(first), int(end), float(seconds), planted)
         return 0
     kinds = options.only.split(",") if options.only else list(seeds())
     each = -(-options.count // len(kinds))
     faults, total, start = [], 0, time.monotonic()
     for kind in kinds:
         begun = time.monotonic()
-        found = _run(kind, each, options.seed * 10_000_000, options.keep)
+        found = run(kind, each, options.seed * 10_000_000, options.keep)
         total += each
         faults += found
         print(

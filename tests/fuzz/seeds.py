@@ -11,6 +11,7 @@ import numpy as np
 import OpenImageIO as oiio
 
 import cubecam as cc
+from tests.gltf_files import GltfFile
 
 SQUARE = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
 
@@ -23,7 +24,7 @@ def seeds() -> dict[str, list[bytes]]:
 
 
 def _meshes() -> dict[str, list[bytes]]:
-    return {"obj": _obj(), "ply": _ply(), "stl": _stl(), "off": _off(), "glb": _glb()}
+    return {"obj": _obj(), "ply": _ply(), "stl": _stl(), "off": _off(), **_gltf()}
 
 
 def _obj() -> list[bytes]:
@@ -103,8 +104,124 @@ def _off() -> list[bytes]:
     ]  # fmt: skip
 
 
-def _glb() -> list[bytes]:
-    return [cc.sample_data("suzanne.glb").read_bytes()]
+def _gltf() -> dict[str, list[bytes]]:
+    """Make files with all that moves vertices: sparse and small numbers, skins, shapes, instances, compression."""
+    points = np.array([[float(x) for x in row.split()] for row in SQUARE], np.float32)
+    made = []
+
+    def begin() -> GltfFile:
+        made.append(GltfFile())
+        return made[-1]
+
+    file = begin()
+    around = file.node(mesh=file.mesh(), scale=[2, 1, -1], rotation=[0, 0.6, 0, 0.8], children=[1])
+    file.node(root=False, mesh=0, matrix=[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, around, 2, 3, 1])
+
+    file = begin()
+    joint = file.node(translation=[0, 0, 3])
+    weights = np.tile(np.array([255, 0, 0, 0], np.uint8), (4, 1))
+    where = file.primitive(
+        points,
+        np.array([0, 1, 2, 3], np.uint8),
+        mode=6,
+        JOINTS_0=np.zeros((4, 4), np.uint8),
+        WEIGHTS_0=file.accessor(weights, normalized=True),
+        COLOR_0=file.accessor(weights, normalized=True),
+        TEXCOORD_0=points[:, :2],
+        NORMAL=points,
+    )
+    where["targets"] = [{"POSITION": file.accessor(points), "NORMAL": file.accessor(points)}]
+    bind = file.accessor(np.eye(4, dtype=np.float32).reshape(1, 16))
+    file.add("skins", {"joints": [joint], "inverseBindMatrices": bind})
+    file.node(mesh=file.mesh(where, weights=[0.5]), skin=0)
+
+    file = begin()
+    small = np.array([[0, 0, 0, 0], [32767, 0, 0, 0], [0, -32767, 0, 0]], np.int16)
+    view = file.view(small.tobytes(), byteStride=8)
+    entry = {
+        "bufferView": view,
+        "componentType": 5122,
+        "normalized": True,
+        "count": 3,
+        "type": "VEC3",
+    }
+    thing = file.mesh(file.primitive(file.add("accessors", entry)))
+    moved = {
+        "TRANSLATION": file.accessor(points),
+        "ROTATION": file.accessor(np.tile([0, 0, 0, 1], (4, 1)).astype("f4")),
+    }
+    file.node(mesh=thing, extensions={"EXT_mesh_gpu_instancing": {"attributes": moved}})
+    sparse = file.accessor(points)
+    file.tree["accessors"][sparse]["sparse"] = {
+        "count": 2,
+        "indices": {
+            "bufferView": file.view(np.array([1, 2], np.uint16).tobytes()),
+            "componentType": 5123,
+        },
+        "values": {"bufferView": file.view(points[2:].tobytes())},
+    }
+    file.node(mesh=file.mesh(file.primitive(sparse, np.array([0, 1, 2, 3], np.uint16), mode=5)))
+    return {
+        "glb": [*(item.glb() for item in made), *_compressed()],
+        "gltf": [item.gltf() for item in made],
+    }
+
+
+def _compressed() -> list[bytes]:
+    """Make files of Draco and meshopt data; the latter package needs Python 3.11."""
+    import DracoPy
+
+    ball = cc.Mesh.icosphere(1, subdivisions=1)
+    draco = GltfFile(extensionsRequired=["KHR_draco_mesh_compression"])
+    data = DracoPy.encode(ball.positions, ball.indices)
+    count, corners = len(ball.positions), ball.indices.size
+    where = {
+        "attributes": {
+            "POSITION": draco.add(
+                "accessors", {"componentType": 5126, "type": "VEC3", "count": count}
+            )
+        },
+        "indices": draco.add(
+            "accessors", {"componentType": 5125, "type": "SCALAR", "count": corners}
+        ),
+        "extensions": {
+            "KHR_draco_mesh_compression": {
+                "bufferView": draco.view(data),
+                "attributes": {"POSITION": 0},
+            }
+        },
+    }
+    draco.node(mesh=draco.mesh(where))
+    files = [draco.glb()]
+    try:
+        import meshopt
+    except ImportError:
+        return files
+    packed = GltfFile(extensionsRequired=["EXT_meshopt_compression"])
+    packed.binary = bytes(
+        meshopt.encode_gltf_buffer(np.ascontiguousarray(ball.positions), "ATTRIBUTES", 0)
+    )
+    entry = {
+        "buffer": 0,
+        "byteLength": len(packed.binary),
+        "byteStride": 12,
+        "count": count,
+        "mode": "ATTRIBUTES",
+    }
+    view = packed.add(
+        "bufferViews",
+        {"buffer": 1, "byteLength": 12 * count, "extensions": {"EXT_meshopt_compression": entry}},
+    )
+    accessor = {"bufferView": view, "componentType": 5126, "count": count, "type": "VEC3"}
+    packed.node(
+        mesh=packed.mesh(packed.primitive(packed.add("accessors", accessor), ball.indices.ravel()))
+    )
+    fallback = {
+        "byteLength": 12 * count,
+        "extensions": {"EXT_meshopt_compression": {"fallback": True}},
+    }
+    files.append(packed.glb(buffers=[{"byteLength": len(packed.binary)}, fallback]))
+    return files
 
 
 def _pictures(folder: Path) -> dict[str, list[bytes]]:
@@ -147,14 +264,14 @@ def _exr_parts(path: Path, light: np.ndarray) -> None:
     depth.attribute("oiio:subimagename", "depth")
     color = oiio.ImageSpec(24, 12, 3, "half")
     color.attribute("oiio:subimagename", "beauty")
-    color.tile_width = color.tile_height = 16
     file = oiio.ImageOutput.create(str(path))
     assert file is not None
     assert file.open(str(path), (depth, color))
-    file.write_image(light[..., :1])
-    file.open(str(path), color, "AppendSubimage")
-    file.write_image(light)
+    assert file.write_image(np.ascontiguousarray(light[..., :1]))
+    assert file.open(str(path), color, "AppendSubimage")
+    assert file.write_image(light)
     file.close()
+    del file  # the last bytes are written when the writer goes
 
 
 def _radiance(rng: np.random.Generator) -> list[bytes]:
@@ -180,7 +297,8 @@ def _dds(rng: np.random.Generator) -> list[bytes]:
     return [
         head(4, 0x41, bytes(4), 32, 0xFE00, 1) + rng.bytes(6 * 64),
         head(4, 0x41, bytes(4), 32, 0xFE00, 3) + rng.bytes(6 * chain),
-        head(4, 4, struct.pack("<I", 113), 0, 0xFE00, 1) + rng.bytes(6 * 128),
+        head(4, 4, struct.pack("<I", 113), 0, 0xFE00, 1)
+        + rng.random(6 * 64).astype("<f2").tobytes(),
         head(4, 4, b"DX10", 0, 0xFE00, 1) + struct.pack("<5I", 28, 3, 4, 1, 0) + rng.bytes(6 * 64),
         head(4, 4, b"DXT1", 0, 0, 1) + rng.bytes(8),
     ]

@@ -36,8 +36,8 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     Parameters
     ----------
     path : str or os.PathLike
-        Wavefront OBJ, PLY, STL, glTF 2 (.gltf, .glb) or OFF; polygons are cut into triangles. A file of several
-        objects becomes one mesh, each placed by its transform. Materials and textures are not read.
+        Wavefront OBJ, PLY, STL, OFF or glTF 2 (.gltf, .glb). A file of several objects becomes one mesh, each placed by
+        its transform. Materials and textures are not read. The files that a .gltf names must lie in its folder or below.
     size : float, optional
         The mesh is centred (the middle of its bounds goes to the origin) and scaled so that its largest extent is
         `size`, in world units. None: the mesh keeps its place and size.
@@ -45,20 +45,34 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     Returns
     -------
     Mesh
-        Vertices are in the file's order; those of an OBJ are split where texture coordinates or normals differ.
-        Normals are those of the file; if it has none they are computed smooth, also across two vertices at one place
-        (a seam in the texture coordinates). Equal positions of an STL file, which lists three corners for each
-        triangle, are merged. New positions (`Mesh.update`) keep all these normals. The mesh has uvs, with (0, 0) at a
-        picture's bottom-left, and colours if the file has them.
+        Vertices are in the file's order, and split where a corner has its own texture coordinates, normal or colour.
+        Polygons are cut into triangles inside them, also concave ones; strips and fans become triangles, lines and
+        points are skipped. The mesh has uvs, with (0, 0) at a picture's bottom-left, and colours, with alpha, if the file
+        has them. New positions (`Mesh.update`) keep all normals.
 
     Raises
     ------
     OSError
         If there is no file of that name (FileNotFoundError), or it may not be read.
     MeshError
-        For another kind of file, broken contents, or no triangles.
+        For another kind of file, broken contents, no triangles, counts that the bytes of the file cannot hold, or
+        something else than a regular file.
     ValueError
         If size is not above 0.
+
+    Notes
+    -----
+    Normals are those of the file; missing ones are computed smooth, also across two vertices at one place (a seam in the
+    texture coordinates). glTF asks for flat normals then: `flat_shading` of a material draws them. Equal positions of an
+    STL file, which lists three corners for each triangle, are merged, and its normals are not read.
+
+    Colours are numbers from 0 to 1: whole numbers of 8 and 16 bits are divided by 255 and 65535. Those of glTF are
+    linear; other formats do not say what theirs are. In an OBJ they stand after x y z, and are divided by 255 if one is
+    above 1.5; vertices without one are white. Colours of faces (PLY, STL, OFF) become those of their corners, unless
+    vertices have some.
+
+    glTF: the default scene, with skins and morph targets at their default pose. Draco and meshopt data need the packages
+    of ``pip install 'cubecam[gltf]'``; an extension that the file requires and that is not known is refused by name.
 
     Examples
     --------

@@ -1,18 +1,15 @@
-"""Parts from objects of trimesh, and from files that trimesh reads."""
+"""`Mesh.from_trimesh`: parts from objects of trimesh, which cubecam itself does not need."""
 
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..._core import Mesh, MeshError
-from .parts import Part, joined, merged, placed, unit_colors
-
-if TYPE_CHECKING:
-    from pathlib import Path
+from ..._core import Mesh
+from .parts import Part, joined, placed, unit_colors
 
 
 def _from_trimesh(mesh: object) -> Mesh:
@@ -31,29 +28,6 @@ def _from_trimesh(mesh: object) -> Mesh:
     if not parts:
         raise ValueError("mesh: expected triangles, got none")
     return joined(parts, None)
-
-
-def read(path: Path, data: bytes) -> list[Part]:
-    """Read the parts of a file that trimesh reads."""
-    import trimesh
-
-    extension = path.suffix.lower()
-    try:
-        # process=False: no vertex is merged, dropped or moved.
-        scene = trimesh.load_scene(str(path), process=False)
-    except MemoryError:
-        raise
-    except (
-        Exception
-    ) as error:  # trimesh reports broken files with whatever its parsers stumble over
-        raise MeshError(
-            f"cannot be read as {extension[1:]}: {type(error).__name__}: {error}"
-        ) from error
-    parts = _parts(scene)
-    if not parts:
-        kinds = sorted({type(geometry).__name__ for geometry in scene.geometry.values()})
-        raise MeshError(f"expected triangles, got {', '.join(kinds) or 'nothing'} without any")
-    return [merged(part) for part in parts] if extension == ".stl" else parts
 
 
 def _parts(scene: Any) -> list[Part]:
