@@ -65,6 +65,10 @@ GLTF = ("tests/unit/test_gltf_geometry.py",)
 GLTF_FILES = ("tests/unit/test_gltf.py",)
 GLTF_COMPRESSION = ("tests/unit/test_gltf_compression.py",)
 
+STL = ("tests/unit/test_stl.py",)
+OFF = ("tests/unit/test_off.py",)
+PLY = ("tests/unit/test_ply.py",)
+
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
 QUERIES = "snapshot_queries.cpp"
@@ -1509,5 +1513,47 @@ MUTATIONS = [
         "if vertices + triangles > limits.left:",
         "if False:",
         GLTF_COMPRESSION,
+    ),
+    Mutation(
+        "STL: text wherever a file begins with solid",
+        "stl.py",
+        "if any(byte < 9 or 13 < byte < 32 for byte in data[:512]):",
+        "if False:",
+        STL,
+    ),
+    Mutation(
+        "STL: red and blue of VisCAM swapped",
+        "stl.py",
+        "colors[marked, :3] = bits[marked, ::-1] / 31",
+        "colors[marked, :3] = bits[marked] / 31",
+        STL,
+    ),
+    Mutation(
+        "OFF: whole numbers of colours stay",
+        "off.py",
+        "values / np.where(whole, 255, 1)[:, None]",
+        "values",
+        OFF,
+    ),
+    Mutation(
+        "PLY: strips do not turn every second triangle",
+        "ply.py",
+        "turned = (first - begins[first]) % 2",
+        "turned = (first - begins[first]) * 0",
+        PLY,
+    ),
+    Mutation(
+        "PLY: strips count turns from the list's start",
+        "ply.py",
+        "begins[after] = after",
+        "begins[after] = after - after % 2 + 1",
+        PLY,
+    ),
+    Mutation(
+        "PLY: the first of several values of a vertex is lost",
+        "wedges.py",
+        "result[other[order]] = vertices - 1 + np.cumsum(new)",
+        "result[other[order]] = corners[other[order]]",
+        PLY,
     ),
 ]

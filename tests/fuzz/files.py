@@ -10,7 +10,6 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
-import resource
 import select
 import signal
 import subprocess
@@ -99,7 +98,12 @@ _FAULTS: dict[str, Callable[[], object]] = {
 
 
 def _peak() -> int:
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    """Return the most memory that this process has had, in bytes.
+
+    getrusage would begin with the memory of the process that started this one.
+    """
+    status = Path("/proc/self/status").read_text(encoding="ascii")
+    return int(status.partition("VmHWM:")[2].split()[0]) * 1024
 
 
 def _work(kind: str, first: int, end: int, seconds: float, planted: str) -> None:
@@ -148,11 +152,11 @@ def _one_worker(
     number = first - 1
     with (
         tempfile.TemporaryFile() as errors,
-        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors) as worker,
+        subprocess.Popen(command, stdout=subprocess.PIPE, stderr=errors, bufsize=0) as worker,
     ):
         assert worker.stdout is not None
         while True:
-            # A worker that starts imports the package and makes the sound files.
+            # Without a buffer (bufsize=0), what select sees is what is left to read. A worker that starts imports the package and makes the sound files.
             limit = 4 * seconds if number >= first else 120
             if not select.select([worker.stdout], [], [], limit)[0]:
                 worker.kill()
