@@ -156,7 +156,8 @@ def _one_worker(
     ):
         assert worker.stdout is not None
         while True:
-            # Without a buffer (bufsize=0), what select sees is what is left to read. A worker that starts imports the package and makes the sound files.
+            # Without a buffer (bufsize=0), select sees all that is left to read. A worker that starts imports the
+            # package and makes the sound files.
             limit = 4 * seconds if number >= first else 120
             if not select.select([worker.stdout], [], [], limit)[0]:
                 worker.kill()

@@ -228,6 +228,20 @@ def test_convert_a_panorama(tmp_path):
     assert np.abs(cube.faces - direction_pattern(16)).max() < 0.02
 
 
+def test_convert_a_part(tmp_path):
+    from PIL import Image as Picture
+
+    crosses = [to_layout(pattern, "cross") for pattern in (face_pattern(8), face_pattern(8)[::-1])]
+    first, second = [Picture.fromarray(cross) for cross in crosses]
+    first.save(tmp_path / "two.tif", save_all=True, append_images=[second])
+    out = tmp_path / "out.png"
+    assert cubecam("convert", tmp_path / "two.tif", "--part", 1, "-o", out).exit_code == 0
+    assert_identical(cc.load_image(out), crosses[1])
+    result = cubecam("convert", tmp_path / "two.tif", "--part", "beauty", "-o", out)
+    assert result.exit_code == 1
+    assert "part: expected one of 0, 1; got 'beauty'" in result.output
+
+
 def test_convert_many_files(tmp_path):
     for name in "abc":
         cc.CubeMap(face_pattern(4)).save(tmp_path / f"{name}.png", layout="row")

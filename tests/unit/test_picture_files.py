@@ -283,30 +283,48 @@ def tiff(width, height, packing=1):
     )
 
 
-GIF_FRAME = b"," + struct.pack("<4HB", 0, 0, 65000, 65000, 0) + b"\2\2\x4c\1\0;"
+def webp(size):
+    """A lossless picture whose pixels are missing."""
+    body = b"VP8L" + struct.pack("<IBI", 25, 0x2F, (size - 1) | (size - 1) << 14) + bytes(20)
+    return b"RIFF" + struct.pack("<I", len(body) + 4) + b"WEBP" + body
+
+
+def claims(size):
+    """Files of about 200 bytes whose headers tell of `size` x `size` pixels."""
+    frame = b"," + struct.pack("<4HB", 0, 0, size, size, 0) + b"\2\2\x4c\1\0;"
+    return {
+        "png": png(size, size),
+        "bmp": b"BM"
+        + struct.pack("<4I2i2H6I", 200, 0, 54, 40, size, size, 1, 24, *6 * [0])
+        + bytes(146),
+        "tga": struct.pack("<3B2HB4H2B", 0, 0, 2, 0, 0, 0, 0, 0, size, size, 32, 0) + bytes(200),
+        "tif": tiff(size, size),
+        "ppm": f"P6\n{size} {size}\n255\n".encode() + bytes(200),
+        "webp": webp(min(size, 16000)),
+        "gif": b"GIF89a" + struct.pack("<2H3B", size, size, 0x80, 0, 0) + bytes(6) + frame,
+    }
+
+
 CLAIMS = {
-    "png": png(60000, 60000),
-    "bmp": b"BM" + struct.pack("<4I2i2H6I", 200, 0, 54, 40, 30000, 30000, 1, 24, *6 * [0]) + bytes(146),
-    "tga": struct.pack("<3B2HB4H2B", 0, 0, 2, 0, 0, 0, 0, 0, 60000, 60000, 32, 0) + bytes(200),
-    "tif": tiff(60000, 60000),
-    "ppm": b"P6\n60000 60000\n255\n" + bytes(200),
-    "gif": b"GIF89a" + struct.pack("<2H3B", 65000, 65000, 0x80, 0, 0) + bytes(6) + GIF_FRAME,
-}  # fmt: skip
+    f"{size}.{ending}": data for size in (10000, 60000) for ending, data in claims(size).items()
+}
 
 
-@pytest.mark.parametrize("ending", CLAIMS)
-def test_headers_cannot_claim_more_than_the_bytes_hold(ending, tmp_path):
-    path = tmp_path / f"a.{ending}"
-    path.write_bytes(CLAIMS[ending])
-    with pytest.raises(cc.ImageError, match=rf"a.{ending}: "):
+@pytest.mark.parametrize("name", CLAIMS)
+def test_headers_cannot_claim_more_than_the_bytes_hold(name, tmp_path):
+    path = tmp_path / name
+    path.write_bytes(CLAIMS[name])
+    # OpenImageIO has checks of its own when it opens these.
+    told = "claim" if name.endswith("tga") or "60000" in name else "expected at most"
+    with pytest.raises(cc.ImageError, match=rf"{name}: .*({told}|expected at most)"):
         cc.load_image(path)
 
 
 def test_refused_claims_take_no_memory(tmp_path):
     """A process that may hold 1 GiB reads them all: the largest claims 14 GB."""
     paths = []
-    for ending, data in CLAIMS.items():
-        paths.append(tmp_path / f"a.{ending}")
+    for name, data in CLAIMS.items():
+        paths.append(tmp_path / name)
         paths[-1].write_bytes(data)
     paths.append(
         exr(tmp_path / "a.exr", [("R", 1, 1, np.ones((1, 1)))], (0, 0, 0, 0), (0, 0, 20000, 20000))

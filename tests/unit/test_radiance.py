@@ -267,6 +267,7 @@ def test_a_constant_picture_of_few_bytes(tmp_path):
         ("EXPOSURE=nan\n", "-Y 1 +X 1", b"abcd", "after EXPOSURE="),
         ("EXPOSURE=1e999\n", "-Y 1 +X 1", b"abcd", "EXPOSURE above 0"),
         ("EXPOSURE=1e-30\n", "-Y 1 +X 1", b"\x80\x80\x80\xff", "float32"),
+        ("FORMAT=32-bit_rle_xyze\n", "-Y 1 +X 1", b"\xff\x10\x10\xff", "float32"),
         ("COLORCORR=1 2\n", "-Y 1 +X 1", b"abcd", "3 number"),
         ("", "-Y 1 +Y 1", b"abcd", "-Y 512"),
         ("", "-Y 0 +X 4", b"abcd", "-Y 512"),

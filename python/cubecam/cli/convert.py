@@ -110,6 +110,13 @@ T = TypeVar("T")
     note="as the file says, else -z",
 )
 @option(
+    "--part",
+    metavar="PART",
+    group=_FROM,
+    help="Which picture of a file that holds several: a number from 0 on, or the name of a part, a view or a layer.",
+    note="the first with colours",
+)
+@option(
     "--srgb",
     is_flag=True,
     group=_FROM,
@@ -130,6 +137,7 @@ def convert(
     from_layout: FileLayout | None,
     from_convention: Convention | None,
     from_center: Center | None,
+    part: str | None,
     srgb: bool,
 ) -> None:
     """Convert cubemaps and panoramas to other layouts and files.
@@ -162,6 +170,7 @@ def convert(
                     size=size,
                     center=from_center,
                     srgb=srgb,
+                    part=int(part) if part is not None and part.isdecimal() else part,
                 )
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
             with warnings_reported(item.path):

@@ -11,7 +11,7 @@ from .._core import ImageError
 from . import dds, oiio, radiance
 from .files import existing_file, read_file
 from .oiio import Picture
-from .picture_kinds import DDS, find_kind, refused_kind
+from .picture_kinds import DDS, check_canvas, find_kind, refused_kind
 from .pixels import Array
 
 #: A part of a file that holds several pictures: a number from 0 on, or a name.
@@ -58,6 +58,7 @@ def read_picture(path: object, part: Part | None = None, *, faces: bool = False)
             raise ImageError(
                 f"expected a picture file (EXR, HDR, PNG, JPEG, ...), got {length} bytes of another kind"
             )
+        check_canvas(kind, start, length)
         return oiio.read(found, kind, part)
     except ImageError as error:
         raise ImageError(f"{found}: {error}") from error.__cause__

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from .._core import ImageError
+
 #: Bytes of numbers that every file may claim.
 FREE_BYTES = 64 << 20
 #: Pixels that a kind may hold in a few bytes, where it has no bound: 8192 x 4096.
@@ -88,6 +90,40 @@ def find_kind(start: bytes, end: bytes, suffix: str) -> Kind | None:
     if suffix.lower() in (".tga", ".tpic") or end[8:24] == b"TRUEVISION-XFILE":
         return _TARGA
     return None
+
+
+def check_canvas(kind: Kind, start: bytes, length: int) -> None:
+    """Compare the canvas of a GIF or WebP with the bytes of the file: memory for it is taken when the file is opened.
+
+    Raises
+    ------
+    ImageError
+        If the file claims more than its bytes can hold.
+    """
+    size = _canvas(kind, start)
+    if size is None:
+        return
+    most = most_bytes(kind.ratio, length, size[0] * size[1], 4)
+    if size[0] * size[1] * 4 > most:
+        raise ImageError(
+            f"expected at most {most} bytes of numbers in {length} bytes of {kind.told}, got a canvas of "
+            f"{size[0]} x {size[1]}"
+        )
+
+
+def _canvas(kind: Kind, start: bytes) -> tuple[int, int] | None:
+    def number(at: int, size: int) -> int:
+        return int.from_bytes(start[at : at + size], "little")
+
+    if kind.name == "gif":
+        return number(6, 2), number(8, 2)
+    if kind.name != "webp":
+        return None
+    if start[12:16] == b"VP8X":
+        return number(24, 3) + 1, number(27, 3) + 1
+    if start[12:16] == b"VP8L":
+        return (number(21, 4) & 0x3FFF) + 1, (number(21, 4) >> 14 & 0x3FFF) + 1
+    return number(26, 2) & 0x3FFF, number(28, 2) & 0x3FFF
 
 
 def _png_growth(start: bytes) -> int:
