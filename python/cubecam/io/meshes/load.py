@@ -37,7 +37,7 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     ----------
     path : str or os.PathLike
         Wavefront OBJ, PLY, STL, OFF or glTF 2 (.gltf, .glb). A file of several objects becomes one mesh, each placed by
-        its transform. Materials and textures are not read. The files that a .gltf names must lie in its folder or below.
+        its transform. Materials and textures are not read. Files that a .gltf names must lie in its folder or below.
     size : float, optional
         The mesh is centred (the middle of its bounds goes to the origin) and scaled so that its largest extent is
         `size`, in world units. None: the mesh keeps its place and size.
@@ -47,8 +47,8 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     Mesh
         Vertices are in the file's order, and split where a corner has its own texture coordinates, normal or colour.
         Polygons are cut into triangles inside them, also concave ones; strips and fans become triangles, lines and
-        points are skipped. The mesh has uvs, with (0, 0) at a picture's bottom-left, and colours, with alpha, if the file
-        has them. New positions (`Mesh.update`) keep all normals.
+        points are skipped. The mesh has uvs, with (0, 0) at a picture's bottom-left, and colours, with alpha, if the
+        file has them. New positions (`Mesh.update`) keep all normals.
 
     Raises
     ------
@@ -62,17 +62,18 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
 
     Notes
     -----
-    Normals are those of the file; missing ones are computed smooth, also across two vertices at one place (a seam in the
-    texture coordinates). glTF asks for flat normals then: `flat_shading` of a material draws them. Equal positions of an
-    STL file, which lists three corners for each triangle, are merged, and its normals are not read.
+    Normals are those of the file; missing ones are computed smooth, also across two vertices at one place (a seam in
+    the texture coordinates). glTF asks for flat normals then: `flat_shading` of a material draws them. Equal positions
+    of an STL file, which lists three corners for each triangle, are merged, and its normals are not read.
 
     Colours are numbers from 0 to 1: whole numbers of 8 and 16 bits are divided by 255 and 65535. Those of glTF are
     linear; other formats do not say what theirs are. In an OBJ they stand after x y z, and are divided by 255 if one is
     above 1.5; vertices without one are white. Colours of faces (PLY, STL, OFF) become those of their corners, unless
     vertices have some.
 
-    glTF: the default scene, with skins and morph targets at their default pose. Draco and meshopt data need the packages
-    of ``pip install 'cubecam[gltf]'``; an extension that the file requires and that is not known is refused by name.
+    glTF: the default scene, with skins and morph targets at their default pose. Draco and meshopt data need the
+    packages of ``pip install 'cubecam[gltf]'``; an extension that the file requires and that is not known is refused by
+    name.
 
     Examples
     --------
