@@ -78,7 +78,7 @@ sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dis
 wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
 	@$(PY) scripts/wheel.py
 
-fuzz: $(VENV)/.installed $(VENV)/.deps-test ## break 30,000 files of every kind and read them; FUZZ_ARGS="--seed 7 --only obj,exr" for others
+fuzz: $(VENV)/.installed $(VENV)/.deps-test ## break 30,000 files of each kind and read them; FUZZ_ARGS="--seed 7 --only obj,exr" for others
 	@$(PY) -m tests.fuzz.files $(FUZZ_ARGS)
 
 mutants: $(VENV)/.installed $(VENV)/.deps-test ## break the sources one place at a time: the tests must fail each time

@@ -183,7 +183,7 @@ def _keep(folder: Path, kind: str, number: int) -> None:
 def main() -> int:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=30000, help="files of all kinds together")
+    parser.add_argument("--count", type=int, default=30000, help="files of each kind")
     parser.add_argument("--seed", type=int, default=0, help="another number gives other files")
     parser.add_argument("--only", default="", help="kinds, with commas between")
     parser.add_argument("--keep", type=Path, default=Path("tests/failures/fuzz"))
@@ -194,15 +194,14 @@ def main() -> int:
         _work(kind, int(first), int(end), float(seconds), planted)
         return 0
     kinds = options.only.split(",") if options.only else list(seeds())
-    each = -(-options.count // len(kinds))
     faults, total, start = [], 0, time.monotonic()
     for kind in kinds:
         begun = time.monotonic()
-        found = run(kind, each, options.seed * 10_000_000, options.keep)
-        total += each
+        found = run(kind, options.count, options.seed * 10_000_000, options.keep)
+        total += options.count
         faults += found
         print(
-            f"{kind:5} {each:6} files, {len(found)} faults, {time.monotonic() - begun:.0f} s",
+            f"{kind:5} {options.count:6} files, {len(found)} faults, {time.monotonic() - begun:.0f} s",
             flush=True,
         )
         for text in found[:5]:
