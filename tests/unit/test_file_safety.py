@@ -1,5 +1,6 @@
 """Missing, broken and unwritable files; a failed write leaves the old file or none."""
 
+import os
 from collections.abc import Callable
 
 import numpy as np
@@ -47,6 +48,20 @@ def test_missing_files_name_the_path(load, tmp_path):
 def test_folders_are_no_files(load, tmp_path):
     with pytest.raises(OSError, match=tmp_path.name):
         load(tmp_path)
+
+
+@loaders
+@pytest.mark.parametrize("device", ["FIFO", "/dev/zero", "/dev/null"])
+def test_only_regular_files_are_opened(load, device, tmp_path):
+    """A FIFO would be waited for, and /dev/zero be read without an end."""
+    path = named(load, tmp_path)
+    if device == "FIFO":
+        os.mkfifo(path)
+    else:
+        path.symlink_to(device)
+    told = "expected a regular file, got a (FIFO|character device)"
+    with pytest.raises(kind(load), match=told):
+        load(path)
 
 
 @loaders

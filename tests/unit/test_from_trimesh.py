@@ -48,6 +48,33 @@ def test_colors_of_faces_are_not_read(rng):
     assert cc.Mesh.from_trimesh(torus(face_colors=colors)).colors is None
 
 
+@pytest.mark.parametrize(
+    "scale", [(3, 1, 1), (-2, 1, 1), (1, -1, 0.5), (-1, -2, -3), (1, 1, 0)], ids=str
+)
+def test_normals_and_winding_of_a_scaled_node(scale):
+    """A ball becomes an ellipsoid, whose normals are the gradient of x^2/a^2 + y^2/b^2 + z^2/c^2."""
+    ball = trimesh.creation.icosphere(subdivisions=1)
+    places = ball.vertices / np.linalg.norm(ball.vertices, axis=1, keepdims=True)
+    scene = trimesh.Scene()
+    scene.add_geometry(
+        trimesh.Trimesh(places, ball.faces, vertex_normals=places, process=False),
+        transform=np.diag([*scale, 1.0]),
+    )
+    mesh = cc.Mesh.from_trimesh(scene)
+    a, b, c = scale
+    gradient = places * (b * c, c * a, a * b) * np.sign([np.prod(scale) or 1])
+    gradient /= np.linalg.norm(gradient, axis=1, keepdims=True) + (np.prod(scale) == 0)
+    np.testing.assert_allclose(mesh.positions, places * scale, atol=1e-6)
+    if np.prod(scale):
+        np.testing.assert_allclose(mesh.normals, gradient, atol=1e-6)
+        corners = mesh.positions.astype(float)[mesh.indices]
+        outward = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert (np.einsum("ij,ij->i", outward, corners.mean(axis=1)) > 0).all()
+    else:  # flat: all normals are along z where they are not 0
+        flat = np.abs(places[:, 2]) > 1e-6
+        np.testing.assert_allclose(np.abs(mesh.normals[flat, 2]), 1, atol=1e-6)
+
+
 def test_a_scene_becomes_one_mesh():
     scene = trimesh.Scene()
     matrices = [ref.trs((1, 2, 3), (1, 2, 3, 4), 2), np.diag([-1.0, 1, 1, 1])]

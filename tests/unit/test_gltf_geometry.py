@@ -189,10 +189,10 @@ def test_bad_positions_are_refused(load):
     refused(load, shown(positions=np.full((3, 2), 1, np.float32)), "POSITION: .*VEC3, got VEC2")
     file = shown()
     file.tree["nodes"][0]["scale"] = [1e39, 1, 1]
-    refused(load, file, "expected positions that float32 can hold")
+    refused(load, file, "expected finite positions that fit float32")
     file.tree["nodes"][0]["scale"] = [1e300, 1, 1]
     file.tree["nodes"].append({"children": [0], "scale": [1e300, 1, 1]})
-    refused(load, file, "expected positions that float32 can hold")
+    refused(load, file, "expected finite positions that fit float32")
 
 
 # Nodes

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..._core import MeshError
+from ..meshes.placing import Matrices, cofactors
 from .document import Gltf
 from .entries import Entry
 from .limits import Limits
-from .matrices import Matrices, cofactors
 from .primitives import Attributes, Floats, Surface, accessor_index, check_type, colors
 
 

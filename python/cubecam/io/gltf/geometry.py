@@ -9,15 +9,16 @@ import numpy as np
 
 from ..._core import MeshError
 from ..meshes.parts import Part, unit_normals
+from ..meshes.placing import Matrices, placed
 from .compression import Draco, package
 from .deformation import morph, skin
 from .document import Gltf
 from .entries import Entry
 from .extensions import DRACO, INSTANCING
 from .limits import Limits
-from .matrices import Matrices, cofactors, composed, products, rotations
+from .matrices import composed, rotations
 from .nodes import hidden
-from .primitives import LARGEST, MODES, Attributes, Floats, Surface, accessor_index, surface
+from .primitives import MODES, Attributes, Floats, Surface, accessor_index, surface
 
 
 def read(path: Path, data: bytes) -> list[Part]:
@@ -167,31 +168,16 @@ class Geometry:
         """Repeat a primitive for each matrix."""
         times, vertices = len(matrices), len(shape.positions)
         self._limits.output((vertices + len(shape.faces)) * (times - 1), shape.entry)
-        linear = matrices[:, :3, :3]
-        positions = products(shape.positions, linear) + matrices[:, None, :3, 3]
-        if not (np.abs(positions) <= LARGEST).all():
-            raise MeshError(
-                f"{shape.entry.where}: expected positions that float32 can hold, got others"
-            )
         # The specification asks for flat normals where a file has none. load_mesh promises smooth ones for every kind
         # of file; `flat_shading` of a material draws any mesh flat.
         normals = unit_normals(Part(shape.positions, shape.faces, shape.normals, None, None))
-        mirrored = np.linalg.det(linear)[:, None, None] < 0
-        turning = np.where(mirrored, -1.0, 1.0) * cofactors(linear)
-        faces = np.where(mirrored, shape.faces[:, ::-1], shape.faces)
-        return Part(
-            positions.reshape(-1, 3),
-            (faces + np.arange(times)[:, None, None] * vertices).reshape(-1, 3),
-            products(normals, turning).reshape(-1, 3),
-            _repeated(None if shape.uvs is None else _from_bottom(shape.uvs), times),
-            _repeated(shape.colors, times),
-        )
+        uvs = None if shape.uvs is None else _from_bottom(shape.uvs)
+        try:
+            return placed(Part(shape.positions, shape.faces, normals, uvs, shape.colors), matrices)
+        except ValueError as error:
+            raise MeshError(f"{shape.entry.where}: {error}") from None
 
 
 def _from_bottom(uvs: Floats) -> Floats:
     """Turn v, which glTF counts from the top of a picture, into cubecam's, from its bottom."""
     return np.stack([uvs[:, 0], 1 - uvs[:, 1]], axis=1)
-
-
-def _repeated(values: Floats | None, times: int) -> Floats | None:
-    return values if values is None or times == 1 else np.tile(values, (times, 1))

@@ -1,15 +1,13 @@
-"""Matrices by numpy, many at a time: quaternions, T R S, and what turns normals."""
+"""Matrices of nodes, many at a time: quaternions and T R S."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
 from ..._core import MeshError
-
-Matrices = npt.NDArray[np.float64]
+from ..meshes.placing import Matrices
 
 
 def rotations(quaternions: Matrices, where: Callable[[int], str]) -> Matrices:
@@ -40,16 +38,3 @@ def composed(translations: Matrices, turned: Matrices, scales: Matrices) -> Matr
     result[:, :3, 3] = translations
     result[:, 3, 3] = 1
     return result
-
-
-def products(points: Matrices, linear: Matrices) -> Matrices:
-    """Multiply (V, 3) points by (N, 3, 3) matrices: (N, V, 3)."""
-    # `@` would start threads of BLAS, which take ten times the CPU time for such small matrices.
-    result: Matrices = np.einsum("vj,nij->nvi", points, linear)
-    return result
-
-
-def cofactors(linear: Matrices) -> Matrices:
-    """Return the cofactors of (N, 3, 3) matrices: the inverse transpose up to a factor, also of a singular matrix."""
-    a, b, c = linear[:, 0], linear[:, 1], linear[:, 2]
-    return np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=1)

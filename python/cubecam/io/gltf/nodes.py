@@ -8,9 +8,10 @@ from __future__ import annotations
 import numpy as np
 
 from ..._core import MeshError
+from ..meshes.placing import Matrices
 from .entries import Entry
 from .extensions import VISIBILITY
-from .matrices import Matrices, composed, rotations
+from .matrices import composed, rotations
 
 
 def local_matrices(nodes: list[Entry]) -> Matrices:

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import Mesh
-from .parts import Part, joined, placed, unit_colors
+from .parts import Part, joined, unit_colors
+from .placing import placed
 
 
 def _from_trimesh(mesh: object) -> Mesh:
@@ -66,7 +67,7 @@ def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> Part:
         _of_length(uvs, count),
         _of_length(colors, count),
     )
-    return placed(part, matrix)
+    return placed(part, matrix[None])
 
 
 def _of_length(values: Any, count: int) -> npt.NDArray[np.float64] | None:

@@ -55,29 +55,6 @@ def check_indices(faces: npt.NDArray[np.int64], count: int) -> None:
         raise IndexError(f"expected indices 0 to {count - 1}, got {faces.min()} to {faces.max()}")
 
 
-def placed(part: Part, matrix: npt.NDArray[np.float64]) -> Part:
-    """Move a part to its place: a 4 x 4 matrix, column vectors; a mirroring matrix keeps the outside outside."""
-    linear = matrix[:3, :3]
-    normals = part.normals
-    if normals is not None:
-        # Normals are transformed by the inverse transpose. The matrix of cofactors equals it up to a factor, and exists
-        # for a singular matrix, too.
-        cofactors = np.stack(
-            [
-                np.cross(linear[1], linear[2]),
-                np.cross(linear[2], linear[0]),
-                np.cross(linear[0], linear[1]),
-            ]
-        )
-        normals = normals @ cofactors.T
-    faces = part.faces
-    if np.linalg.det(linear) < 0:
-        normals = None if normals is None else -normals
-        faces = faces[:, ::-1]  # a mirror turns counter-clockwise into clockwise
-    positions = part.positions @ linear.T + matrix[:3, 3]
-    return Part(positions, faces, normals, part.uvs, part.colors)
-
-
 def unit_colors(values: Any) -> npt.NDArray[np.float64]:
     """Turn vertex colours of any type into 0..1, with an alpha of 1 where there is none."""
     given = np.asarray(values)
