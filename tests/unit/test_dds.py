@@ -214,6 +214,15 @@ def test_programs_count_cubemaps_or_faces(count, faces, tmp_path):
     assert_identical(cc.load_cubemap(write(tmp_path / "a.dds", head, faces)).faces, faces)
 
 
+def test_a_cubemap_that_only_the_older_header_names(faces, tmp_path):
+    """`load_image` gave the first face in silence."""
+    head = header(SIZE, FOUR_CC, b"DX10", dx10=(28, 3, 0, 1))
+    path = write(tmp_path / "a.dds", head, faces)
+    assert_identical(cc.load_cubemap(path).faces, faces)
+    with pytest.raises(cc.ImageError, match="expected a picture, got a DDS cubemap"):
+        cc.load_image(path)
+
+
 def test_several_cubemaps_in_a_file(faces, tmp_path):
     head = header(SIZE, FOUR_CC, b"DX10", levels=2, dx10=(28, 3, 4, 2))
     second = faces[::-1]

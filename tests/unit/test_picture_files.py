@@ -181,7 +181,28 @@ def test_two_views_and_layers_in_one_part(color, tmp_path):
     )  # fmt: skip
     assert_identical(cc.load_image(path), color)
     assert_identical(cc.load_image(path, part="right"), right)
+    assert_identical(cc.load_image(path, part="left"), color)
     assert_identical(cc.load_image(path, part="albedo"), color[..., :1])
+
+
+def test_y_is_grey_beside_a_depth_and_a_coordinate_beside_x(color, depth, tmp_path):
+    """The channels Y, A, Z were the three colours, and a layer N.X, N.Y, N.Z gave N.Y alone."""
+    grey = parts(tmp_path / "a.exr", ("", "", ["Y", "A", "Z"], color))
+    assert_identical(cc.load_image(grey), color[..., [0, 0, 0, 1]])
+    names = ["N.X", "N.Y", "N.Z"]
+    normals = parts(
+        tmp_path / "b.exr",
+        ("", "", [*names, "R", "G", "B"], np.concatenate([color, color[::-1]], 2)),
+    )
+    assert_identical(cc.load_image(normals), color[::-1])
+    assert_identical(cc.load_image(normals, part="N"), color)
+    after = parts(tmp_path / "c.exr", ("n", "", names, color), ("grey", "", ["Y"], depth))
+    assert_identical(cc.load_image(after), depth)
+    motion = np.concatenate([color, color[..., :2]], 2)
+    path = parts(tmp_path / "d.exr", ("", "", [*names, "motion.X", "motion.Y"], motion))
+    for part in (None, "motion"):
+        with pytest.raises(cc.ImageError, match="expected 1, 3 or 4 channels"):
+            cc.load_image(path, part=part)
 
 
 @pytest.mark.parametrize("ending", ["gif", "webp", "png", "tif"])

@@ -221,7 +221,7 @@ def read_header(data: bytes) -> Dds:
         fields10 = _DX10.unpack_from(data, start)
         start += _DX10.size
         number, dimension, misc, images, _ = fields10
-        cube = bool(misc & _MISC_CUBE)
+        cube = cube or bool(misc & _MISC_CUBE)  # some programs write only the older mark
         volume = volume or dimension == _DIMENSION_3D
         form, told = _DXGI.get(number), _OTHER_DXGI.get(number, f"DXGI format {number}")
     else:

@@ -207,12 +207,17 @@ def _parts(file: Any) -> list[_Part]:
             layer, _, name = channel.rpartition(".")
             layers.setdefault(layer, []).append(name.lower())
         name = spec.getattribute("oiio:subimagename") or spec.getattribute("name") or ""
-        found.append(_Part(str(name), str(spec.getattribute("view") or ""), layers))
+        # In a part of several views, the channels without a layer are of the first view.
+        view = spec.getattribute("view") or (spec.getattribute("multiView") or ("",))[0]
+        found.append(_Part(str(name), str(view), layers))
     return found
 
 
 def _first_colors(parts: list[_Part]) -> tuple[int, str | None]:
-    for has in (lambda names: {"r", "g", "b"} <= names, lambda names: "y" in names):
+    for has in (
+        lambda names: {"r", "g", "b"} <= names,
+        lambda names: "y" in names and "x" not in names,
+    ):
         for index, part in enumerate(parts):
             if any(has(set(names)) for names in part.layers.values()):
                 return index, None
@@ -335,8 +340,8 @@ def _channels(names: list[str], layer: str | None) -> list[int]:
         alpha = [places["a"]] if "a" in places else []
         if {"r", "g", "b"} <= places.keys():
             return [places["r"], places["g"], places["b"], *alpha]
-        # Grey: a single channel is kept as one.
-        if "y" in places and (layer is not None or len(names) not in (1, 3, 4)):
+        # Grey: a single channel is kept as one. Beside an X, Y is a coordinate.
+        if "y" in places and prefix + "x" not in lower:
             return [places["y"]] * 3 + alpha if alpha else [places["y"]]
     if layer is not None:
         own = [i for i, name in enumerate(names) if name.rpartition(".")[0] == layer]
