@@ -226,10 +226,15 @@ def test_a_circle_of_links_is_an_os_error(tmp_path):
         cc.save_image(tmp_path / "a.png", PICTURE)
 
 
-@pytest.mark.parametrize("old", [None, b"old"])
+@pytest.mark.parametrize("old", [None, b"old", "fifo"])
 def test_a_process_that_is_killed_while_it_writes_leaves_nothing(tmp_path, old):
+    """Neither beside the file nor, for what goes to a FIFO, in the folder of temporary files."""
     path = tmp_path / "a.exr"
-    if old is not None:
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    if old == "fifo":
+        os.mkfifo(path)
+    elif old is not None:
         path.write_bytes(old)
     code = f"""
 import pathlib, time
@@ -243,15 +248,22 @@ def slowly(self, data):
 pathlib.Path.write_bytes = slowly
 cc.CubeMap(np.zeros((6, 8, 8, 3), np.float32)).save({str(path)!r})
 """
-    with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as child:
+    with subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"TMPDIR": str(temporary)},
+    ) as child:
         assert child.stdout is not None
         assert child.stdout.readline() == "go\n"
         child.send_signal(signal.SIGKILL)
+    left = ["temporary"] if old is None else ["a.exr", "temporary"]
     end = time.monotonic() + 5
-    while names(tmp_path) != ([] if old is None else ["a.exr"]) and time.monotonic() < end:
+    while names(tmp_path) != left and time.monotonic() < end:
         time.sleep(0.01)
-    assert names(tmp_path) == ([] if old is None else ["a.exr"])
-    assert old is None or path.read_bytes() == old
+    assert names(tmp_path) == left
+    assert names(temporary) == []
+    assert not isinstance(old, bytes) or path.read_bytes() == old
 
 
 def test_files_that_are_open_do_not_grow_in_number(tmp_path):

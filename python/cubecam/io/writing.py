@@ -116,28 +116,27 @@ class _Draft:
             self._in_folder = False
         return number
 
-    def _new_file(self, folder: Path) -> int:
+    def _new_file(self, folder: Path, mode: int = 0o666) -> int:
         # The umask limits the mode.
         if hasattr(os, "O_TMPFILE") and Path("/proc/self/fd").exists():
             try:
-                return os.open(folder, os.O_TMPFILE | os.O_RDWR | os.O_CLOEXEC, 0o666)
+                return os.open(folder, os.O_TMPFILE | os.O_RDWR | os.O_CLOEXEC, mode)
             except OSError as error:
                 if error.errno not in _NO_UNNAMED:
                     raise
         # O_EXCL never opens a file that exists.
-        name = self._hidden_name()
-        number = os.open(name, os.O_CREAT | os.O_EXCL | os.O_RDWR | os.O_CLOEXEC, 0o666)
+        name = self._hidden_name(folder)
+        number = os.open(name, os.O_CREAT | os.O_EXCL | os.O_RDWR | os.O_CLOEXEC, mode)
         self.name, self._named = name, True
         return number
 
     def _elsewhere(self) -> int:
-        number, name = tempfile.mkstemp(suffix=self._target.suffix)
-        self.name, self._named = Path(name), True
-        return number
+        # Others may read the folder of temporary files.
+        return self._new_file(Path(tempfile.gettempdir()), 0o600)
 
-    def _hidden_name(self) -> Path:
+    def _hidden_name(self, folder: Path) -> Path:
         target = self._target
-        return target.with_name(f".{target.stem[:80]}-{secrets.token_hex(6)}{target.suffix}")
+        return folder / f".{target.stem[:80]}-{secrets.token_hex(6)}{target.suffix}"
 
     def deliver(self) -> None:
         """Give the contents to the target."""
@@ -157,7 +156,7 @@ class _Draft:
 
     def _give_name(self) -> None:
         # A link cannot take the place of a file, so the draft has a name of its own until `os.replace`.
-        name = self._hidden_name()
+        name = self._hidden_name(self._target.parent)
         folder = os.open(name.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
         try:
             # With `src_dir_fd` Python calls linkat with AT_SYMLINK_FOLLOW: it links the file, not the name in /proc.
