@@ -193,11 +193,11 @@ def test_shared_exponents(rng, tmp_path):
     assert_identical(cube.faces, want.astype(np.float32))
 
 
-@pytest.mark.parametrize("number", [27, 28, 29, 87, 88, 91, 93])
+@pytest.mark.parametrize("number", [27, 28, 29, 87, 88, 90, 91, 92, 93])
 def test_bytes_of_the_extended_header(number, faces, tmp_path):
     """The formats whose name ends in SRGB, too, are numbers of a screen; `srgb=True` makes light of them."""
     arranged = faces[..., [2, 1, 0, 3]] if number >= 87 else faces
-    channels = 3 if number in (88, 93) else 4
+    channels = 3 if number in (88, 92, 93) else 4
     head = header(SIZE, FOUR_CC, b"DX10", dx10=(number, 3, 4, 1))
     path = write(tmp_path / "a.dds", head, arranged)
     cube = cc.load_cubemap(path)
