@@ -1496,7 +1496,7 @@ MUTATIONS = [
     Mutation(
         "STL: text wherever a file begins with solid",
         "stl.py",
-        "if any(byte < 9 or 13 < byte < 32 for byte in data[:512]):",
+        "if any(byte < 9 or 13 < byte < 32 for byte in head):",
         "if False:",
         STL,
     ),

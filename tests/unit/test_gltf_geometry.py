@@ -365,7 +365,7 @@ def test_hidden_nodes_are_left_out(load):
         ([[2], [2], []], r"nodes\[2\]: expected one parent, got nodes\[0\] and nodes\[1\]"),
         ([[1, 1], [], []], r"nodes\[1\]: expected one parent"),
         ([[3], [], []], r"nodes\[0\].children\[0\]: expected an index below 3, got 3"),
-        ([[1.0], [], []], r"nodes\[0\].children\[0\]: expected an index below 3, got 1.0"),
+        ([[1.5], [], []], r"nodes\[0\].children\[0\]: expected an index below 3, got 1.5"),
         ([[True], [], []], "expected an index below 3, got True"),
         ([[-1], [], []], "expected an index below 3, got -1"),
         ([{}, [], []], r"nodes\[0\].children: expected a list of indices"),

@@ -33,6 +33,12 @@ def load(tmp_path, text):
     return cc.load_mesh(path)
 
 
+def test_nan_of_windows_is_no_comment_in_a_file_without_comments(tmp_path):
+    normals = "vn -nan(ind) 0 0\nvn -1.#IND 0 1\nvn 1.#QNAN00 0 0\n"
+    mesh = load(tmp_path, "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + normals + "f 1//1 2//2 3//3\n")
+    assert mesh.normals.tolist() == [[0, 0, 1]] * 3
+
+
 def refused(text, match):
     with pytest.raises(cc.MeshError, match=match):
         part(text)

@@ -427,3 +427,26 @@ def test_the_time_for_a_header_of_many_lists_is_linear(tmp_path):
     assert (
         time.process_time() - start < 2
     )  # 0.2 s; about 20 s where each list is looked up among all
+
+
+def test_floats_that_mean_bytes_are_divided_by_255(tmp_path):
+    rows = [(255.0, 0.0, 51.0, 1.0), (0.0, 2.0, 0.0, 0.5), (1.0, 0.0, 0.0, 1.0), (0.0,) * 4]
+    more = [f"float {name}" for name in ("red", "green", "blue", "alpha")]
+    mesh = load(tmp_path, "a.ply", ply("ascii", vertices(more, rows), faces(HALVES)))
+    close(mesh.colors, np.array(rows) / (255, 255, 255, 1))
+
+
+@every_format
+def test_strips_of_unsigned_numbers_end_at_the_largest_one(tmp_path, form):
+    strip = ("tristrips", ["list int uint vertex_indices"], [[[0, 1, 2, 0xFFFFFFFF, 2, 3, 0]]])
+    mesh = load(tmp_path, "a.ply", ply(form, vertices([], [()] * 4), strip))
+    close(triangles(mesh), np.array(SQUARE, float)[[[0, 1, 2], [2, 3, 0]]])
+
+
+def test_normals_that_windows_writes_as_no_numbers_are_computed(tmp_path):
+    rows = [(0.0, 0.0, 7.0)] * 4
+    more = ["float nx", "float ny", "float nz"]
+    text = ply("ascii", vertices(more, rows), faces(HALVES)).replace(
+        b"0.0 0.0 7.0", b"-1.#IND00 1.#QNAN nan"
+    )
+    close(load(tmp_path, "a.ply", text).normals, [[0, 0, 1]] * 4)

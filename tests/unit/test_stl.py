@@ -68,6 +68,13 @@ TEXT = {
     "blanks at ends": text(TETRAHEDRON).replace("\n", "  \n\n"),
     "more words": text(TETRAHEDRON).replace("  endfacet", "  color 0.5 0 0 purple\nendfacet"),
     "padding": text(TETRAHEDRON) + "\0" * 700,
+    "padding of a short file": text(TETRAHEDRON, indent="").replace("0000e+00", "")
+    + "\x1a"
+    + "\0" * 20,
+    "control characters in the name": text(TETRAHEDRON, " \x01\x1b part\0\0"),
+    "one line": " ".join(text(TETRAHEDRON).split()),
+    "a line for each facet": text(TETRAHEDRON).replace("\n   ", " ").replace("\n  end", " end"),
+    "numbers on lines of their own": text(TETRAHEDRON).replace(" ", "\n").replace("\n\n", "\n"),
 }
 
 

@@ -55,9 +55,10 @@ def _chunks(data: bytes) -> tuple[memoryview, memoryview | None]:
 
 
 def _tree(text: bytes) -> dict[str, Any]:
-    # Section 2.7 asks for UTF-8 without a byte order mark; some programs write one.
+    # Section 2.7 asks for UTF-8 without a byte order mark, section 4.4.3.2 for blanks at the end of the chunk; some
+    # programs write a mark, and zeros.
     try:
-        tree = json.loads(text.decode("utf-8-sig"), parse_constant=_no_constant)
+        tree = json.loads(text.rstrip(b"\0").decode("utf-8-sig"), parse_constant=_no_constant)
     except RecursionError:
         raise MeshError(
             "expected a JSON tree of moderate depth, got one too deep to read"

@@ -15,7 +15,10 @@ def shown(value: object) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def is_integer(value: object) -> TypeGuard[int]:
+def is_integer(value: object) -> TypeGuard[float]:
+    """Say whether JSON has an integer here: 3.0 is one, too, as some languages write all numbers."""
+    if isinstance(value, float):
+        return value.is_integer() and abs(value) < 2**53
     return isinstance(value, int) and not isinstance(value, bool)
 
 
@@ -42,7 +45,7 @@ class Entry:
         value = self.raw.get(key, default)
         if not is_integer(value) or value < low:
             raise self.error(key, f"an integer from {low}")
-        return value
+        return int(value)
 
     def index(self, key: str, count: int) -> int | None:
         """Read an index below `count`; None if there is no such key."""
@@ -62,7 +65,7 @@ class Entry:
             if not is_integer(value) or not 0 <= value < count:
                 path = self.path(f"{key}[{place}]")
                 raise MeshError(f"{path}: expected an index below {count}, got {shown(value)}")
-        return values
+        return [int(value) for value in values]
 
     def numbers(self, key: str, count: int | None = None) -> list[float] | None:
         """Read a list of finite numbers, `count` of them if that is given; None if there is no such key."""

@@ -27,8 +27,10 @@ def read_uri(uri: str, folder: Path) -> bytes:
         decoded = os.fsdecode(unquote_to_bytes(uri))
     except UnicodeEncodeError:
         raise MeshError(f"expected a URI of characters, got {shown(uri)}") from None
-    # Some programs write a name with a percent sign as it is.
-    names = [name for name in dict.fromkeys((decoded, uri)) if "\0" not in name]
+    # Some programs write a name with a percent sign as it is, folders as Windows does, or what a server wants to know.
+    path = os.fsdecode(unquote_to_bytes(re.split("[?#]", uri, maxsplit=1)[0]))
+    choices = dict.fromkeys((decoded, uri, path, path.replace("\\", "/")))
+    names = [name for name in choices if name and "\0" not in name]
     for name in names:
         found = _below(folder, name, uri)
         try:

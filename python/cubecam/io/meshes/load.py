@@ -66,10 +66,10 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     the texture coordinates). glTF asks for flat normals then: `flat_shading` of a material draws them. Equal positions
     of an STL file, which lists three corners for each triangle, are merged, and its normals are not read.
 
-    Colours are numbers from 0 to 1: whole numbers of 8 and 16 bits are divided by 255 and 65535. Those of glTF are
-    linear; other formats do not say what theirs are. In an OBJ they stand after x y z, and are divided by 255 if one is
-    above 1.5; vertices without one are white. Colours of faces (PLY, STL, OFF) become those of their corners, unless
-    vertices have some.
+    Colours are numbers from 0 to 1: whole numbers of 8 and 16 bits are divided by 255 and 65535, and floats of a PLY by
+    255 if all are whole numbers and one is above 1. Those of glTF are linear; other formats do not say what theirs are.
+    In an OBJ they stand after x y z, and are divided by 255 if one is above 1.5; vertices without one are white.
+    Colours of faces (PLY, STL, OFF) become those of their corners, unless vertices have some.
 
     glTF: the default scene, with skins and morph targets at their default pose. Draco and meshopt data need the
     packages of ``pip install 'cubecam[gltf]'``; an extension that the file requires and that is not known is refused by

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import MeshError
+from .plain_text import with_nan
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -61,6 +62,8 @@ def _without_comments(text: bytes) -> bytes:
     data: npt.NDArray[np.uint8] = np.frombuffer(text, dtype=np.uint8).copy()
     ends = np.flatnonzero(data == _NEWLINE)
     begins = np.flatnonzero(data == ord("#"))
+    if not len(begins):  # each one was part of a number
+        return text
     stops = ends[np.searchsorted(ends, begins)]
     marks = np.zeros(len(data), dtype=np.int8)
     marks[begins[np.concatenate([[True], stops[1:] != stops[:-1]])]] = 1
@@ -71,10 +74,6 @@ def _without_comments(text: bytes) -> bytes:
 
 def _joined(match: re.Match[bytes]) -> bytes:
     return b" " * (len(match.group()) - 1) + _JOINED
-
-
-def _not_a_number(match: re.Match[bytes]) -> bytes:
-    return b"nan".ljust(len(match.group()))
 
 
 class Lines:
@@ -89,7 +88,7 @@ class Lines:
         # Positions in the text stay what they are: what goes becomes blanks.
         if b"#" in clean:
             if b".#" in clean:  # 1.#IND and 1.#QNAN are no comments: Windows prints NaN so
-                clean = re.sub(rb"1\.#(?:IND|INF|QNAN|SNAN)\w*", _not_a_number, clean)
+                clean = with_nan(clean)
             clean = _without_comments(clean)
         if b"\\" in clean:
             clean = re.sub(rb"\\ *\n", _joined, clean)

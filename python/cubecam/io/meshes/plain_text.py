@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import numpy.typing as npt
 
@@ -17,6 +19,13 @@ def unified(data: bytes) -> bytes:
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     return data
+
+
+def with_nan(text: bytes) -> bytes:
+    """Write nan for what older programs on Windows print, such as -1.#IND; all places stay as they are."""
+    if b".#" not in text:
+        return text
+    return re.sub(rb"1\.#(?:IND|INF|QNAN|SNAN)\w*", lambda m: b"nan".ljust(len(m.group())), text)
 
 
 def numbers(text: bytes) -> npt.NDArray[np.float64] | None:

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..._core import MeshError
 from .parts import Part
-from .plain_text import numbers, wrong_word
+from .plain_text import numbers, with_nan, wrong_word
 from .ply_header import Header, read_header
 from .ply_tables import Binary, Numbers, Source, Table, Text
 from .wedges import Polygons, part
@@ -66,6 +66,7 @@ def _tables(data: bytes, header: Header) -> dict[str, Table]:
         source, place = Binary(data, header.order), header.start
     else:
         body = data[header.start :].rstrip(b"\0\x1a")  # old programs fill the last block with these
+        body = with_nan(body)
         values = numbers(body)
         if values is None:
             raise wrong_word(body, header.line)
@@ -113,9 +114,11 @@ def _colors(table: Table) -> Floats | None:
 
 
 def _unit(values: Numbers, type_: str) -> Numbers:
-    """Turn numbers of a type into 0 to 1; floats stay as they are."""
+    """Turn numbers of a type into 0 to 1; floats stay as they are, unless they mean bytes."""
     if type_.startswith("f"):
-        return values
+        # Arrays of bytes that were written as floats: bright colours are not all whole numbers.
+        most = values.max(initial=0)
+        return values / 255 if 1 < most <= 255 and (values == np.floor(values)).all() else values
     if type_ in ("u1", "u2"):
         return values / np.iinfo(type_).max
     # Types that no colour needs: programs that write them mean bytes, unless a number is too large for that.
@@ -188,6 +191,7 @@ def _strips(table: Table) -> Indices:
     """
     values, lengths = _index_lists(table)
     values = _whole(values)
+    values[values == 0xFFFFFFFF] = -1  # -1 as an unsigned number
     breaks = values == -1
     # Where the strip of each place begins.
     begins = np.zeros(len(values), np.int64)

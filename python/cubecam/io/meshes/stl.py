@@ -7,6 +7,7 @@ corners at one place are merged, and the mesh computes smooth normals.
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,13 +23,18 @@ if TYPE_CHECKING:
 
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 84
+_VERTEX = re.compile(rb"\bvertex\s+(?=[-+.\d])", re.IGNORECASE)
+_LOOP = re.compile(
+    rb"\bouter\s+loop((?:\s+vertex\s+\S+\s+\S+\s+\S+){3})\s+endloop\b", re.IGNORECASE
+)
+_FIRST_FACET = re.compile(rb"\n\s*facet\b[^\n]*\s+outer\s+loop\s+vertex\s", re.IGNORECASE)
 
 
 def read(path: Path, data: bytes) -> list[Part]:
     """Read an STL file; equal positions are merged, except between triangles of different colours."""
     colors = None
     if _is_text(data):
-        positions = _text_corners(unified(data))
+        positions = _text_corners(unified(data).rstrip(b"\0\x1a"))
     else:
         records = _records(data)
         positions = records["corners"].astype(np.float64)
@@ -49,8 +55,11 @@ def _is_text(data: bytes) -> bool:
     if len(data) >= _HEADER and len(data) == _HEADER + _RECORD.itemsize * _count(data):
         return False
     # Text has no control characters except white space; a binary file has some in its first triangle or in the number
-    # of triangles, whose highest byte is 0 below 16 million.
-    if any(byte < 9 or 13 < byte < 32 for byte in data[:512]):
+    # of triangles, whose highest byte is 0 below 16 million. Names may hold some, and old programs fill the last block.
+    head = data[:512].rstrip(b"\0\x1a")
+    if re.match(rb"\s*solid", head, re.IGNORECASE):
+        head = head.partition(b"\n")[2] if _FIRST_FACET.search(data[:4096]) else head
+    if any(byte < 9 or 13 < byte < 32 for byte in head):
         return False
     start = data[:512].lower().removeprefix(b"\xef\xbb\xbf").lstrip()
     return start.startswith(b"solid") or b"facet" in start
@@ -102,7 +111,14 @@ def _colors(header: bytes, attribute: npt.NDArray[np.uint16]) -> npt.NDArray[np.
 def _text_corners(text: bytes) -> npt.NDArray[np.float64]:
     """Return the corners (T, 3, 3) of the triangles of all solids."""
     corners = _usual_corners(_without_names(text.lower() + b"\n"))
-    return _corners_by_line(text) if corners is None else corners
+    if corners is not None:
+        return corners
+    try:
+        corners = _corners_by_line(text)
+    except MeshError:
+        if (corners := _corners_by_word(text)) is None:
+            raise
+    return corners if len(corners) or (other := _corners_by_word(text)) is None else other
 
 
 def _usual_corners(text: bytes) -> npt.NDArray[np.float64] | None:
@@ -176,6 +192,17 @@ def _corners_by_line(text: bytes) -> npt.NDArray[np.float64]:
             inside = 0
     _check_facet(text.count(b"\n") + 1, inside)
     return np.array(corners, dtype=np.float64).reshape(-1, 3, 3)
+
+
+def _corners_by_word(text: bytes) -> npt.NDArray[np.float64] | None:
+    """Read a text whose lines end anywhere; None if it has anything but three vertices in a loop."""
+    loops = _LOOP.findall(text)
+    if not loops or len(_VERTEX.findall(text)) != 3 * len(loops):
+        return None
+    values = numbers(_VERTEX.sub(b" ", b" ".join(loops)))
+    return (
+        values.reshape(-1, 3, 3) if values is not None and len(values) == 9 * len(loops) else None
+    )
 
 
 def _check_facet(line: int, vertices: int) -> None:
