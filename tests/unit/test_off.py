@@ -199,3 +199,8 @@ FUZZED = {
 @pytest.mark.parametrize("data", FUZZED.values(), ids=FUZZED)
 def test_broken_bytes_give_a_mesh_or_a_mesh_error(tmp_path, data):
     assert survives(tmp_path, "a.off", data, seed=len(data)) > 5
+
+
+def test_text_in_utf_16(tmp_path):
+    mesh = load(tmp_path, "a.off", "OFF\n3 1 0\n0 0 0\n4 0 0\n0 5 0\n3 0 1 2\n".encode("utf-16"))
+    assert mesh.positions.tolist() == [[0, 0, 0], [4, 0, 0], [0, 5, 0]]

@@ -450,3 +450,11 @@ def test_normals_that_windows_writes_as_no_numbers_are_computed(tmp_path):
         b"0.0 0.0 7.0", b"-1.#IND00 1.#QNAN nan"
     )
     close(load(tmp_path, "a.ply", text).normals, [[0, 0, 1]] * 4)
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-16-be"])
+def test_text_in_utf_16(tmp_path, encoding):
+    text = ply("ascii", vertices(), faces(HALVES)).decode()
+    mark = "\ufeff" if encoding == "utf-16-be" else ""
+    mesh = load(tmp_path, "a.ply", (mark + text).encode(encoding))
+    assert mesh.positions.tolist() == SQUARE

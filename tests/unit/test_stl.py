@@ -59,6 +59,7 @@ TEXT = {
     "facet in the name": text(TETRAHEDRON, " a facet with vertex 1 2 3 and endloop"),
     "endsolid in the name": text(TETRAHEDRON, " endsolid solid"),
     "words glued to the name": text(TETRAHEDRON, " vertex"),
+    "UTF-16": text(TETRAHEDRON).encode("utf-16"),
     "mark": "\ufeff" + text(TETRAHEDRON),
     "blanks before": "\n \n" + text(TETRAHEDRON),
     "two solids": text(TETRAHEDRON[:1], " one") + "\n" + text(TETRAHEDRON[1:], " two vertex"),

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from ..._core import MeshError
 from .parts import Part
-from .plain_text import numbers, shown, unified, words_of_lines, wrong_word
+from .plain_text import narrow, numbers, shown, unified, words_of_lines, wrong_word
 from .wedges import Polygons, part
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ _COUNTS = re.compile(rb"\s*(\S+)\s+(\S+)(?:[ \t]+\S+|[ \t]*\n[ \t]*\S+[ \t]*(?=\
 
 def read(path: Path, data: bytes) -> list[Part]:
     """Read an OFF file. Colours of faces are read if vertices have none."""
-    data = data.removeprefix(b"\xef\xbb\xbf")
+    data = narrow(data).removeprefix(b"\xef\xbb\xbf")
     word = _WORD.match(data[:200])
     start = _BINARY.match(data, word.end()) if word else None
     if word and start:

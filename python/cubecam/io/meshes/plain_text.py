@@ -13,6 +13,13 @@ from ..._core import MeshError
 _END = -7.4835072e-301
 
 
+def narrow(data: bytes) -> bytes:
+    """Turn UTF-16, which PowerShell writes, into UTF-8; other bytes stay as they are."""
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") and data[2:4].count(0) == 1:
+        return data.decode("utf-16", "replace").encode("utf-8", "replace")
+    return data
+
+
 def unified(data: bytes) -> bytes:
     """Drop a byte order mark, and end all lines with a line feed; old exporters write carriage returns."""
     data = data.removeprefix(b"\xef\xbb\xbf")

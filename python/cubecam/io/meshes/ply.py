@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from ..._core import MeshError
 from .parts import Part
-from .plain_text import numbers, with_nan, wrong_word
+from .plain_text import narrow, numbers, with_nan, wrong_word
 from .ply_header import Header, read_header
 from .ply_tables import Binary, Numbers, Source, Table, Text
 from .wedges import Polygons, part
@@ -42,6 +42,7 @@ _ELEMENTS = ("vertex", "face", "tristrips")
 
 def read(path: Path, data: bytes) -> list[Part]:
     """Read a PLY file. Colours of faces or of their corners are read if vertices have none."""
+    data = narrow(data)
     tables = _tables(data, read_header(data))
     if "vertex" not in tables:
         raise MeshError("expected an element vertex, got none")

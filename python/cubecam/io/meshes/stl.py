@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ..._core import MeshError
 from .parts import Part, unique_positions
-from .plain_text import numbers, shown, unified
+from .plain_text import narrow, numbers, shown, unified
 from .wedges import split
 
 if TYPE_CHECKING:
@@ -33,6 +33,7 @@ _FIRST_FACET = re.compile(rb"\n\s*facet\b[^\n]*\s+outer\s+loop\s+vertex\s", re.I
 def read(path: Path, data: bytes) -> list[Part]:
     """Read an STL file; equal positions are merged, except between triangles of different colours."""
     colors = None
+    data = narrow(data)
     if _is_text(data):
         positions = _text_corners(unified(data).rstrip(b"\0\x1a"))
     else:
