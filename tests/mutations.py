@@ -1633,11 +1633,4 @@ MUTATIONS = [
         '"bottom", "back", "front"',
         ("tests/unit/test_cubemap_names.py",),
     ),
-    Mutation(
-        "files: a device is opened to read",
-        "io/files.py",
-        "if stat.S_ISREG(mode):",
-        "if not stat.S_ISDIR(mode):",
-        ("tests/unit/test_file_safety.py",),
-    ),
 ]
