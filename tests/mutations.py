@@ -1621,9 +1621,9 @@ MUTATIONS = [
     ),
     Mutation(
         "files: six faces say the wrong face",
-        "io/cubemap_save.py",
-        'layout="faces", convention=convention or "gl", face=name',
-        'layout="faces", convention=convention or "gl", face="px"',
+        "io/stored_as.py",
+        'StoredAs("faces", convention.lower(), face=name)',
+        'StoredAs("faces", convention.lower(), face="px")',
         ("tests/unit/test_cubemap_names.py",),
     ),
     Mutation(

@@ -1,6 +1,7 @@
 """Names in files: which face {face} means, and the convention and centre that a file of cubecam carries."""
 
 import re
+from typing import Any
 
 import numpy as np
 import pytest
@@ -143,6 +144,13 @@ def test_a_panorama_of_cubecam_is_read_about_its_own_centre(tmp_path, center, en
     other: cc.typing.Center = "+x" if center != "+x" else "-x"
     with pytest.warns(cc.ConventionWarning, match=f"center='{re.escape(center)}', and it is read"):
         cc.load_environment(tmp_path / f"a{ending}", center=other)
+
+
+@pytest.mark.parametrize("name", ["a.png", "{face}.png"])
+def test_a_convention_in_capitals_is_written_as_others_are(tmp_path, name):
+    capitals: Any = "INSIDE"
+    CUBE.save(tmp_path / name, convention=capitals)
+    assert np.array_equal(cc.load_cubemap(tmp_path / name).faces, CUBE.faces)
 
 
 def test_six_files_in_another_order_warn(tmp_path):

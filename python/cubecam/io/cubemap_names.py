@@ -42,6 +42,21 @@ def layout_name(layout: str | None) -> FileLayout | None:
     raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {layout!r}")
 
 
+def picture_layout(
+    layout: FileLayout | None, six: Sequence[object] | None, path: Source
+) -> Layout | None:
+    """Return the layout of the one picture, None for six files; raise ValueError if layout and number do not agree."""
+    if six is not None:
+        if layout not in (None, "faces"):
+            raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
+        return None
+    if layout == "faces":
+        raise ValueError(
+            f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
+        )
+    return layout
+
+
 def check_names(convention: str | None, center: str | None) -> None:
     """Raise ValueError for unknown names, also for names that the call does not need, since they are typos."""
     if convention is not None and str(convention).lower() not in CONVENTIONS:

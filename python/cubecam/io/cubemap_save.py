@@ -10,12 +10,19 @@ from .._calls import checked_call
 from .._core import CubeMap
 from ..typing import Center, Convention, FileLayout, Tonemap
 from . import formats
-from .cubemap_names import FACE_NAMES, Source, check_names, check_openexr, layout_name, six_paths
+from .cubemap_names import (
+    Source,
+    check_names,
+    check_openexr,
+    layout_name,
+    picture_layout,
+    six_paths,
+)
 from .cubemap_outputs import encode_output
 from .files import as_path
 from .pixels import Array
 from .screen import Clipping, check_look, curve_for
-from .stored_as import StoredAs
+from .stored_as import stored_files
 from .writing import write_files
 
 if TYPE_CHECKING:
@@ -89,11 +96,12 @@ def save_cubemap(
     >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
     True
     """
-    wanted = layout_name(layout)
+    named = layout_name(layout)
     check_names(convention, center)
     paths = six_paths(path, for_reading=False)
     if paths is not None and len(set(paths)) < 6:
         raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
+    wanted = picture_layout(named, paths, path)
     if width is not None and wanted != "equirect":
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
     check_look(exposure, tonemap, srgb)
@@ -110,6 +118,8 @@ def save_cubemap(
         write_files(contents)
         return
     half = half or cube.dtype == np.float16
+    kept_as = "inside" if wanted == "openexr" else convention or "gl"
+    stored = stored_files(paths, wanted, kept_as, center)
     # What the cube's own numbers are decides, even where resampling makes floats of whole numbers.
     curve = curve_for(cube, cube.faces, tonemap)
 
@@ -120,29 +130,20 @@ def save_cubemap(
             return formats.for_file(pixels, cube.encoding, light, exposure, curve, srgb)
 
     if paths is not None:
-        if wanted not in (None, "faces"):
-            raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
         faces = cube.to_convention(convention or "gl")
         contents = {
             target: formats.encode(
                 target,
                 ready(face, formats.holds_light(target, cube.faces)),
                 half=half,
-                attributes=StoredAs(
-                    layout="faces", convention=convention or "gl", face=name
-                ).attributes(),
+                attributes=told.attributes(),
             )
-            for target, face, name in zip(paths, faces, FACE_NAMES[0], strict=True)
+            for target, face, told in zip(paths, faces, stored, strict=True)
         }
         clipping.warn()
         write_files(contents)
         return
-    if wanted == "faces":
-        raise ValueError(
-            f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
-        )
     target = as_path(path)
-    stored = StoredAs(layout=wanted or "cross", convention=convention or "gl")
     attributes: dict[str, Any] = {}
     # Numbers of a screen are 8-bit and hold no NaN, so that they lose their alpha later.
     light = formats.holds_light(target, cube.faces)
@@ -153,7 +154,6 @@ def save_cubemap(
     exact = formats.stores(target, cube.dtype) and (kept or light)
     resampled = cube.dtype if exact else np.dtype(np.float32)
     if wanted == "equirect":
-        stored = StoredAs(layout=wanted, center=center)
         picture = ready(source.to_equirect(width=width, center=center, dtype=resampled), light)
     elif wanted == "openexr":
         if target.suffix.lower() != ".exr":
@@ -163,7 +163,6 @@ def save_cubemap(
         check_openexr(convention)
         picture = ready(source.to_layout("openexr", dtype=resampled), light)
         # OpenImageIO writes the attribute envmap from this text, and rejects a number under that name.
-        stored = StoredAs(layout=wanted, convention="inside")
         attributes["textureformat"] = "CubeFace Environment"
     elif shown:
         # The six faces alone are mapped and encoded, since half of a cross is empty.
@@ -172,7 +171,7 @@ def save_cubemap(
     else:
         picture = source.to_layout(wanted or "cross", convention=convention or "gl")
         picture = ready(picture, light)
-    attributes |= stored.attributes()
+    attributes |= stored[0].attributes()
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
     clipping.warn()
     write_files({target: encoded})

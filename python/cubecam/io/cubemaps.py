@@ -13,7 +13,15 @@ from .._calls import checked_call
 from .._core import CubeMap, ImageError
 from ..typing import Center, Convention, FileLayout, Layout
 from . import formats
-from .cubemap_names import FACE_NAMES, Source, check_names, check_openexr, layout_name, six_paths
+from .cubemap_names import (
+    FACE_NAMES,
+    Source,
+    check_names,
+    check_openexr,
+    layout_name,
+    picture_layout,
+    six_paths,
+)
 from .files import existing_file
 from .picture_files import Part, read_picture
 from .pixels import Array, to_float32
@@ -110,21 +118,16 @@ def load_cubemap(
     >>> cube.faces.shape
     (6, 64, 64, 3)
     """
-    wanted = layout_name(layout)
+    named = layout_name(layout)
     check_names(convention, center)
     paths = six_paths(path, for_reading=True)
+    wanted = picture_layout(named, paths, path)
     if paths is not None:
-        if wanted not in (None, "faces"):
-            raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
         files = [read_picture(item, part) for item in paths]
         convention = _convention_of_six(files, paths, convention)
         faces, encoding = _faces(files, paths, srgb)
         cube = CubeMap(faces, convention=convention, mipmaps=mipmaps, encoding=encoding)
     else:
-        if wanted == "faces":
-            raise ValueError(
-                f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
-            )
         found = _one_file(path)
         picture = read_picture(found, part, faces=True)
         stored = StoredAs.read(picture.attributes)

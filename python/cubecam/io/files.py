@@ -6,7 +6,7 @@ import errno
 import os
 import stat
 from pathlib import Path
-from typing import TypeAlias
+from typing import BinaryIO, TypeAlias
 
 from .._core import FileError
 
@@ -39,14 +39,19 @@ def existing_file(path: object, error: type[FileError]) -> Path:
         without an end.
     """
     found = as_path(path)
-    os.close(_open_regular(found, error))
+    open_file(found, error).close()
     return found
 
 
 def read_file(path: object, error: type[FileError]) -> bytes:
     """Read a whole file, with the checks of `existing_file`."""
-    with open(_open_regular(as_path(path), error), "rb") as file:
+    with open_file(as_path(path), error) as file:
         return file.read()
+
+
+def open_file(found: Path, error: type[FileError]) -> BinaryIO:
+    """Open a file to read, with the checks of `existing_file`."""
+    return os.fdopen(_open_regular(found, error), "rb")
 
 
 def _open_regular(found: Path, error: type[FileError]) -> int:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import operator
+import os
 from typing import TypeAlias
 
 import numpy as np
 
 from .._core import ImageError
 from . import dds, oiio, radiance
-from .files import existing_file, read_file
+from .files import as_path, open_file
 from .oiio import Picture
 from .picture_kinds import DDS, check_canvas, find_kind, refused_kind
 from .pixels import Array
@@ -36,12 +37,15 @@ def read_picture(path: object, part: Part | None = None, *, faces: bool = False)
         For a part that is neither a whole number nor a name.
     """
     part = _checked(part)
-    found = existing_file(path, ImageError)
-    with found.open("rb") as file:
+    found = as_path(path)
+    with open_file(found, ImageError) as file:
         start = file.read(64)
-        length = file.seek(0, 2)
+        length = file.seek(0, os.SEEK_END)
         file.seek(max(0, length - 26))
         end = file.read(26)
+        file.seek(0)
+        # These two are read here, other kinds by OpenImageIO, which opens the file by its name.
+        data = file.read() if start.startswith((radiance.MAGIC, dds.MAGIC)) else b""
     refused = refused_kind(start)
     if refused:
         raise ImageError(
@@ -50,9 +54,9 @@ def read_picture(path: object, part: Part | None = None, *, faces: bool = False)
     try:
         if start.startswith(radiance.MAGIC):
             _only(part)
-            return Picture(radiance.read(read_file(found, ImageError)))
+            return Picture(radiance.read(data))
         if start.startswith(dds.MAGIC):
-            return _read_dds(read_file(found, ImageError), part, faces)
+            return _read_dds(data, part, faces)
         kind = find_kind(start, end, found.suffix)
         if kind is None:
             raise ImageError(

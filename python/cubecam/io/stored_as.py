@@ -7,7 +7,7 @@ The text stands in the description of the file: the attribute `comments` of EXR,
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
@@ -50,6 +50,17 @@ class StoredAs:
         pairs = (pair.split("=", 1) for pair in match[1].split(", "))
         known = {name: value for name, value in pairs if value in _KNOWN.get(name, ())}
         return StoredAs(**known)
+
+
+def stored_files(
+    six: Sequence[object] | None, layout: str | None, convention: str, center: str
+) -> list[StoredAs]:
+    """Say what each of the files holds that a cubemap is written to: six of them, or one."""
+    if six is not None:
+        return [StoredAs("faces", convention.lower(), face=name) for name in FACE_NAMES[0]]
+    if layout == "equirect":  # a panorama has no faces, and so no convention
+        return [StoredAs(layout, center=center.lower())]
+    return [StoredAs(layout or "cross", convention.lower())]
 
 
 def chosen(what: str, given: Name | None, stated: Name | None, file: object) -> Name | None:

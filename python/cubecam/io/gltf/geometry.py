@@ -170,10 +170,11 @@ class Geometry:
         self._limits.output((vertices + len(shape.faces)) * (times - 1), shape.entry)
         # The specification asks for flat normals where a file has none. load_mesh promises smooth ones for every kind
         # of file; `flat_shading` of a material draws any mesh flat.
-        normals = unit_normals(Part(shape.positions, shape.faces, shape.normals, None, None))
         uvs = None if shape.uvs is None else _from_bottom(shape.uvs)
         try:
-            return placed(Part(shape.positions, shape.faces, normals, uvs, shape.colors), matrices)
+            part = Part(shape.positions, shape.faces, shape.normals, uvs, shape.colors)
+            part.normals = unit_normals(part)
+            return placed(part, matrices)
         except ValueError as error:
             raise MeshError(f"{shape.entry.where}: {error}") from None
 

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import MeshError
+from ..meshes.parts import LARGEST
 from .accessors import Layout, decoded
 from .compression import Draco
 from .document import Gltf
@@ -20,8 +21,6 @@ Floats = npt.NDArray[np.float64]
 Faces = npt.NDArray[np.int64]
 
 MODES = ("points", "lines", "line loops", "line strips", "triangles", "strips", "fans")
-
-LARGEST = float(np.finfo(np.float32).max)
 
 
 @dataclass

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import Mesh
-from .parts import Part, joined, unit_colors
+from .parts import Part, joined
 from .placing import placed
 
 
@@ -56,9 +56,9 @@ def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> Part:
     uvs = getattr(geometry.visual, "uv", None)
     colors = None
     if geometry.visual.kind == "vertex":
-        colors = unit_colors(geometry.visual.vertex_colors)
+        colors = _unit_colors(geometry.visual.vertex_colors)
     elif "color" in getattr(geometry.visual, "vertex_attributes", {}):
-        colors = unit_colors(geometry.visual.vertex_attributes["color"])  # beside a texture
+        colors = _unit_colors(geometry.visual.vertex_attributes["color"])  # beside a texture
     count = len(geometry.vertices)
     part = Part(
         np.asarray(geometry.vertices, dtype=np.float64),
@@ -68,6 +68,16 @@ def _placed(geometry: Any, matrix: npt.NDArray[np.float64]) -> Part:
         _of_length(colors, count),
     )
     return placed(part, matrix[None])
+
+
+def _unit_colors(values: Any) -> npt.NDArray[np.float64]:
+    """Turn vertex colours of any type into 0..1, with an alpha of 1 where there is none."""
+    given = np.asarray(values)
+    scale = np.iinfo(given.dtype).max if given.dtype.kind == "u" else 1
+    colors: npt.NDArray[np.float64] = given.astype(np.float64) / scale
+    if colors.shape[1] == 3:
+        colors = np.concatenate([colors, np.ones((len(colors), 1))], axis=1)
+    return colors
 
 
 def _of_length(values: Any, count: int) -> npt.NDArray[np.float64] | None:

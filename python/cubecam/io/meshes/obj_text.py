@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import MeshError
-from .plain_text import with_nan
+from .plain_text import unified, with_nan
 
 Floats = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -27,9 +27,7 @@ _CORNER = re.compile(rb"[+-]?\d+(?:/(?:[+-]?\d+)?){0,2}\Z", re.ASCII)
 
 def readable(data: bytes) -> bytes:
     """Turn a file into UTF-8 with `\\n` at the end of each line, and blanks for all other white space."""
-    text = _utf8(data)
-    if b"\r" in text:
-        text = text.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    text = unified(_utf8(data))
     if not text.isascii():
         # No-break spaces come in with text that was copied from a page, byte order marks with files that were joined.
         text = text.replace(b"\xc2\xa0", b" ").replace(b"\xef\xbb\xbf", b" ")

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ..._core import Mesh
 
-_MOST = float(np.finfo(np.float32).max)
+#: The largest number that a mesh can hold.
+LARGEST = float(np.finfo(np.float32).max)
 
 
 @dataclass
@@ -30,7 +30,7 @@ class Part:
 
     def __post_init__(self) -> None:
         """Drop vertices without a place if no triangle has them, as scanners write them; else raise ValueError."""
-        sound = np.asarray((np.abs(self.positions) <= _MOST).all(axis=1))
+        sound = np.asarray((np.abs(self.positions) <= LARGEST).all(axis=1))
         if sound.all():
             return
         check_indices(self.faces, len(sound))
@@ -55,22 +55,12 @@ def check_indices(faces: npt.NDArray[np.int64], count: int) -> None:
         raise IndexError(f"expected indices 0 to {count - 1}, got {faces.min()} to {faces.max()}")
 
 
-def unit_colors(values: Any) -> npt.NDArray[np.float64]:
-    """Turn vertex colours of any type into 0..1, with an alpha of 1 where there is none."""
-    given = np.asarray(values)
-    scale = np.iinfo(given.dtype).max if given.dtype.kind == "u" else 1
-    colors: npt.NDArray[np.float64] = given.astype(np.float64) / scale
-    if colors.shape[1] == 3:
-        colors = np.concatenate([colors, np.ones((len(colors), 1))], axis=1)
-    return colors
-
-
-def unique_positions(part: Part) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
+def unique_positions(
+    positions: npt.NDArray[np.float64],
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64]]:
     """Give each distinct position once, in the order of first use, and each vertex's index among them."""
     # + 0.0 makes -0.0 equal to 0.0 bit for bit. Sorting whole numbers is much faster than sorting rows.
-    x, y, z = (
-        (part.positions.astype(np.float32) + np.float32(0)).view(np.uint32).T.astype(np.uint64)
-    )
+    x, y, z = (positions.astype(np.float32) + np.float32(0)).view(np.uint32).T.astype(np.uint64)
     half = np.uint64(32)
     _, columns = np.unique(x << half | y, return_inverse=True)
     _, first, inverse = np.unique(
@@ -79,12 +69,7 @@ def unique_positions(part: Part) -> tuple[npt.NDArray[np.float64], npt.NDArray[n
     order = np.argsort(first, kind="stable")
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))
-    return part.positions[first[order]], rank[inverse.reshape(-1)]
-
-
-def merged(part: Part) -> Part:
-    positions, index = unique_positions(part)
-    return Part(positions, index[part.faces], None, None, None)
+    return positions[first[order]], rank[inverse.reshape(-1)]
 
 
 def unit_normals(part: Part) -> npt.NDArray[np.float64]:
@@ -96,7 +81,7 @@ def unit_normals(part: Part) -> npt.NDArray[np.float64]:
         if sound.all():
             unit: npt.NDArray[np.float64] = given / lengths
             return unit
-    positions, index = unique_positions(part)
+    positions, index = unique_positions(part.positions)
     computed = np.asarray(Mesh(positions, index[part.faces]).normals, dtype=np.float64)
     smooth: npt.NDArray[np.float64] = computed[index]
     if given is not None:

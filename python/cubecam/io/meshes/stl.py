@@ -43,8 +43,7 @@ def read(path: Path, data: bytes) -> list[Part]:
     if not len(positions):
         raise MeshError("expected triangles, got none")
     places = positions.reshape(-1, 3)
-    corners = np.arange(len(places)).reshape(-1, 3)
-    unique, index = unique_positions(Part(places, corners, None, None, None))
+    unique, index = unique_positions(places)
     if colors is None:
         return [Part(unique, index.reshape(-1, 3), None, None, None)]
     sources, index, colors = split(len(unique), index, np.repeat(colors, 3, axis=0))
