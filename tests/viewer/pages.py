@@ -1,11 +1,17 @@
-"""A tiny live view for the tests of pages, and a client that speaks HTTP and the websocket's protocol by hand."""
+"""For tests of pages: a tiny live view, a client by hand of HTTP and the websocket, and what a process holds."""
 
+import asyncio
 import http.client
+import io
 import json
+import threading
+import time
 from typing import Any
 from urllib.parse import urlsplit
 
 import numpy as np
+import psutil
+from PIL import Image
 from websockets.sync.client import connect
 
 ANY = object()
@@ -130,3 +136,51 @@ def receive(socket, kind, timeout=10):
 
 def confirm(socket, message):
     send(socket, type="_framefeedback", index=message["index"])
+
+
+def pixels(data):
+    return np.asarray(Image.open(io.BytesIO(data)))
+
+
+def frame(connection):
+    """Receive a frame and confirm it, as a browser does."""
+    message, data = receive(connection, "framebufferdata")
+    confirm(connection, message)
+    return message, pixels(data)
+
+
+def until(condition, seconds=10):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "it took too long"
+        time.sleep(0.005)
+
+
+class Footprint:
+    """What a process holds: threads, files and sockets, and asyncio tasks of a server."""
+
+    def __init__(self, server=None):
+        process = psutil.Process()
+        self.threads = sorted(thread.name for thread in threading.enumerate())
+        self.files = process.num_fds()
+        self.sockets = len(process.net_connections("tcp"))
+        self.tasks = -1 if server is None else len(tasks_of(server))
+
+    def __eq__(self, other):
+        return vars(self) == vars(other)
+
+    def __repr__(self):
+        return str(vars(self))
+
+
+def tasks_of(server):
+    found: list[object] = []
+    done = threading.Event()
+
+    def look():
+        found.extend(asyncio.all_tasks())
+        done.set()
+
+    server._loop.call_soon_threadsafe(look)
+    assert done.wait(10)
+    return found

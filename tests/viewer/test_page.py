@@ -1,25 +1,32 @@
 """Pages of live views: pictures, events, text and panels over the websocket, and what a server leaves behind."""
 
 import contextlib
-import io
 import json
 import os
-import threading
 import time
 import tracemalloc
 from urllib.parse import urlsplit
 
 import numpy as np
-import psutil
 import pytest
-from PIL import Image
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from cubecam.viewer.page.events import LARGEST_SIDE, read_message, to_event, to_size
 from cubecam.viewer.page.server import PageServer
 from cubecam.viewer.panel import Control, Section
 from tests.documents import ROOT
-from tests.viewer.pages import TinyView, confirm, get, open_socket, receive, resize, send
+from tests.viewer.pages import (
+    Footprint,
+    TinyView,
+    confirm,
+    frame,
+    get,
+    open_socket,
+    receive,
+    resize,
+    send,
+    until,
+)
 
 
 @pytest.fixture
@@ -39,24 +46,6 @@ def opened(server, view):
     with open_socket(server.add(view)) as connection:
         resize(connection, 40, 30)
         yield connection
-
-
-def pixels(data):
-    return np.asarray(Image.open(io.BytesIO(data)))
-
-
-def frame(connection):
-    """Receive a frame and confirm it, as a browser does."""
-    message, data = receive(connection, "framebufferdata")
-    confirm(connection, message)
-    return message, pixels(data)
-
-
-def until(condition, seconds=10):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "it took too long"
-        time.sleep(0.005)
 
 
 class TestPictures:
@@ -350,38 +339,6 @@ class TestSeveral:
             open_socket(url)
 
 
-class Footprint:
-    """What a process holds: threads, files and sockets, and asyncio tasks of a server."""
-
-    def __init__(self, server=None):
-        process = psutil.Process()
-        self.threads = sorted(thread.name for thread in threading.enumerate())
-        self.files = process.num_fds()
-        self.sockets = len(process.net_connections("tcp"))
-        self.tasks = -1 if server is None else len(tasks_of(server))
-
-    def __eq__(self, other):
-        return vars(self) == vars(other)
-
-    def __repr__(self):
-        return str(vars(self))
-
-
-def tasks_of(server):
-    import asyncio
-
-    found: list[object] = []
-    done = threading.Event()
-
-    def look():
-        found.extend(asyncio.all_tasks())
-        done.set()
-
-    server._loop.call_soon_threadsafe(look)
-    assert done.wait(10)
-    return found
-
-
 def test_closing_leaves_no_thread_and_no_socket():
     with PageServer():
         pass  # what is loaded at the first use
@@ -415,51 +372,6 @@ def test_closing_is_quick_with_browsers_that_do_nothing():
             start = time.monotonic()
             server.close()
             assert time.monotonic() - start < 3
-
-
-@pytest.mark.slow
-def test_200_connections_and_5000_events_leave_no_growth(server, view):
-    """Threads, tasks, files and sockets are as before; memory stays within what one more connection takes."""
-    url = server.add(view)
-
-    def visit():
-        with open_socket(url) as connection:
-            resize(connection, 40, 30)
-            frame(connection)
-            for step in range(25):
-                send(
-                    connection,
-                    type="pointer_move",
-                    x=step,
-                    y=1,
-                    button=0,
-                    buttons=[1],
-                    modifiers=[],
-                )
-            view.changed()
-            frame(connection)
-        assert get(url + "page.js")[0] == 200
-        view.events.clear()
-
-    for _ in range(5):
-        visit()
-    until(lambda: Footprint(server).tasks <= 3)
-    before = Footprint(server)
-    tracemalloc.start()
-    try:
-        for _ in range(20):
-            visit()
-        early = tracemalloc.get_traced_memory()[0]
-        resident = psutil.Process().memory_info().rss
-        for _ in range(180):
-            visit()
-        until(lambda: Footprint(server) == before)
-        late = tracemalloc.get_traced_memory()[0]
-    finally:
-        tracemalloc.stop()
-    assert late - early < 200_000
-    assert psutil.Process().memory_info().rss - resident < 8_000_000
-    assert server.views[0] is view
 
 
 def test_a_flood_of_events_is_merged_and_memory_stays(opened, view):
