@@ -15,6 +15,7 @@ CPP_ORDER = (
     "math",
     "image",
     "cubemap",
+    "lighting",  # filters of whole cubemaps
     "geometry",
     "materials",
     "scene",
@@ -26,7 +27,7 @@ CPP_ORDER = (
     "bindings",
 )
 #: Folders that may include from fewer folders than the order allows.
-CPP_KNOWS = {"gl": {"core"}, "math": {"core"}}
+CPP_KNOWS = {"gl": {"core"}, "math": {"core"}, "lighting": {"core", "math", "image", "cubemap"}}
 
 #: The parts of python/cubecam in the same kind of order; a part is a folder or a module.
 PYTHON_ORDER = (

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/materials/placed_map.hpp"
 #include "cubecam/materials/texture_source.hpp"
 #include "cubecam/materials/user_shader.hpp"
 
@@ -21,6 +22,10 @@ namespace cubecam {
 
 /// Whether the alpha of a map multiplies the alpha of the surface.
 enum class MapAlpha : bool { ignored, counts };
+
+/// What the numbers of an 8-bit map are. The renderer decodes sRGB before it filters; maps of
+/// floats are always linear.
+enum class MapEncoding : bool { linear, srgb };
 
 /// How a material uses the vertex colours of a mesh.
 enum class VertexColors : std::uint8_t {
@@ -58,8 +63,26 @@ struct Field<Kind, MapSource> {
         : name(name_), member(member_), doc(doc_), alpha(alpha_) {}
 };
 
+/// The field of one of several maps, each of which has its place.
+template <class Kind>
+struct Field<Kind, PlacedMap> {
+    using Type = PlacedMap;
+
+    const char* name;
+    PlacedMap Kind::* member;
+    const char* doc;
+    MapAlpha alpha;
+    MapEncoding encoding;
+
+    constexpr Field(const char* name_, PlacedMap Kind::* member_, MapAlpha alpha_,
+                    MapEncoding encoding_, const char* doc_)
+        : name(name_), member(member_), doc(doc_), alpha(alpha_), encoding(encoding_) {}
+};
+
 template <class Kind, class Value>
 Field(const char*, Value Kind::*, const char*) -> Field<Kind, Value>;
+template <class Kind>
+Field(const char*, PlacedMap Kind::*, MapAlpha, MapEncoding, const char*) -> Field<Kind, PlacedMap>;
 template <class Kind>
 Field(const char*, MapSource Kind::*, MapAlpha, const char*) -> Field<Kind, MapSource>;
 
@@ -68,6 +91,16 @@ Field(const char*, MapSource Kind::*, MapAlpha, const char*) -> Field<Kind, MapS
 struct Switch {
     const char* name;
     bool on;
+};
+
+/// What a material looks up of its environment besides the cube itself; see
+/// shaders/include/environment.glsl. A kind that needs any of it has a function
+/// `EnvironmentParts environment_parts() const`.
+struct EnvironmentParts {
+    bool filtered = false;  ///< levels by roughness, and irradiance
+    bool mipmaps = false;   ///< box-filtered levels, whether the cube has them or not
+
+    bool operator==(const EnvironmentParts&) const = default;
 };
 
 /// The GLSL that a user wrote for a material; the pointers point into the material.
@@ -131,6 +164,10 @@ concept HasUsesVertexColors = requires(const Kind& kind) {
     { kind.uses_vertex_colors() } -> std::same_as<VertexColors>;
 };
 template <class Kind>
+concept HasEnvironmentParts = requires(const Kind& kind) {
+    { kind.environment_parts() } -> std::same_as<EnvironmentParts>;
+};
+template <class Kind>
 concept HasUserCode = requires(const Kind& kind) {
     { kind.user_code() } -> std::same_as<UserCode>;
 };
@@ -154,6 +191,7 @@ struct Members<Kind, std::index_sequence<index...>> {
     static constexpr bool more = requires { Kind{std::declval<FieldType<Kind, index>>()..., {}}; };
     static constexpr std::size_t textures =
         ((std::size_t{std::same_as<FieldType<Kind, index>, MapSource> ||
+                      std::same_as<FieldType<Kind, index>, PlacedMap> ||
                       std::same_as<FieldType<Kind, index>, CubeSource>}) +
          ... + 0);
     static constexpr bool user_code = ((std::same_as<FieldType<Kind, index>, UserSource> ||

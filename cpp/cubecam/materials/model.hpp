@@ -36,8 +36,10 @@ struct KindInfo {
 struct NamedTexture {
     std::string_view name;
     std::variant<const MapSource*, const CubeSource*> source;
-    bool placed_by_uv;  ///< shown only on meshes that have uvs
-    bool alpha_counts;  ///< its alpha, if below 1, makes the surface translucent
+    bool placed_by_uv;                    ///< shown only on meshes that have uvs
+    bool alpha_counts;                    ///< its alpha, if below 1, makes the surface translucent
+    const MapPlacing* placing = nullptr;  ///< null: by the mesh's uvs, as they are
+    bool srgb = false;                    ///< if it has 8 bits, it is decoded
 };
 
 /// Everything that drawing needs to know about a material, computed once when the material changes.
@@ -49,6 +51,7 @@ struct MaterialTraits {
     std::vector<NamedTexture> textures;     ///< all of them, in the order of the fields
     bool textured = false;                  ///< whether any of them is set, or is a user's
     bool uses_environment;
+    EnvironmentParts environment_parts;
     bool uses_lights;
     bool zeros_and_ones = false;  ///< all colours are, so sRGB encoding does not change them
     VertexColors vertex_colors;
@@ -95,6 +98,9 @@ public:
             traits_.switch_names.push_back(one.name);
         }
         traits_.uses_environment = kind_.uses_environment();
+        if constexpr (kinds::HasEnvironmentParts<Kind>) {
+            traits_.environment_parts = kind_.environment_parts();
+        }
         traits_.uses_lights = kind_.uses_lights();
         traits_.vertex_colors = kind_.uses_vertex_colors();
         if constexpr (kinds::HasUserCode<Kind>) traits_.user_code = kind_.user_code();
@@ -136,6 +142,11 @@ private:
         if constexpr (std::same_as<Value, MapSource>) {
             traits_.textures.push_back(
                 {field.name, &(kind_.*field.member), true, field.alpha == MapAlpha::counts});
+        } else if constexpr (std::same_as<Value, PlacedMap>) {
+            const PlacedMap& map = kind_.*field.member;
+            traits_.textures.push_back({field.name, &map.source, true,
+                                        field.alpha == MapAlpha::counts, &map.placing,
+                                        field.encoding == MapEncoding::srgb});
         } else if constexpr (std::same_as<Value, CubeSource>) {
             traits_.textures.push_back({field.name, &(kind_.*field.member), false, false});
         } else if constexpr (std::same_as<Value, ShaderInputs>) {
