@@ -69,23 +69,41 @@ vec4 on_face(vec3 direction) {
 }
 
 // A bilinear lookup in one level. `place` is the level's element of u_environment_places: xy: the first texel of its
-// first face, z: texels along an edge, w: texels from face to face.
+// first face, z: texels along an edge; faces have a border of one texel.
 vec3 place_in(vec4 place, vec4 on) {
-    vec2 at = place.xy + on.xy * place.w + on.zw * place.z;
+    vec2 at = place.xy + on.xy * (place.z + 2.0) + on.zw * place.z;
     return textureLod(u_filtered, at * u_environment_texel.xy, 0.0).rgb;
 }
 
-// The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
-vec3 environment_filtered(vec3 direction_world, float roughness) {
+// The level of a roughness; a whole number where it is the roughness of a level.
+float level_of(float roughness) {
+#ifdef ENVIRONMENT_UNEVEN
+    float level = 0.0;
+    for (int k = 1; k < u_environment_levels.x; ++k) {
+        float before = u_environment_places[k - 1].w;
+        level += clamp((roughness - before) / (u_environment_places[k].w - before), 0.0, 1.0);
+    }
+    return level;
+#else
+    return clamp(roughness, 0.0, 1.0) * float(u_environment_levels.x - 1);
+#endif
+}
+
+// The filtered radiance round a direction at a level, between two levels linearly; level 0 is the cube itself.
+vec3 environment_level(vec3 direction_world, float level) {
     vec3 direction = in_cube(direction_world);
-    float level = clamp(roughness, 0.0, 1.0) * float(u_environment_levels.x - 1);
     int lower = clamp(int(level), 0, max(u_environment_levels.x - 2, 0));
     vec4 on = on_face(direction);
     // Every fragment makes all lookups: the level of a mipmapped lookup depends on the neighbour fragments.
     vec3 sharp = texture(u_cube, direction).rgb;
     vec3 low = place_in(u_environment_places[lower], on);
     vec3 high = place_in(u_environment_places[lower + 1], on);
-    return with_intensity(mix(lower == 0 ? sharp : low, high, level - float(lower)));
+    return with_intensity(mix(lower == 0 ? sharp : low, high, clamp(level - float(lower), 0.0, 1.0)));
+}
+
+// The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
+vec3 environment_filtered(vec3 direction_world, float roughness) {
+    return environment_level(direction_world, level_of(roughness));
 }
 
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.

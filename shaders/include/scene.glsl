@@ -24,11 +24,11 @@ struct Vertex {
 #else
 vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 
-// The environment at a chosen level of detail; 0 is the finest. The last level of a filtered environment is that of
-// roughness 1.
+// The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
+// roughnesses.
 vec3 environment_lod(vec3 direction_world, float level) {
 #ifdef ENVIRONMENT_FILTERED
-    return environment_filtered(direction_world, level / float(u_environment_levels.x - 1));
+    return environment_level(direction_world, level);
 #else
     return with_intensity(textureLod(u_cube, in_cube(direction_world), level).rgb);
 #endif

@@ -77,6 +77,7 @@ void add_environment(gl::ShaderOptions& options, const EnvironmentVariant& varia
     define(variant.turned, "ENVIRONMENT_TURNED");
     define(variant.by_roughness, "USES_FILTERED_ENVIRONMENT");
     define(variant.filtered, "ENVIRONMENT_FILTERED");
+    define(variant.uneven, "ENVIRONMENT_UNEVEN");
     define(variant.box_mipmaps, "USES_ENVIRONMENT_MIPS");
 }
 
@@ -95,6 +96,7 @@ EnvironmentVariant EnvironmentVariant::of(const Environment& environment,
     variant.block = needs_block(environment, material.user_code.has_value());
     variant.turned = !environment.placing.is_plain();
     variant.filtered = environment.filtered != nullptr;
+    variant.uneven = variant.filtered && !environment.filtered->is_even();
     variant.box_mipmaps = environment.parts.mipmaps;
     return variant;
 }

@@ -22,6 +22,7 @@ struct EnvironmentVariant {
     bool turned = false;        ///< Environment::placing is not plain
     bool by_roughness = false;  ///< EnvironmentParts::filtered
     bool filtered = false;      ///< the environment has filtered levels
+    bool uneven = false;        ///< not FilteredTexture::is_even
     bool box_mipmaps = false;   ///< EnvironmentParts::mipmaps
 
     static EnvironmentVariant of(const Environment& environment, const MaterialTraits& material);

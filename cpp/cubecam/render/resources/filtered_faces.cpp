@@ -1,24 +1,6 @@
 #include "cubecam/render/resources/filtered_faces.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace cubecam {
-namespace {
-
-constexpr float largest_number = 3.0e38F;
-
-/// Infinite light, which sums of weights cannot hold, becomes the largest number; NaN becomes 0.
-void make_finite(std::vector<glm::vec4>& texels) {
-    for (glm::vec4& texel : texels) {
-        for (int c = 0; c < 4; ++c) {
-            float& value = texel[c];
-            value = value == value ? std::clamp(value, -largest_number, largest_number) : 0.0F;
-        }
-    }
-}
-
-}  // namespace
 
 const FilteredTexture& FilteredFaces::update(const gl::Context& context, int size,
                                              const Revisions& revisions,
@@ -39,7 +21,6 @@ const FilteredTexture& FilteredFaces::update(const gl::Context& context, int siz
         changed[i] = revisions_[i] != revisions[i];
         if (changed[i]) {
             texels[i] = read(face);
-            make_finite(texels[i]);
             ++stats.faces_filtered;
         }
         faces[i] = texels[i];

@@ -4,6 +4,7 @@
 #include "cubecam/lighting/radiance_faces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -79,15 +80,18 @@ void FilteredTexture::upload(const gl::Context& context, std::span<const Filtere
     places_ = {};
     const auto write = [&](const FilteredLevel& level, const glm::ivec2& corner) {
         write_block(level, corner, shelves.size.x, texels);
-        return glm::vec4(glm::vec2(corner + 1), static_cast<float>(level.size),
-                         static_cast<float>(level.size + 2));
+        return glm::vec4(glm::vec2(corner + 1), static_cast<float>(level.size), level.roughness);
     };
+    level_count_ = static_cast<int>(levels.size()) + 1;
+    even_ = true;
     for (std::size_t i = 0; i < levels.size(); ++i) {
         places_[i + 1] = write(levels[i], corners[i]);
+        const float even = level_roughness(static_cast<int>(i) + 1, level_count_);
+        even_ = even_ && std::abs(levels[i].roughness - even) < 1e-6F;
     }
     places_[0] = write(irradiance, corners.back());
+    places_[0].w = 0.0F;
     if (levels.empty()) places_[1] = places_[0];  // its weight is 0
-    level_count_ = static_cast<int>(levels.size()) + 1;
     texel_ = 1.0F / glm::vec2(shelves.size);
 
     if (size_ != shelves.size) {

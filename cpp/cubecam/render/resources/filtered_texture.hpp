@@ -34,8 +34,10 @@ public:
     std::uint64_t revision() const { return revision_; }  ///< new with each upload
     /// With level 0.
     int level_count() const { return level_count_; }
+    /// Whether level k is that of roughness k / (level_count() - 1).
+    bool is_even() const { return even_; }
     /// Element 0: the irradiance; element k: level k. x, y: the first texel of face +x without the
-    /// border; z: texels along an edge; w: texels from face to face.
+    /// border; z: texels along an edge; w: the level's roughness, 0 in element 0.
     const std::array<glm::vec4, most_filtered_levels>& places() const { return places_; }
     /// Width and height of one texel, as a part of the texture.
     const glm::vec2& texel() const { return texel_; }
@@ -45,6 +47,7 @@ private:
     glm::ivec2 size_{0};
     std::uint64_t revision_ = 0;
     int level_count_ = 0;
+    bool even_ = true;
     std::array<glm::vec4, most_filtered_levels> places_{};
     glm::vec2 texel_{0.0F};
 };
