@@ -334,6 +334,8 @@ def method_update_a_mesh(world, rng, draw):
 
 
 def method_move_the_camera(world, rng, draw):
+    if world.cameras[0].target is None:  # by an earlier edit
+        world.cameras[0].target = (0, 0, 0)
     world.cameras[0].orbit(yaw=float(rng.uniform(-30, 30)), pitch=5)
     world.cameras[0].walk(float(rng.uniform(-0.3, 0.3)))
 

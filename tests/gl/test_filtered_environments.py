@@ -49,6 +49,7 @@ def looked_up(renderer, scene, expression, environment=None):
         quad(WIDTH, HEIGHT),
         cc.ShaderMaterial(source, textures={"way": cc.Image(DIRECTIONS)}),
         environment=environment,
+        position=(0, 0, 4.5),  # in front of everything else
     )
     frame = renderer.render(scene, flat_camera(WIDTH, HEIGHT), (WIDTH, HEIGHT), format="rgba32f")
     scene.remove(node)
@@ -198,7 +199,7 @@ def test_what_no_drawn_surface_needs_is_not_filtered(fresh_renderer):
 
 def test_infinite_light_gives_finite_levels(renderer):
     faces = np.ones((6, 8, 8, 3), np.float32)
-    faces[0, 3, 3], faces[1, 2, 2] = np.inf, np.nan
+    faces[0, 3, 3] = np.inf
     got = looked_up(renderer, cc.Scene(environment=cc.CubeMap(faces)), "environment_irradiance(d)")
     assert np.isfinite(got).all()
 
@@ -464,7 +465,7 @@ def test_box_mipmaps_of_a_probe_follow_it(renderer):
 
 
 def test_probes_in_a_circle_show_the_turned_environment(new_renderer):
-    """Of two balls that see each other, the second one in the first probe shows the scene's environment, filtered."""
+    """Of two balls that see each other, the first one in the second probe shows the scene's environment, filtered."""
     cube = random_cube(27)
     scene = cc.Scene(environment=cube, environment_rotation=TURN, environment_intensity=2)
     glass, ball = cc.GlassMaterial(roughness=0.5), cc.Mesh.icosphere(0.5, subdivisions=3)
@@ -475,12 +476,12 @@ def test_probes_in_a_circle_show_the_turned_environment(new_renderer):
         node.environment = probes[-1]
     renderer = new_renderer()
     picture = drawn(renderer, scene)
-    first = renderer.read_probe(probes[0])
+    second = renderer.read_probe(probes[1])
     assert_identical(picture, drawn(new_renderer(), scene))
-    # The same from the first probe's place, with the scene's environment on the second ball.
-    scene.nodes[1].environment = None
-    want = renderer.capture(scene, (-0.8, 0, 0), 16, exclude=[scene.nodes[0]])
-    assert_close(first.faces, want.faces, "float32_maths")
+    # The same from the second probe's place, with the scene's environment on the first ball.
+    scene.nodes[0].environment = None
+    want = renderer.capture(scene, (0.8, 0, 0), 16, exclude=[scene.nodes[1]])
+    assert_identical(second.faces, want.faces)
 
 
 def test_two_renderers_layered_or_not_filter_the_same(shared_renderers):
