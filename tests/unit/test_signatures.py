@@ -249,7 +249,10 @@ CALLS = {
     ),
     "scene": (
         lambda r: cc.Scene(None),
-        "Scene() takes its arguments by name, got 1 by position; it takes environment, background",
+        (
+            "Scene() takes its arguments by name, got 1 by position; it takes environment, background, "
+            "environment_intensity, environment_rotation"
+        ),
     ),
     "colour": (
         lambda r: cc.PointLight(colour="red"),
