@@ -5,6 +5,7 @@
 #include "cube_source.hpp"
 #include "map_source.hpp"
 #include "objects.hpp"
+#include "placed_map.hpp"
 #include "shader_inputs.hpp"
 #include "surface_options.hpp"
 #include "vectors.hpp"
@@ -30,8 +31,8 @@ template <class Value>
 struct Conversion {
     static_assert(sizeof(Value) == 0,
                   "expected a field of the type glm::vec4 (a colour), float, bool, "
-                  "std::optional<float>, MapSource, CubeSource or UserSource; another type needs a "
-                  "Conversion in cpp/bindings/material_kind.hpp");
+                  "std::optional<float>, MapSource, PlacedMap, CubeSource or UserSource; another "
+                  "type needs a Conversion in cpp/bindings/material_kind.hpp");
 };
 
 template <>
@@ -86,6 +87,14 @@ struct Conversion<MapSource> {
     static MapSource to(const Given& value, const char* name) { return to_map_source(value, name); }
     static MapNow from(const MapSource& value) { return from_map_source(value); }
     static py::object initial(const MapSource&) { return py::none(); }
+};
+
+template <>
+struct Conversion<PlacedMap> {
+    using Given = PlacedMapLike;
+    static PlacedMap to(const Given& value, const char* name) { return to_placed_map(value, name); }
+    static PlacedMapNow from(const PlacedMap& value) { return from_placed_map(value); }
+    static py::object initial(const PlacedMap&) { return py::none(); }
 };
 
 template <>

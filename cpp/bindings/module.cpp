@@ -23,6 +23,7 @@ void bind_radiance(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_blend(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
+void bind_texture(pybind11::module_& module);
 void bind_material(pybind11::module_& module);
 void bind_image_effect(pybind11::module_& module);
 void bind_shadow(pybind11::module_& module);
@@ -95,6 +96,7 @@ PYBIND11_MODULE(_core, module) {
     bind_mesh(module);
     bind_blend(module);
     bind_stencil(module);
+    bind_texture(module);
     bind_material(module);
     bind_image_effect(module);
     bind_shadow(module);

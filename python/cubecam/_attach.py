@@ -40,6 +40,7 @@ _DESCRIBED = (
     _core.ImageEffect,
     _core.Blend,
     _core.Stencil,
+    _core.Texture,
     _core.Renderer,
     _core.RendererInfo,
     _core.Limits,

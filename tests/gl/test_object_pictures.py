@@ -96,6 +96,7 @@ def instances(world, renderer):
         cc.Shadow(),
         cc.Blend("one", "zero"),
         cc.Stencil(),
+        cc.Texture(np.zeros((1, 2, 3), np.uint8)),
     ]
     return [
         *found,

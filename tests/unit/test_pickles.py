@@ -189,6 +189,9 @@ MAKE = {
     "Image": lambda: cc.Image(np.zeros((1, 2, 3), np.uint8), mipmaps=True, wrap="clamp"),
     "Mesh": lambda: cc.Mesh(np.eye(3), [[0, 1, 2]], uvs=np.ones((3, 2))),
     "Stencil": lambda: cc.Stencil(func="equal", reference=3, depth_pass="incr"),
+    "Texture": lambda: cc.Texture(
+        np.ones((1, 2, 3), np.uint8), uv_set=1, rotation=30, scale=(2, 0.5)
+    ),
     "Blend": lambda: cc.Blend("one", "src_alpha", dst_alpha="zero", equation="max"),
     "BasicMaterial": lambda: cc.BasicMaterial(color=(1, 0, 0), opacity=0.5),
     "PhongMaterial": lambda: cc.PhongMaterial(ka=0.5, double_sided=True),
@@ -234,8 +237,8 @@ def test_both_lists_hold_every_class_that_pickles():
         if isinstance(kind, type) and not issubclass(kind, BaseException)
     }
     assert classes - refused - abstract <= {name.partition(" ")[0] for name in MAKE}
-    new_in_0_2 = {"Blend"}
-    assert set(OLD_PICKLES) == set(MAKE) - new_in_0_2
+    new_since_0_1 = {"Blend", "Texture"}
+    assert set(OLD_PICKLES) == set(MAKE) - new_since_0_1
 
 
 @pytest.mark.parametrize("name", OLD_PICKLES)

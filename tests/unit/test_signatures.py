@@ -65,6 +65,7 @@ BY_POSITION = {
     "DirectionalLight": ["direction"],
     # These callables have no meaning without the arguments listed.
     "Image": ["pixels"],
+    "Texture": ["source"],
     "CubeMap.from_layout": ["image"],
     "CubeMap.to_layout": ["layout"],
     "CubeMap.to_convention": ["convention"],
@@ -413,6 +414,7 @@ def test_an_attribute_that_does_not_exist_cannot_be_set(renderer):
     things = [scene, scene.add(), frame, renderer, renderer.info, renderer.stats, cc.devices()[0]]
     things += [cc.PhongMaterial(), cc.PerspectiveCamera(), cc.PointLight(), cc.Probe(), cc.Shadow()]
     things += [cc.Mesh.box(1), cc.Stencil(), cc.Blend("one", "one"), demo.build_scene(probe_size=4)]
+    things += [cc.Texture([[[0.0]]])]
     for thing in things:
         with pytest.raises(AttributeError, match=r"^.*has no attribute 'colour'.*$") as caught:
             thing.colour = 1

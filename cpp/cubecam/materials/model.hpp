@@ -17,9 +17,10 @@
 
 namespace cubecam {
 
-/// The largest number of textures of one material, except those of a user's shader: the shaders use
-/// units 2 to 15 for them.
-inline constexpr std::size_t most_material_textures = 14;
+/// The largest number of textures and of switches of one material, except the textures of a user's
+/// shader. How many of them may be set at once depends on the driver.
+inline constexpr std::size_t most_material_textures = 32;
+inline constexpr std::size_t most_material_switches = 64;
 
 /// What all materials of a kind have in common. Each kind has one object, so that pointers
 /// distinguish kinds.
@@ -47,7 +48,7 @@ struct MaterialTraits {
     const KindInfo* kind;
     float alpha;                            ///< the alpha of its colours, without the opacity
     std::vector<const char*> switch_names;  ///< every switch of the kind, set or not
-    std::uint32_t switches = 0;             ///< bit i: switch_names[i] is set
+    std::uint64_t switches = 0;             ///< bit i: switch_names[i] is set
     std::vector<NamedTexture> textures;     ///< all of them, in the order of the fields
     bool textured = false;                  ///< whether any of them is set, or is a user's
     bool uses_environment;
@@ -94,7 +95,7 @@ public:
         traits_.kind = &info;
         traits_.alpha = kind_.alpha();
         for (const Switch& one : kind_.switches()) {
-            traits_.switches |= std::uint32_t{one.on} << traits_.switch_names.size();
+            traits_.switches |= std::uint64_t{one.on} << traits_.switch_names.size();
             traits_.switch_names.push_back(one.name);
         }
         traits_.uses_environment = kind_.uses_environment();
@@ -172,7 +173,10 @@ private:
     static_assert(constant_count <= 1024,
                   "a material kind has at most 1024 vec4 in its uniform block");
     static_assert(kinds::MembersOf<Kind>::textures <= most_material_textures,
-                  "a material kind has at most 14 fields that are textures");
+                  "a material kind has at most 32 fields that are textures");
+    static_assert(std::tuple_size_v<decltype(std::declval<const Kind&>().switches())> <=
+                      most_material_switches,
+                  "a material kind has at most 64 switches");
 
     static constexpr KindInfo info{Kind::name, Kind::shader, constant_count, names};
 
