@@ -32,6 +32,7 @@ else:
 
 
 __all__ = [
+    "AlphaMode",
     "BlendEquation",
     "BlendFactor",
     "BlendMode",
@@ -56,6 +57,7 @@ __all__ = [
     "ProbeUpdate",
     "RenderOptions",
     "Sampling",
+    "SpecularMode",
     "StencilFunc",
     "StencilOp",
     "StereoLayout",
@@ -65,6 +67,7 @@ __all__ = [
 ]
 
 # The tables in C++ list the names as well; scripts/stubs.py reports a list that differs from its table.
+AlphaMode: TypeAlias = Literal["opaque", "mask", "blend"]
 BlendEquation: TypeAlias = Literal["add", "subtract", "reverse_subtract", "min", "max"]
 BlendFactor: TypeAlias = Literal[
     "zero",
@@ -124,6 +127,7 @@ Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]
+SpecularMode: TypeAlias = Literal["levels", "sampled"]
 StencilFunc: TypeAlias = Literal[
     "never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"
 ]

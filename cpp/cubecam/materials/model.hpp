@@ -17,9 +17,10 @@
 
 namespace cubecam {
 
-/// The largest number of textures of one material, except those of a user's shader: the shaders use
-/// units 2 to 15 for them.
-inline constexpr std::size_t most_material_textures = 14;
+/// The largest number of textures and of switches of one material, except the textures of a user's
+/// shader. How many of them may be set at once depends on the driver.
+inline constexpr std::size_t most_material_textures = 32;
+inline constexpr std::size_t most_material_switches = 64;
 
 /// What all materials of a kind have in common. Each kind has one object, so that pointers
 /// distinguish kinds.
@@ -55,6 +56,7 @@ struct MaterialTraits {
     bool uses_lights;
     bool zeros_and_ones = false;  ///< all colours are, so sRGB encoding does not change them
     VertexColors vertex_colors;
+    std::optional<AlphaMode> alpha_mode;  ///< none: blended if any alpha is below 1
     std::optional<UserCode> user_code;
 
     bool moves_vertices() const { return user_code && user_code->moves_vertices(); }
@@ -103,6 +105,7 @@ public:
         }
         traits_.uses_lights = kind_.uses_lights();
         traits_.vertex_colors = kind_.uses_vertex_colors();
+        if constexpr (kinds::HasAlphaUse<Kind>) traits_.alpha_mode = kind_.alpha_use();
         if constexpr (kinds::HasUserCode<Kind>) traits_.user_code = kind_.user_code();
         for_each_field<Kind>([this](const auto& field) { add_textures(field); });
         const auto shows = [this](const NamedTexture& texture) {

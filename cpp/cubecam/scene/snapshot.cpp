@@ -25,6 +25,7 @@ bool shows_through(const MapSource& map) {
 bool shows_through(const MaterialValue& material, const MeshData& mesh) {
     if (translucent(material)) return true;
     const MaterialTraits& traits = material.traits();
+    if (traits.alpha_mode) return *traits.alpha_mode == AlphaMode::blend;
     if (traits.vertex_colors == VertexColors::color_and_alpha && mesh.translucent_colors()) {
         return true;
     }
