@@ -28,6 +28,30 @@ void check_outputs(const OutputList& outputs, int size) {
     }
 }
 
+void check_levels(const CubeLevels* levels, const CubeMapData& data) {
+    if (levels == nullptr) return;
+    float before = 0.0F;
+    for (const CubeLevel& level : *levels) {
+        const std::size_t expected = face_count * static_cast<std::size_t>(level.size) *
+                                     static_cast<std::size_t>(level.size) *
+                                     static_cast<std::size_t>(data.channels) *
+                                     dtype_size(data.dtype);
+        if (level.pixels->size() != expected) {
+            throw std::invalid_argument("levels: expected " + std::to_string(expected) +
+                                        " bytes for " + std::to_string(level.size) +
+                                        " texels along an edge, got " +
+                                        std::to_string(level.pixels->size()));
+        }
+        if (!(level.roughness > before && level.roughness <= 1.0F)) {
+            throw std::invalid_argument("roughness: expected numbers that grow from 0 to at most "
+                                        "1, got " +
+                                        std::to_string(level.roughness) + " after " +
+                                        std::to_string(before));
+        }
+        before = level.roughness;
+    }
+}
+
 std::array<std::uint64_t, face_count> new_face_revisions() {
     std::array<std::uint64_t, face_count> revisions;
     for (std::uint64_t& revision : revisions) revision = next_revision();
@@ -140,7 +164,8 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
 }  // namespace
 
 CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels,
-                 bool mipmaps, OutputList outputs, Encoding encoding)
+                 bool mipmaps, OutputList outputs, Encoding encoding,
+                 std::shared_ptr<const CubeLevels> levels)
     : outputs_(std::move(outputs)) {
     if (size < 1) {
         throw std::invalid_argument("size: expected at least 1, got " + std::to_string(size));
@@ -158,6 +183,8 @@ CubeMap::CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffe
             " " + dtype_name(dtype) + "), got " + std::to_string(pixels->size()));
     }
     check_outputs(outputs_, size);
+    check_levels(levels.get(), data);
+    data.levels = std::move(levels);
     // The buffer itself is not const: set_face may write to it when there is no other owner.
     data.pixels = std::move(pixels);
     set_data(std::move(data));
@@ -185,6 +212,11 @@ std::shared_ptr<const CubeMapData> CubeMap::data() const {
 
 void CubeMap::set_face(Face face, std::span<const std::byte> pixels) {
     const std::lock_guard lock(mutex_);
+    if (data_->levels) {
+        throw std::invalid_argument("set_face: expected a cubemap without filtered levels, got " +
+                                    std::to_string(data_->levels->size() + 1) +
+                                    " levels, which would not belong to the new face");
+    }
     const std::size_t bytes = data_->face_bytes();
     if (pixels.size() != bytes) {
         throw std::invalid_argument(
@@ -245,8 +277,16 @@ bool CubeMap::same_contents(const CubeMap& other) const {
         return p.name == q.name && p.channels == q.channels && p.type == q.type &&
                same_values<std::byte>(p.values, q.values);
     };
-    return a->size == b->size && a->channels == b->channels && a->dtype == b->dtype &&
-           a->mipmaps == b->mipmaps && a->encoding == b->encoding &&
+    const auto same_level = [](const CubeLevel& p, const CubeLevel& q) {
+        return p.size == q.size && p.roughness == q.roughness &&
+               same_values<std::byte>(p.pixels, q.pixels);
+    };
+    const auto& p = a->levels;
+    const auto& q = b->levels;
+    const bool same_levels =
+        p == q || (p && q && std::equal(p->begin(), p->end(), q->begin(), q->end(), same_level));
+    return same_levels && a->size == b->size && a->channels == b->channels &&
+           a->dtype == b->dtype && a->mipmaps == b->mipmaps && a->encoding == b->encoding &&
            same_values<std::byte>(a->pixels, b->pixels) &&
            std::equal(outputs_.begin(), outputs_.end(), other.outputs_.begin(),
                       other.outputs_.end(), same_output);

@@ -16,6 +16,15 @@
 
 namespace cubecam {
 
+/// The faces, filtered for one roughness: [6][M][M][C], in the cube's layout and type.
+struct CubeLevel {
+    int size = 0;  ///< M, texels along an edge
+    float roughness = 0.0F;
+    std::shared_ptr<const PixelBuffer> pixels;
+};
+/// Levels 1, 2, ... of a filtered cubemap, rougher and rougher; level 0 is the cube itself.
+using CubeLevels = std::vector<CubeLevel>;
+
 /// One state of a cubemap. It never changes, so threads may share it.
 struct CubeMapData {
     int size;      ///< N, texels along an edge
@@ -26,6 +35,8 @@ struct CubeMapData {
     std::shared_ptr<const PixelBuffer> pixels;  ///< [6][N][N][C], laid out as cube_face.hpp says
     std::array<std::uint64_t, face_count> face_revisions;
     std::uint64_t revision;  ///< of all faces: changes with each of them
+    /// Null for a cubemap that nobody filtered.
+    std::shared_ptr<const CubeLevels> levels = nullptr;
 
     std::size_t face_bytes() const {
         return static_cast<std::size_t>(size) * static_cast<std::size_t>(size) *
@@ -50,7 +61,8 @@ public:
                   std::move(outputs), encoding) {}
     /// Makes a cubemap of memory that already has a shared owner.
     CubeMap(int size, int channels, DType dtype, std::shared_ptr<PixelBuffer> pixels, bool mipmaps,
-            OutputList outputs, Encoding encoding = Encoding::linear);
+            OutputList outputs, Encoding encoding = Encoding::linear,
+            std::shared_ptr<const CubeLevels> levels = nullptr);
 
     /// Makes an independent cubemap with the same contents and new revisions. The two share their
     /// pixels until one of them changes.
@@ -68,7 +80,8 @@ public:
 
     /// Replaces one face ("gl" layout, this cube's size, channels and dtype). Only this face's
     /// revision changes, and none at all when the pixels are the same.
-    /// @throws std::invalid_argument when the length does not match.
+    /// @throws std::invalid_argument when the length does not match, or if the cube has filtered
+    ///         levels, which would not belong to the new faces.
     void set_face(Face face, std::span<const std::byte> pixels);
 
     /// Looks up `count` directions (xyz each, from the center outwards, of any length but 0) and
