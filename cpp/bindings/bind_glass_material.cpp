@@ -23,6 +23,11 @@ fresnel : bool
     False: F is 0, and only T shows.
 tint : array_like (3,) or (4,), or str
     Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
+roughness : float
+    From 0, clear, to 1, frosted. A rough surface sees the environment filtered by roughness
+    (`CubeMap.prefilter`): round R, moved towards the normal (S. Lagarde and C. de Rousiers, "Moving
+    Frostbite to Physically Based Rendering", 2014), and round T for roughness * (2 max(ior, 1/ior) - 2),
+    at most roughness. F stays that of a smooth surface.
 opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
     The options of every `Material`.
 

@@ -28,6 +28,9 @@ void bind_stats(py::module_& m) {
         .def_readonly("shadow_views_drawn", &Stats::shadow_views_drawn,
                       "int: layers of shadow maps drawn: one for each directional and spot light, "
                       "six for a point light.")
+        .def_readonly("faces_filtered", &Stats::faces_filtered,
+                      "int: faces of cubemaps and probes that were filtered by roughness, since "
+                      "they had changed.")
         .def_readonly("pictures_not_kept", &Stats::pictures_not_kept,
                       "int: frames and captures whose buffers take more than the renderer's "
                       "``cache_bytes``, so that the next call must draw them again.")
@@ -41,6 +44,7 @@ void bind_stats(py::module_& m) {
                    " probes_updated=" + std::to_string(s.probes_updated) +
                    " textures_updated=" + std::to_string(s.textures_updated) +
                    " shadow_views_drawn=" + std::to_string(s.shadow_views_drawn) +
+                   " faces_filtered=" + std::to_string(s.faces_filtered) +
                    " pictures_not_kept=" + std::to_string(s.pictures_not_kept) +
                    " milliseconds=" + std::to_string(s.milliseconds) + ">";
         });

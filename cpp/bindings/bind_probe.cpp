@@ -60,7 +60,8 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double ne
                                   const FormatName& format, bool mipmaps, int samples,
                                   const UpdateLike& update, const Nodes& exclude,
                                   const OrNone<Node>& parent, int faces_per_frame,
-                                  const DepthFormatName& depth_format) {
+                                  const DepthFormatName& depth_format,
+                                  std::optional<bool> prefilter) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -74,6 +75,7 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double ne
     value.faces_per_frame = faces_per_frame;
     value.exclude = to_nodes(exclude, "exclude");
     value.depth_format = to_depth_format(depth_format);
+    value.prefilter = prefilter;
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -125,7 +127,7 @@ void bind_probe(pybind11::module_& module) {
               py::arg("format") = "rgba16f", py::arg("mipmaps") = false, py::arg("samples") = 1,
               py::arg("update") = "on_change", py::arg("exclude") = py::tuple(),
               py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6,
-              py::arg("depth_format") = "depth_component32f");
+              py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none());
 
     probe.def_property(
         "position", [](const Probe& self) { return point_array(self.value().position); },
@@ -167,6 +169,10 @@ void bind_probe(pybind11::module_& module) {
         "str or int: \"on_change\", \"once\", \"manual\", or n: every n-th call.");
     field(probe, "faces_per_frame", &ProbeValue::faces_per_frame,
           "int: the greatest number of faces that one call draws, from 1 to 6.");
+    field(
+        probe, "prefilter", &ProbeValue::prefilter,
+        "bool or None: whether the probe is filtered by roughness; None: if a drawn surface needs "
+        "it.");
     bind_links(probe);
 
     probe.def("__repr__", [](const Probe& self) {
@@ -182,7 +188,8 @@ void bind_probe(pybind11::module_& module) {
     probe.def("__reduce__", [](const py::object& self) {
         return reduced(self,
                        attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",
-                                     "samples", "update", "faces_per_frame", "depth_format"),
+                                     "samples", "update", "faces_per_frame", "depth_format",
+                                     "prefilter"),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

@@ -119,6 +119,9 @@ py::dict state_of(const Scene& scene) {
     py::dict state;
     state["environment"] = scene.environment();
     state["background"] = from_background(scene.background());
+    const EnvironmentPlacing placing = scene.environment_placing();
+    state["environment_intensity"] = placing.intensity;
+    state["environment_rotation"] = quaternion_array(placing.rotation);
     state["lights"] = py::list(py::cast(scene.lights()));
     state["nodes"] = nodes;
     state["next_id"] = scene.next_id();
@@ -130,6 +133,11 @@ py::dict state_of(const Scene& scene) {
 void set_state(Scene& scene, const py::dict& state) {
     scene.set_environment(to_environment(state["environment"]));
     scene.set_background(to_background(state["background"]));
+    if (state.contains("environment_intensity")) {  // older pickles have none
+        scene.set_environment_intensity(state["environment_intensity"].cast<float>());
+        scene.set_environment_rotation(
+            to_rotation(state["environment_rotation"], "environment_rotation"));
+    }
     for (const py::handle light : state["lights"]) {
         scene.add(to_shared<Light>(light, "lights", "Lights"));
     }
@@ -171,10 +179,19 @@ void bind_scene(pybind11::module_& module) {
     auto scene = declared<Scene>();
     scene.attr("__doc__") = docs::scene;
     scene.def(
-        py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background) {
-            return std::make_shared<Scene>(to_environment(environment), to_background(background));
+        py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background,
+                    float environment_intensity, const OrNone<ArrayLike>& environment_rotation) {
+            auto made =
+                std::make_shared<Scene>(to_environment(environment), to_background(background));
+            made->set_environment_intensity(environment_intensity);
+            if (!environment_rotation.is_none()) {
+                made->set_environment_rotation(
+                    to_rotation(environment_rotation, "environment_rotation"));
+            }
+            return made;
         }),
-        py::kw_only(), py::arg("environment") = py::none(), py::arg("background") = py::none());
+        py::kw_only(), py::arg("environment") = py::none(), py::arg("background") = py::none(),
+        py::arg("environment_intensity") = 1.0F, py::arg("environment_rotation") = py::none());
     scene.def_property(
         "environment", [](const Scene& self) { return or_none(self.environment()); },
         [](Scene& self, const OrNone<CubeMap>& value) {
@@ -186,6 +203,20 @@ void bind_scene(pybind11::module_& module) {
         [](Scene& self, const BackgroundLike& value) { self.set_background(to_background(value)); },
         "ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the "
         "environment if there is one, else transparent black.");
+
+    scene.def_property(
+        "environment_intensity",
+        [](const Scene& self) { return shortest(self.environment_placing().intensity); },
+        &Scene::set_environment_intensity,
+        "float: the factor of the light of the scene's environment, at least 0.");
+    scene.def_property(
+        "environment_rotation",
+        [](const Scene& self) { return quaternion_array(self.environment_placing().rotation); },
+        [](Scene& self, const ArrayLike& value) {
+            self.set_environment_rotation(to_rotation(value, "environment_rotation"));
+        },
+        "ndarray (4,) float64: unit quaternion (w, x, y, z) that turns the scene's environment; "
+        "read-only.");
 
     scene.def(
         "add",

@@ -24,10 +24,22 @@ struct Vertex {
 #else
 vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 
-// The environment at a chosen level of detail; 0 is the finest.
-vec3 environment_lod(vec3 direction_world, float level) { return textureLod(u_cube, direction_world, level).rgb; }
+// The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
+// roughnesses.
+vec3 environment_lod(vec3 direction_world, float level) {
+#ifdef ENVIRONMENT_FILTERED
+    return environment_level(direction_world, level);
+#else
+    return with_intensity(textureLod(u_cube, in_cube(direction_world), level).rgb);
+#endif
+}
 
-// The number of levels of the environment: 1 without mipmaps, 0 without an environment.
+#ifdef USES_FILTERED_ENVIRONMENT
+// Scale and bias of F0: the reflectance of a GGX surface under uniform light is F0 * x + y.
+vec2 brdf(float n_dot_v, float roughness) { return brdf_terms(n_dot_v, roughness).xy; }
+#endif
+
+// The number of levels of the environment: 1 without mipmaps or filtered levels, 0 without an environment.
 int environment_levels() { return u_environment_levels.x; }
 
 // Whether a probe captured the environment in this world. Otherwise it is a photograph, which is infinitely far away.

@@ -38,6 +38,11 @@ faces_per_frame : int
     The greatest number of faces that one call draws, from 1 to 6.
 depth_format : str or None
     The format of the depth and stencil buffer, see `Renderer.render`.
+prefilter : bool, optional
+    Whether the probe is filtered by roughness, as rough surfaces see it (`CubeMap.prefilter`), whenever a
+    face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
+    ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
+    the probe's mipmaps, or the probe as it is.
 
 Raises
 ------

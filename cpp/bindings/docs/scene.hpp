@@ -14,13 +14,24 @@ environment : CubeMap, optional
 background : array_like (3,) or (4,), str, or CubeMap, optional
     A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
     or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.
+environment_intensity : float
+    The factor of the environment's light, at least 0.
+environment_rotation : array_like (4,), optional
+    Quaternion (w, x, y, z) of any length except 0 that turns the environment: what the cubemap shows in a
+    direction d appears in the direction R d of the world. None: (1, 0, 0, 0).
 
 Raises
 ------
 TypeError
     For an environment or background of another type.
 ValueError
-    For a colour that is not finite.
+    For a colour, intensity or rotation that is not finite, a negative intensity, or a rotation of length 0.
+
+Notes
+-----
+Intensity and rotation belong to the scene's own environment: to the surfaces that show it, to the
+background where that is None, and so to captures and probes, which show both. They change neither the
+environment that a node has of its own nor a background that is a cubemap.
 
 Examples
 --------

@@ -7,10 +7,15 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 namespace cubecam {
+
+class TreeShape;
+struct FilterTile;
+struct TileSums;
 
 /// Texels (RGBA, linear) of a cube: six faces of size * size, laid out as cube_face.hpp says.
 struct FilteredLevel {
@@ -35,7 +40,9 @@ struct FilterRule {
 
 /// The roughness of level k of `levels`: k / (levels - 1), 0 for a single level.
 float level_roughness(int level, int levels);
-/// The texels along an edge of a level: enough for bilinear lookups, at most `size`.
+/// The texels along an edge of a level of a cube with `size`: the power of two that is nearest, in
+/// ratio, to 25.6 / roughness, at least 32, and at most `size`; `size` itself for roughness 0. So
+/// bilinear lookups of the level are true: 128 for .2, 64 for .4, 32 from .6 on.
 int level_size(int size, float roughness);
 
 /// A cube of radiance, filtered for each roughness by the lobe of GGX, and its irradiance.
@@ -49,12 +56,20 @@ public:
     /// rule.size * rule.size texels of each face, GL's layout.
     using Faces = std::array<std::span<const glm::vec4>, face_count>;
 
+    /// @throws std::invalid_argument unless the size and the number of levels are at least 1.
     explicit FilteredCube(const FilterRule& rule);
+    ~FilteredCube();
+    FilteredCube(FilteredCube&&) noexcept;
+    FilteredCube& operator=(FilteredCube&&) noexcept;
 
     const FilterRule& rule() const { return rule_; }
 
-    /// Filters again what depends on the faces with `changed`; the first time, all of them.
-    /// Returns false if it was cancelled; the next call then does everything.
+    /// Filters again what depends on the faces with `changed`; the first time, all of them. The
+    /// texels of other faces are not read. NaN counts as 0, infinity as 65504 (the largest
+    /// float16), and finite numbers are clamped to 1e30, so that no result is NaN.
+    /// Returns false if it was cancelled; levels() is then unchanged, and the next call does
+    /// everything, so it needs all faces.
+    /// @throws std::invalid_argument if a face that is read has another number of texels.
     bool update(const Faces& faces, const std::array<bool, face_count>& changed,
                 const Progress& progress = {});
 
@@ -64,9 +79,16 @@ public:
     const FilteredLevel& irradiance() const { return irradiance_; }
 
 private:
+    void combine();
+
     FilterRule rule_;
     std::vector<FilteredLevel> levels_;
     FilteredLevel irradiance_;
+    std::shared_ptr<const TreeShape> shape_;
+    std::vector<FilterTile> tiles_;
+    /// For each tile, six sums, one for the light of each face.
+    std::vector<TileSums> sums_;
+    bool complete_ = false;
 };
 
 }  // namespace cubecam

@@ -111,6 +111,9 @@ struct Switch {
 struct EnvironmentParts {
     bool filtered = false;  ///< levels by roughness, and irradiance
     bool mipmaps = false;   ///< box-filtered levels, whether the cube has them or not
+    /// Levels by roughness if the environment has them anyway: a filtered cubemap, or a probe with
+    /// prefilter=True.
+    bool filtered_if_made = false;
 
     bool operator==(const EnvironmentParts&) const = default;
 };

@@ -48,7 +48,7 @@ struct MaterialTraits {
     const KindInfo* kind;
     float alpha;                            ///< the alpha of its colours, without the opacity
     std::vector<const char*> switch_names;  ///< every switch of the kind, set or not
-    std::uint32_t switches = 0;             ///< bit i: switch_names[i] is set
+    std::uint64_t switches = 0;             ///< bit i: switch_names[i] is set
     std::vector<NamedTexture> textures;     ///< all of them, in the order of the fields
     bool textured = false;                  ///< whether any of them is set, or is a user's
     bool uses_environment;
@@ -96,7 +96,7 @@ public:
         traits_.kind = &info;
         traits_.alpha = kind_.alpha();
         for (const Switch& one : kind_.switches()) {
-            traits_.switches |= std::uint32_t{one.on} << traits_.switch_names.size();
+            traits_.switches |= std::uint64_t{one.on} << traits_.switch_names.size();
             traits_.switch_names.push_back(one.name);
         }
         traits_.uses_environment = kind_.uses_environment();
@@ -175,7 +175,10 @@ private:
     static_assert(constant_count <= 1024,
                   "a material kind has at most 1024 vec4 in its uniform block");
     static_assert(kinds::MembersOf<Kind>::textures <= most_material_textures,
-                  "a material kind has at most 14 fields that are textures");
+                  "a material kind has at most 32 fields that are textures");
+    static_assert(std::tuple_size_v<decltype(std::declval<const Kind&>().switches())> <=
+                      most_material_switches,
+                  "a material kind has at most 64 switches");
 
     static constexpr KindInfo info{Kind::name, Kind::shader, constant_count, names};
 

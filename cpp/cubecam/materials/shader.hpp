@@ -3,6 +3,9 @@
 #include "cubecam/core/checks.hpp"
 #include "cubecam/materials/material.hpp"
 
+#include <algorithm>
+#include <initializer_list>
+
 namespace cubecam {
 
 /// A material in a user's own GLSL: `shade(Surface)` for every fragment and, optionally,
@@ -42,11 +45,22 @@ struct Shader {
     std::array<glm::vec4, 0> constants(const glm::vec3&) const { return {}; }
     std::array<Switch, 0> switches() const { return {}; }
     bool uses_environment() const {
-        for (const char* word : {"environment", "environment_lod", "environment_levels",
-                                 "environment_position", "environment_is_local"}) {
+        for (const char* word :
+             {"environment", "environment_lod", "environment_levels", "environment_position",
+              "environment_is_local", "environment_filtered", "environment_irradiance"}) {
             if (mentions(fragment.text, word)) return true;
         }
         return false;
+    }
+    /// The words that need levels by roughness, and those that see such levels only where an
+    /// environment has them anyway.
+    EnvironmentParts environment_parts() const {
+        const auto any = [this](std::initializer_list<const char*> words) {
+            return std::any_of(words.begin(), words.end(),
+                               [this](const char* word) { return mentions(fragment.text, word); });
+        };
+        return {.filtered = any({"environment_filtered", "environment_irradiance", "brdf"}),
+                .filtered_if_made = any({"environment_lod", "environment_levels"})};
     }
     bool uses_lights() const {
         return mentions(fragment.text, "sample_light") || mentions(fragment.text, "phong");

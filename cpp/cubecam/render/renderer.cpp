@@ -162,6 +162,7 @@ auto Renderer::run(Work&& work) {
     state.probes.sweep();
     state.textures.sweep();
     state.shadow_maps.sweep();
+    state.filtered_cubes.sweep();
     state.results->next_call();
     stats_ = {};
     gpu_->context.take_debug_messages();  // drops those of earlier calls

@@ -56,7 +56,9 @@ Look look_of(const NodeSnapshot& node) {
               material.switches,
               static_cast<std::uintptr_t>(material.vertex_colors),
               std::uintptr_t{node.material.value.surface.double_sided},
-              std::uintptr_t{node.receive_shadow}};
+              std::uintptr_t{node.receive_shadow},
+              std::uintptr_t{material.environment_parts.filtered},
+              std::uintptr_t{material.environment_parts.mipmaps}};
     add_source(node.environment, look);
     for (const TextureSourceSnapshot& texture : node.textures) {
         std::visit([&look](const auto& source) { add_source(source, look); }, texture);

@@ -23,15 +23,7 @@ void check_transform(Transform& transform) {
         expect(false, "a scale without 0, which would make the matrix singular", describe(scale));
     }
 
-    glm::dquat& q = transform.rotation;
-    const double length = std::sqrt(glm::dot(q, q));
-    if (!(length > 0.0 && std::isfinite(length))) {
-        expect(false, "a rotation (w, x, y, z) of 4 finite numbers, not all 0",
-               "(" + describe(q.w) + ", " + describe(q.x) + ", " + describe(q.y) + ", " +
-                   describe(q.z) + ")");
-    }
-    // A rotation that already has unit length keeps all its bits: naming a node must not turn it.
-    if (std::abs(length - 1.0) > 1e-14) q /= length;
+    transform.rotation = unit_rotation(transform.rotation);
 }
 
 void check_matrix(const glm::dmat4& matrix) {
@@ -46,6 +38,17 @@ void check_matrix(const glm::dmat4& matrix) {
 }
 
 }  // namespace
+
+glm::dquat unit_rotation(const glm::dquat& q) {
+    const double length = std::sqrt(glm::dot(q, q));
+    if (!(length > 0.0 && std::isfinite(length))) {
+        expect(false, "a rotation (w, x, y, z) of 4 finite numbers, not all 0",
+               "(" + describe(q.w) + ", " + describe(q.x) + ", " + describe(q.y) + ", " +
+                   describe(q.z) + ")");
+    }
+    // A rotation that already has unit length keeps all its bits: naming a node must not turn it.
+    return std::abs(length - 1.0) > 1e-14 ? q / length : q;
+}
 
 void check(Placing& placing) {
     if (auto* transform = std::get_if<Transform>(&placing)) {

@@ -58,6 +58,9 @@ struct NodeValue {
     }
 };
 
+/// @throws std::invalid_argument for a rotation that is not finite or has length 0.
+glm::dquat unit_rotation(const glm::dquat& rotation);
+
 /// Normalises the rotation. Throws std::invalid_argument for a transform that is not finite or is
 /// singular.
 void check(Placing& placing);

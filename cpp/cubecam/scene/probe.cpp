@@ -13,7 +13,8 @@ bool ProbeValue::operator==(const ProbeValue& other) const {
            near == other.near && far == other.far && format == other.format &&
            mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
            every == other.every && faces_per_frame == other.faces_per_frame &&
-           depth_format == other.depth_format && same_nodes(exclude, other.exclude);
+           depth_format == other.depth_format && prefilter == other.prefilter &&
+           same_nodes(exclude, other.exclude);
 }
 
 void check(const ProbeValue& value) {

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 namespace cubecam {
 
@@ -36,6 +37,8 @@ struct ProbeValue {
     int faces_per_frame = 6;  ///< the largest number of faces drawn in one call
     WeakNodes exclude;
     DepthFormat depth_format = DepthFormat::depth_component32f;
+    /// Whether it is filtered by roughness; none: if a drawn surface needs that.
+    std::optional<bool> prefilter;
 
     bool operator==(const ProbeValue& other) const;
 };

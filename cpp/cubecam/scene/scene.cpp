@@ -43,6 +43,29 @@ void Scene::set_environment(std::shared_ptr<CubeMap> environment) {
     outdated = graph_->changed();
 }
 
+EnvironmentPlacing Scene::environment_placing() const {
+    const std::lock_guard lock(graph_->mutex);
+    return environment_placing_;
+}
+
+void Scene::set_environment_rotation(const glm::dquat& rotation) {
+    const glm::dquat unit = unit_rotation(rotation);
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
+    const std::lock_guard lock(graph_->mutex);
+    if (unit == environment_placing_.rotation) return;
+    environment_placing_.rotation = unit;
+    outdated = graph_->changed();
+}
+
+void Scene::set_environment_intensity(float intensity) {
+    expect_not_negative(static_cast<double>(intensity), "environment_intensity");
+    std::shared_ptr<SceneSnapshot> outdated;  // released after the lock
+    const std::lock_guard lock(graph_->mutex);
+    if (intensity == environment_placing_.intensity) return;
+    environment_placing_.intensity = intensity;
+    outdated = graph_->changed();
+}
+
 Background Scene::background() const {
     const std::lock_guard lock(graph_->mutex);
     return background_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/materials/texture_source.hpp"
+#include "cubecam/scene/environment_placing.hpp"
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/snapshot.hpp"
@@ -34,6 +35,13 @@ public:
 
     std::shared_ptr<CubeMap> environment() const;
     void set_environment(std::shared_ptr<CubeMap> environment);
+    /// How mirrors and the background show the environment. The rotation has unit length.
+    EnvironmentPlacing environment_placing() const;
+    /// Normalises the rotation. @throws std::invalid_argument for one that is not finite or has
+    /// length 0.
+    void set_environment_rotation(const glm::dquat& rotation);
+    /// @throws std::invalid_argument for a factor that is negative or not finite.
+    void set_environment_intensity(float intensity);
     Background background() const;
     /// @throws std::invalid_argument for a colour that is not finite or has an alpha outside 0..1.
     void set_background(Background background);
@@ -95,6 +103,7 @@ private:
 
     const std::shared_ptr<NodeGraph> graph_;
     std::shared_ptr<CubeMap> environment_;
+    EnvironmentPlacing environment_placing_;
     Background background_;
     /// In the order of ids. A removed node leaves a null until there are as many nulls as nodes, so
     /// that removing one costs only a binary search.

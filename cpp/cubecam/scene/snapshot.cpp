@@ -438,12 +438,14 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes)
         if (changes != nullptr) *changes = graph_->changes;
         SnapshotBuilder builder(nodes_, graph_.get(), shared, snapshot);
         if (environment_) snapshot.environment = shared.snapshot_of(environment_);
+        snapshot.environment_placing = environment_placing_;
         if (const auto* color = std::get_if<glm::vec4>(&background_)) {
             snapshot.background = *color;
         } else if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&background_)) {
             snapshot.background = shared.snapshot_of(*cube);
         } else if (environment_) {
             snapshot.background = shared.snapshot_of(environment_);
+            snapshot.shows_environment = true;
         } else {
             snapshot.background = glm::vec4(0.0F);
         }

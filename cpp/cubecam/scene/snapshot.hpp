@@ -5,6 +5,7 @@
 #include "cubecam/geometry/mesh.hpp"
 #include "cubecam/materials/material.hpp"
 #include "cubecam/scene/camera.hpp"
+#include "cubecam/scene/environment_placing.hpp"
 #include "cubecam/scene/image_effect.hpp"
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/probe.hpp"
@@ -115,7 +116,9 @@ struct RenderTextureSnapshot {
 struct SceneSnapshot {
     std::uint64_t revision = 0;  ///< snapshots with equal revisions are equal
     CubeSourceSnapshot environment;
+    EnvironmentPlacing environment_placing;
     std::variant<glm::vec4, CubeSnapshot> background;
+    bool shows_environment = false;   ///< the background is the environment, as it is placed
     std::vector<NodeSnapshot> nodes;  ///< the visible ones, in the order of their ids
     std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>

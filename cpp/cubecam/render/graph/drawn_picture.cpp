@@ -1,5 +1,6 @@
 #include "cubecam/render/graph/drawn_picture.hpp"
 
+#include "cubecam/core/revision.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -60,7 +61,12 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
     }
     common.add(scene.background.index());
     if (const auto* color = std::get_if<glm::vec4>(&scene.background)) common.add(*color);
-    common.add(lookup.background().revision);
+    const Environment sky = lookup.background();
+    common.add(sky.cube.revision);
+    if (!sky.placing.is_plain()) {
+        for (int i = 0; i < 4; ++i) common.add(sky.placing.rotation[i]);
+        common.add(sky.placing.intensity);
+    }
     common.add(scene.lights.size());
     for (const LightSnapshot& light : scene.lights) add_light(common, light.value);
     const Key shadow_key = key_of(shadows);
@@ -134,7 +140,7 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         // Until they are drawn, the contents of these layers are not valid.
         if (!damaged[v].empty()) target.keys[v].reset();
     }
-    const BoundTexture sky = lookup.background();
+    const Environment sky = lookup.background();
     const auto* color = std::get_if<glm::vec4>(&scene.background);
     // Views at one position are drawn together, one position after the other: positions in the
     // shaders count from the view's position, so a picture has the same bits whether other views
@@ -147,11 +153,10 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
             });
         std::vector<Region> rest(elsewhere, regions.end());
         regions.erase(elsewhere, regions.end());
-        gpu.surface.draw(
-            {scene, views, plan, std::move(regions),
-             color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky.texture), lookups,
-             shadows},
-            target, stats);
+        gpu.surface.draw({scene, views, plan, std::move(regions),
+                          color != nullptr ? BackgroundSource(*color) : BackgroundSource(sky),
+                          lookups, shadows},
+                         target, stats);
         regions = std::move(rest);
     }
     const auto textures = lookup.find(post_process.effects);
@@ -164,7 +169,9 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     }
     gl::check_gl(gpu.context.gl(), "finishing a picture");
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (!damaged[v].empty()) target.keys[v] = std::move(keys[v]);
+        if (damaged[v].empty()) continue;
+        target.keys[v] = std::move(keys[v]);
+        target.revisions[v] = next_revision();
     }
     return budget ? last : count;
 }

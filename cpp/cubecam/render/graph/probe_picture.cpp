@@ -12,22 +12,61 @@ ProbePicture::ProbePicture(FrameContext& context, const PictureId& id)
     : ScenePicture(context, id, id.scene), probe_(scene_.probes[id.object]),
       state_(context.probe_state(id.scene, id.object)) {}
 
-BoundTexture ProbePicture::texture() const {
-    return state_.target == nullptr ? BoundTexture{}
-                                    : BoundTexture{state_.target->color().id(), state_.revision};
-}
-
-Environment ProbePicture::environment() const {
-    if (state_.target == nullptr) return {};
+Environment ProbePicture::environment(const EnvironmentParts& parts) {
     const TargetDescription& description = state_.target->description();
     Environment made;
-    made.cube = texture();
+    made.cube = {state_.target->color().id(), state_.revision};
+    made.parts = parts;
     if (description.mipmaps) {
         made.levels = EnvironmentLevels::mipmaps;
         made.level_count = gl::mip_levels(description.width, description.height);
     }
     made.position = state_.position;
+    const std::optional<bool> wanted = probe_.value.prefilter;
+    if (parts.filtered ? wanted.value_or(true) : parts.filtered_if_made && wanted.value_or(false)) {
+        made.filter(filter());
+    }
+    if (parts.mipmaps) made.box_mipmaps = {box_mipmaps(), state_.revision};
     return made;
+}
+
+const FilteredTexture& ProbePicture::filter() {
+    FilteredFaces::Revisions revisions{};
+    std::copy_n(state_.target->revisions.begin(), face_count, revisions.begin());
+    return state_.filtered.update(
+        context_.gpu.context, state_.target->description().width, revisions,
+        [this](Face face) { return read_face(face); }, context_.stats);
+}
+
+std::vector<glm::vec4> ProbePicture::read_face(Face face) const {
+    const GladGLContext& gl = context_.gpu.context.gl();
+    const int size = state_.target->description().width;
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+    gl.GetTextureSubImage(state_.target->color().id(), 0, 0, 0, static_cast<GLint>(face), size,
+                          size, 1, GL_RGBA, GL_FLOAT,
+                          static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)), texels.data());
+    gl::check_gl(gl, "reading a face of a probe");
+    return texels;
+}
+
+GLuint ProbePicture::box_mipmaps() {
+    const TargetDescription& description = state_.target->description();
+    if (description.mipmaps) return state_.target->color().id();
+    if (state_.box_mipmaps_revision == state_.revision) return state_.box_mipmaps.id();
+    const GladGLContext& gl = context_.gpu.context.gl();
+    const int size = description.width;
+    GLint format = 0;
+    gl.GetTextureLevelParameteriv(state_.target->color().id(), 0, GL_TEXTURE_INTERNAL_FORMAT,
+                                  &format);
+    state_.box_mipmaps = gl::create_texture_cube(gl, static_cast<GLenum>(format), size, 0);
+    const GLuint id = state_.box_mipmaps.id();
+    gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    gl.CopyImageSubData(state_.target->color().id(), GL_TEXTURE_CUBE_MAP, 0, 0, 0, 0, id,
+                        GL_TEXTURE_CUBE_MAP, 0, 0, 0, 0, size, size, face_count);
+    gl.GenerateTextureMipmap(id);
+    gl::check_gl(gl, "averaging a probe");
+    state_.box_mipmaps_revision = state_.revision;
+    return id;
 }
 
 bool ProbePicture::sees(const NodeSnapshot& node) const {
@@ -72,7 +111,11 @@ TargetDescription ProbePicture::describe() const {
 }
 
 void ProbePicture::update() {
-    if (!due_) return;
+    if (due_) draw();
+    if (drawn() && probe_.value.prefilter.value_or(false)) filter();
+}
+
+void ProbePicture::draw() {
     const TargetDescription description = describe();
     std::optional<Budget> budget;
     if (state_.target == nullptr || state_.target->description() != description) {

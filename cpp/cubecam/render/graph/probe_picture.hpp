@@ -17,10 +17,9 @@ public:
     /// Makes this call draw the whole probe, whatever its policy is.
     void force() { forced_ = true; }
 
-    /// The current cube; empty before it is drawn for the first time.
-    BoundTexture texture() const;
-    /// The same as what a surface reflects.
-    Environment environment() const;
+    bool drawn() const { return state_.target != nullptr; }
+    /// The current cube as a surface with these parts reflects it; it must be drawn.
+    Environment environment(const EnvironmentParts& parts);
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
@@ -33,6 +32,11 @@ private:
     bool count_and_decide();
     bool sees(const NodeSnapshot& node) const;
     TargetDescription describe() const;
+    void draw();
+    /// Filters the faces that were drawn since the last time.
+    const FilteredTexture& filter();
+    std::vector<glm::vec4> read_face(Face face) const;
+    GLuint box_mipmaps();
 
     const ProbeSnapshot& probe_;
     ProbeState& state_;

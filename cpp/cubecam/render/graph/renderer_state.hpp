@@ -4,6 +4,8 @@
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/passes/shadow_pass.hpp"
 #include "cubecam/render/passes/surface_pass.hpp"
+#include "cubecam/render/resources/filtered_cubes.hpp"
+#include "cubecam/render/resources/filtered_faces.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/key.hpp"
 #include "cubecam/render/resources/result_pool.hpp"
@@ -21,12 +23,15 @@ namespace cubecam {
 
 /// A renderer's state of a probe.
 struct ProbeState {
-    std::unique_ptr<Target> target;        ///< null: not drawn yet
-    std::uint64_t revision = 0;            ///< new whenever a face was drawn; 0: not drawn yet
-    std::int64_t calls = 0;                ///< calls that needed it, for every_n_frames
-    std::size_t next_face = 0;             ///< the next face to draw with faces_per_frame
-    glm::dvec3 position{0.0};              ///< the position of the last drawing, world
-    Encoding encoding = Encoding::linear;  ///< of the last drawing
+    std::unique_ptr<Target> target;          ///< null: not drawn yet
+    std::uint64_t revision = 0;              ///< new whenever a face was drawn; 0: not drawn yet
+    std::int64_t calls = 0;                  ///< calls that needed it, for every_n_frames
+    std::size_t next_face = 0;               ///< the next face to draw with faces_per_frame
+    glm::dvec3 position{0.0};                ///< the position of the last drawing, world
+    Encoding encoding = Encoding::linear;    ///< of the last drawing
+    FilteredFaces filtered;                  ///< empty until a surface needs it
+    gl::Texture box_mipmaps;                 ///< a copy with levels; null until a surface needs it
+    std::uint64_t box_mipmaps_revision = 0;  ///< `revision` when it was made
 };
 
 /// A renderer's state of a light's shadow map.
@@ -77,6 +82,7 @@ struct RendererState {
     WeakCache<Probe, StatesByScene<ProbeState>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
+    FilteredCubes filtered_cubes;
     /// New whenever the contents of a probe, shadow map or render texture may have changed.
     std::uint64_t contents = 0;
 };

@@ -10,37 +10,58 @@ namespace cubecam {
 
 TextureLookup::TextureLookup(FrameContext& context, const PictureId& viewer, std::size_t scene)
     : context_(context), viewer_(viewer), number_(scene), scene_(context.scenes.scene(scene)),
-      probes_(scene_.probes.size()) {}
+      replaced_(scene_.probes.size()) {}
 
 BoundTexture TextureLookup::find(const CubeSourceSnapshot& source) {
-    return find_environment(source).cube;
+    return find_environment(source, {}).cube;
 }
 
-Environment TextureLookup::find_environment(const CubeSourceSnapshot& source) {
-    if (const auto* cube = std::get_if<CubeSnapshot>(&source)) {
-        const CubeMapData& data = *cube->data;
-        Environment found;
-        found.cube = {context_.gpu.cache.cube(*cube).texture.id(), data.revision};
-        if (data.mipmaps) {
-            found.levels = EnvironmentLevels::mipmaps;
-            found.level_count = gl::mip_levels(data.size, data.size);
-        }
-        return found;
+Environment TextureLookup::find_environment(const CubeSourceSnapshot& source,
+                                            const EnvironmentParts& parts) {
+    if (const auto* cube = std::get_if<CubeSnapshot>(&source)) return find_cube(*cube, parts);
+    if (const auto* probe = std::get_if<std::size_t>(&source)) {
+        return is_replaced(*probe) ? find_scene_environment(parts)
+                                   : context_.probe(number_, *probe).environment(parts);
     }
-    const auto* probe = std::get_if<std::size_t>(&source);
-    return probe == nullptr ? Environment{} : find_probe(*probe);
+    Environment none;
+    none.parts = parts;
+    return none;
 }
 
-const Environment& TextureLookup::find_probe(std::size_t probe) {
-    std::optional<Environment>& known = probes_[probe];
-    if (known) return *known;
-    const Environment held = context_.probe(number_, probe).environment();
-    const bool back = context_.pictures.is_edge_back(viewer_, probe_id(number_, probe));
-    if (!back && held.cube.texture != 0) return known.emplace(held);
-    // Reached for a mirror in a circle of mirrors, or a manual probe before its first update.
-    return known.emplace(std::holds_alternative<CubeSnapshot>(scene_.environment)
-                             ? find_environment(scene_.environment)
-                             : Environment{});
+Environment TextureLookup::find_cube(const CubeSnapshot& cube, const EnvironmentParts& parts) {
+    const CubeMapData& data = *cube.data;
+    RendererState& gpu = context_.gpu;
+    Environment found;
+    found.cube = {gpu.cache.cube(cube).texture.id(), data.revision};
+    found.parts = parts;
+    if (data.mipmaps) {
+        found.levels = EnvironmentLevels::mipmaps;
+        found.level_count = gl::mip_levels(data.size, data.size);
+    }
+    if (parts.mipmaps) {
+        found.box_mipmaps = {gpu.cache.box_mipmaps(cube).texture.id(), data.revision};
+    }
+    if (parts.filtered || (parts.filtered_if_made && data.levels)) {
+        found.filter(gpu.filtered_cubes.get(gpu.context, cube, context_.stats));
+    }
+    return found;
+}
+
+Environment TextureLookup::find_scene_environment(const EnvironmentParts& parts) {
+    Environment found = find_environment(scene_.environment, parts);
+    found.placing = scene_.environment_placing;
+    return found;
+}
+
+bool TextureLookup::is_replaced(std::size_t probe) {
+    std::optional<bool>& known = replaced_[probe];
+    if (!known) {
+        // Nothing is drawn for a mirror in a circle of mirrors, or for a manual probe before its
+        // first update.
+        known = !context_.probe(number_, probe).drawn() ||
+                context_.pictures.is_edge_back(viewer_, probe_id(number_, probe));
+    }
+    return *known;
 }
 
 BoundTexture TextureLookup::find(const MapSnapshot& map) {
@@ -56,7 +77,14 @@ BoundTexture TextureLookup::find(const TextureSourceSnapshot& texture) {
 }
 
 NodeTextures TextureLookup::find(const NodeSnapshot& node) {
-    NodeTextures found{find_environment(environment_of(scene_, node)), {}};
+    const MaterialTraits& material = node.material.value.traits();
+    const EnvironmentParts& parts = material.environment_parts;
+    NodeTextures found;
+    if (material.uses_environment && node.environment.index() == 0) {
+        found.environment = find_scene_environment(parts);
+    } else {
+        found.environment = find_environment(environment_of(scene_, node), parts);
+    }
     for (const TextureSourceSnapshot& texture : node.textures) {
         found.textures.push_back(find(texture));
     }
@@ -83,9 +111,10 @@ TextureLookup::find(const std::vector<EffectSnapshot>& effects) {
     return lookups;
 }
 
-BoundTexture TextureLookup::background() {
+Environment TextureLookup::background() {
+    if (scene_.shows_environment) return find_scene_environment({});
     const auto* cube = std::get_if<CubeSnapshot>(&scene_.background);
-    return cube == nullptr ? BoundTexture{} : find(CubeSourceSnapshot(*cube));
+    return cube == nullptr ? Environment{} : find_cube(*cube, {});
 }
 
 }  // namespace cubecam

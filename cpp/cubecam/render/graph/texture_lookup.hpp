@@ -24,8 +24,6 @@ public:
     BoundTexture find(const CubeSourceSnapshot& source);
     BoundTexture find(const MapSnapshot& map);
     BoundTexture find(const TextureSourceSnapshot& texture);
-    Environment find_environment(const CubeSourceSnapshot& source);
-
     /// Finds all textures that a node's material looks up.
     NodeTextures find(const NodeSnapshot& node);
     /// Finds the textures that a node looks up to move its vertices, in the order of its inputs;
@@ -34,16 +32,21 @@ public:
     /// Finds the textures of each effect, in the order of its inputs.
     std::vector<std::vector<BoundTexture>> find(const std::vector<EffectSnapshot>& effects);
     /// The cube behind everything; empty if the background is a colour.
-    BoundTexture background();
+    Environment background();
 
 private:
-    const Environment& find_probe(std::size_t probe);
+    Environment find_environment(const CubeSourceSnapshot& source, const EnvironmentParts& parts);
+    Environment find_cube(const CubeSnapshot& cube, const EnvironmentParts& parts);
+    /// The scene's own environment, as the scene places it.
+    Environment find_scene_environment(const EnvironmentParts& parts);
+    /// Whether the scene's environment replaces a probe.
+    bool is_replaced(std::size_t probe);
 
     FrameContext& context_;
     PictureId viewer_;
     std::size_t number_;
     const SceneSnapshot& scene_;
-    std::vector<std::optional<Environment>> probes_;  // of the scene; none: not yet found
+    std::vector<std::optional<bool>> replaced_;  // for each probe of the scene; none: not yet known
 };
 
 }  // namespace cubecam

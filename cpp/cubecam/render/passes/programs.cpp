@@ -2,10 +2,13 @@
 
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
+#include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/node_record.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -53,16 +56,29 @@ void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
     if (material.user_code) return;  // the user declares the samplers
     bool uv = false;
     bool position = false;
+    GLuint unit = texture_unit::first_of_material;
     for (std::size_t i = 0; i < material.textures.size(); ++i) {
         if ((variant.textures >> i & 1U) == 0) continue;
         const NamedTexture& texture = material.textures[i];
         const std::string name = upper(texture.name);
         options.defines.emplace_back("HAS_" + name, "1");
-        options.defines.emplace_back("UNIT_" + name, std::to_string(first_material_unit + i));
+        options.defines.emplace_back("UNIT_" + name, std::to_string(unit++));
         (texture.source.index() == 0 ? uv : position) = true;
     }
     if (uv) options.defines.emplace_back("USES_UV", "1");
     if (position) options.defines.emplace_back("USES_POSITION_OBJECT", "1");
+}
+
+void add_environment(gl::ShaderOptions& options, const EnvironmentVariant& variant) {
+    const auto define = [&options](bool wanted, const char* name) {
+        if (wanted) options.defines.emplace_back(name, "1");
+    };
+    define(variant.block, "ENVIRONMENT_BLOCK");
+    define(variant.turned, "ENVIRONMENT_TURNED");
+    define(variant.by_roughness, "USES_FILTERED_ENVIRONMENT");
+    define(variant.filtered, "ENVIRONMENT_FILTERED");
+    define(variant.uneven, "ENVIRONMENT_UNEVEN");
+    define(variant.box_mipmaps, "USES_ENVIRONMENT_MIPS");
 }
 
 void add_defines(gl::ShaderOptions& options,
@@ -72,8 +88,28 @@ void add_defines(gl::ShaderOptions& options,
 
 }  // namespace
 
+EnvironmentVariant EnvironmentVariant::of(const Environment& environment,
+                                          const MaterialTraits& material) {
+    EnvironmentVariant variant;
+    variant.by_roughness = environment.parts.filtered || environment.filtered != nullptr;
+    if (!material.uses_environment) return variant;
+    variant.block = needs_block(environment, material.user_code.has_value());
+    variant.turned = !environment.placing.is_plain();
+    variant.filtered = environment.filtered != nullptr;
+    variant.uneven = variant.filtered && !environment.filtered->is_even();
+    variant.box_mipmaps = environment.parts.mipmaps;
+    return variant;
+}
+
+std::size_t EnvironmentVariant::texture_count() const {
+    return (by_roughness ? 1U : 0U) + (filtered ? 1U : 0U) + (box_mipmaps ? 1U : 0U);
+}
+
 Programs::Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {
     gl.GetIntegerv(GL_MAX_VARYING_VECTORS, &room_);
+    GLint units = 16;
+    gl.GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
+    most_textures_ = static_cast<std::size_t>(units);
 }
 
 gl::ShaderOptions Programs::layer_options() const {
@@ -83,6 +119,20 @@ gl::ShaderOptions Programs::layer_options() const {
         options.defines.emplace_back("LAYERED", "1");
     }
     return options;
+}
+
+void Programs::check_textures(const SurfaceVariant& variant, const MaterialTraits& material) const {
+    const auto maps = static_cast<std::size_t>(std::popcount(variant.textures));
+    const std::size_t environment =
+        (material.uses_environment ? 1U : 0U) + variant.environment.texture_count();
+    const auto shadows = static_cast<std::size_t>(variant.shadows);
+    const std::size_t all = maps + environment + shadows;
+    if (all <= most_textures_) return;
+    throw std::invalid_argument(
+        std::string(variant.kind->name) + ": expected at most " + std::to_string(most_textures_) +
+        " textures on a surface (GL_MAX_TEXTURE_IMAGE_UNITS), got " + std::to_string(all) + ": " +
+        std::to_string(maps) + " of the material, " + std::to_string(environment) +
+        " of the environment, " + std::to_string(shadows) + " of shadows");
 }
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
@@ -97,6 +147,7 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     add_textures(options, variant, material);
     define(material.user_code.has_value(), "USER_SOURCE");
     define(material.uses_environment, "USES_ENVIRONMENT");
+    add_environment(options, variant.environment);
     define(material.uses_lights, "USES_LIGHTS");
     const std::size_t constants = variant.kind->constants;
     options.defines.emplace_back("MATERIAL_SIZE", std::to_string(constants));
@@ -119,7 +170,7 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     if (variant.shadows > 0) {
         options.defines.emplace_back("SHADOW_COUNT", std::to_string(variant.shadows));
         options.defines.emplace_back("SHADOW_KINDS", std::to_string(variant.shadow_kinds) + "u");
-        options.defines.emplace_back("SHADOW_UNIT", std::to_string(shadow_unit));
+        options.defines.emplace_back("SHADOW_UNIT", std::to_string(texture_unit::first_shadow));
         options.defines.emplace_back("MAX_SHADOWS", std::to_string(max_shadows));
     }
     return options;
@@ -129,6 +180,7 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
                                      const MaterialTraits& material) {
     const auto found = surfaces_.find(variant);
     if (found != surfaces_.end()) return found->second;
+    check_textures(variant, material);
     const UserSource include = include_of(*variant.kind);
     gl::ShaderOptions options = surface_options(variant, material);
     add_defines(options, output_defines(variant.outputs));
@@ -155,10 +207,14 @@ UserProgram& Programs::effect(const UserSource& fragment) {
                       {{"include/user_fragment.glsl", "fragment", &fragment}});
 }
 
-const gl::Program& Programs::skybox() {
-    if (!skybox_)
-        skybox_ = gl::Program(*gl_, {"passes/skybox.vert", "passes/skybox.frag"}, layer_options());
-    return skybox_;
+const gl::Program& Programs::skybox(bool turned) {
+    gl::Program& program = turned ? turned_skybox_ : skybox_;
+    if (!program) {
+        gl::ShaderOptions options = layer_options();
+        add_environment(options, {.block = turned, .turned = turned});
+        program = gl::Program(*gl_, {"passes/skybox.vert", "passes/skybox.frag"}, options);
+    }
+    return program;
 }
 
 UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_colors) {

@@ -4,6 +4,7 @@
 #include "cubecam/materials/material.hpp"
 #include "cubecam/render/passes/tonemap.hpp"
 #include "cubecam/render/passes/user_program.hpp"
+#include "cubecam/render/resources/environment.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/stats.hpp"
 
@@ -15,12 +16,28 @@
 
 namespace cubecam {
 
+/// How a surface looks up its environment.
+struct EnvironmentVariant {
+    bool block = false;         ///< it reads the uniform block `Environment`
+    bool turned = false;        ///< Environment::placing is not plain
+    bool by_roughness = false;  ///< EnvironmentParts::filtered
+    bool filtered = false;      ///< the environment has filtered levels
+    bool uneven = false;        ///< not FilteredTexture::is_even
+    bool box_mipmaps = false;   ///< EnvironmentParts::mipmaps
+
+    static EnvironmentVariant of(const Environment& environment, const MaterialTraits& material);
+    /// How many textures the surface looks up for it.
+    std::size_t texture_count() const;
+
+    auto operator<=>(const EnvironmentVariant&) const = default;
+};
+
 /// The variant of surface.vert and surface.frag that a draw call needs.
 struct SurfaceVariant {
     const KindInfo* kind = nullptr;
     bool instanced = false;      ///< whether the instances are nodes; otherwise views
-    std::uint32_t switches = 0;  ///< MaterialTraits::switches
-    std::uint32_t textures = 0;  ///< bit i: the material's texture i shows something
+    std::uint64_t switches = 0;  ///< MaterialTraits::switches
+    std::uint64_t textures = 0;  ///< bit i: the material's texture i shows something
     bool vertex_colors = false;
     bool double_sided = false;
     Blend blend = Blend::opaque;
@@ -32,13 +49,10 @@ struct SurfaceVariant {
     bool cone = false;               ///< some light is a spot light
     int shadows = 0;                 ///< how many lights, the first ones, have a shadow on it
     std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each: two bits, from the lowest on
+    EnvironmentVariant environment;
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
-
-/// The unit of a material's first texture: lower units belong to the passes, units from 16 on to
-/// shadows.
-inline constexpr unsigned first_material_unit = 2;
 
 /// Compiled programs; each is made when it is first needed.
 class Programs {
@@ -50,13 +64,15 @@ public:
     /// A variant with a user's source in it. @throws ShaderError that names the user's own lines.
     UserProgram& user_surface(const SurfaceVariant& variant, const MaterialTraits& material);
     UserProgram& effect(const UserSource& fragment);
-    const gl::Program& skybox();
+    /// `turned`: the environment's placing is not plain.
+    const gl::Program& skybox(bool turned);
     const gl::Program& shadow();
     UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
 
 private:
     gl::ShaderOptions layer_options() const;
+    void check_textures(const SurfaceVariant& variant, const MaterialTraits& material) const;
     gl::ShaderOptions surface_options(const SurfaceVariant& variant,
                                       const MaterialTraits& material) const;
 
@@ -66,7 +82,8 @@ private:
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::tuple<Tonemap, Encode, bool>, gl::Program> grades_;
     UserPrograms users_;
-    gl::Program skybox_, shadow_;
+    gl::Program skybox_, turned_skybox_, shadow_;
+    std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 
 }  // namespace cubecam

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/render/passes/shadow_view.hpp"
+#include "cubecam/render/passes/texture_units.hpp"
 
 #include <glad/gl.h>
 #include <glm/glm.hpp>
@@ -12,9 +13,6 @@ namespace cubecam {
 
 /// The largest number of lights with a shadow: each takes a texture unit.
 inline constexpr std::size_t max_shadows = 16;
-
-/// The unit of the first light's map; the others follow.
-inline constexpr GLuint shadow_unit = 16;
 
 /// A light's shadow map, ready for lookups.
 struct ShadowUse {

@@ -30,8 +30,8 @@ ShadowPass::ShadowPass(const gl::Context& context, GpuCache& cache, Programs& pr
         {limits.max_texture_size, limits.max_framebuffer_width, limits.max_framebuffer_height});
     GLint units = 0;
     gl_->GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
-    most_ = std::min(max_shadows,
-                     static_cast<std::size_t>(std::max(units - static_cast<int>(shadow_unit), 0)));
+    // A surface looks up at least one texture of its own.
+    most_ = std::min(max_shadows, static_cast<std::size_t>(std::max(units - 1, 0)));
 }
 
 void ShadowPass::check(const SceneSnapshot& scene) const {

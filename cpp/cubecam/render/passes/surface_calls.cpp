@@ -18,6 +18,12 @@ bool shows_in(const SurfaceItems& items, const SurfaceItem& item, std::size_t re
     return std::find(regions.begin(), regions.end(), region) != regions.end();
 }
 
+/// Whether surfaces of one material see the same environment in the same way.
+bool same_look(const Environment& a, const Environment& b) {
+    return a.cube.texture == b.cube.texture && a.placing == b.placing && a.filtered == b.filtered &&
+           a.box_mipmaps.texture == b.box_mipmaps.texture;
+}
+
 bool is_drawn_alone(const NodeSnapshot& node) {
     return node.material.value.traits().user_code.has_value();
 }
@@ -32,7 +38,7 @@ bool join(const SurfaceItem& a, const SurfaceItem& b) {
         return same_material || has_flat_constants(left);
     }
     return same_material && !is_drawn_alone(left) && left.receive_shadow == right.receive_shadow &&
-           a.textures->environment.cube.texture == b.textures->environment.cube.texture;
+           same_look(a.textures->environment, b.textures->environment);
 }
 
 }  // namespace
@@ -117,22 +123,25 @@ std::optional<GLintptr> SurfaceCallBuilder::append_constants(const NodeSnapshot&
     return append(constants_.data(), constants_.size() * sizeof(glm::vec4));
 }
 
+std::optional<GLintptr> SurfaceCallBuilder::append_environment(const SurfaceItem& item) {
+    const MaterialTraits& material = item.node->material.value.traits();
+    const Environment& environment = item.textures->environment;
+    if (!material.uses_environment || !needs_block(environment, material.user_code.has_value())) {
+        return std::nullopt;
+    }
+    const EnvironmentBlock block = make_environment_block(environment, input_.origin());
+    return append(&block, sizeof(block));
+}
+
 /// The caller adds the view records.
 SurfaceCall SurfaceCallBuilder::alone(const SurfaceItem& item) {
     const NodeBlock block = make_node_block(*item.node, input_.origin());
-    SurfaceCall call{&item,
-                     static_cast<GLuint>(view_records_.size()),
-                     0,
-                     append(&block, sizeof(block)),
-                     append_constants(*item.node),
-                     std::nullopt};
-    const MaterialTraits& material = item.node->material.value.traits();
-    if (material.user_code && material.uses_environment) {
-        const EnvironmentBlock environment =
-            make_environment_block(item.textures->environment, input_.origin());
-        call.environment = append(&environment, sizeof(environment));
-    }
-    return call;
+    return {&item,
+            static_cast<GLuint>(view_records_.size()),
+            0,
+            append(&block, sizeof(block)),
+            append_constants(*item.node),
+            append_environment(item)};
 }
 
 void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to) {
@@ -144,13 +153,18 @@ void SurfaceCallBuilder::add_together(const SurfaceItem& item, std::vector<Surfa
     }
     to.push_back({&item, place, 1, std::nullopt,
                   has_flat_constants(*item.node) ? std::nullopt : append_constants(*item.node),
-                  std::nullopt});
+                  append_environment(item)});
 }
 
 void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to) {
     to.first_sky = static_cast<GLuint>(view_records_.size());
     to.sky_count = static_cast<GLsizei>(count);
-    if (!std::holds_alternative<GLuint>(input_.background)) return;
+    const auto* sky = std::get_if<Environment>(&input_.background);
+    if (sky == nullptr) return;
+    if (!sky->placing.is_plain()) {
+        const EnvironmentBlock block = make_environment_block(*sky, input_.origin());
+        to.sky_environment = append(&block, sizeof(block));
+    }
     for (std::size_t r = first_region; r < first_region + count; ++r) {
         const std::size_t layer = input_.regions[r].view;
         const View& view = input_.views[layer];

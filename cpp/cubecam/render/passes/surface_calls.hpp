@@ -52,7 +52,7 @@ struct SurfaceCall {
     GLsizei count;
     std::optional<GLintptr> node_block;   ///< none: the records are nodes; otherwise views
     std::optional<GLintptr> constants;    ///< the block of the material's constants
-    std::optional<GLintptr> environment;  ///< the block of the environment, for a user's source
+    std::optional<GLintptr> environment;  ///< the block of the environment, if the shader reads it
 };
 
 /// The draw calls for one region, or for all regions at once.
@@ -62,6 +62,7 @@ struct SurfaceCalls {
     std::optional<GLintptr> view_block;  ///< the block of the only view; none: layered
     GLuint first_sky = 0;                ///< the view records of the skybox
     GLsizei sky_count = 0;
+    std::optional<GLintptr> sky_environment;  ///< the block of the skybox; none: it is plain
 };
 
 /// Builds draw calls, and the bytes that they read on the GPU.
@@ -85,6 +86,7 @@ public:
 private:
     GLintptr append(const void* block, std::size_t size);
     std::optional<GLintptr> append_constants(const NodeSnapshot& node);
+    std::optional<GLintptr> append_environment(const SurfaceItem& item);
     SurfaceCall alone(const SurfaceItem& item);
     void add_together(const SurfaceItem& item, std::vector<SurfaceCall>& to);
     void add_sky(std::size_t first_region, std::size_t count, SurfaceCalls& to);

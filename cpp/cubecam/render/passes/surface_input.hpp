@@ -17,8 +17,8 @@
 
 namespace cubecam {
 
-/// The background: a colour, or a cube texture that is drawn as a skybox.
-using BackgroundSource = std::variant<glm::vec4, GLuint>;
+/// The background: a colour, or an environment that is drawn as a skybox.
+using BackgroundSource = std::variant<glm::vec4, Environment>;
 
 /// A part of a view's picture that is drawn.
 struct Region {

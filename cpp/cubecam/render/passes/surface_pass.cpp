@@ -1,8 +1,10 @@
 #include "cubecam/render/passes/surface_pass.hpp"
 
+#include "cubecam/lighting/brdf_table.hpp"
 #include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
 #include "cubecam/render/passes/raster_state.hpp"
+#include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -14,7 +16,6 @@ namespace {
 
 constexpr GLuint lights_binding = 1;
 constexpr GLuint shadows_binding = 2;
-constexpr GLuint cube_unit = 1;
 constexpr std::size_t unrolled_lights = 8;  // a loop of unknown length costs more for each light
 constexpr std::size_t many_triangles = 10'000;  // of one call
 
@@ -42,7 +43,8 @@ void SurfacePass::upload_shadows(std::span<const ShadowUse> shadows, const glm::
     std::vector<ShadowBlock> blocks;
     for (const ShadowUse& shadow : shadows) {
         shadow_kinds_ |= static_cast<std::uint32_t>(shadow.view.kind) << (2 * blocks.size());
-        gl_->BindTextureUnit(shadow_unit + static_cast<GLuint>(blocks.size()), shadow.texture);
+        gl_->BindTextureUnit(texture_unit::first_shadow + static_cast<GLuint>(blocks.size()),
+                             shadow.texture);
         blocks.push_back(make_shadow_block(shadow, origin));
     }
     blocks.resize(max_shadows);
@@ -196,20 +198,26 @@ void SurfacePass::write_outputs(bool write) {
 
 void SurfacePass::draw_background(const SurfaceInput& input, const SurfaceCalls& calls,
                                   Stats& stats) {
-    const auto* cube = std::get_if<GLuint>(&input.background);
-    if (cube == nullptr) return;       // clearing has drawn it
+    const auto* sky = std::get_if<Environment>(&input.background);
+    if (sky == nullptr) return;        // clearing has drawn it
     gl_->DepthFunc(depth_.untouched);  // the quad lies at the depth of the clear
     gl_->DepthMask(GL_FALSE);
     gl_->Disable(GL_CULL_FACE);
-    programs_.skybox().set("u_depth", depth_.clear);
-    programs_.skybox().use();
-    gl_->BindTextureUnit(cube_unit, *cube);
+    const gl::Program& program = programs_.skybox(calls.sky_environment.has_value());
+    program.set("u_depth", depth_.clear);
+    program.use();
+    if (calls.sky_environment) {
+        gl_->BindBufferRange(GL_UNIFORM_BUFFER, environment_binding, blocks_.id(),
+                             *calls.sky_environment, sizeof(EnvironmentBlock));
+    }
+    gl_->BindTextureUnit(texture_unit::cube, sky->cube.texture);
     draw_full_screen(*gl_, *cache_,
                      {view_records_.id(), calls.first_sky, std::int64_t{calls.sky_count}}, stats);
 }
 
-SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool instanced,
+SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
                                        bool outputs) const {
+    const NodeSnapshot& node = *item.node;
     const MaterialValue& material = node.material.value;
     const MaterialTraits& traits = material.traits();
     SurfaceVariant variant;
@@ -230,7 +238,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool instanced,
         variant.dense = true;
     } else {
         for (std::size_t i = 0; i < node.textures.size(); ++i) {
-            if (!is_none(node.textures[i])) variant.textures |= 1U << i;
+            if (!is_none(node.textures[i])) variant.textures |= std::uint64_t{1} << i;
         }
         if (traits.uses_lights) {
             variant.lights =
@@ -239,6 +247,7 @@ SurfaceVariant SurfacePass::variant_of(const NodeSnapshot& node, bool instanced,
             variant.cone = lights_.cone;
         }
     }
+    variant.environment = EnvironmentVariant::of(item.textures->environment, traits);
     if (receive_shadow(node)) {
         variant.shadows = static_cast<int>(lights_.shadow_count);
         variant.shadow_kinds = shadow_kinds_;
@@ -258,16 +267,44 @@ const gl::Program& SurfacePass::program_of(const SurfaceItem& item, const Surfac
 /// Binds the textures that the shader looks up; a user's program binds its own.
 void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& variant) {
     const std::vector<BoundTexture>& textures = item.textures->textures;
+    GLuint unit = texture_unit::first_of_material;
     for (std::size_t i = 0; i < textures.size(); ++i) {
         if ((variant.textures >> i & 1U) == 0) continue;
         const GLuint texture = textures[i].texture;
         const bool cube = std::holds_alternative<CubeSourceSnapshot>(item.node->textures[i]);
-        gl_->BindTextureUnit(first_material_unit + static_cast<GLuint>(i),
-                             cube && texture == 0 ? black_.id() : texture);
+        gl_->BindTextureUnit(unit++, cube && texture == 0 ? black_.id() : texture);
     }
-    if (!item.node->material.value.traits().uses_environment) return;
-    const GLuint environment = item.textures->environment.cube.texture;
-    gl_->BindTextureUnit(cube_unit, environment != 0 ? environment : black_.id());
+    const MaterialTraits& traits = item.node->material.value.traits();
+    if (traits.uses_environment || traits.environment_parts.filtered) {
+        bind_environment(item.textures->environment);
+    }
+}
+
+void SurfacePass::bind_environment(const Environment& environment) {
+    const auto or_black = [this](GLuint cube) { return cube != 0 ? cube : black_.id(); };
+    gl_->BindTextureUnit(texture_unit::cube, or_black(environment.cube.texture));
+    if (environment.parts.filtered || environment.filtered != nullptr) {
+        gl_->BindTextureUnit(texture_unit::brdf_table, brdf_table());
+    }
+    if (environment.filtered != nullptr) {
+        gl_->BindTextureUnit(texture_unit::filtered, environment.filtered->id());
+    }
+    if (environment.parts.mipmaps) {
+        gl_->BindTextureUnit(texture_unit::box_mipmaps, or_black(environment.box_mipmaps.texture));
+    }
+}
+
+GLuint SurfacePass::brdf_table() {
+    if (!brdf_table_) {
+        brdf_table_ = gl::create_texture_2d(*gl_, GL_RGBA32F, brdf_table_size, brdf_table_size);
+        const GLuint id = brdf_table_.id();
+        gl_->TextureSubImage2D(id, 0, 0, 0, brdf_table_size, brdf_table_size, GL_RGBA, GL_FLOAT,
+                               cubecam::brdf_table().data());
+        gl_->TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        gl_->TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl_->TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    }
+    return brdf_table_.id();
 }
 
 void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bool outputs,
@@ -277,7 +314,7 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         const NodeSnapshot& node = *call.item->node;
         const GpuMesh& mesh = *call.item->mesh;
         const bool instanced = !call.node_block;
-        const SurfaceVariant variant = variant_of(node, instanced, outputs);
+        const SurfaceVariant variant = variant_of(*call.item, instanced, outputs);
         const gl::Program& program = program_of(*call.item, variant);
         if (bound != &program) program.use();
         bound = &program;

@@ -50,16 +50,19 @@ private:
     void set_scissor(const Rect& rect);
     void write_outputs(bool write);
     bool use_layers(const SurfaceInput& input, const SurfaceItems& items, const Rect& whole) const;
-    SurfaceVariant variant_of(const NodeSnapshot& node, bool instanced, bool outputs) const;
+    SurfaceVariant variant_of(const SurfaceItem& item, bool instanced, bool outputs) const;
     const gl::Program& program_of(const SurfaceItem& item, const SurfaceVariant& variant);
     void bind_textures(const SurfaceItem& item, const SurfaceVariant& variant);
+    void bind_environment(const Environment& environment);
+    GLuint brdf_table();
 
     const gl::Context* context_;
     const GladGLContext* gl_;
     GpuCache* cache_;
     Programs programs_;
     Layering layering_;
-    gl::Texture black_;  ///< a cube of one texel, reflected if there is no environment
+    gl::Texture black_;       ///< a cube of one texel, reflected if there is no environment
+    gl::Texture brdf_table_;  ///< made when it is first needed
     gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_;
     ShaderLights lights_;
     std::uint32_t shadow_kinds_ = 0;                       ///< see SurfaceVariant

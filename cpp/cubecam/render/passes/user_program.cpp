@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/user_program.hpp"
 
+#include "cubecam/render/passes/texture_units.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,12 +13,9 @@ namespace {
 
 constexpr std::size_t most_programs = 64;
 
-/// Lower units belong to the scene (shaders/README.md).
-constexpr GLuint first_user_unit = 32;
-
 /// Uniforms that shaders/ declares itself.
-constexpr std::array<std::string_view, 4> own_uniforms = {"u_cube", "u_frame", "u_layer",
-                                                          "u_shadow_maps"};
+constexpr std::array<std::string_view, 7> own_uniforms = {
+    "u_box_mipmaps", "u_brdf_table", "u_cube", "u_filtered", "u_frame", "u_layer", "u_shadow_maps"};
 
 /// A GLSL type of `rows` x `columns` numbers.
 struct Shape {
@@ -224,7 +223,7 @@ void UserProgram::use(const ShaderInputs& inputs, std::span<const BoundTexture> 
             }
             const auto index =
                 static_cast<std::size_t>(std::distance(inputs.textures.begin(), found));
-            const GLuint unit = first_user_unit + static_cast<GLuint>(index);
+            const GLuint unit = texture_unit::first_of_material + static_cast<GLuint>(index);
             gl.ProgramUniform1i(program_.id(), uniform.location, static_cast<GLint>(unit));
             gl.BindTextureUnit(unit, textures[index].texture);
             continue;

@@ -229,15 +229,24 @@ const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image) {
 }
 
 const GpuTexture& GpuCache::cube(const CubeSnapshot& cube) {
+    return upload(cubes_, cube, cube.data->mipmaps);
+}
+
+const GpuTexture& GpuCache::box_mipmaps(const CubeSnapshot& cube) {
+    return cube.data->mipmaps ? this->cube(cube) : upload(box_mipmaps_, cube, true);
+}
+
+const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSnapshot& cube,
+                                   bool mipmaps) {
     const CubeMapData& data = *cube.data;
     const TextureFormat format = texture_format(data.dtype, data.channels);
-    GpuCube& entry = cubes_.get(cube.object, [&] {
+    GpuCube& entry = to.get(cube.object, [&] {
         check_side(*context_, "cubemap", data.size, context_->limits().max_cube_map_texture_size,
                    "GL_MAX_CUBE_MAP_TEXTURE_SIZE");
-        const int levels = data.mipmaps ? gl::mip_levels(data.size, data.size) : 1;
-        GpuCube made{
-            {gl::create_texture_cube(*gl_, format.internal, data.size, levels), data.mipmaps}, {}};
-        set_filters(*gl_, made.texture.texture.id(), data.mipmaps, GL_CLAMP_TO_EDGE);
+        const int levels = mipmaps ? gl::mip_levels(data.size, data.size) : 1;
+        GpuCube made{{gl::create_texture_cube(*gl_, format.internal, data.size, levels), mipmaps},
+                     {}};
+        set_filters(*gl_, made.texture.texture.id(), mipmaps, GL_CLAMP_TO_EDGE);
         set_swizzle(*gl_, made.texture.texture.id(), data.channels);
         return made;
     });
@@ -249,8 +258,12 @@ const GpuTexture& GpuCache::cube(const CubeSnapshot& cube) {
     const bool changed = entry.face_revisions != data.face_revisions;
     // The levels are computed on the CPU, so that CubeMap::sample and a shader see the same
     // numbers.
-    const CubeMap::MipChain chain =
-        data.mipmaps && changed ? make_mip_chain(data) : CubeMap::MipChain{};
+    CubeMap::MipChain chain;
+    if (mipmaps && changed) {
+        CubeMapData with_mipmaps = data;
+        with_mipmaps.mipmaps = true;
+        chain = make_mip_chain(with_mipmaps);
+    }
     for (std::size_t face = 0; face < all_faces.size(); ++face) {
         if (entry.face_revisions[face] == data.face_revisions[face]) continue;
         upload(0, face, data.size, data.face_pixels(all_faces[face]).data());
@@ -270,6 +283,7 @@ void GpuCache::sweep() {
     meshes_.sweep();
     images_.sweep();
     cubes_.sweep();
+    box_mipmaps_.sweep();
 }
 
 }  // namespace cubecam

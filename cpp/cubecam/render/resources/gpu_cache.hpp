@@ -84,6 +84,8 @@ public:
     const GpuTexture& image(const std::shared_ptr<const Image>& image);
     /// Uploads only the faces that changed since the last time.
     const GpuTexture& cube(const CubeSnapshot& cube);
+    /// The same with box-filtered levels, whether the cubemap has mipmaps or not.
+    const GpuTexture& box_mipmaps(const CubeSnapshot& cube);
 
     /// A vertex array with only the attributes of a view, for a skybox.
     const gl::VertexArray& views_only() const { return views_only_; }
@@ -96,12 +98,16 @@ private:
         std::array<std::uint64_t, 6> face_revisions{};
     };
 
+    const GpuTexture& upload(WeakCache<CubeMap, GpuCube>& to, const CubeSnapshot& cube,
+                             bool mipmaps);
+
     const gl::Context* context_;
     const GladGLContext* gl_;
     gl::VertexArray views_only_;
     WeakCache<const MeshIdentity, GpuMesh> meshes_;
     WeakCache<const Image, GpuTexture> images_;
     WeakCache<CubeMap, GpuCube> cubes_;
+    WeakCache<CubeMap, GpuCube> box_mipmaps_;  ///< of cubemaps without mipmaps
 };
 
 }  // namespace cubecam

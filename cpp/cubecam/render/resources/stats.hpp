@@ -14,6 +14,7 @@ struct Stats {
     std::int64_t probes_updated = 0;      ///< probes of which at least one face was drawn
     std::int64_t textures_updated = 0;    ///< render textures that were drawn
     std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps; a point light has six
+    std::int64_t faces_filtered = 0;      ///< faces of environments, filtered by roughness
     std::int64_t pictures_not_kept = 0;   ///< too large for the cache, so every call draws them
     double milliseconds = 0.0;            ///< of the whole call with reading back
 };

@@ -181,6 +181,7 @@ GLuint Layers::one(int layer) {
 Target::Target(const gl::Context& context, const TargetDescription& description)
     : gl_(&context.gl()), description_(description) {
     keys.resize(static_cast<std::size_t>(description.layers()));
+    revisions.resize(keys.size(), 0);
 
     const GLenum color_format =
         gl_format(description.post_processed ? Format::rgba32f : description.format);

@@ -143,6 +143,8 @@ public:
 
     /// The key of each layer's picture; none: the contents are not valid.
     std::vector<std::optional<PictureKey>> keys;
+    /// The revision of each layer's picture: new whenever it was drawn.
+    std::vector<std::uint64_t> revisions;
     /// The last call, if it drew nothing.
     std::optional<UnchangedCall> unchanged;
 

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <glad/gl.h>
+
+#include <cstddef>
+
+/// The texture units of the shaders (shaders/README.md). OpenGL guarantees 80 units for all stages
+/// together, and 16 in one stage: what counts there is the number of textures that a program looks
+/// up, not their units.
+namespace cubecam::texture_unit {
+
+inline constexpr GLuint frame = 0;        ///< the picture that effects and post-processing read
+inline constexpr GLuint cube = 1;         ///< the environment
+inline constexpr GLuint filtered = 2;     ///< its filtered levels and irradiance
+inline constexpr GLuint brdf_table = 3;   ///< integrals of reflection models
+inline constexpr GLuint box_mipmaps = 4;  ///< the environment with box-filtered levels
+inline constexpr GLuint behind = 5;       ///< the scene behind transmissive surfaces
+/// The first texture of a material, or of a user's source; those that are set follow each other.
+inline constexpr GLuint first_of_material = 6;
+/// The shadow map of the first light; the others follow.
+inline constexpr GLuint first_shadow = 48;
+
+/// The largest number of textures of one material.
+inline constexpr std::size_t most_of_material = first_shadow - first_of_material;
+
+}  // namespace cubecam::texture_unit
