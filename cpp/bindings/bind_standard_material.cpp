@@ -47,8 +47,8 @@ normal_map : map, optional
 normal_scale : float
     Factor of the normals' x and y, finite.
 occlusion_map : map, optional
-    Red is the share of light from all around (environment, ambient lights, transmission) that reaches the
-    surface; lights with a place or direction are not changed (3.9.3).
+    Red is the share of the light from all around, of the environment and of ambient lights, that reaches the
+    surface; other lights and what shows through are not changed (3.9.3).
 occlusion_strength : float
     From 0, no occlusion, to 1.
 emissive : array_like (3,) or str

@@ -20,10 +20,7 @@
 // The light that the surface sends to the eye.
 vec3 light_of(Point point) {
     vec3 base = sheen_over(point, base_under_environment(point));
-    vec3 coat = coat_under_environment(point);
-    float occlusion = point.occlusion;
-    base *= occlusion;
-    coat *= occlusion;
+    vec3 coat = point.occlusion * coat_under_environment(point);
     add_lights(point, base, coat);
     base += point.emission;
     return coat_over(point, base, coat);

@@ -123,6 +123,13 @@ bool Standard::uses_tangents() const {
            (clearcoat > 0.0F && is_set(clearcoat_normal_map));
 }
 
+int Standard::tangent_uv_set() const {
+    for (const PlacedMap* map_of_frame : {&normal_map, &anisotropy_map}) {
+        if (is_set(*map_of_frame)) return map_of_frame->placing.uv_set;
+    }
+    return clearcoat_normal_map.placing.uv_set;
+}
+
 EnvironmentParts Standard::environment_parts() const {
     if (unlit) return {};
     const bool levels = roughness > 0.0F && specular == SpecularMode::levels;

@@ -212,6 +212,7 @@ struct Standard {
     }
     /// Whether the shader needs the tangent frame.
     bool uses_tangents() const;
+    int tangent_uv_set() const;
     /// Whether the scene behind the surface shows through it.
     bool transmits() const { return !unlit && transmission > 0.0F && has_dielectric(); }
 

@@ -1,7 +1,8 @@
 // KHR_materials_clearcoat: a clear layer over everything, emission included.
 #ifdef CLEARCOAT
 float coat_under_light(Point point, vec3 to_light, vec3 half_way) {
-    float cosine = max(dot(point.coat_normal, to_light), 0.0);
+    float cosine = dot(point.coat_normal, to_light);
+    if (cosine <= 0.0 || point.coat_n_dot_v <= LEAST_COSINE) return 0.0;
     float alpha = max(point.coat_roughness * point.coat_roughness, LEAST_ALPHA);
     return cosine * facets(alpha * alpha, point.coat_normal, half_way) * unmasked(alpha * alpha, cosine) *
            unmasked(alpha * alpha, point.coat_n_dot_v);

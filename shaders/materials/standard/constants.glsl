@@ -1,4 +1,11 @@
 // The numbers of the material, as constants() in cpp/cubecam/materials/standard.cpp writes them.
+// A mesh without uvs has no tangents, so it shows no map and stretches no highlight.
+#ifndef USES_TANGENT
+#undef ANISOTROPY
+#undef HAS_NORMAL_MAP
+#undef HAS_CLEARCOAT_NORMAL_MAP
+#endif
+
 #define COLOR material[0]
 #define METALLIC material[1].x
 #define ROUGHNESS material[1].y

@@ -30,6 +30,8 @@ void gather(Point point, vec2 terms, out vec3 scale, out vec3 bias) {
     scale = terms.x * light;
     bias = terms.y * light;
 #endif
+    scale *= point.occlusion;
+    bias *= point.occlusion;
 }
 
 // A lobe with its reflectances head-on and at grazing angles; adds to `share` what it reflects of uniform light. Light
@@ -55,7 +57,7 @@ vec3 base_under_environment(Point point) {
     gather(point, terms, scale, bias);
     vec3 around = vec3(0.0);
 #if defined(DIELECTRIC) || defined(MULTIPLE_SCATTERING)
-    around = environment_irradiance(point.normal) + AMBIENT;
+    around = point.occlusion * (environment_irradiance(point.normal) + AMBIENT);
 #endif
     vec3 share;
     vec3 dielectric = vec3(0.0);

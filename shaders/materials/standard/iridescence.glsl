@@ -25,7 +25,7 @@ vec3 film_fresnel(Point point, vec3 f0, float cosine) {
     float head_on = (ior - 1.0) / (ior + 1.0);
     float outer = mix(head_on * head_on, 1.0, schlick_weight(cosine));
     float through = 1.0 - outer;
-    vec3 root = sqrt(f0 + 0.0001);
+    vec3 root = sqrt(clamp(f0 + 0.0001, 0.0, 0.9999));  // an index of refraction ends below infinity
     vec3 base_ior = (1.0 + root) / (1.0 - root);
     vec3 inner = (base_ior - ior) / (base_ior + ior);
     inner = mix(inner * inner, vec3(1.0), schlick_weight(cosine_inside));
@@ -48,6 +48,6 @@ vec3 film_fresnel(Point point, vec3 f0, float cosine) {
 // The F0 with which Schlick's term gives `f` at this angle, so that tables of F0 apply.
 vec3 f0_of(vec3 f, float cosine) {
     float weight = min(schlick_weight(cosine), 0.9999);
-    return (f - weight) / (1.0 - weight);
+    return clamp((f - weight) / (1.0 - weight), 0.0, 1.0);
 }
 #endif

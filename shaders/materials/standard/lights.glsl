@@ -23,8 +23,11 @@ void add_light(Point point, int index, Light source, inout vec3 base, inout vec3
     coat += light * coat_under_light(point, to_light, half_way);
 #endif
     if (n_dot_l <= 0.0) return;
-    float facet = facets_of(point, half_way) * unmasked_of(point, to_light, n_dot_l) *
-                  unmasked_of(point, point.view, point.n_dot_v);
+    float facet = 0.0;
+    if (point.n_dot_v > LEAST_COSINE) {
+        facet = facets_of(point, half_way) * unmasked_of(point, to_light, n_dot_l) *
+                unmasked_of(point, point.view, point.n_dot_v);
+    }
     vec3 dielectric = vec3(0.0);
 #ifdef DIELECTRIC
     vec3 fresnel = dielectric_fresnel(point, v_dot_h);

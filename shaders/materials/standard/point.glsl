@@ -4,7 +4,7 @@ struct Point {
     vec3 normal;             // unit length, of the normal map
     vec3 geometric_normal;   // unit length, of the mesh
     vec3 view;               // unit length, from the surface to the eye
-    float n_dot_v;           // from 1e-4 to 1
+    float n_dot_v;           // from LEAST_COSINE to 1
     vec3 color;              // base colour
     float metallic;
     float roughness;
@@ -40,7 +40,9 @@ struct Point {
 #endif
 };
 
-float cosine_to_eye(vec3 normal, vec3 view) { return clamp(dot(normal, view), 1e-4, 1.0); }
+const float LEAST_COSINE = 1e-4;
+
+float cosine_to_eye(vec3 normal, vec3 view) { return clamp(dot(normal, view), LEAST_COSINE, 1.0); }
 
 #ifdef SHEEN
 void read_sheen(Surface surface, inout Point point) {
@@ -90,8 +92,10 @@ void read_anisotropy(Surface surface, inout Point point) {
     point.anisotropy *= texel.b;
 #endif
     vec3 bitangent = surface.tangent.w * cross(surface.normal, surface.tangent.xyz);
-    point.tangent = normalize(direction.x * surface.tangent.xyz + direction.y * bitangent);
-    point.bitangent = normalize(cross(surface.normal, point.tangent));
+    vec3 tangent = direction.x * surface.tangent.xyz + direction.y * bitangent;
+    tangent -= dot(tangent, point.normal) * point.normal;
+    point.tangent = tangent * inversesqrt(max(dot(tangent, tangent), 1e-36));
+    point.bitangent = cross(point.normal, point.tangent);
     point.alpha_along = mix(point.alpha, 1.0, point.anisotropy * point.anisotropy);
 }
 #endif

@@ -1,6 +1,8 @@
 // KHR_materials_sheen: fibres that stand on the surface. A. Conty Estevez and C. Kulla, "Production Friendly Microfacet
 // Sheen BRDF", SIGGRAPH 2017.
 #ifdef SHEEN
+const float LEAST_SHEEN_ALPHA = 1e-3;  // fibres that all stand upright would be seen from the side alone
+
 float sheen_fit(float x, float alpha) {
     float m = (1.0 - alpha) * (1.0 - alpha);
     float a = mix(21.5473, 25.3245, m);
@@ -18,7 +20,8 @@ float sheen_lambda(float cosine, float alpha) {
 
 // Reflected by white fibres: D ("Sheen distribution") times V ("Sheen visibility").
 float sheen_brdf(Point point, float n_dot_l, vec3 half_way) {
-    float alpha = max(point.sheen_roughness * point.sheen_roughness, 1e-6);
+    if (point.n_dot_v <= LEAST_COSINE) return 0.0;
+    float alpha = max(point.sheen_roughness * point.sheen_roughness, LEAST_SHEEN_ALPHA);
     vec3 across = cross(point.normal, half_way);
     float sine_squared = min(dot(across, across), 1.0);
     float d = (2.0 + 1.0 / alpha) * pow(sine_squared, 0.5 / alpha) / (2.0 * PI);
@@ -31,7 +34,7 @@ float sheen_brdf(Point point, float n_dot_l, vec3 half_way) {
 // The base below the sheen, and the sheen, under light from all around ("Albedo-scaling technique").
 vec3 sheen_over(Point point, vec3 base) {
 #ifdef SHEEN
-    vec3 around = environment_irradiance(point.normal) + AMBIENT;
+    vec3 around = point.occlusion * (environment_irradiance(point.normal) + AMBIENT);
     return base * (1.0 - max3(point.sheen_color) * point.sheen_albedo) +
            point.sheen_color * point.sheen_albedo * around;
 #else
