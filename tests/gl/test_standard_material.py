@@ -195,7 +195,7 @@ def test_light_from_all_sides(renderer, options, specular):
 
 @pytest.mark.parametrize("specular", ["levels", "sampled"])
 def test_a_smooth_metal_is_a_mirror(any_path, specular):
-    photograph = cc.load_environment(cc.sample_data("forest"), size=64)
+    photograph = cc.load_environment(cc.sample_data("forest.exr"), size=64)
     for f0, color in ((None, (1, 1, 1)), (0.6, (0.6, 0.6, 0.6))):
         standard = cc.StandardMaterial(color=color, roughness=0, specular=specular)
         (world, view), (other, _) = (
@@ -233,13 +233,13 @@ def test_single_scattering_loses_light(renderer):
         world, view = ball(material, constant_cube(), size=(24, 18))
         darkest.append(draw(renderer, world, view)[..., :3].min())
     assert darkest[0] > 0.97 and darkest == sorted(darkest, reverse=True)
-    assert 0.4 < darkest[2] < 0.75
+    assert 0.25 < darkest[2] < 0.4
 
 
 def test_an_ambient_light_is_a_constant_environment(renderer):
     material = cc.StandardMaterial(color=GREY, metallic=0.5, roughness=0.6, clearcoat=0.5)
     first, view = ball(material, constant_cube((0.3, 0.2, 0.1)))
-    second, _ = ball(material, None, [cc.AmbientLight((0.3, 0.2, 0.1))])
+    second, _ = ball(material, None, [cc.AmbientLight(color=(0.3, 0.2, 0.1))])
     second.scene.background = first.scene.background = (0, 0, 0, 0)
     got = draw(renderer, second, view)
     np.testing.assert_allclose(got, draw(renderer, first, view), atol=2e-6)
