@@ -25,6 +25,19 @@ TOLERANCES = {
         "float32 bilinear weights: s * N of a 64-texel face keeps 17 bits below the point",
         relative=1e-5,
     ),
+    "filtered_lookup": Tolerance(
+        1e-5,
+        "places among the faces of an atlas of 512 texels keep 14 bits below the point: weights are off by 6e-5, "
+        "times the contrast of neighbours",
+        relative=3e-4,
+        mean=2e-4,
+    ),
+    "turned_lookup": Tolerance(
+        1e-3,
+        "a matrix of float32 turns by 1e-7, which a cube of noise from 1/20 to 20 makes 1e-4 of its greatest values",
+        relative=1e-3,
+        mean=5e-4,
+    ),
     "resample": Tolerance(
         1e-4,
         "float32 trigonometry puts a sample up to 1e-6 of a turn off, on noise of slope 1 a texel",

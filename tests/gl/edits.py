@@ -170,6 +170,7 @@ VALUES = {
     "Probe.near": number(0.01, 0.6),
     "Probe.parent": lambda world, rng, thing: one(rng, None, random_node(world, rng)),
     "Probe.position": vector(-1, 1),
+    "Probe.prefilter": choice(None, True, False),
     "Probe.samples": choice(1, 4),
     "Probe.size": choice(6, 9, 14),
     "Probe.update": choice("once", "manual", 2),
@@ -188,6 +189,8 @@ VALUES = {
     "RenderTexture.wrap": choice("clamp", "repeat"),
     "Scene.background": lambda world, rng, thing: one(rng, None, rng.random(4), *world.cubes),
     "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
+    "Scene.environment_intensity": number(0, 2),
+    "Scene.environment_rotation": lambda world, rng, thing: rng.normal(size=4),
     "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
     "Mesh.normals": lambda world, rng, thing: one(
         rng, None, rng.normal(size=thing.positions.shape)
@@ -222,6 +225,7 @@ VALUES = {
     "MirrorMaterial.tint": color,
     "GlassMaterial.ior": number(0.7, 2),
     "GlassMaterial.fresnel": flag,
+    "GlassMaterial.roughness": choice(0, 0.3, 0.8),
     "GlassMaterial.tint": color,
     "ShaderMaterial.displacement": choice(None, 0.5, 1.0),
     "ShaderMaterial.fragment": choice(*SOURCES),
@@ -330,6 +334,8 @@ def method_update_a_mesh(world, rng, draw):
 
 
 def method_move_the_camera(world, rng, draw):
+    if world.cameras[0].target is None:  # by an earlier edit
+        world.cameras[0].target = (0, 0, 0)
     world.cameras[0].orbit(yaw=float(rng.uniform(-30, 30)), pitch=5)
     world.cameras[0].walk(float(rng.uniform(-0.3, 0.3)))
 

@@ -13,13 +13,14 @@ SOURCES = (
     """uniform vec3 tone; uniform sampler2D picture; uniform samplerCube around; out vec4 heat;
     vec3 shade(Surface s) {
         heat = vec4(s.normal, tone.r);
-        return tone * texture(picture, s.uv).rgb + 0.4 * environment(s.normal)
+        return tone * texture(picture, s.uv).rgb + 0.4 * environment_filtered(s.normal, tone.r)
             + 0.3 * texture(around, s.normal).rgb;
     }""",
     """uniform vec3 tone; uniform sampler2D picture; uniform samplerCube around; out vec4 heat;
     vec4 shade(Surface s) {
         heat = vec4(s.position, 1.0);
         vec3 lit = phong(s, tone, 0.1, 0.7, 0.4, 9.0);
+        lit += environment_mip(s.normal, 9.0 * tone.g);
         return vec4(lit + texture(picture, s.uv).rgb * texture(around, s.incident).rgb, 0.7);
     }""",
 )
@@ -155,6 +156,7 @@ def full_world(rng):
     scene.add(ball, cc.MirrorMaterial(), position=(0.2, 0, 0.2), environment=mirror, scale=1.3)
     scene.add(ball, cc.GlassMaterial(), position=(-1, 0.3, 0.5), environment=glass)
     scene.add(ball, cc.MirrorMaterial(env_weight=0.7), position=(1, -0.5, 1))
+    scene.add(ball, cc.GlassMaterial(roughness=0.5), position=(-0.4, -0.8, 1.3), environment=glass)
     scene.add(box, cc.BasicMaterial(cubemap=shown), position=(0.5, -0.7, 1.5), name="shown")
     scene.add(
         box, cc.BasicMaterial(color=(1, 0.5, 0.2), opacity=0.5), position=(1.5, 0.3, 0.8), scale=1.2

@@ -168,14 +168,25 @@ def test_probes_are_found_wherever_they_are_used():
 def test_the_environment_turns_and_comes_back(view):
     cube = view.scene.environment
     change(view, "Environment", "rotation", 90.0)
-    assert view.scene.environment.sample([1, 0, 0]) == pytest.approx(
-        cube.sample([0, 0, 1]), abs=1e-6
-    )
-    assert get(view, "Environment", "rotation") == 90
+    assert view.scene.environment is cube
+    np.testing.assert_allclose(view.scene.environment_rotation, cc.axis_angle((0, 1, 0), 90))
+    assert get(view, "Environment", "rotation") == pytest.approx(90)
+    change(view, "Environment", "environment_intensity", 0.5)
+    assert view.scene.environment_intensity == 0.5
     change(view, "Environment", "background is None", False)
     change(view, "Reset", "Reset", None)
-    assert view.scene.environment is cube
+    np.testing.assert_allclose(view.scene.environment_rotation, [1, 0, 0, 0], atol=1e-15)
+    assert view.scene.environment_intensity == 1
     assert view.scene.background is None
+
+
+def test_a_background_that_turned_with_the_environment_comes_back(view):
+    view.scene.background = cube = view.scene.environment
+    scene_sections(view)
+    change(view, "Environment", "rotation", 90.0)
+    assert view.scene.background is None
+    change(view, "Reset", "Reset", None)
+    assert view.scene.background is cube
 
 
 def test_a_scene_without_an_environment_has_no_turn():

@@ -69,8 +69,20 @@ double-sided surfaces), ``incident`` (world, unit, from the eye to the surface),
 ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours).
 
 ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
-seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps.
-``int environment_levels()``: how many levels the environment has, 1 without mipmaps and 0 where there is no environment;
+seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps, or of its levels by
+roughness. ``int environment_levels()``: how many levels the environment has, 1 without mipmaps or levels by roughness, and 0
+where there is no environment.
+``vec3 environment_filtered(vec3 direction, float roughness)``: the light round a direction, filtered by the
+lobe of GGX for a roughness from 0, the environment itself, to 1 (`CubeMap.prefilter`).
+``vec3 environment_irradiance(vec3 normal)``: the mean of the light round a direction, weighted by the cosine
+(`CubeMap.irradiance`): a white diffuse surface has this colour.
+``vec2 brdf(float n_dot_v, float roughness)``: a GGX surface with the reflectance F0 head-on reflects F0 * x + y
+of uniform light (`brdf`). If a source contains one of these three names, the renderer filters the environment
+by roughness, if it has no such levels yet; a probe with ``prefilter=False`` keeps its mipmaps instead, and
+roughness 1 and irradiance are then the coarsest of these.
+``vec3 environment_mip(vec3 direction, float level)``: the light at a level of mipmaps that are averages of
+boxes of texels, whether the environment has mipmaps or not; ``float environment_size()``: the texels along an edge of
+level 0.
 ``bool environment_is_local()``: whether a probe captured it; ``vec3 environment_position()``: where in the world the probe
 did.
 ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to

@@ -47,7 +47,8 @@ struct Shader {
     bool uses_environment() const {
         for (const char* word :
              {"environment", "environment_lod", "environment_levels", "environment_position",
-              "environment_is_local", "environment_filtered", "environment_irradiance"}) {
+              "environment_is_local", "environment_filtered", "environment_irradiance",
+              "environment_mip", "environment_size"}) {
             if (mentions(fragment.text, word)) return true;
         }
         return false;
@@ -60,6 +61,7 @@ struct Shader {
                                [this](const char* word) { return mentions(fragment.text, word); });
         };
         return {.filtered = any({"environment_filtered", "environment_irradiance", "brdf"}),
+                .mipmaps = any({"environment_mip", "environment_size"}),
                 .filtered_if_made = any({"environment_lod", "environment_levels"})};
     }
     bool uses_lights() const {

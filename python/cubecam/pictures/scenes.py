@@ -31,6 +31,7 @@ def _(scene: Scene) -> Card:
         Fact("triangles", f"{triangles:,}"),
         _size(scene.bounds),
         _surroundings("environment", scene.environment),
+        *_placing(scene),
         _surroundings("background", scene.background),
     ]
     names = {id(material): f"M{index + 1}" for index, material in enumerate(materials)}
@@ -182,6 +183,16 @@ def _size(bounds: Any) -> Fact:
         return Fact("size", "none")
     sides = " × ".join(number(side) for side in high - low)
     return Fact("size", f"{sides} units around {vector((low + high) / 2)}")
+
+
+def _placing(scene: Scene) -> list[Fact]:
+    """Say how the environment is shown, where that is not as it is."""
+    found = []
+    if scene.environment_intensity != 1:
+        found.append(Fact("environment intensity", f"{scene.environment_intensity:g}"))
+    if scene.environment_rotation[0] != 1:
+        found.append(Fact("environment rotation", vector(scene.environment_rotation)))
+    return found
 
 
 def _surroundings(name: str, thing: Any) -> Fact:

@@ -211,11 +211,17 @@ def _environment(memory: Memory, scene: Scene) -> Section:
             ),
         )  # fmt: skip
 
-    background = memory.controls(scene, lambda: properties(scene))
-    if scene.environment is None:
-        return Section("Environment", background)
-    # The turn comes last in the memory: resetting it brings the first cube back, and the background with it.
-    return Section("Environment", (*memory.controls("turn", turn), *background))
+    def others() -> tuple[Control, ...]:
+        # The turn is the part of the rotation that people set by hand.
+        without = {"environment_rotation"}
+        if scene.environment is None:
+            without.add("environment_intensity")
+        return properties(scene, leave_out=without)
+
+    # The turn comes first in the memory: resetting it may change the background, which is reset afterwards.
+    first = () if scene.environment is None else memory.controls("turn", turn)
+    rest = memory.controls(scene, others, shape=scene.environment is None)
+    return Section("Environment", (*first, *rest))
 
 
 def _probes(memory: Memory, nodes: tuple[Node, ...]) -> Iterator[Section]:
