@@ -50,6 +50,8 @@ __all__ = [
     "FilePixels",
     "Format",
     "Layout",
+    "MagFilter",
+    "MinFilter",
     "Output",
     "Outputs",
     "Pixels",
@@ -123,6 +125,15 @@ Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
 CubeMode: TypeAlias = Literal["cross", "panorama", "look"]
 Theme: TypeAlias = Literal["dark", "light"]
+MagFilter: TypeAlias = Literal["linear", "nearest"]
+MinFilter: TypeAlias = Literal[
+    "linear",
+    "nearest",
+    "linear_mipmap_linear",
+    "linear_mipmap_nearest",
+    "nearest_mipmap_linear",
+    "nearest_mipmap_nearest",
+]
 Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
@@ -137,7 +148,7 @@ StencilOp: TypeAlias = Literal[
 StereoLayout: TypeAlias = Literal["anaglyph", "side_by_side", "top_bottom"]
 Tonemap: TypeAlias = Literal["reinhard", "aces", "neutral"]
 
-Wrap: TypeAlias = Literal["repeat", "clamp"]
+Wrap: TypeAlias = Literal["repeat", "clamp", "mirror"]
 
 #: A layout of the files of a cubemap: "faces" stands for six files.
 FileLayout: TypeAlias = Literal[Layout, "faces"]

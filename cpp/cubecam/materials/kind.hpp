@@ -128,6 +128,8 @@ struct UserCode {
     /// The index of the first texture of `inputs` among the textures of the material.
     std::size_t first_texture = 0;
 
+    bool uses_uvs1 = false;  ///< whether `fragment` reads the second set of uvs
+
     bool moves_vertices() const { return !vertex->text.empty(); }
 };
 
@@ -185,6 +187,14 @@ concept HasEnvironmentParts = requires(const Kind& kind) {
 template <class Kind>
 concept HasAlphaUse = requires(const Kind& kind) {
     { kind.alpha_use() } -> std::same_as<std::optional<AlphaMode>>;
+};
+template <class Kind>
+concept HasUsesTangents = requires(const Kind& kind) {
+    { kind.uses_tangents() } -> std::same_as<bool>;
+};
+template <class Kind>
+concept HasTangentUvSet = requires(const Kind& kind) {
+    { kind.tangent_uv_set() } -> std::same_as<int>;
 };
 template <class Kind>
 concept HasUserCode = requires(const Kind& kind) {
