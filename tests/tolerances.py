@@ -87,6 +87,11 @@ TOLERANCES = {
         "the specular power of 10 multiplies the error of N and of the position, exp2/log2 of llvmpipe add 1e-4",
         mean=2e-4,
     ),
+    "standard": Tolerance(
+        2 / 255,
+        "the mark of StandardMaterial: highlights multiply the error of N, and tables are looked up bilinearly",
+        mean=1.5e-3,
+    ),
     "distance": Tolerance(1e-4, "from interpolated float32 world positions", relative=1e-4),
     "window_depth": Tolerance(
         4e-6, "float32 depth of vertices snapped to 1/256 pixel, in 0..1, interpolated", mean=5e-7

@@ -27,6 +27,12 @@ py::dict state_of(const py::object& self) {
     return state;
 }
 
+/// A colour of three or four numbers.
+std::string color_text(py::handle value) {
+    const glm::vec4 color = to_rgba(value, "color");
+    return py::len(value) == 3 ? tuple_text(glm::vec3(color)) : tuple_text(color);
+}
+
 /// The constructor call with the parameters that differ from the defaults.
 std::string represent(const py::object& self) {
     const py::object fresh = py::type::of(self)();
@@ -39,7 +45,7 @@ std::string represent(const py::object& self) {
         const auto mine = plain(py::reinterpret_borrow<py::object>(value));
         if (mine.equal(plain(fresh.attr(name)))) continue;
         text += (text.empty() ? "" : ", ") + py::str(name).cast<std::string>() + "=" +
-                (array ? tuple_text(to_rgba(value, "color")) : py::repr(value).cast<std::string>());
+                (array ? color_text(value) : py::repr(value).cast<std::string>());
     }
     return type_name(self) + "(" + text + ")";
 }

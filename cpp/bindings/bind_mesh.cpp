@@ -1,9 +1,11 @@
 // cubecam.Mesh
 #include "bounds.hpp"
 #include "docs/mesh.hpp"
+#include "numbers.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
 
+#include "cubecam/core/checks.hpp"
 #include "cubecam/geometry/mesh.hpp"
 #include "cubecam/geometry/primitives.hpp"
 
@@ -54,7 +56,8 @@ std::vector<glm::vec4> to_vertex_colors(py::handle colors,
 
 std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& indices,
                                 const OrNone<ArrayLike>& normals, const OrNone<ArrayLike>& uvs,
-                                const OrNone<ArrayLike>& colors) {
+                                const OrNone<ArrayLike>& colors, const OrNone<ArrayLike>& uvs1,
+                                const OrNone<ArrayLike>& tangents) {
     MeshData::Arrays arrays;
     arrays.positions = to_vectors<glm::vec3>(float_array(positions, "positions", "(V, 3)"));
     arrays.triangles =
@@ -64,6 +67,10 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
     }
     if (!uvs.is_none()) arrays.uvs = to_vectors<glm::vec2>(float_array(uvs, "uvs", "(V, 2)"));
     if (!colors.is_none()) arrays.colors = to_vertex_colors(colors);
+    if (!uvs1.is_none()) arrays.uvs1 = to_vectors<glm::vec2>(float_array(uvs1, "uvs1", "(V, 2)"));
+    if (!tangents.is_none()) {
+        arrays.tangents = to_vectors<glm::vec4>(float_array(tangents, "tangents", "(V, 4)"));
+    }
     const py::gil_scoped_release release;
     return std::make_shared<Mesh>(MeshData(std::move(arrays)));
 }
@@ -79,8 +86,12 @@ std::vector<glm::vec3> new_normals(const Mesh& mesh, py::handle normals) {
     return to_vectors<glm::vec3>(float_array(normals, "normals", rows_of(vertices_of(mesh), 3)));
 }
 
-std::vector<glm::vec2> new_uvs(const Mesh& mesh, py::handle uvs) {
-    return to_vectors<glm::vec2>(float_array(uvs, "uvs", rows_of(vertices_of(mesh), 2)));
+std::vector<glm::vec2> new_uvs(const Mesh& mesh, py::handle uvs, const char* name) {
+    return to_vectors<glm::vec2>(float_array(uvs, name, rows_of(vertices_of(mesh), 2)));
+}
+
+std::vector<glm::vec4> new_tangents(const Mesh& mesh, py::handle tangents) {
+    return to_vectors<glm::vec4>(float_array(tangents, "tangents", rows_of(vertices_of(mesh), 4)));
 }
 
 void apply(Mesh& mesh, MeshUpdate update) {
@@ -89,12 +100,15 @@ void apply(Mesh& mesh, MeshUpdate update) {
 }
 
 void update_mesh(Mesh& self, const OrNone<ArrayLike>& positions, const OrNone<ArrayLike>& normals,
-                 const OrNone<ArrayLike>& uvs, const OrNone<ArrayLike>& colors) {
+                 const OrNone<ArrayLike>& uvs, const OrNone<ArrayLike>& colors,
+                 const OrNone<ArrayLike>& uvs1, const OrNone<ArrayLike>& tangents) {
     MeshUpdate update;
     if (!positions.is_none()) update.positions = new_positions(self, positions);
     if (!normals.is_none()) update.normals = new_normals(self, normals);
-    if (!uvs.is_none()) update.uvs = new_uvs(self, uvs);
+    if (!uvs.is_none()) update.uvs = new_uvs(self, uvs, "uvs");
     if (!colors.is_none()) update.colors = to_vertex_colors(colors, vertices_of(self));
+    if (!uvs1.is_none()) update.uvs1 = new_uvs(self, uvs1, "uvs1");
+    if (!tangents.is_none()) update.tangents = new_tangents(self, tangents);
     apply(self, std::move(update));
 }
 
@@ -193,7 +207,7 @@ void bind_vertices(Class<Mesh>& mesh) {
         [](Mesh& self, const OrNone<ArrayLike>& value) {
             MeshUpdate update;
             update.uvs.emplace();
-            if (!value.is_none()) update.uvs = new_uvs(self, value);
+            if (!value.is_none()) update.uvs = new_uvs(self, value, "uvs");
             apply(self, std::move(update));
         },
         docs::uvs);
@@ -207,6 +221,26 @@ void bind_vertices(Class<Mesh>& mesh) {
             apply(self, std::move(update));
         },
         docs::colors);
+    mesh.def_property(
+        "uvs1",
+        [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.data()->uvs1()); },
+        [](Mesh& self, const OrNone<ArrayLike>& value) {
+            MeshUpdate update;
+            update.uvs1.emplace();
+            if (!value.is_none()) update.uvs1 = new_uvs(self, value, "uvs1");
+            apply(self, std::move(update));
+        },
+        docs::uvs1);
+    mesh.def_property(
+        "tangents",
+        [](const Mesh& self) -> FloatRowsOrNone { return rows<float>(self.data()->tangents()); },
+        [](Mesh& self, const OrNone<ArrayLike>& value) {
+            MeshUpdate update;
+            update.tangents.emplace();
+            if (!value.is_none()) update.tangents = new_tangents(self, value);
+            apply(self, std::move(update));
+        },
+        docs::tangents);
 }
 
 }  // namespace
@@ -221,7 +255,8 @@ void bind_mesh(pybind11::module_& module) {
     auto mesh = declare<Mesh>(module, "Mesh", docs::mesh);
     mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"), py::kw_only(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
-             py::arg("colors") = py::none());
+             py::arg("colors") = py::none(), py::arg("uvs1") = py::none(),
+             py::arg("tangents") = py::none());
     bind_primitives(mesh);
     mesh.def_static(
         "from_trimesh",
@@ -246,9 +281,21 @@ void bind_mesh(pybind11::module_& module) {
             return std::make_shared<Mesh>(MeshData(*self.flat_shaded(self.data())));
         },
         docs::flat_shaded);
+    mesh.def(
+        "with_tangents",
+        [](const Mesh& self, const WholeNumber& uv_set) {
+            const int set = static_cast<int>(to_int(uv_set, "uv_set", 0, 1));
+            const py::gil_scoped_release release;
+            const auto data = self.data();
+            expect(data->uvs(set) != nullptr, set == 0 ? "a mesh with uvs" : "a mesh with uvs1",
+                   "none");
+            return std::make_shared<Mesh>(MeshData(*self.with_tangents(data, set, false)));
+        },
+        py::kw_only(), py::arg("uv_set") = 0, docs::with_tangents);
     mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
-             py::arg("colors") = py::none(), docs::update);
+             py::arg("colors") = py::none(), py::arg("uvs1") = py::none(),
+             py::arg("tangents") = py::none(), docs::update);
     bind_vertices(mesh);
     mesh.def_property_readonly(
         "bounds", [](const Mesh& self) { return bounds_array(self.data()->bounds()); },
@@ -256,8 +303,8 @@ void bind_mesh(pybind11::module_& module) {
 
     mesh.def("__repr__", &represent);
     mesh.def("__reduce__", [](const py::object& self) {
-        py::dict arguments =
-            attributes_of(self, "positions", "indices", "normals", "uvs", "colors");
+        py::dict arguments = attributes_of(self, "positions", "indices", "normals", "uvs", "colors",
+                                           "uvs1", "tangents");
         // Smooth normals are computed again, so that those of the copy follow its positions, too.
         if (self.cast<const Mesh&>().data()->smooth()) arguments["normals"] = py::none();
         return reduced(self, arguments);

@@ -122,7 +122,7 @@ void bind_texture_picture(Class<RenderTexture>& made) {
             const Wrap wrap = parse_wrap(value);
             self.edit([&](RenderTextureValue& next) { next.wrap = wrap; });
         },
-        "str: \"repeat\" or \"clamp\".");
+        "str: \"repeat\", \"clamp\" or \"mirror\".");
 }
 
 void bind_texture_links(Class<RenderTexture>& made) {

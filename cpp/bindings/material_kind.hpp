@@ -2,6 +2,7 @@
 /// follow from the fields of the kind.
 #pragma once
 
+#include "choice.hpp"
 #include "cube_source.hpp"
 #include "map_source.hpp"
 #include "objects.hpp"
@@ -80,6 +81,54 @@ struct Conversion<std::optional<float>> {
     }
     static py::object initial(Given value) { return py::cast(from(value)); }
 };
+
+template <>
+struct Conversion<glm::vec3> {
+    using Given = ColorLike;
+    static glm::vec3 to(const Given& value, const char* name) { return to_rgb(value, name); }
+    static py::array_t<float> from(const glm::vec3& value) { return color_array(value); }
+    static py::object initial(const glm::vec3& value) {
+        return Conversion<glm::vec4>::initial(glm::vec4(value, 1.0F));
+    }
+};
+
+template <>
+struct Conversion<int> {
+    using Given = int;
+    static int to(int value, const char*) { return value; }
+    static int from(int value) { return value; }
+    static py::object initial(int value) { return py::int_(value); }
+};
+
+/// A choice among the names of a table.
+template <class Value, const auto& table>
+struct ChoiceConversion {
+    using Given = Choice<table>;
+    static Value to(const Given& value, const char* name) { return parse_name(name, value, table); }
+    static Given from(Value value) {
+        return Given(name_of(table[static_cast<std::size_t>(value)]));
+    }
+    static py::object initial(Value value) { return py::cast(from(value)); }
+};
+
+/// The same, or None.
+template <class Value, const auto& table>
+struct OptionalChoiceConversion {
+    using Given = std::optional<Choice<table>>;
+    static std::optional<Value> to(const Given& value, const char* name) {
+        if (!value) return std::nullopt;
+        return parse_name(name, std::string_view(*value), table);
+    }
+    static Given from(std::optional<Value> value) {
+        if (!value) return std::nullopt;
+        return Choice<table>(name_of(table[static_cast<std::size_t>(*value)]));
+    }
+    static py::object initial(std::optional<Value> value) { return py::cast(from(value)); }
+};
+
+template <>
+struct Conversion<std::optional<AlphaMode>>
+    : OptionalChoiceConversion<AlphaMode, alpha_mode_names> {};
 
 template <>
 struct Conversion<MapSource> {

@@ -32,6 +32,7 @@ else:
 
 
 __all__ = [
+    "AlphaMode",
     "BlendEquation",
     "BlendFactor",
     "BlendMode",
@@ -49,6 +50,8 @@ __all__ = [
     "FilePixels",
     "Format",
     "Layout",
+    "MagFilter",
+    "MinFilter",
     "Output",
     "Outputs",
     "Pixels",
@@ -56,6 +59,7 @@ __all__ = [
     "ProbeUpdate",
     "RenderOptions",
     "Sampling",
+    "SpecularMode",
     "StencilFunc",
     "StencilOp",
     "StereoLayout",
@@ -65,6 +69,7 @@ __all__ = [
 ]
 
 # The tables in C++ list the names as well; scripts/stubs.py reports a list that differs from its table.
+AlphaMode: TypeAlias = Literal["opaque", "mask", "blend"]
 BlendEquation: TypeAlias = Literal["add", "subtract", "reverse_subtract", "min", "max"]
 BlendFactor: TypeAlias = Literal[
     "zero",
@@ -120,10 +125,20 @@ Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
 CubeMode: TypeAlias = Literal["cross", "panorama", "look"]
 Theme: TypeAlias = Literal["dark", "light"]
+MagFilter: TypeAlias = Literal["linear", "nearest"]
+MinFilter: TypeAlias = Literal[
+    "linear",
+    "nearest",
+    "linear_mipmap_linear",
+    "linear_mipmap_nearest",
+    "nearest_mipmap_linear",
+    "nearest_mipmap_nearest",
+]
 Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]
+SpecularMode: TypeAlias = Literal["levels", "sampled"]
 StencilFunc: TypeAlias = Literal[
     "never", "less", "equal", "lequal", "greater", "notequal", "gequal", "always"
 ]
@@ -133,7 +148,7 @@ StencilOp: TypeAlias = Literal[
 StereoLayout: TypeAlias = Literal["anaglyph", "side_by_side", "top_bottom"]
 Tonemap: TypeAlias = Literal["reinhard", "aces", "neutral"]
 
-Wrap: TypeAlias = Literal["repeat", "clamp"]
+Wrap: TypeAlias = Literal["repeat", "clamp", "mirror"]
 
 #: A layout of the files of a cubemap: "faces" stands for six files.
 FileLayout: TypeAlias = Literal[Layout, "faces"]

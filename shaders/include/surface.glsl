@@ -19,6 +19,12 @@ flat STAGE vec4 v_eye;  // see view.glsl
 #if defined(USES_UV) || defined(USER_SOURCE)
 STAGE vec2 v_uv;
 #endif
+#ifdef USES_UV1
+STAGE vec2 v_uv1;
+#endif
+#ifdef USES_TANGENT
+STAGE vec4 v_tangent;  // world, any length
+#endif
 #ifdef HAS_VERTEX_COLORS
 STAGE vec4 v_color;
 #endif

@@ -16,6 +16,12 @@ struct Surface {
     vec3 incident;         // world, unit length, from the eye to the surface
     vec2 uv;               // with USES_UV: for materials that show a map
     vec4 color;            // the vertices' colour; white if the mesh has none or the material ignores it
+#if defined(USES_UV1) || defined(USER_SOURCE)
+    vec2 uv1;  // the second set
+#endif
+#if defined(USES_TANGENT) || defined(USER_SOURCE)
+    vec4 tangent;  // xyz: world, unit length, along +u; w: 1 or -1, and w * cross(normal, xyz) is along +v
+#endif
 #ifdef USER_SOURCE
     vec3 position;       // world
     vec3 normal_object;  // any length
@@ -65,6 +71,22 @@ void main() {
     surface.uv = vec2(0.0);
 #if defined(USES_UV) || defined(USER_SOURCE)
     surface.uv = v_uv;
+#endif
+#ifdef USER_SOURCE
+    surface.uv1 = vec2(0.0);
+    surface.tangent = vec4(0.0);
+#endif
+#ifdef USES_UV1
+    surface.uv1 = v_uv1;
+#endif
+#ifdef USES_TANGENT
+    float tangent_squared = dot(v_tangent.xyz, v_tangent.xyz);
+    surface.tangent.xyz = tangent_squared > 0.0 ? v_tangent.xyz * inversesqrt(tangent_squared) : vec3(0.0);
+    surface.tangent.w = v_tangent.w < 0.0 ? -1.0 : 1.0;
+#ifdef DOUBLE_SIDED
+    // The whole frame is turned, so that a bump is a dent on the other side.
+    if (!gl_FrontFacing) surface.tangent = -surface.tangent;
+#endif
 #endif
     surface.color = vec4(1.0);
 #ifdef HAS_VERTEX_COLORS

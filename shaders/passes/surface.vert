@@ -14,6 +14,12 @@ layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec2 a_uv;
 layout(location = 3) in vec4 a_color;
+#ifdef USES_TANGENT
+layout(location = 14) in vec4 a_tangent;
+#endif
+#ifdef USES_UV1
+layout(location = 15) in vec2 a_uv1;
+#endif
 
 invariant gl_Position;
 
@@ -48,6 +54,13 @@ void main() {
 #endif
 #if defined(USES_UV) || defined(USER_SOURCE)
     v_uv = a_uv;
+#endif
+#ifdef USES_UV1
+    v_uv1 = a_uv1;
+#endif
+#ifdef USES_TANGENT
+    // A matrix that mirrors turns the cross product of normal and tangent round.
+    v_tangent = vec4(mat3(u_model) * a_tangent.xyz, determinant(mat3(u_model)) < 0.0 ? -a_tangent.w : a_tangent.w);
 #endif
 #ifdef HAS_VERTEX_COLORS
     v_color = a_color;

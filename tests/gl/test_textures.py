@@ -1,5 +1,7 @@
 """2D images on surfaces, wrapping, mip levels, and colours of vertices."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -47,11 +49,95 @@ def test_uv_0_0_is_the_bottom_left(renderer, dtype, channels):
     assert_close(got[..., :3], want, "unorm8_filter")
 
 
-@pytest.mark.parametrize("wrap", ["repeat", "clamp"])
+@pytest.mark.parametrize("wrap", ["repeat", "clamp", "mirror", ("mirror", "clamp"), ("clamp", "repeat")])
 def test_wrapping(renderer, wrap):
     mesh = quad(CORNERS * 3 - 1.2)
     got, hits, mask = seen(renderer, mesh, cc.BasicMaterial(map=cc.Image(PICTURE, wrap=wrap)))
     assert_close(got[..., :3], sample_image(PICTURE, hits.uv[mask], wrap), "unorm8_filter")
+
+
+def test_the_nearest_texel(renderer):
+    image = cc.Image(PICTURE, mag_filter="nearest", wrap=("mirror", "clamp"))
+    got, hits, mask = seen(renderer, quad(CORNERS * 2 - 0.3), cc.BasicMaterial(map=image))
+    uv = hits.uv[mask]
+    # Where the nearest texel changes, rounding decides.
+    inside = (np.abs(uv * (9, 6) - np.round(uv * (9, 6))) > 1e-3).all(axis=-1)
+    want = sample_image(PICTURE, uv, ("mirror", "clamp"), nearest=True)
+    np.testing.assert_allclose(got[inside][:, :3], want[inside], atol=1e-6)
+
+
+FILTERS = [
+    "linear",
+    "nearest",
+    "linear_mipmap_linear",
+    "linear_mipmap_nearest",
+    "nearest_mipmap_linear",
+    "nearest_mipmap_nearest",
+]
+
+
+@pytest.mark.parametrize("lod", [1, 1.3, 1.7, 2])
+@pytest.mark.parametrize("name", FILTERS)
+def test_filters_of_texels_smaller_than_a_pixel(renderer, name, lod):
+    """At 2^lod texels for each pixel the level is exact (GL 4.6 section 8.14); a level is a mean of 2 x 2 texels."""
+    picture = np.random.default_rng(11).random((64, 64, 3)).astype(np.float32)
+    levels = [picture.astype(float)]
+    for _ in range(3):
+        levels.append(levels[-1].reshape(len(levels[-1]) // 2, 2, -1, 2, 3).mean(axis=(1, 3)))
+    side = 8 * 2.0**lod / 64  # of the picture, in 8 x 8 pixels
+    uvs = CORNERS * side + 0.013
+    scene = cc.Scene()
+    scene.add(quad(uvs), cc.BasicMaterial(map=cc.Image(picture, min_filter=name)))
+    camera = cc.OrthographicCamera(height=2, position=(0, 0, 2), target=(0, 0, 0))
+    got = renderer.render(scene, camera, (8, 8), format="rgba32f").color[..., :3]
+    at = (np.arange(8) + 0.5) / 8 * side + 0.013
+    uv = np.stack(np.meshgrid(at, at[::-1]), axis=-1)
+    first, _, between = name.partition("_mipmap_")
+    if between == "nearest":
+        weights = {int(np.ceil(lod + 0.5) - 1): 1.0}
+    elif between == "linear":
+        low = int(np.floor(lod))
+        weights = {low: 1 - (lod - low), low + 1: lod - low}
+    else:
+        weights = {0: 1.0}
+    want = sum(w * sample_image(levels[k], uv, nearest=first == "nearest") for k, w in weights.items())
+    # llvmpipe has the level to 8 bits of its fraction.
+    np.testing.assert_allclose(got, want, atol=0.006 if between == "linear" else 1e-3)
+
+
+def test_what_a_sampler_says():
+    image = cc.Image(PICTURE)
+    assert (image.wrap, image.mag_filter, image.min_filter, image.mipmaps) == ("repeat", "linear", "linear", False)
+    image = cc.Image(PICTURE, mipmaps=True, wrap=("clamp", "mirror"), mag_filter="nearest")
+    assert (image.wrap, image.mag_filter) == (("clamp", "mirror"), "nearest")
+    assert (image.min_filter, image.mipmaps) == ("linear_mipmap_linear", True)
+    assert cc.Image(PICTURE, min_filter="nearest_mipmap_linear").mipmaps
+    assert cc.Image(PICTURE, wrap=["clamp", "clamp"]).wrap == "clamp"
+    again = pickle.loads(pickle.dumps(image))
+    for name in ("wrap", "mag_filter", "min_filter", "mipmaps"):
+        assert getattr(again, name) == getattr(image, name)
+
+
+@pytest.mark.parametrize(
+    ("error", "message", "given"),
+    [
+        (ValueError, "expected wrap 'repeat', 'clamp' or 'mirror', got 'edge'", {"wrap": "edge"}),
+        (ValueError, "expected wrap .*, got 'edge'", {"wrap": ("clamp", "edge")}),
+        (TypeError, "wrap: expected a name or a pair of names.*, got int", {"wrap": ("clamp", 3)}),
+        (TypeError, "wrap: expected a name or a pair of names.*, got tuple", {"wrap": ("clamp",)}),
+        (TypeError, "wrap: expected a name or a pair of names.*, got float", {"wrap": 1.0}),
+        (ValueError, 'mag_filter: expected "linear", "nearest", got "cubic"', {"mag_filter": "cubic"}),
+        (ValueError, 'min_filter: expected "linear", .*, got "cubic"', {"min_filter": "cubic"}),
+        (
+            ValueError,
+            "expected a min_filter of mip levels with mipmaps=True, got 'nearest'",
+            {"min_filter": "nearest", "mipmaps": True},
+        ),
+    ],
+)
+def test_samplers_that_are_refused(error, message, given):
+    with pytest.raises(error, match=message):
+        cc.Image(PICTURE, **given)
 
 
 def test_color_times_map(renderer):

@@ -82,20 +82,34 @@ def sample_trilinear(faces, directions, lod):
     return a + (b - a) * (lod - lower)
 
 
-def sample_image(image, uv, wrap="repeat"):
-    """Bilinear lookup in a (H, W, C) picture whose row 0 is on top; uv (0, 0) is its bottom-left corner."""
+def wrapped(index, count, wrap):
+    """The texel that stands for one outside of 0..count - 1."""
+    if wrap == "repeat":
+        return index % count
+    if wrap == "mirror":
+        index = index % (2 * count)
+        return np.where(index < count, index, 2 * count - 1 - index)
+    return np.clip(index, 0, count - 1)
+
+
+def sample_image(image, uv, wrap="repeat", *, nearest=False):
+    """Lookup in a (H, W, C) picture whose row 0 is on top; uv (0, 0) is its bottom-left corner.
+
+    Bilinear, or of the nearest texel. `wrap` is a name, or one for u and one for v.
+    """
     image = to_float(image)
     height, width = image.shape[:2]
+    wrap_u, wrap_v = (wrap, wrap) if isinstance(wrap, str) else wrap
     x = np.asarray(uv)[..., 0] * width - 0.5
     y = (1 - np.asarray(uv)[..., 1]) * height - 0.5
-    column, row = np.floor(x).astype(int), np.floor(y).astype(int)
-    fx, fy = (x - column)[..., None], (y - row)[..., None]
 
     def texel(r, c):
-        if wrap == "repeat":
-            return image[r % height, c % width]
-        return image[np.clip(r, 0, height - 1), np.clip(c, 0, width - 1)]
+        return image[wrapped(r, height, wrap_v), wrapped(c, width, wrap_u)]
 
+    if nearest:
+        return texel(np.floor(y + 0.5).astype(int), np.floor(x + 0.5).astype(int))
+    column, row = np.floor(x).astype(int), np.floor(y).astype(int)
+    fx, fy = (x - column)[..., None], (y - row)[..., None]
     top = texel(row, column) * (1 - fx) + texel(row, column + 1) * fx
     bottom = texel(row + 1, column) * (1 - fx) + texel(row + 1, column + 1) * fx
     return top * (1 - fy) + bottom * fy

@@ -24,6 +24,12 @@ uvs : array_like (V, 2), optional
 colors : array_like (V, 3) or (V, 4), optional
     Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Materials with
     ``vertex_colors=True`` show them.
+uvs1 : array_like (V, 2), optional
+    A second set of texture coordinates, for a `Texture` with ``uv_set=1``.
+tangents : array_like (V, 4), optional
+    For normal maps. The first three numbers, of any length, point along +u in the surface; the fourth,
+    1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. None: materials that
+    need tangents use those of `with_tangents`.
 
 Raises
 ------
@@ -67,6 +73,52 @@ inline constexpr const char* colors =
 
 Colours can be set. None: the mesh has none.)doc";
 
+inline constexpr const char* uvs1 =
+    R"doc(ndarray (V, 2) float32 or None: a second set of texture coordinates; a read-only view.
+
+It can be set. None: the mesh has none.)doc";
+
+inline constexpr const char* tangents =
+    R"doc(ndarray (V, 4) float32 or None: unit vectors along +u and a sign; a read-only view.
+
+The fourth number, 1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. Tangents can be
+set. None: materials that need tangents use those of `with_tangents`, made again whenever vertices change.)doc";
+
+inline constexpr const char* with_tangents =
+    R"doc(Copy the mesh with the tangents of MikkTSpace, by which most programs bake normal maps.
+
+Around a vertex the triangles that share edges and have the same orientation of their uvs get one tangent:
+the mean of their directions of +u in the plane of the vertex's normal, weighted by the angle at the vertex.
+Where triangles of both orientations, or the sides of a seam, share a vertex, the vertex is split: copies follow
+all other vertices. Materials that need tangents use such a mesh by themselves where a mesh has none.
+
+Parameters
+----------
+uv_set : {0, 1}
+    The texture coordinates: 0 for `uvs`, 1 for `uvs1`.
+
+Returns
+-------
+Mesh
+    A new mesh; it keeps its tangents when its vertices are replaced.
+
+Raises
+------
+ValueError
+    For a mesh without these texture coordinates.
+
+Notes
+-----
+M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, section 3. Triangles without an area of
+their uvs take the tangent of a neighbour; every tangent is finite and of unit length.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> cc.Mesh.plane().with_tangents().tangents[0].tolist()
+[1.0, 0.0, 0.0, 1.0]
+)doc";
+
 inline constexpr const char* update =
     R"doc(Replace several arrays of the vertices at once.
 
@@ -87,6 +139,10 @@ uvs : array_like (V, 2), optional
     Texture coordinates. None: the texture coordinates stay.
 colors : array_like (V, 3) or (V, 4), optional
     Linear RGB or RGBA; uint8 stands for value/255. None: the colours stay.
+uvs1 : array_like (V, 2), optional
+    The second set of texture coordinates. None: it stays.
+tangents : array_like (V, 4), optional
+    Tangents. None: tangents that were given stay, also with new positions.
 
 Raises
 ------
@@ -424,7 +480,7 @@ size : float
 Returns
 -------
 Mesh
-    A new mesh; normals, uvs and colours are the same.
+    A new mesh; all but the positions is the same.
 
 Raises
 ------

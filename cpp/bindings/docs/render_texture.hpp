@@ -26,7 +26,7 @@ samples : int
     Samples of each texel, for smooth edges (MSAA); 1 is none.
 mipmaps : bool
     True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
-wrap : {"clamp", "repeat"}
+wrap : {"clamp", "repeat", "mirror"}
     What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
 exclude : iterable of Node
     Nodes of `scene` that the texture leaves out, with all nodes below them.

@@ -66,7 +66,9 @@ A value that goes from the vertex to the fragment is declared in both, as ``out 
 
 ``struct Surface``: ``position`` (world), ``normal`` (world, unit, towards the viewer on
 double-sided surfaces), ``incident`` (world, unit, from the eye to the surface), ``position_object``,
-``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours).
+``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours), ``vec2 uv1`` (`Mesh.uvs1`;
+0 if the mesh has none), ``vec4 tangent`` (`Mesh.tangents` in the world, or those of `Mesh.with_tangents`; 0 if the
+mesh has neither tangents nor uvs).
 
 ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
 seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps, or of its levels by

@@ -13,17 +13,28 @@ std::shared_ptr<const MeshData> Mesh::data() const {
     return data_;
 }
 
+template <class Make>
+std::shared_ptr<const MeshData> Mesh::kept(Form& form, std::uint64_t revision, Make&& make) const {
+    const std::lock_guard lock(forms_mutex_);
+    if (form.data && form.of == revision) return form.data;
+    auto made = std::make_shared<const MeshData>(make(form.data.get()));
+    // A snapshot that was begun before an update may still be read after it.
+    if (revision > form.of) form = {made, revision};
+    return made;
+}
+
 std::shared_ptr<const MeshData>
 Mesh::flat_shaded(const std::shared_ptr<const MeshData>& data) const {
-    const std::lock_guard lock(flat_mutex_);
-    if (flat_ && flat_of_ == data->revision()) return flat_;
-    auto flat = std::make_shared<const MeshData>(data->flat_shaded(flat_.get()));
-    // A snapshot that was begun before an update may still be read after it.
-    if (data->revision() > flat_of_) {
-        flat_ = flat;
-        flat_of_ = data->revision();
-    }
-    return flat;
+    return kept(flat_, data->revision(),
+                [&data](const MeshData* before) { return data->flat_shaded(before); });
+}
+
+std::shared_ptr<const MeshData> Mesh::with_tangents(const std::shared_ptr<const MeshData>& data,
+                                                    int uv_set, bool flat) const {
+    Form& form = with_tangents_[static_cast<std::size_t>(uv_set + (flat ? 2 : 0))];
+    return kept(form, data->revision(), [&data, uv_set](const MeshData* before) {
+        return data->with_tangents(uv_set, before);
+    });
 }
 
 void Mesh::update(MeshUpdate update) {

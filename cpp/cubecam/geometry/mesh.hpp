@@ -3,6 +3,7 @@
 #include "cubecam/core/revision.hpp"
 #include "cubecam/geometry/mesh_data.hpp"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -26,6 +27,11 @@ public:
     /// mesh at some moment. The result is kept until the mesh changes, so that all users share it.
     std::shared_ptr<const MeshData> flat_shaded(const std::shared_ptr<const MeshData>& data) const;
 
+    /// The mesh with tangents, as MeshData::with_tangents makes it. `data` are the data of this
+    /// mesh at some moment, or its flat-shaded form; the latter is `flat`. The result is kept, too.
+    std::shared_ptr<const MeshData> with_tangents(const std::shared_ptr<const MeshData>& data,
+                                                  int uv_set, bool flat) const;
+
     /// Replaces the vertex values that the update contains and keeps the others. An empty update
     /// changes nothing.
     /// @throws the exceptions of MeshData::updated; the mesh then stays as it was.
@@ -37,9 +43,17 @@ private:
     std::shared_ptr<const MeshData> data_;
     Revision revision_;
 
-    mutable std::mutex flat_mutex_;                 ///< of the next two
-    mutable std::shared_ptr<const MeshData> flat_;  ///< null until it is needed
-    mutable std::uint64_t flat_of_ = 0;             ///< the revision of the data of `flat_`
+    /// Another form of this mesh, made from its data at some moment.
+    struct Form {
+        std::shared_ptr<const MeshData> data;  ///< null until it is needed
+        std::uint64_t of = 0;                  ///< the revision of the data from which it was made
+    };
+    template <class Make>
+    std::shared_ptr<const MeshData> kept(Form& form, std::uint64_t revision, Make&& make) const;
+
+    mutable std::mutex forms_mutex_;  ///< of the next two
+    mutable Form flat_;
+    mutable std::array<Form, 4> with_tangents_;  ///< by set of uvs, then of the flat-shaded form
 };
 
 }  // namespace cubecam

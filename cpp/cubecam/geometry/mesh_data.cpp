@@ -2,6 +2,7 @@
 
 #include "cubecam/core/checks.hpp"
 #include "cubecam/core/revision.hpp"
+#include "cubecam/geometry/tangents.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,6 +96,26 @@ void normalize_all(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>
     }
 }
 
+void check_handedness(const std::vector<glm::vec4>& tangents) {
+    for (std::size_t i = 0; i < tangents.size(); ++i) {
+        if (std::abs(tangents[i].w) == 1.0F) continue;
+        throw std::invalid_argument("expected tangents with a fourth number of 1 or -1, got " +
+                                    describe(tangents[i]) + " at vertex " + std::to_string(i));
+    }
+}
+
+/// Gives every tangent unit length. Tangents of length 0 get any direction in the surface.
+void normalize_all(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>& normals) {
+    for (std::size_t i = 0; i < tangents.size(); ++i) {
+        if (unit_length(glm::vec3(tangents[i]))) continue;
+        const glm::dvec3 tangent(tangents[i]);
+        const double length = glm::length(tangent);
+        const glm::dvec3 unit =
+            length > 0.0 ? tangent / length : any_tangent(glm::dvec3(normals[i]));
+        tangents[i] = glm::vec4(unit, tangents[i].w);
+    }
+}
+
 Bounds bounds_of(const std::vector<glm::vec3>& positions) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     // Four vertices at a time, for SIMD.
@@ -134,6 +155,15 @@ std::vector<T> unshared(const std::vector<T>& values, const std::vector<glm::uve
     return corners;
 }
 
+/// The values at some indices.
+template <class T>
+std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uint32_t>& from) {
+    std::vector<T> found;
+    found.reserve(from.size());
+    for (const std::uint32_t index : from) found.push_back(values[index]);
+    return found;
+}
+
 template <class T>
 VertexStream<T> stream_of(std::vector<T>&& values, std::uint64_t revision) {
     if (values.empty()) return {nullptr, revision};
@@ -150,6 +180,8 @@ MeshData::MeshData(Arrays arrays)
     set_normals(std::move(arrays.normals));
     set_uvs(std::move(arrays.uvs));
     set_colors(std::move(arrays.colors));
+    set_uvs1(std::move(arrays.uvs1));
+    set_tangents(std::move(arrays.tangents));
 }
 
 void MeshData::set_positions(std::vector<glm::vec3> positions) {
@@ -174,6 +206,20 @@ void MeshData::set_uvs(std::vector<glm::vec2> uvs) {
     check_length(uvs, positions()->size(), "uvs");
     check_finite(uvs, "uvs");
     uvs_ = stream_of(std::move(uvs), revision_);
+}
+
+void MeshData::set_uvs1(std::vector<glm::vec2> uvs) {
+    check_length(uvs, positions()->size(), "uvs1");
+    check_finite(uvs, "uvs1");
+    uvs1_ = stream_of(std::move(uvs), revision_);
+}
+
+void MeshData::set_tangents(std::vector<glm::vec4> tangents) {
+    check_length(tangents, positions()->size(), "tangents");
+    check_finite(tangents, "tangents");
+    check_handedness(tangents);
+    normalize_all(tangents, *normals());
+    tangents_ = stream_of(std::move(tangents), revision_);
 }
 
 void MeshData::set_colors(std::vector<glm::vec4> colors) {
@@ -202,6 +248,8 @@ MeshData MeshData::updated(MeshUpdate update) const {
     }
     if (update.uvs) next.set_uvs(std::move(*update.uvs));
     if (update.colors) next.set_colors(std::move(*update.colors));
+    if (update.uvs1) next.set_uvs1(std::move(*update.uvs1));
+    if (update.tangents) next.set_tangents(std::move(*update.tangents));
     return next;
 }
 
@@ -231,17 +279,72 @@ MeshData MeshData::flat_shaded(const MeshData* before) const {
         flat.set_normals({});
         flat.positions_.revision = flat.normals_.revision = positions_.revision;
     }
-    if (before != nullptr && before->uvs_.revision == uvs_.revision) {
-        flat.uvs_ = before->uvs_;
-    } else if (uvs()) {
-        flat.uvs_ = stream_of(unshared(*uvs(), *triangles()), uvs_.revision);
-    }
-    if (before != nullptr && before->colors_.revision == colors_.revision) {
-        flat.colors_ = before->colors_;
-    } else if (colors()) {
-        flat.colors_ = stream_of(unshared(*colors(), *triangles()), colors_.revision);
-    }
+    const auto follow = [&](auto stream) {
+        auto& to = flat.*stream;
+        if (before != nullptr && (before->*stream).revision == to.revision) {
+            to = before->*stream;
+        } else if (to.values) {
+            to = stream_of(unshared(*to.values, *triangles()), to.revision);
+        }
+    };
+    follow(&MeshData::uvs_);
+    follow(&MeshData::colors_);
+    follow(&MeshData::uvs1_);
+    follow(&MeshData::tangents_);
     return flat;
+}
+
+MeshData MeshData::with_tangents(int uv_set, const MeshData* before) const {
+    const auto uv_stream = uv_set == 0 ? &MeshData::uvs_ : &MeshData::uvs1_;
+    const auto same = [&](auto stream) {
+        return before != nullptr && (before->*stream).revision == (this->*stream).revision;
+    };
+    MeshData made = *this;
+    made.revision_ = next_revision();
+    made.sources_ = nullptr;
+    if (same(&MeshData::positions_) && same(&MeshData::normals_) && same(uv_stream)) {
+        made.identity_ = before->identity_;
+        made.triangles_ = before->triangles_;
+        made.sources_ = before->sources_;
+        made.tangents_ = before->tangents_;
+    } else {
+        TangentSpace space =
+            find_tangents(*positions(), *normals(), *(this->*uv_stream).values, *triangles());
+        const bool same_vertices =
+            before != nullptr && *before->triangles_ == space.triangles &&
+            (before->sources_ ? *before->sources_ == space.sources : space.sources.empty());
+        if (same_vertices) {
+            made.identity_ = before->identity_;
+            made.triangles_ = before->triangles_;
+            made.sources_ = before->sources_;
+        } else {
+            before = nullptr;  // another mesh: nothing of it fits
+            made.identity_ = std::make_shared<const MeshIdentity>();
+            if (!space.sources.empty()) {
+                made.triangles_ =
+                    std::make_shared<const std::vector<glm::uvec3>>(std::move(space.triangles));
+                made.sources_ =
+                    std::make_shared<const std::vector<std::uint32_t>>(std::move(space.sources));
+            }
+        }
+        made.tangents_ = stream_of(std::move(space.tangents), made.revision_);
+    }
+    const auto follow = [&](auto stream) {
+        auto& to = made.*stream;
+        if (same(stream)) {
+            to = before->*stream;
+        } else if (to.values && made.sources_) {
+            to = stream_of(gathered(*to.values, *made.sources_), to.revision);
+        }
+    };
+    follow(&MeshData::positions_);
+    follow(&MeshData::normals_);
+    follow(&MeshData::uvs_);
+    follow(&MeshData::colors_);
+    follow(&MeshData::uvs1_);
+    // Split vertices would get other smooth normals after an update of their positions.
+    if (made.sources_) made.smooth_ = false;
+    return made;
 }
 
 MeshData MeshData::of_new_mesh() && {

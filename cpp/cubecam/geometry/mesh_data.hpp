@@ -48,13 +48,15 @@ struct MeshUpdate {
     std::optional<std::vector<glm::vec3>>
         normals;                                ///< empty: smooth normals, also after later updates
     std::optional<std::vector<glm::vec2>> uvs;  ///< empty: none
-    std::optional<std::vector<glm::vec4>> colors;  ///< empty: none
+    std::optional<std::vector<glm::vec4>> colors;    ///< empty: none
+    std::optional<std::vector<glm::vec2>> uvs1;      ///< empty: none
+    std::optional<std::vector<glm::vec4>> tangents;  ///< empty: none
 
-    bool empty() const { return !positions && !normals && !uvs && !colors; }
+    bool empty() const { return !positions && !normals && !uvs && !colors && !uvs1 && !tangents; }
 };
 
-/// Indexed triangles with normals and, if the mesh has them, texture coordinates and colours, at
-/// one moment: the data never change. Copies share the values.
+/// Indexed triangles with normals and, if the mesh has them, two sets of texture coordinates,
+/// colours and tangents, at one moment: the data never change. Copies share the values.
 class MeshData {
 public:
     template <class T>
@@ -66,6 +68,8 @@ public:
         std::vector<glm::vec3> normals;     ///< empty: smooth ones are computed
         std::vector<glm::vec2> uvs;         ///< empty: none
         std::vector<glm::vec4> colors;      ///< empty: none
+        std::vector<glm::vec2> uvs1;        ///< empty: none
+        std::vector<glm::vec4> tangents;    ///< empty: none
     };
 
     /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that
@@ -78,6 +82,13 @@ public:
     const Array<glm::vec3>& normals() const { return normals_.values; }
     const Array<glm::vec2>& uvs() const { return uvs_.values; }        ///< null: none
     const Array<glm::vec4>& colors() const { return colors_.values; }  ///< null: none
+    /// A second set of texture coordinates; null: none.
+    const Array<glm::vec2>& uvs1() const { return uvs1_.values; }
+    /// uvs() for the set 0, uvs1() for the set 1.
+    const Array<glm::vec2>& uvs(int set) const { return set == 0 ? uvs() : uvs1(); }
+    /// xyz: unit vectors along +u; w: 1 or -1, the factor of cross(normal, xyz), which points along
+    /// +v. Null: none.
+    const Array<glm::vec4>& tangents() const { return tangents_.values; }
     const Bounds& bounds() const { return bounds_; }
     std::uint64_t revision() const { return revision_; }
 
@@ -94,6 +105,8 @@ public:
     const VertexStream<glm::vec3>& normal_stream() const { return normals_; }
     const VertexStream<glm::vec2>& uv_stream() const { return uvs_; }
     const VertexStream<glm::vec4>& color_stream() const { return colors_; }
+    const VertexStream<glm::vec2>& uv1_stream() const { return uvs1_; }
+    const VertexStream<glm::vec4>& tangent_stream() const { return tangents_; }
 
     /// The same mesh after an update. New positions without normals keep normals that were given;
     /// smooth normals are computed again.
@@ -106,6 +119,13 @@ public:
     /// after an update, so that the GPU gets only the arrays that changed. Null: none.
     MeshData flat_shaded(const MeshData* before = nullptr) const;
 
+    /// The same triangles with the tangents of MikkTSpace (tangents.hpp) for one of the sets of
+    /// texture coordinates. A vertex that needs several tangents becomes several vertices: the
+    /// first keeps its place, the others follow all vertices.
+    /// @param uv_set 0: uvs(), 1: uvs1(); the mesh must have them.
+    /// @param before as for flat_shaded().
+    MeshData with_tangents(int uv_set, const MeshData* before = nullptr) const;
+
     /// The same data as a new mesh, with an identity of its own.
     MeshData of_new_mesh() &&;
 
@@ -116,6 +136,8 @@ private:
     void set_positions(std::vector<glm::vec3> positions);
     void set_normals(std::vector<glm::vec3> normals);
     void set_uvs(std::vector<glm::vec2> uvs);
+    void set_uvs1(std::vector<glm::vec2> uvs);
+    void set_tangents(std::vector<glm::vec4> tangents);
     void set_colors(std::vector<glm::vec4> colors);
 
     std::shared_ptr<const MeshIdentity> identity_;
@@ -124,6 +146,11 @@ private:
     VertexStream<glm::vec3> normals_;
     VertexStream<glm::vec2> uvs_;
     VertexStream<glm::vec4> colors_;
+    VertexStream<glm::vec2> uvs1_;
+    VertexStream<glm::vec4> tangents_;
+    /// For each vertex the vertex of another mesh from which with_tangents() made it; null: no such
+    /// mesh, or all vertices are its vertices.
+    Array<std::uint32_t> sources_;
     Bounds bounds_;
     bool smooth_ = false;
     bool translucent_colors_ = false;

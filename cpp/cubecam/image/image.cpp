@@ -46,10 +46,10 @@ Wrap parse_wrap(std::string_view name) {
 
 std::string_view to_string(Wrap wrap) { return wrap_names[static_cast<std::size_t>(wrap)].first; }
 
-Image::Image(Pixels pixels, int width, int height, int channels, DType dtype, bool mipmaps,
-             Wrap wrap, Encoding encoding)
+Image::Image(Pixels pixels, int width, int height, int channels, DType dtype,
+             const Sampler& sampler, Encoding encoding)
     : pixels_(std::move(pixels)), width_(width), height_(height), channels_(channels),
-      dtype_(dtype), mipmaps_(mipmaps), wrap_(wrap), encoding_(encoding), translucent_(false),
+      dtype_(dtype), sampler_(sampler), encoding_(encoding), translucent_(false),
       revision_(next_revision()) {
     const std::string shape = "(" + std::to_string(height) + ", " + std::to_string(width) + ", " +
                               std::to_string(channels) + ")";

@@ -34,6 +34,18 @@ enum class VertexColors : std::uint8_t {
     color_and_alpha,  ///< it reads them; an alpha below 1 makes the surface translucent
 };
 
+/// What the alpha of a material's colours, maps and vertices does (glTF 2.0, section 3.9.4). A kind
+/// that has this choice has a function `std::optional<AlphaMode> alpha_use() const`; none: the
+/// surface is blended if any alpha is below 1.
+enum class AlphaMode : std::uint8_t {
+    opaque,  ///< alpha does not count
+    mask,    ///< the surface has holes where alpha is below a cutoff
+    blend,   ///< the surface is blended, whether any alpha is below 1 or not
+};
+
+inline constexpr std::array<std::pair<std::string_view, AlphaMode>, 3> alpha_mode_names{
+    {{"opaque", AlphaMode::opaque}, {"mask", AlphaMode::mask}, {"blend", AlphaMode::blend}}};
+
 /// One parameter of a kind: its name in Python and GLSL, the member that holds it, and the
 /// docstring of the property.
 template <class Kind, class Value>
@@ -116,6 +128,8 @@ struct UserCode {
     /// The index of the first texture of `inputs` among the textures of the material.
     std::size_t first_texture = 0;
 
+    bool uses_uvs1 = false;  ///< whether `fragment` reads the second set of uvs
+
     bool moves_vertices() const { return !vertex->text.empty(); }
 };
 
@@ -169,6 +183,18 @@ concept HasUsesVertexColors = requires(const Kind& kind) {
 template <class Kind>
 concept HasEnvironmentParts = requires(const Kind& kind) {
     { kind.environment_parts() } -> std::same_as<EnvironmentParts>;
+};
+template <class Kind>
+concept HasAlphaUse = requires(const Kind& kind) {
+    { kind.alpha_use() } -> std::same_as<std::optional<AlphaMode>>;
+};
+template <class Kind>
+concept HasUsesTangents = requires(const Kind& kind) {
+    { kind.uses_tangents() } -> std::same_as<bool>;
+};
+template <class Kind>
+concept HasTangentUvSet = requires(const Kind& kind) {
+    { kind.tangent_uv_set() } -> std::same_as<int>;
 };
 template <class Kind>
 concept HasUserCode = requires(const Kind& kind) {

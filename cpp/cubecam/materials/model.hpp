@@ -43,6 +43,11 @@ struct NamedTexture {
     bool srgb = false;                    ///< if it has 8 bits, it is decoded
 };
 
+/// The set of texture coordinates by which a texture is placed.
+inline int uv_set_of(const NamedTexture& texture) {
+    return texture.placing == nullptr ? 0 : texture.placing->uv_set;
+}
+
 /// Everything that drawing needs to know about a material, computed once when the material changes.
 struct MaterialTraits {
     const KindInfo* kind;
@@ -56,6 +61,11 @@ struct MaterialTraits {
     bool uses_lights;
     bool zeros_and_ones = false;  ///< all colours are, so sRGB encoding does not change them
     VertexColors vertex_colors;
+    std::optional<AlphaMode> alpha_mode;  ///< none: blended if any alpha is below 1
+    /// Whether it needs tangents. A kind may say so by `bool uses_tangents() const`; meshes without
+    /// tangents then get those of one of their sets of uvs, by `int tangent_uv_set() const`.
+    bool uses_tangents = false;
+    int tangent_uv_set = 0;
     std::optional<UserCode> user_code;
 
     bool moves_vertices() const { return user_code && user_code->moves_vertices(); }
@@ -104,6 +114,11 @@ public:
         }
         traits_.uses_lights = kind_.uses_lights();
         traits_.vertex_colors = kind_.uses_vertex_colors();
+        if constexpr (kinds::HasAlphaUse<Kind>) traits_.alpha_mode = kind_.alpha_use();
+        if constexpr (kinds::HasUsesTangents<Kind>) traits_.uses_tangents = kind_.uses_tangents();
+        if constexpr (kinds::HasTangentUvSet<Kind>) {
+            traits_.tangent_uv_set = kind_.tangent_uv_set();
+        }
         if constexpr (kinds::HasUserCode<Kind>) traits_.user_code = kind_.user_code();
         for_each_field<Kind>([this](const auto& field) { add_textures(field); });
         const auto shows = [this](const NamedTexture& texture) {

@@ -68,7 +68,10 @@ struct Shader {
         return mentions(fragment.text, "sample_light") || mentions(fragment.text, "phong");
     }
     VertexColors uses_vertex_colors() const { return VertexColors::color; }
-    UserCode user_code() const { return {&fragment, &vertex, &inputs, displacement}; }
+    bool uses_tangents() const { return mentions(fragment.text, "tangent"); }
+    UserCode user_code() const {
+        return {&fragment, &vertex, &inputs, displacement, 0, mentions(fragment.text, "uv1")};
+    }
 
     bool operator==(const Shader&) const = default;
 };

@@ -60,8 +60,9 @@ Look look_of(const NodeSnapshot& node) {
               std::uintptr_t{material.environment_parts.filtered},
               std::uintptr_t{material.environment_parts.mipmaps}};
     add_source(node.environment, look);
-    for (const TextureSourceSnapshot& texture : node.textures) {
-        std::visit([&look](const auto& source) { add_source(source, look); }, texture);
+    for (std::size_t i = 0; i < node.textures.size(); ++i) {
+        std::visit([&look](const auto& source) { add_source(source, look); }, node.textures[i]);
+        look.push_back(static_cast<std::uintptr_t>(uv_set_of(material.textures[i])));
     }
     return look;
 }

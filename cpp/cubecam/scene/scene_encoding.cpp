@@ -65,6 +65,11 @@ private:
     bool add_node(std::size_t number, const NodeSnapshot& node) {
         const MaterialTraits& traits = node.material.value.traits();
         if (traits.uses_lights) return false;
+        // Maps of colours are decoded, so that what they show is linear.
+        if (std::any_of(traits.textures.begin(), traits.textures.end(),
+                        [](const NamedTexture& texture) { return texture.srgb; })) {
+            return false;
+        }
         if (traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr) {
             return false;
         }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <unordered_map>
 #include <utility>
@@ -25,6 +26,7 @@ bool shows_through(const MapSource& map) {
 bool shows_through(const MaterialValue& material, const MeshData& mesh) {
     if (translucent(material)) return true;
     const MaterialTraits& traits = material.traits();
+    if (traits.alpha_mode) return *traits.alpha_mode == AlphaMode::blend;
     if (traits.vertex_colors == VertexColors::color_and_alpha && mesh.translucent_colors()) {
         return true;
     }
@@ -89,6 +91,21 @@ public:
     const std::shared_ptr<const MeshData>& flat_data_of(const std::shared_ptr<Mesh>& mesh) {
         auto& data = flat_meshes_[mesh];
         if (!data) data = mesh->flat_shaded(data_of(mesh));
+        return data;
+    }
+
+    /// The form of a mesh that a node draws: with flat faces or not, and with tangents if the
+    /// material needs them and the mesh has only the uvs from which they are made.
+    std::shared_ptr<const MeshData> form_of(const std::shared_ptr<Mesh>& mesh,
+                                            const MaterialValue& material) {
+        const bool flat = material.surface.flat_shading;
+        const std::shared_ptr<const MeshData>& plain = flat ? flat_data_of(mesh) : data_of(mesh);
+        const MaterialTraits& traits = material.traits();
+        if (!traits.uses_tangents || plain->tangents() || !plain->uvs(traits.tangent_uv_set)) {
+            return plain;
+        }
+        auto& data = tangent_meshes_[{mesh, traits.tangent_uv_set + (flat ? 2 : 0)}];
+        if (!data) data = mesh->with_tangents(plain, traits.tangent_uv_set, flat);
         return data;
     }
 
@@ -170,6 +187,8 @@ private:
     std::unordered_map<std::shared_ptr<Material>, Material::State> materials_;
     std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> meshes_;
     std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> flat_meshes_;
+    std::map<std::pair<std::shared_ptr<Mesh>, int>, std::shared_ptr<const MeshData>>
+        tangent_meshes_;  // by set of uvs, then of flat meshes
     std::unordered_map<std::shared_ptr<CubeMap>, std::shared_ptr<const CubeMapData>> cubes_;
     std::unordered_map<const RenderTexture*, std::size_t> indices_;  // into `textures`
     std::unordered_map<const Scene*, std::size_t> numbers_;
@@ -255,8 +274,7 @@ private:
         const Material::State& material = shared_.state_of(value.material);
         const MaterialTraits& traits = material.value.traits();
         const SurfaceOptions& surface = material.value.surface;
-        const std::shared_ptr<const MeshData>& mesh =
-            surface.flat_shading ? shared_.flat_data_of(value.mesh) : shared_.data_of(value.mesh);
+        const std::shared_ptr<const MeshData> mesh = shared_.form_of(value.mesh, material.value);
         const Blend blend = surface.blend.value_or(
             shows_through(material.value, *mesh) ? Blend::alpha : Blend::opaque);
         const bool moved = traits.moves_vertices();
@@ -276,7 +294,7 @@ private:
             mesh,
             material,
             snapshot_of(value.environment),
-            traits.textured ? snapshot_of(traits.textures, mesh->uvs() != nullptr)
+            traits.textured ? snapshot_of(traits.textures, *mesh)
                             : std::vector<TextureSourceSnapshot>(),
             moved && !traits.user_code->displacement,
             place.in_captures,
@@ -309,14 +327,14 @@ private:
     }
 
     std::vector<TextureSourceSnapshot> snapshot_of(const std::vector<NamedTexture>& textures,
-                                                   bool has_uvs) {
+                                                   const MeshData& mesh) {
         std::vector<TextureSourceSnapshot> frozen;
         frozen.reserve(textures.size());
         for (const NamedTexture& texture : textures) {
             if (const auto* cube = std::get_if<const CubeSource*>(&texture.source)) {
                 frozen.emplace_back(snapshot_of(**cube));
             } else {
-                const bool shown = has_uvs || !texture.placed_by_uv;
+                const bool shown = !texture.placed_by_uv || mesh.uvs(uv_set_of(texture));
                 frozen.emplace_back(
                     shown ? shared_.snapshot_of(*std::get<const MapSource*>(texture.source))
                           : MapSnapshot());

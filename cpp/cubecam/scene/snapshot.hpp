@@ -55,7 +55,7 @@ struct NodeSnapshot {
     Material::State material;
     CubeSourceSnapshot environment;  ///< the environment of the node; none: that of the scene
     /// The contents of the material's textures, in the order of MaterialTraits::textures; empty if
-    /// no texture is set. A map is also none if it needs uvs and the mesh has none.
+    /// no texture is set. A map is also none if the mesh lacks the uvs that place it.
     std::vector<TextureSourceSnapshot> textures;
     bool unbounded;    ///< its vertices may be anywhere, so it is not culled
     bool in_captures;  ///< of the node and all nodes above it

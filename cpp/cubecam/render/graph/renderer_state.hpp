@@ -58,10 +58,13 @@ private:
 
 /// A renderer's state of a render texture.
 struct TextureState {
-    std::unique_ptr<Target> target;  ///< null: not drawn yet
-    gl::Texture view;                ///< its colour, as materials look it up
-    Wrap wrap = Wrap::clamp;         ///< of `view`
-    std::uint64_t revision = 0;      ///< new whenever lookups may give another result
+    std::unique_ptr<Target> target;        ///< null: not drawn yet
+    gl::Texture view;                      ///< its colour, as materials look it up
+    Wrap wrap = Wrap::clamp;               ///< of `view`
+    std::uint64_t revision = 0;            ///< new whenever lookups may give another result
+    Encoding encoding = Encoding::linear;  ///< of the last drawing
+    gl::Texture decoded;                   ///< as maps of colours look it up; made when needed
+    std::uint64_t decoded_of = 0;          ///< the revision from which `decoded` was made
 };
 
 /// The parts of a renderer that live as long as its context.

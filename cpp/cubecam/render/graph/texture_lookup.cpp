@@ -64,16 +64,17 @@ bool TextureLookup::is_replaced(std::size_t probe) {
     return *known;
 }
 
-BoundTexture TextureLookup::find(const MapSnapshot& map) {
+BoundTexture TextureLookup::find(const MapSnapshot& map, bool colors) {
     if (const auto* image = std::get_if<std::shared_ptr<const Image>>(&map)) {
-        return {context_.gpu.cache.image(*image).texture.id(), (*image)->revision()};
+        return {context_.gpu.cache.image(*image, colors).texture.id(), (*image)->revision()};
     }
     const auto* texture = std::get_if<std::size_t>(&map);
-    return texture == nullptr ? BoundTexture{} : context_.texture(*texture).texture();
+    return texture == nullptr ? BoundTexture{} : context_.texture(*texture).texture(colors);
 }
 
-BoundTexture TextureLookup::find(const TextureSourceSnapshot& texture) {
-    return std::visit([this](const auto& source) { return find(source); }, texture);
+BoundTexture TextureLookup::find(const TextureSourceSnapshot& texture, bool colors) {
+    if (const auto* map = std::get_if<MapSnapshot>(&texture)) return find(*map, colors);
+    return find(std::get<CubeSourceSnapshot>(texture));
 }
 
 NodeTextures TextureLookup::find(const NodeSnapshot& node) {
@@ -85,8 +86,8 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
     } else {
         found.environment = find_environment(environment_of(scene_, node), parts);
     }
-    for (const TextureSourceSnapshot& texture : node.textures) {
-        found.textures.push_back(find(texture));
+    for (std::size_t i = 0; i < node.textures.size(); ++i) {
+        found.textures.push_back(find(node.textures[i], material.textures[i].srgb));
     }
     return found;
 }

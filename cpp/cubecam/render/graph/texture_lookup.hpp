@@ -22,8 +22,9 @@ public:
     TextureLookup(FrameContext& context, const PictureId& viewer, std::size_t scene);
 
     BoundTexture find(const CubeSourceSnapshot& source);
-    BoundTexture find(const MapSnapshot& map);
-    BoundTexture find(const TextureSourceSnapshot& texture);
+    /// @param colors whether a map of colours looks it up, which gets decoded numbers.
+    BoundTexture find(const MapSnapshot& map, bool colors = false);
+    BoundTexture find(const TextureSourceSnapshot& texture, bool colors = false);
     /// Finds all textures that a node's material looks up.
     NodeTextures find(const NodeSnapshot& node);
     /// Finds the textures that a node looks up to move its vertices, in the order of its inputs;

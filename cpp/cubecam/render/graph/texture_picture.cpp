@@ -2,27 +2,13 @@
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/gl/objects.hpp"
+#include "cubecam/render/resources/sampler.hpp"
+#include "cubecam/scene/scene_encoding.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <stdexcept>
 
 namespace cubecam {
-namespace {
-
-void set_view_filters(const GladGLContext& gl, GLuint view, bool mipmaps) {
-    gl.TextureParameteri(view, GL_TEXTURE_MIN_FILTER,
-                         mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-    gl.TextureParameteri(view, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-}
-
-void set_view_wrap(const GladGLContext& gl, GLuint view, Wrap wrap) {
-    const GLint mode = wrap == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-    gl.TextureParameteri(view, GL_TEXTURE_WRAP_S, mode);
-    gl.TextureParameteri(view, GL_TEXTURE_WRAP_T, mode);
-}
-
-}  // namespace
-
 TexturePicture::TexturePicture(FrameContext& context, const PictureId& id)
     : ScenePicture(context, id, context.scenes.textures[id.object].scene),
       texture_(context.scenes.textures[id.object]),
@@ -76,12 +62,12 @@ void TexturePicture::prepare(const TargetDescription& description) {
         state_.view = gl::create_view_2d(
             gl, state_.target->picture(),
             description.mipmaps ? gl::mip_levels(description.width, description.height) : 1);
-        set_view_filters(gl, state_.view.id(), description.mipmaps);
-        set_view_wrap(gl, state_.view.id(), state_.wrap);
+        state_.wrap = texture_.value.wrap;
+        set_sampler(gl, state_.view.id(), sampler());
     }
     if (state_.wrap != texture_.value.wrap) {
         state_.wrap = texture_.value.wrap;
-        set_view_wrap(gl, state_.view.id(), state_.wrap);
+        set_sampler(gl, state_.view.id(), sampler());
         state_.revision = context_.gpu.contents = next_revision();
     }
 }
@@ -91,6 +77,11 @@ void TexturePicture::update() {
     try {
         prepare(description);
         const std::size_t drawn = draw_changed(*state_.target, {.effects = texture_.effects});
+        const Encoding encoding = scene_encoding(
+            context_.scenes, number_, [this](const NodeSnapshot& node) { return sees(node); });
+        // Nodes out of view change no pixel, but they may change what the numbers are.
+        if (encoding != state_.encoding) state_.revision = context_.gpu.contents = next_revision();
+        state_.encoding = encoding;
         if (drawn == 0) return;
         if (description.mipmaps) {
             context_.gpu.context.gl().GenerateTextureMipmap(state_.target->picture().id());
@@ -101,6 +92,40 @@ void TexturePicture::update() {
     }
     state_.revision = context_.gpu.contents = next_revision();
     ++context_.stats.textures_updated;
+}
+
+Sampler TexturePicture::sampler() const {
+    return {{texture_.value.wrap, texture_.value.wrap},
+            MagFilter::linear,
+            texture_.value.mipmaps ? MinFilter::linear_mipmap_linear : MinFilter::linear};
+}
+
+bool TexturePicture::decodes() const {
+    return texture_.value.format == Format::rgba8 && state_.encoding == Encoding::srgb;
+}
+
+BoundTexture TexturePicture::texture(bool colors) {
+    if (!colors || !decodes()) return {state_.view.id(), state_.revision};
+    if (state_.decoded_of != state_.revision) decode();
+    return {state_.decoded.id(), state_.revision};
+}
+
+/// Copies the picture into a texture that decodes. A view of the same memory would do, except that
+/// mip levels are means of decoded numbers.
+void TexturePicture::decode() {
+    const GladGLContext& gl = context_.gpu.context.gl();
+    const TargetDescription& description = state_.target->description();
+    if (!state_.decoded) {
+        state_.decoded = gl::create_texture_2d(gl, GL_SRGB8_ALPHA8, description.width,
+                                               description.height, description.mipmaps ? 0 : 1);
+    }
+    const GLuint id = state_.decoded.id();
+    set_sampler(gl, id, sampler());
+    gl.CopyImageSubData(state_.target->picture().id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, id,
+                        GL_TEXTURE_2D, 0, 0, 0, 0, description.width, description.height, 1);
+    if (description.mipmaps) gl.GenerateTextureMipmap(id);
+    gl::check_gl(gl, "decoding a render texture");
+    state_.decoded_of = state_.revision;
 }
 
 std::string TexturePicture::label(std::size_t place) const {

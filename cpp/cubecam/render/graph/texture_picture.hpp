@@ -13,8 +13,8 @@ class TexturePicture final : public ScenePicture {
 public:
     TexturePicture(FrameContext& context, const PictureId& id);
 
-    /// The current picture.
-    BoundTexture texture() const { return {state_.view.id(), state_.revision}; }
+    /// The current picture. A map of colours gets decoded numbers if these are sRGB of 8 bits.
+    BoundTexture texture(bool colors);
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
@@ -27,6 +27,9 @@ private:
     TargetDescription describe() const;
     /// Makes the target and the view of it, if the texture's size, format or wrapping has changed.
     void prepare(const TargetDescription& description);
+    Sampler sampler() const;
+    bool decodes() const;
+    void decode();
 
     const RenderTextureSnapshot& texture_;
     TextureState& state_;

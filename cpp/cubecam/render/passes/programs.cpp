@@ -26,6 +26,8 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
         taken += static_cast<int>(variant.kind->constants);
     }
     taken += material.textures.empty() ? 0 : 2;  // uv, the object's own position
+    taken += variant.uvs1 ? 1 : 0;
+    taken += variant.tangents ? 1 : 0;
     taken += variant.vertex_colors ? 1 : 0;
     taken += variant.shadows > 0 ? 1 : 0;
     taken += variant.blend == Blend::opaque ? 0 : 1;
@@ -63,7 +65,13 @@ void add_textures(gl::ShaderOptions& options, const SurfaceVariant& variant,
         const std::string name = upper(texture.name);
         options.defines.emplace_back("HAS_" + name, "1");
         options.defines.emplace_back("UNIT_" + name, std::to_string(unit++));
-        (texture.source.index() == 0 ? uv : position) = true;
+        const bool second = (variant.second_uvs >> i & 1U) != 0;
+        if (second) options.defines.emplace_back("UV1_" + name, "1");
+        if (texture.source.index() != 0) {
+            position = true;
+        } else if (!second) {
+            uv = true;
+        }
     }
     if (uv) options.defines.emplace_back("USES_UV", "1");
     if (position) options.defines.emplace_back("USES_POSITION_OBJECT", "1");
@@ -153,6 +161,8 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     options.defines.emplace_back("MATERIAL_SIZE", std::to_string(constants));
     define(constants > 0 && constants <= most_flat_constants && !variant.dense, "FLAT_MATERIAL");
     define(variant.vertex_colors, "HAS_VERTEX_COLORS");
+    define(variant.uvs1, "USES_UV1");
+    define(variant.tangents, "USES_TANGENT");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");

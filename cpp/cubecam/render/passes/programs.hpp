@@ -35,10 +35,13 @@ struct EnvironmentVariant {
 /// The variant of surface.vert and surface.frag that a draw call needs.
 struct SurfaceVariant {
     const KindInfo* kind = nullptr;
-    bool instanced = false;      ///< whether the instances are nodes; otherwise views
-    std::uint64_t switches = 0;  ///< MaterialTraits::switches
-    std::uint64_t textures = 0;  ///< bit i: the material's texture i shows something
+    bool instanced = false;        ///< whether the instances are nodes; otherwise views
+    std::uint64_t switches = 0;    ///< MaterialTraits::switches
+    std::uint64_t textures = 0;    ///< bit i: the material's texture i shows something
+    std::uint64_t second_uvs = 0;  ///< bit i: that texture is placed by the mesh's uvs1
     bool vertex_colors = false;
+    bool uvs1 = false;      ///< a texture, or a user's source, reads the mesh's uvs1
+    bool tangents = false;  ///< the material reads the mesh's tangents
     bool double_sided = false;
     Blend blend = Blend::opaque;
     bool dense = false;  ///< many small triangles: constants stay in their blocks

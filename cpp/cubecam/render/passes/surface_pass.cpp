@@ -227,6 +227,7 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
     variant.vertex_colors =
         traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
     variant.double_sided = material.surface.double_sided;
+    variant.tangents = traits.uses_tangents && node.mesh->tangents() != nullptr;
     if (outputs) variant.outputs = outputs_;
     // The shader treats these modes like "alpha".
     const bool as_alpha = node.blend == Blend::alpha_keep || node.blend == Blend::factors;
@@ -236,9 +237,14 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
         variant.moved = traits.moves_vertices();
         variant.lights = -1;
         variant.dense = true;
+        variant.uvs1 = traits.user_code->uses_uvs1 && node.mesh->uvs1() != nullptr;
     } else {
         for (std::size_t i = 0; i < node.textures.size(); ++i) {
-            if (!is_none(node.textures[i])) variant.textures |= std::uint64_t{1} << i;
+            if (is_none(node.textures[i])) continue;
+            const std::uint64_t bit = std::uint64_t{1} << i;
+            variant.textures |= bit;
+            if (uv_set_of(traits.textures[i]) == 1) variant.second_uvs |= bit;
+            variant.uvs1 = variant.second_uvs != 0;
         }
         if (traits.uses_lights) {
             variant.lights =

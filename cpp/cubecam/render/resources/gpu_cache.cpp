@@ -3,6 +3,7 @@
 #include "cubecam/image/flip.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/render/resources/node_record.hpp"
+#include "cubecam/render/resources/sampler.hpp"
 #include "cubecam/render/resources/view_record.hpp"
 
 #include <glm/gtc/type_precision.hpp>
@@ -52,12 +53,10 @@ void check_side(const gl::Context& context, const char* what, int side, int larg
                                 context.renderer() + "), got " + std::to_string(side));
 }
 
-void set_filters(const GladGLContext& gl, GLuint texture, bool mipmaps, GLenum wrap) {
-    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER,
-                         mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_S, static_cast<GLint>(wrap));
-    gl.TextureParameteri(texture, GL_TEXTURE_WRAP_T, static_cast<GLint>(wrap));
+void set_cube_filters(const GladGLContext& gl, GLuint texture, bool mipmaps) {
+    Sampler sampler{{Wrap::clamp, Wrap::clamp}};
+    if (mipmaps) sampler.min = MinFilter::linear_mipmap_linear;
+    set_sampler(gl, texture, sampler);
 }
 
 /// One channel means grey, as everywhere in this library.
@@ -149,6 +148,9 @@ void upload_streams(const GladGLContext& gl, const MeshData& data, GpuMesh& mesh
     upload_stream(gl, arrays, {attribute::uv, vertex_buffer::uvs}, data.uv_stream(), mesh.uvs);
     upload_stream(gl, arrays, {attribute::color, vertex_buffer::colors}, data.color_stream(),
                   mesh.colors);
+    upload_stream(gl, arrays, {attribute::tangent, vertex_buffer::tangents}, data.tangent_stream(),
+                  mesh.tangents);
+    upload_stream(gl, arrays, {attribute::uv1, vertex_buffer::uvs1}, data.uv1_stream(), mesh.uvs1);
     mesh.revision = data.revision();
 }
 
@@ -189,19 +191,35 @@ std::vector<std::byte> bottom_row_first(const Image& image) {
     return flipped;
 }
 
-GpuTexture upload_image(const GladGLContext& gl, const Image& image) {
-    const TextureFormat format = texture_format(image.dtype(), image.channels());
-    const std::vector<std::byte> pixels = bottom_row_first(image);
-    GpuTexture result{gl::create_texture_2d(gl, format.internal, image.width(), image.height(),
-                                            image.mipmaps() ? 0 : 1),
-                      image.mipmaps()};
+std::vector<std::byte> three_times(const std::vector<std::byte>& grey) {
+    std::vector<std::byte> rgb;
+    rgb.reserve(3 * grey.size());
+    for (const std::byte value : grey) rgb.insert(rgb.end(), 3, value);
+    return rgb;
+}
+
+GpuTexture upload_image(const GladGLContext& gl, const Image& image, bool decoded) {
+    const bool mipmaps = image.sampler().mipmaps();
+    TextureFormat format = texture_format(image.dtype(), image.channels());
+    std::vector<std::byte> pixels = bottom_row_first(image);
+    if (decoded) {
+        // The texture unit decodes before it filters, and alpha stays as it is. OpenGL has no such
+        // format of one channel.
+        format.internal = image.channels() == 4 ? GL_SRGB8_ALPHA8 : GL_SRGB8;
+        if (image.channels() == 1) {
+            format.format = GL_RGB;
+            pixels = three_times(pixels);
+        }
+    }
+    GpuTexture result{
+        gl::create_texture_2d(gl, format.internal, image.width(), image.height(), mipmaps ? 0 : 1),
+        mipmaps};
     const GLuint id = result.texture.id();
     gl.TextureSubImage2D(id, 0, 0, 0, image.width(), image.height(), format.format, format.type,
                          pixels.data());
-    if (image.mipmaps()) gl.GenerateTextureMipmap(id);
-    set_filters(gl, id, image.mipmaps(),
-                image.wrap() == Wrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE);
-    set_swizzle(gl, id, image.channels());
+    if (mipmaps) gl.GenerateTextureMipmap(id);
+    set_sampler(gl, id, image.sampler());
+    if (!decoded) set_swizzle(gl, id, image.channels());
     return result;
 }
 
@@ -220,11 +238,12 @@ const GpuMesh& GpuCache::mesh(const MeshData& mesh) {
     return held;
 }
 
-const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image) {
-    return images_.get(image, [&] {
+const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image, bool colors) {
+    const bool decoded = colors && image->decodes();
+    return (decoded ? decoded_images_ : images_).get(image, [&] {
         check_side(*context_, "map", std::max(image->width(), image->height()),
                    context_->limits().max_texture_size, "GL_MAX_TEXTURE_SIZE");
-        return upload_image(*gl_, *image);
+        return upload_image(*gl_, *image, decoded);
     });
 }
 
@@ -246,7 +265,7 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
         const int levels = mipmaps ? gl::mip_levels(data.size, data.size) : 1;
         GpuCube made{{gl::create_texture_cube(*gl_, format.internal, data.size, levels), mipmaps},
                      {}};
-        set_filters(*gl_, made.texture.texture.id(), mipmaps, GL_CLAMP_TO_EDGE);
+        set_cube_filters(*gl_, made.texture.texture.id(), mipmaps);
         set_swizzle(*gl_, made.texture.texture.id(), data.channels);
         return made;
     });
@@ -282,6 +301,7 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
 void GpuCache::sweep() {
     meshes_.sweep();
     images_.sweep();
+    decoded_images_.sweep();
     cubes_.sweep();
     box_mipmaps_.sweep();
 }

@@ -31,6 +31,9 @@ inline constexpr GLuint model = 4;          ///< four columns
 inline constexpr GLuint normal_matrix = 8;  ///< three columns
 inline constexpr GLuint material = 11;      ///< two vectors
 inline constexpr GLuint id_and_label = 13;
+// The attributes of a vertex that few materials read.
+inline constexpr GLuint tangent = 14;
+inline constexpr GLuint uv1 = 15;
 }  // namespace attribute
 
 /// Binding points of vertex buffers in every vertex array.
@@ -40,6 +43,8 @@ inline constexpr GLuint records = 1;  ///< of views or of nodes, one for each in
 inline constexpr GLuint normals = 2;
 inline constexpr GLuint uvs = 3;
 inline constexpr GLuint colors = 4;
+inline constexpr GLuint tangents = 5;
+inline constexpr GLuint uvs1 = 6;
 }  // namespace vertex_buffer
 
 /// The GPU's copy of a VertexStream.
@@ -63,6 +68,8 @@ struct GpuMesh {
     GpuStream normals;
     GpuStream uvs;
     GpuStream colors;
+    GpuStream tangents;
+    GpuStream uvs1;
 };
 
 struct GpuTexture {
@@ -81,7 +88,9 @@ public:
     const GpuMesh& mesh(const MeshData& mesh);
     /// @throws std::invalid_argument that names the driver's limit, for a larger picture; cube()
     /// does the same.
-    const GpuTexture& image(const std::shared_ptr<const Image>& image);
+    /// @param colors whether a map of colours looks it up, which gets decoded numbers if the image
+    /// decodes (Image::decodes).
+    const GpuTexture& image(const std::shared_ptr<const Image>& image, bool colors = false);
     /// Uploads only the faces that changed since the last time.
     const GpuTexture& cube(const CubeSnapshot& cube);
     /// The same with box-filtered levels, whether the cubemap has mipmaps or not.
@@ -106,6 +115,7 @@ private:
     gl::VertexArray views_only_;
     WeakCache<const MeshIdentity, GpuMesh> meshes_;
     WeakCache<const Image, GpuTexture> images_;
+    WeakCache<const Image, GpuTexture> decoded_images_;
     WeakCache<CubeMap, GpuCube> cubes_;
     WeakCache<CubeMap, GpuCube> box_mipmaps_;  ///< of cubemaps without mipmaps
 };
