@@ -222,26 +222,52 @@ OutputList copy_outputs(const py::dict& arrays, int size) {
     return outputs;
 }
 
+/// A cube without filtered levels has a state of four parts, which older versions read, too.
 py::tuple get_state(const CubeMap& cube) {
-    return closed_state(py::make_tuple(faces_view(cube), cube.data()->mipmaps, outputs_of(cube),
-                                       to_string(cube.data()->encoding)));
+    const auto data = cube.data();
+    py::tuple state = py::make_tuple(faces_view(cube), data->mipmaps, outputs_of(cube),
+                                     to_string(data->encoding));
+    if (data->levels) {
+        py::list levels;
+        for (const CubeLevel& level : *data->levels) {
+            levels.append(py::make_tuple(level.roughness,
+                                         readonly_view(numpy_dtype(data->dtype),
+                                                       face_shape(level.size, data->channels),
+                                                       level.pixels->data(), level.pixels)));
+        }
+        state = state + py::make_tuple(levels);
+    }
+    return closed_state(state);
+}
+
+std::shared_ptr<const CubeLevels> copy_levels(const py::sequence& states) {
+    auto levels = std::make_shared<CubeLevels>();
+    for (const py::handle each : states) {
+        const auto [roughness, faces] = each.cast<std::pair<float, py::object>>();
+        const PixelArray pixels = pixel_array(faces, "levels", "(6, N, N, C)", Values::any);
+        levels->push_back(
+            {to_texels(pixels.shape(1), "levels"), roughness,
+             std::make_shared<PixelBuffer>(copy_pixels(pixels.data(), pixels.bytes()))});
+    }
+    return levels;
 }
 
 /// NaN is kept: a rendered cube may hold NaN, and unpickling must restore it.
 CubePtr from_state(const py::tuple& closed) {
     const py::tuple state = opened_state(closed);
     // The first pickles of cubecam 0.2 have no encoding.
-    if (state.size() != 3 && state.size() != 4) {
-        throw py::value_error("CubeMap: expected a state of 4 parts, got " +
+    if (state.size() < 3 || state.size() > 5) {
+        throw py::value_error("CubeMap: expected a state of 4 or 5 parts, got " +
                               std::to_string(state.size()));
     }
     const PixelArray pixels = pixel_array(state[0], "faces", "(6, N, N, C)", Values::any);
     const int size = to_texels(pixels.shape(1), "faces");
     return std::make_shared<CubeMap>(
         size, static_cast<int>(pixels.shape(3)), pixels.dtype(),
-        copy_pixels(pixels.data(), pixels.bytes()), state[1].cast<bool>(),
-        copy_outputs(state[2].cast<py::dict>(), size),
-        state.size() == 4 ? parse_encoding(state[3].cast<std::string>()) : Encoding::linear);
+        std::make_shared<PixelBuffer>(copy_pixels(pixels.data(), pixels.bytes())),
+        state[1].cast<bool>(), copy_outputs(state[2].cast<py::dict>(), size),
+        state.size() >= 4 ? parse_encoding(state[3].cast<std::string>()) : Encoding::linear,
+        state.size() == 5 ? copy_levels(state[4].cast<py::sequence>()) : nullptr);
 }
 
 std::string output_doc(const OutputRow& row) {
@@ -268,8 +294,10 @@ std::string represent(const CubeMap& cube) {
     const auto state = cube.data();
     return "CubeMap(size=" + std::to_string(state->size) +
            ", channels=" + std::to_string(state->channels) + ", dtype=" + dtype_name(state->dtype) +
-           ", mipmaps=" + (state->mipmaps ? "True" : "False") + outputs_text(cube.outputs()) +
-           ", encoding='" + std::string(to_string(state->encoding)) + "')";
+           ", mipmaps=" + (state->mipmaps ? "True" : "False") +
+           (state->levels ? ", levels=" + std::to_string(state->levels->size() + 1) : "") +
+           outputs_text(cube.outputs()) + ", encoding='" + std::string(to_string(state->encoding)) +
+           "')";
 }
 
 }  // namespace
@@ -369,7 +397,8 @@ void bind_cubemap(py::module_& module) {
                 return a.same_contents(b);
             },
             py::is_operator(), py::arg("other"),
-            "Whether the contents are the same bit for bit, captured outputs included.")
+            "Whether the contents are the same bit for bit, captured outputs and filtered levels "
+            "included.")
         .def(
             "__ne__",
             [](const CubeMap& a, const CubeMap& b) {

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from .io.images import load_image, save_animation, save_image
     from .io.meshes.load import load_mesh
     from .io.screen import ClippingWarning, to_screen
-    from .optics import fresnel, reflect, refract, schlick
+    from .optics import brdf, fresnel, reflect, refract, schlick
     from .viewer.viewer import Viewer
 else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
@@ -42,7 +42,7 @@ else:
             "io.images": ["load_image", "save_animation", "save_image"],
             "io.meshes.load": ["load_mesh"],
             "io.screen": ["ClippingWarning", "to_screen"],
-            "optics": ["fresnel", "reflect", "refract", "schlick"],
+            "optics": ["brdf", "fresnel", "reflect", "refract", "schlick"],
             "viewer.viewer": ["Viewer"],
         },
         modules=[
@@ -63,6 +63,7 @@ __all__ = [
     "ConventionWarning",
     "Viewer",
     "__version__",
+    "brdf",
     "explore",
     "fresnel",
     "load_cubemap",

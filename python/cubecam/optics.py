@@ -1,4 +1,4 @@
-"""Reflection, refraction and Fresnel's reflectance in numpy: the same numbers as in the shaders.
+"""Reflection, refraction and reflectance in numpy: the same numbers as in the shaders.
 
 Every incident direction points TOWARDS the surface, as in GLSL. Every normal points to the side that the light comes
 from, so that the dot product of both is not above 0.
@@ -12,9 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import checked_call
-from ._core import _to_array
+from ._core import _brdf, _to_array
 
-__all__ = ["fresnel", "reflect", "refract", "schlick"]
+__all__ = ["brdf", "fresnel", "reflect", "refract", "schlick"]
 
 Floats: TypeAlias = npt.NDArray[np.float32 | np.float64]
 
@@ -213,6 +213,56 @@ def schlick(incident: npt.ArrayLike, normal: npt.ArrayLike, f0: npt.ArrayLike) -
     cosine, share = _broadcast(_dot(up, towards), share, "f0")
     rest = 1 - np.clip(-cosine, 0, 1)
     return np.asarray(share + (1 - share) * rest**5)
+
+
+@checked_call
+def brdf(n_dot_v: npt.ArrayLike, roughness: npt.ArrayLike) -> npt.NDArray[np.float32]:
+    """Look up what rough metal reflects of uniform light: GLSL's `brdf` of cubecam's shaders.
+
+    Parameters
+    ----------
+    n_dot_v : array_like (...)
+        Cosines between the normal and the direction to the eye; clamped to 0 to 1.
+    roughness : array_like (...)
+        The roughness of glTF, whose square is GGX's alpha; clamped to 0 to 1.
+
+    Returns
+    -------
+    ndarray (..., 2) float32
+        (scale, bias): a surface with the reflectance f0 at normal incidence reflects the share
+        ``f0 * scale + bias`` of light that comes evenly from all sides. Axes are broadcast.
+
+    Raises
+    ------
+    ValueError
+        For shapes that cannot be broadcast, or numbers that are not finite.
+    TypeError
+        For values that are not real numbers.
+
+    See Also
+    --------
+    CubeMap.prefilter : the other factor of the split sum.
+
+    Notes
+    -----
+    The integral of the specular term of glTF 2.0, appendix B: GGX, separable Smith, Schlick's Fresnel (B. Karis,
+    "Real Shading in Unreal Engine 4", 2013). It is looked up bilinearly in a table of 64 x 64 integrals, which is made
+    at the first use, some 30 ms; the shaders have the same table.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> cc.brdf(1, 0).tolist()  # a mirror, seen from the front: f0
+    [1.0, 0.0]
+    >>> cc.brdf([1, 0.5], 1).round(2).tolist()
+    [[0.31, 0.0], [0.45, 0.0]]
+    """
+    cosine = _numbers(n_dot_v, "n_dot_v", np.dtype(np.float32))
+    rough = _numbers(roughness, "roughness", np.dtype(np.float32))
+    _check(np.isfinite(cosine), cosine, "n_dot_v: expected finite numbers")
+    _check(np.isfinite(rough), rough, "roughness: expected finite numbers")
+    cosine, rough = _broadcast(cosine, rough, "roughness")
+    return np.asarray(_brdf(cosine, rough))
 
 
 def _directions(incident: npt.ArrayLike, normal: npt.ArrayLike) -> tuple[Any, Any]:

@@ -187,7 +187,8 @@ convention : {"gl", "inside", "three"}, default "gl"
 Raises
 ------
 ValueError
-    For another shape, NaN, or an unknown face.
+    For another shape, NaN, or an unknown face, or if `prefilter` made this cube: its levels would not belong to
+    the new face. ``CubeMap(cube.faces)`` has no levels.
 TypeError
     For another dtype (float64 counts as float32).
 IndexError

@@ -170,16 +170,18 @@ public:
     ProgressReport(const FilteredCube::Progress& progress, std::size_t steps)
         : progress_(progress), steps_(steps), caller_(std::this_thread::get_id()) {}
 
-    /// Counts a step; returns false if the work was cancelled.
-    bool step() {
-        const std::size_t done = ++done_;
+    void step() {
+        ++done_;
+        goes_on();
+    }
+    /// Returns false if the work was cancelled.
+    bool goes_on() {
         if (progress_ && std::this_thread::get_id() == caller_) {
             const auto now = std::chrono::steady_clock::now();
             if (now - last_ > std::chrono::milliseconds(10)) {
                 last_ = now;
-                if (!progress_(static_cast<double>(done) / static_cast<double>(steps_))) {
-                    cancelled_ = true;
-                }
+                const double share = static_cast<double>(done_) / static_cast<double>(steps_);
+                if (!progress_(share)) cancelled_ = true;
             }
         }
         return !cancelled_;
@@ -258,9 +260,12 @@ FilteredCube::FilteredCube(const FilterRule& rule) : rule_(rule) {
         }
     };
     for (std::size_t i = 0; i < levels_.size(); ++i) add_tiles(i, levels_[i].size);
-    // The last level's lobe is the cosine, too: with the same size, the irradiance is a copy of it.
-    const bool same = !levels_.empty() && levels_.back().size == irradiance_.size;
-    if (!same) add_tiles(levels_.size(), irradiance_.size);
+    if (!copies_last_level()) add_tiles(levels_.size(), irradiance_.size);
+}
+
+/// The last level's lobe is the cosine, too: with the same size, the irradiance is a copy of it.
+bool FilteredCube::copies_last_level() const {
+    return !levels_.empty() && levels_.back().size == irradiance_.size;
 }
 
 FilteredCube::~FilteredCube() = default;
@@ -269,29 +274,52 @@ FilteredCube& FilteredCube::operator=(FilteredCube&&) noexcept = default;
 
 bool FilteredCube::update(const Faces& faces, const std::array<bool, face_count>& changed,
                           const Progress& progress) {
+    return update_from([&](std::size_t face, std::vector<glm::vec4>&) { return faces[face]; },
+                       changed, progress);
+}
+
+bool FilteredCube::update(const CubeMapData& cube, const std::array<bool, face_count>& changed,
+                          const Progress& progress) {
+    return update_from(
+        [&](std::size_t face, std::vector<glm::vec4>& texels) {
+            texels = radiance_face(cube, all_faces[face]);
+            return std::span<const glm::vec4>(texels);
+        },
+        changed, progress);
+}
+
+bool FilteredCube::update_from(const FaceReader& read, const std::array<bool, face_count>& changed,
+                               const Progress& progress) {
     std::vector<std::size_t> sources;
-    const std::size_t texels =
-        static_cast<std::size_t>(rule_.size) * static_cast<std::size_t>(rule_.size);
     for (std::size_t i = 0; i < face_count; ++i) {
-        if (complete_ && !changed[i]) continue;
-        if (faces[i].size() != texels) {
-            throw std::invalid_argument("faces: expected " + std::to_string(texels) +
-                                        " texels for face " + face_names[i] + ", got " +
-                                        std::to_string(faces[i].size()));
-        }
-        sources.push_back(i);
+        if (!complete_ || changed[i]) sources.push_back(i);
     }
     if (sources.empty() || tiles_.empty()) return true;
+    const std::size_t texels =
+        static_cast<std::size_t>(rule_.size) * static_cast<std::size_t>(rule_.size);
 
-    if (!shape_) shape_ = std::make_shared<const TreeShape>(rule_.size, leaves_along(levels_));
-    sums_.resize(tiles_.size() * face_count);
     complete_ = false;
-    std::array<std::vector<RadianceNode>, face_count> trees;
     ProgressReport report(progress, sources.size() + tiles_.size());
+    const auto goes_on = [&] { return report.goes_on(); };
+    if (!shape_) {
+        auto shape = std::make_shared<const TreeShape>(rule_.size, leaves_along(levels_), goes_on);
+        if (report.cancelled()) return false;
+        shape_ = std::move(shape);
+    }
+    sums_.resize(tiles_.size() * face_count);
+    std::array<std::vector<RadianceNode>, face_count> trees;
     parallel_for(0, sources.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (report.cancelled()) return;
-            trees[sources[i]] = shape_->tree(faces[sources[i]]);
+            const std::size_t face = sources[i];
+            std::vector<glm::vec4> converted;
+            const std::span<const glm::vec4> read_texels = read(face, converted);
+            if (read_texels.size() != texels) {
+                throw std::invalid_argument("faces: expected " + std::to_string(texels) +
+                                            " texels for face " + face_names[face] + ", got " +
+                                            std::to_string(read_texels.size()));
+            }
+            trees[face] = shape_->tree(read_texels, goes_on);
             report.step();
         }
     });
@@ -328,31 +356,37 @@ bool FilteredCube::update(const Faces& faces, const std::array<bool, face_count>
 }
 
 void FilteredCube::combine() {
-    for (std::size_t at = 0; at < tiles_.size(); ++at) {
-        const FilterTile& tile = tiles_[at];
-        FilteredLevel& level = tile.level < levels_.size() ? levels_[tile.level] : irradiance_;
-        const int n = level.size;
-        const TileSums* six = sums_.data() + at * face_count;
-        glm::vec4* to = level.texels.data() + face_index(tile.face) * level.face(0).size();
-        for (int i = 0; i < static_cast<int>(tile_texels); ++i) {
-            const int row = tile.row + i / tile_edge;
-            const int column = tile.column + i % tile_edge;
-            if (row >= n || column >= n) continue;
-            glm::vec4 sum(0);
-            float weight = 0;
-            for (std::size_t face = 0; face < face_count; ++face) {
-                const TileSums& s = six[face];
-                sum += glm::vec4(s.red[i], s.green[i], s.blue[i], s.alpha[i]);
-                weight += s.weight[i];
-            }
-            to[row * n + column] = sum / weight;
-        }
-    }
-    for (FilteredLevel& level : levels_) sharpen(level);
-    const bool same = !levels_.empty() && levels_.back().size == irradiance_.size;
-    if (!same) sharpen(irradiance_);
-    if (same) {
+    parallel_for(0, tiles_.size(), 64, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t at = begin; at < end; ++at) combine(at);
+    });
+    parallel_for(0, levels_.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) sharpen(levels_[i]);
+    });
+    if (copies_last_level()) {
         irradiance_.texels = levels_.back().texels;
+    } else {
+        sharpen(irradiance_);
+    }
+}
+
+void FilteredCube::combine(std::size_t at) {
+    const FilterTile& tile = tiles_[at];
+    FilteredLevel& level = tile.level < levels_.size() ? levels_[tile.level] : irradiance_;
+    const int n = level.size;
+    const TileSums* six = sums_.data() + at * face_count;
+    glm::vec4* to = level.texels.data() + face_index(tile.face) * level.face(0).size();
+    for (int i = 0; i < static_cast<int>(tile_texels); ++i) {
+        const int row = tile.row + i / tile_edge;
+        const int column = tile.column + i % tile_edge;
+        if (row >= n || column >= n) continue;
+        glm::vec4 sum(0);
+        float weight = 0;
+        for (std::size_t face = 0; face < face_count; ++face) {
+            const TileSums& s = six[face];
+            sum += glm::vec4(s.red[i], s.green[i], s.blue[i], s.alpha[i]);
+            weight += s.weight[i];
+        }
+        to[row * n + column] = sum / weight;
     }
 }
 

@@ -13,6 +13,7 @@
 
 namespace cubecam {
 
+struct CubeMapData;
 class TreeShape;
 struct FilterTile;
 struct TileSums;
@@ -72,6 +73,10 @@ public:
     /// @throws std::invalid_argument if a face that is read has another number of texels.
     bool update(const Faces& faces, const std::array<bool, face_count>& changed,
                 const Progress& progress = {});
+    /// The same for a cube of rule.size, whose faces are converted one by one, which takes less
+    /// memory.
+    bool update(const CubeMapData& cube, const std::array<bool, face_count>& changed,
+                const Progress& progress = {});
 
     /// Levels 1, 2, ...: without level 0, which is the cube itself.
     const std::vector<FilteredLevel>& levels() const { return levels_; }
@@ -79,7 +84,15 @@ public:
     const FilteredLevel& irradiance() const { return irradiance_; }
 
 private:
+    /// Returns the texels of a face, which may lie in the vector.
+    using FaceReader =
+        std::function<std::span<const glm::vec4>(std::size_t, std::vector<glm::vec4>&)>;
+
+    bool update_from(const FaceReader& read, const std::array<bool, face_count>& changed,
+                     const Progress& progress);
+    bool copies_last_level() const;
     void combine();
+    void combine(std::size_t tile);
 
     FilterRule rule_;
     std::vector<FilteredLevel> levels_;

@@ -1,5 +1,7 @@
 #include "cubecam/lighting/radiance_tree.hpp"
 
+#include "cubecam/core/parallel.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,21 +40,32 @@ struct Moments {
 
 }  // namespace
 
-double texel_solid_angle(int column, int row, int size) {
-    const auto at = [&](int i) { return 2.0 * i / size - 1; };
-    const double left = at(column);
-    const double right = at(column + 1);
-    const double top = at(row);
-    const double bottom = at(row + 1);
-    return corner_angle(left, top) - corner_angle(left, bottom) - corner_angle(right, top) +
-           corner_angle(right, bottom);
+std::vector<double> texel_solid_angles(int size) {
+    const auto n = static_cast<std::size_t>(size);
+    std::vector<double> angles(n * n);
+    parallel_for(0, n, 16, [&](std::size_t begin, std::size_t end) {
+        const auto at = [&](std::size_t i) {
+            return 2 * static_cast<double>(i) / static_cast<double>(size) - 1;
+        };
+        std::vector<double> above(n + 1);
+        std::vector<double> below(n + 1);
+        for (std::size_t i = 0; i <= n; ++i) below[i] = corner_angle(at(i), at(begin));
+        for (std::size_t row = begin; row < end; ++row) {
+            above.swap(below);
+            for (std::size_t i = 0; i <= n; ++i) below[i] = corner_angle(at(i), at(row + 1));
+            for (std::size_t i = 0; i < n; ++i) {
+                angles[row * n + i] = above[i] - above[i + 1] - below[i] + below[i + 1];
+            }
+        }
+    });
+    return angles;
 }
 
 glm::vec4 countable_radiance(const glm::vec4& value) {
     return {countable(value.x), countable(value.y), countable(value.z), countable(value.w)};
 }
 
-TreeShape::TreeShape(int size, int leaf_size)
+TreeShape::TreeShape(int size, int leaf_size, const std::function<bool()>& goes_on)
     : size_(size), texels_per_leaf_((size + leaf_size - 1) / leaf_size) {
     int along = (size + texels_per_leaf_ - 1) / texels_per_leaf_;
     std::size_t count = 0;
@@ -62,42 +75,51 @@ TreeShape::TreeShape(int size, int leaf_size)
         count += static_cast<std::size_t>(along) * static_cast<std::size_t>(along);
         if (along == 1) break;
     }
-    const auto texels = static_cast<std::size_t>(size) * static_cast<std::size_t>(size);
-    solid_angles_.reserve(texels);
-    directions_.reserve(texels);
-    for (int row = 0; row < size; ++row) {
-        for (int column = 0; column < size; ++column) {
-            solid_angles_.push_back(static_cast<float>(texel_solid_angle(column, row, size)));
-            const glm::dvec3 towards(1, (2.0 * column + 1) / size - 1, (2.0 * row + 1) / size - 1);
-            directions_.emplace_back(glm::normalize(towards));
-        }
-    }
-
+    const std::vector<double> exact = texel_solid_angles(size);
+    solid_angles_.assign(exact.begin(), exact.end());
+    directions_.resize(exact.size());
     nodes_.resize(count);
-    std::vector<glm::dvec3> sums(count);  // of solid angle * direction
-    std::vector<double> angles(count);
-    const auto add = [&](std::size_t to, const glm::dvec3& sum, double angle) {
-        sums[to] += sum;
-        angles[to] += angle;
+
+    // Of nodes: the solid angle, and the sum of solid angle * direction.
+    std::vector<glm::dvec4> sums(count);
+    const auto each_row = [&](int rows, const auto& body) {
+        parallel_for(0, static_cast<std::size_t>(rows), 8, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t row = begin; row < end && goes_on(); ++row) {
+                body(static_cast<int>(row));
+            }
+        });
     };
-    for (int row = 0; row < size; ++row) {
-        for (int column = 0; column < size; ++column) {
-            const auto texel = static_cast<std::size_t>(row * size + column);
-            const auto leaf = static_cast<std::size_t>(row / texels_per_leaf_ * sizes_[0] +
-                                                       column / texels_per_leaf_);
-            const double angle = texel_solid_angle(column, row, size);
-            add(leaf, angle * glm::dvec3(directions_[texel]), angle);
+    each_row(sizes_[0], [&](int leaf_row) {
+        const int first = leaf_row * texels_per_leaf_;
+        for (int row = first; row < std::min(size, first + texels_per_leaf_); ++row) {
+            for (int column = 0; column < size; ++column) {
+                const auto texel = static_cast<std::size_t>(row * size + column);
+                const glm::dvec3 towards(1, (2.0 * column + 1) / size - 1,
+                                         (2.0 * row + 1) / size - 1);
+                directions_[texel] = glm::vec3(glm::normalize(towards));
+                sums[static_cast<std::size_t>(leaf_row * sizes_[0] + column / texels_per_leaf_)] +=
+                    exact[texel] * glm::dvec4(directions_[texel], 1);
+            }
         }
-    }
+    });
     int covered = texels_per_leaf_;  // texels along an edge of a node
     for (std::size_t level = 0; level < sizes_.size(); ++level, covered *= 2) {
         const int n = sizes_[level];
-        for (int row = 0; row < n; ++row) {
+        each_row(n, [&](int row) {
             for (int column = 0; column < n; ++column) {
                 const std::size_t at = offsets_[level] + static_cast<std::size_t>(row * n + column);
+                if (level > 0) {
+                    const int below = sizes_[level - 1];
+                    for (int r = 2 * row; r < std::min(2 * row + 2, below); ++r) {
+                        for (int c = 2 * column; c < std::min(2 * column + 2, below); ++c) {
+                            sums[at] +=
+                                sums[offsets_[level - 1] + static_cast<std::size_t>(r * below + c)];
+                        }
+                    }
+                }
                 RadianceNode& node = nodes_[at];
-                const glm::vec3 center(sums[at] / angles[at]);
-                node.solid_angle = static_cast<float>(angles[at]);
+                const glm::vec3 center{sums[at] / sums[at].w};
+                node.solid_angle = static_cast<float>(sums[at].w);
                 // Leaves of one texel are points: their spread is 0 but for rounding.
                 node.center = glm::vec4(center, covered == 1 ? 0.0F : spread(center));
                 node.light_centers.fill(node.center);
@@ -105,26 +127,22 @@ TreeShape::TreeShape(int size, int leaf_size)
                 node.radius = 0;
                 for (const int y : {row * covered, std::min(size, (row + 1) * covered)}) {
                     for (const int x : {column * covered, std::min(size, (column + 1) * covered)}) {
-                        const glm::vec3 corner = glm::normalize(glm::vec3(
-                            1, 2.0F * static_cast<float>(x) / static_cast<float>(size) - 1,
-                            2.0F * static_cast<float>(y) / static_cast<float>(size) - 1));
-                        node.radius = std::max(node.radius, glm::distance(center, corner));
+                        const glm::dvec3 corner(1, 2.0 * x / size - 1, 2.0 * y / size - 1);
+                        node.radius = std::max(
+                            node.radius, glm::distance(center, glm::vec3(glm::normalize(corner))));
                     }
                 }
-                if (level + 1 < sizes_.size()) {
-                    add(offsets_[level + 1] +
-                            static_cast<std::size_t>(row / 2 * sizes_[level + 1] + column / 2),
-                        sums[at], angles[at]);
-                }
             }
-        }
+        });
     }
 }
 
-std::vector<RadianceNode> TreeShape::tree(std::span<const glm::vec4> texels) const {
+std::vector<RadianceNode> TreeShape::tree(std::span<const glm::vec4> texels,
+                                          const std::function<bool()>& goes_on) const {
     std::vector<RadianceNode> nodes = nodes_;
     std::vector<Moments> moments(nodes.size());
     for (int row = 0; row < size_; ++row) {
+        if (row % 64 == 63 && !goes_on()) return {};
         const int leaf_row = row / texels_per_leaf_ * sizes_[0];
         for (int column = 0; column < size_; ++column) {
             const auto texel = static_cast<std::size_t>(row * size_ + column);

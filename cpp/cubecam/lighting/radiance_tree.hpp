@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,9 @@ struct alignas(32) RadianceNode {
     float radius;  ///< from the center to the furthest corner
 };
 
-/// The exact solid angle, seen from the center of the cube, of the texel in a column and row of a
-/// face of size * size (the integral of (1 + a^2 + b^2)^(-3/2) over the texel).
-double texel_solid_angle(int column, int row, int size);
+/// The exact solid angles, seen from the center of the cube, of the texels of a face, row by row:
+/// integrals of (1 + a^2 + b^2)^(-3/2), where a and b go from -1 to 1 along the face.
+std::vector<double> texel_solid_angles(int size);
 
 /// Radiance that sums can hold: NaN counts as 0, infinity as 65504, the largest float16, and finite
 /// numbers are clamped to 1e30.
@@ -40,8 +41,9 @@ glm::vec4 countable_radiance(const glm::vec4& value);
 class TreeShape {
 public:
     /// `leaf_size`: leaves along an edge are at most about as many. A leaf is one texel if the face
-    /// has not more; else a square of several texels.
-    TreeShape(int size, int leaf_size);
+    /// has not more; else a square of several texels. `goes_on` is called now and then, on any
+    /// thread; once it returned false, the shape is of no use.
+    TreeShape(int size, int leaf_size, const std::function<bool()>& goes_on);
 
     int size() const { return size_; }
     int level_count() const { return static_cast<int>(sizes_.size()); }
@@ -50,8 +52,10 @@ public:
     std::size_t offset(int level) const { return offsets_[static_cast<std::size_t>(level)]; }
     std::size_t node_count() const { return nodes_.size(); }
 
-    /// The nodes of a face whose texels are these: size * size, row by row.
-    std::vector<RadianceNode> tree(std::span<const glm::vec4> texels) const;
+    /// The nodes of a face whose texels are these: size * size, row by row. `goes_on` is called now
+    /// and then; if it returns false, the result is empty.
+    std::vector<RadianceNode> tree(std::span<const glm::vec4> texels,
+                                   const std::function<bool()>& goes_on) const;
 
 private:
     int size_;

@@ -1,0 +1,184 @@
+// The methods of cubecam.CubeMap that filter its light, and cubecam._core._brdf.
+#include "arrays.hpp"
+#include "cubemap_arguments.hpp"
+#include "docs/lighting.hpp"
+#include "numbers.hpp"
+
+#include "cubecam/cubemap/cubemap_resample.hpp"
+#include "cubecam/lighting/brdf_table.hpp"
+#include "cubecam/lighting/prefilter.hpp"
+#include "cubecam/lighting/spherical_harmonics.hpp"
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace py = pybind11;
+
+namespace cubecam::bindings {
+
+namespace {
+
+using Levels = py::typing::Tuple<Pixels, py::ellipsis>;
+using ProgressLike = Shown<"collections.abc.Callable[[float], object] | None">;
+using SizeOrNone = OneOf<WholeNumber, py::none>;
+
+constexpr int most_levels = 64;
+
+py::array level_view(const CubeMapData& state, int size,
+                     const std::shared_ptr<const PixelBuffer>& pixels) {
+    return readonly_view(numpy_dtype(state.dtype), face_shape(size, state.channels), pixels->data(),
+                         pixels);
+}
+
+Levels levels_of(const CubeMap& cube) {
+    const auto state = cube.data();
+    py::list levels;
+    levels.append(level_view(*state, state->size, state->pixels));
+    if (state->levels) {
+        for (const CubeLevel& level : *state->levels) {
+            levels.append(level_view(*state, level.size, level.pixels));
+        }
+    }
+    return py::tuple(levels);
+}
+
+OneOf<py::array_t<float>, py::none> roughness_of(const CubeMap& cube) {
+    const auto state = cube.data();
+    if (!state->levels) return py::none();
+    auto values = std::make_shared<std::vector<float>>(1, 0.0F);
+    for (const CubeLevel& level : *state->levels) values->push_back(level.roughness);
+    const auto count = static_cast<py::ssize_t>(values->size());
+    return readonly_view(std::shared_ptr<const std::vector<float>>(std::move(values)), {count});
+}
+
+/// Runs work that takes a progress function, without the GIL. What the user's function raises, and
+/// KeyboardInterrupt, end the work.
+template <typename Work>
+CubePtr interruptible(py::handle progress, const Work& work) {
+    if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) {
+        refuse(progress, "progress", "a function of one number, or None");
+    }
+    const auto report = [&](double share) {
+        const py::gil_scoped_acquire locked;
+        if (PyErr_CheckSignals() != 0) return false;
+        if (progress.is_none()) return true;
+        PyObject* result = PyObject_CallFunction(progress.ptr(), "d", share);
+        Py_XDECREF(result);
+        return result != nullptr;
+    };
+    CubePtr made;
+    {
+        const py::gil_scoped_release unlocked;
+        made = work(report);
+    }
+    if (!made) throw py::error_already_set();
+    return made;
+}
+
+CubePtr prefilter_cube(const CubeMap& cube, const WholeNumber& level_count, const SizeOrNone& size,
+                       const ProgressLike& progress) {
+    const auto levels = static_cast<int>(to_int(level_count, "levels", 2, most_levels));
+    auto state = cube.data();
+    const int n = size.is_none() ? state->size : to_texels(to_int(size, "size"), "size");
+    return interruptible(progress, [&](const FilteredCube::Progress& report) {
+        if (n != state->size) {
+            const CubeMap resized(
+                n, state->channels, state->dtype,
+                resample_faces(*state, Sampling::centers, n, Sampling::centers, state->dtype),
+                state->mipmaps, OutputList(), state->encoding);
+            state = resized.data();
+        }
+        return prefilter(*state, levels, report);
+    });
+}
+
+CubePtr irradiance_of(const CubeMap& cube, const WholeNumber& size, const ProgressLike& progress) {
+    const int n = to_texels(to_int(size, "size"), "size");
+    const auto state = cube.data();
+    return interruptible(progress, [&](const FilteredCube::Progress& report) {
+        return irradiance(*state, n, report);
+    });
+}
+
+py::array_t<double> sh_of(const CubeMap& cube, const WholeNumber& order_value) {
+    const auto order = static_cast<int>(to_int(order_value, "order", 0, largest_sh_order));
+    const auto state = cube.data();
+    std::vector<double> coefficients;
+    {
+        const py::gil_scoped_release unlocked;
+        coefficients = cube_to_sh(*state, order);
+    }
+    return owned_array(std::move(coefficients),
+                       {static_cast<py::ssize_t>(sh_count(order)), state->channels});
+}
+
+CubePtr cube_from_sh(const ArrayLike& value, const WholeNumber& size) {
+    const auto array = double_array(value, "coefficients", "(K, C)");
+    const auto order =
+        static_cast<int>(std::lround(std::sqrt(static_cast<double>(array.shape(0))))) - 1;
+    if (order < 0 || order > largest_sh_order ||
+        static_cast<py::ssize_t>(sh_count(order)) != array.shape(0)) {
+        throw py::value_error("coefficients: expected 1, 4, 9, 16, ... up to " +
+                              std::to_string(sh_count(largest_sh_order)) + " rows, got " +
+                              std::to_string(array.shape(0)));
+    }
+    const auto channels = static_cast<int>(array.shape(1));
+    if (channels != 1 && channels != 3 && channels != 4) {
+        throw py::value_error("coefficients: expected 1, 3 or 4 columns, got " +
+                              std::to_string(array.shape(1)));
+    }
+    const int n = to_texels(to_int(size, "size"), "size");
+    const std::vector<double> coefficients = to_vector(array);
+    const py::gil_scoped_release unlocked;
+    const Buffer<float> faces = sh_to_faces(coefficients, order, channels, n);
+    PixelBuffer pixels(faces.size() * sizeof(float));
+    floats_to_pixels(DType::float32, faces.data(), faces.size(), pixels.data());
+    return std::make_shared<CubeMap>(n, channels, DType::float32, std::move(pixels));
+}
+
+/// Arrays of one shape, which Python broadcast.
+py::array_t<float> brdf_of(const ContiguousArray<float>& n_dot_v,
+                           const ContiguousArray<float>& roughness) {
+    std::vector<py::ssize_t> shape(n_dot_v.shape(), n_dot_v.shape() + n_dot_v.ndim());
+    shape.push_back(2);
+    py::array_t<float> result(shape);
+    const float* cosine = n_dot_v.data();
+    const float* rough = roughness.data();
+    float* to = result.mutable_data();
+    for (py::ssize_t i = 0; i < n_dot_v.size(); ++i) {
+        const glm::vec2 found = brdf(cosine[i], rough[i]);
+        *to++ = found.x;
+        *to++ = found.y;
+    }
+    return result;
+}
+
+}  // namespace
+
+}  // namespace cubecam::bindings
+
+void bind_lighting(py::module_& module) {
+    using namespace cubecam;
+    using namespace cubecam::bindings;
+
+    declared<CubeMap>()
+        .def_property_readonly("levels", &levels_of, docs::levels)
+        .def_property_readonly("roughness", &roughness_of, docs::roughness)
+        .def("prefilter", &prefilter_cube, py::arg("levels") = 6, py::arg("size") = py::none(),
+             py::kw_only(), py::arg("progress") = py::none(), docs::prefilter)
+        .def("irradiance", &irradiance_of, py::arg("size") = 32, py::kw_only(),
+             py::arg("progress") = py::none(), docs::irradiance)
+        .def("sh", &sh_of, py::arg("order") = 2, docs::sh)
+        .def_static("from_sh", &cube_from_sh, py::arg("coefficients"), py::kw_only(),
+                    py::arg("size") = 32, docs::from_sh);
+    module.def("_brdf", &brdf_of, py::arg("n_dot_v"), py::arg("roughness"),
+               "For cubecam.brdf: (..., 2) of arrays of one shape.");
+}
