@@ -31,6 +31,8 @@ from cubecam.typing import (
     FileLayout,
     Format,
     Layout,
+    MagFilter,
+    MinFilter,
     Output,
     Pixels,
     Place,
@@ -453,6 +455,11 @@ class Probe:
         The greatest number of faces that one call draws, from 1 to 6.
     depth_format : str or None
         The format of the depth and stencil buffer, see `Renderer.render`.
+    prefilter : bool, optional
+        Whether the probe is filtered by roughness, as rough surfaces see it (`CubeMap.prefilter`), whenever a
+        face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
+        ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
+        the probe's mipmaps, or the probe as it is.
 
     Raises
     ------
@@ -486,6 +493,7 @@ class Probe:
         parent: Node | None = None,
         faces_per_frame: typing.SupportsInt | typing.SupportsIndex = 6,
         depth_format: DepthFormat | None = "depth_component32f",
+        prefilter: bool | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -577,6 +585,14 @@ class Probe:
     @position.setter
     def position(self, value: np.typing.ArrayLike) -> None: ...
     @property
+    def prefilter(self) -> bool | None:
+        """
+        bool or None: whether the probe is filtered by roughness; None: if a drawn surface needs it.
+        """
+
+    @prefilter.setter
+    def prefilter(self, value: bool | None) -> None: ...
+    @property
     def samples(self) -> int:
         """
         int: samples of each texel (MSAA); 1 is none.
@@ -625,7 +641,7 @@ class RenderTexture:
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     mipmaps : bool
         True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
-    wrap : {"clamp", "repeat"}
+    wrap : {"clamp", "repeat", "mirror"}
         What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
     exclude : iterable of Node
         Nodes of `scene` that the texture leaves out, with all nodes below them.
@@ -789,7 +805,7 @@ class RenderTexture:
     @property
     def wrap(self) -> Wrap:
         """
-        str: "repeat" or "clamp".
+        str: "repeat", "clamp" or "mirror".
         """
 
     @wrap.setter
@@ -808,13 +824,24 @@ class Scene:
     background : array_like (3,) or (4,), str, or CubeMap, optional
         A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
         or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.
+    environment_intensity : float
+        The factor of the environment's light, at least 0.
+    environment_rotation : array_like (4,), optional
+        Quaternion (w, x, y, z) of any length except 0 that turns the environment: what the cubemap shows in a
+        direction d appears in the direction R d of the world. None: (1, 0, 0, 0).
 
     Raises
     ------
     TypeError
         For an environment or background of another type.
     ValueError
-        For a colour that is not finite.
+        For a colour, intensity or rotation that is not finite, a negative intensity, or a rotation of length 0.
+
+    Notes
+    -----
+    Intensity and rotation belong to the scene's own environment: to the surfaces that show it, to the
+    background where that is None, and so to captures and probes, which show both. They change neither the
+    environment that a node has of its own nor a background that is a cubemap.
 
     Examples
     --------
@@ -879,6 +906,8 @@ class Scene:
         *,
         environment: CubeMap | None = None,
         background: str | np.typing.ArrayLike | CubeMap | None = None,
+        environment_intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        environment_rotation: np.typing.ArrayLike | None = None,
     ) -> None: ...
     def __iter__(self: Scene) -> collections.abc.Iterator[Node]:
         """
@@ -1232,6 +1261,22 @@ class Scene:
 
     @environment.setter
     def environment(self, value: CubeMap | None) -> None: ...
+    @property
+    def environment_intensity(self) -> float:
+        """
+        float: the factor of the light of the scene's environment, at least 0.
+        """
+
+    @environment_intensity.setter
+    def environment_intensity(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def environment_rotation(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (4,) float64: unit quaternion (w, x, y, z) that turns the scene's environment; read-only.
+        """
+
+    @environment_rotation.setter
+    def environment_rotation(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def lights(self) -> tuple[Light, ...]:
         """
@@ -2136,10 +2181,11 @@ class CubeMap:
 class Image:
     """
     A picture that a material shows. It never changes.
-
-    Materials compute with the numbers as they are (uint8 as value/255). Under lights, decode an 8-bit
-    photograph with ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
-
+    
+    `StandardMaterial` decodes 8-bit pictures in its maps of colours. All other materials compute with the
+    numbers as they are (uint8 as value/255): for these, under lights, decode an 8-bit photograph with
+    ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
+    
     Parameters
     ----------
     pixels : array_like (H, W, C)
@@ -2147,19 +2193,29 @@ class Image:
         becomes float32. uv (0, 0) is the bottom-left corner.
     mipmaps : bool
         True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
-    wrap : {"repeat", "clamp"}
-        What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
+    wrap : {"repeat", "clamp", "mirror"} or a pair of these
+        What lookups outside 0..1 return, along both axes or along u and v: "repeat" repeats the picture, "clamp"
+        its border, "mirror" repeats it with every other copy mirrored.
     encoding : {"linear", "srgb"}, optional
-        What the numbers are. It changes no lookup, only how pictures of it are saved and shown. None:
-        that of the Frame or Image given as `pixels`; for an array, "srgb" for uint8, else "linear".
-
+        What the numbers are: how pictures of it are saved and shown, and whether a map of colours of
+        `StandardMaterial` decodes its 8-bit numbers. None: that of the Frame or Image given as `pixels`; for an
+        array, "srgb" for uint8, else "linear".
+    mag_filter : {"linear", "nearest"}
+        What a lookup takes where a texel is larger than a pixel: a mix of four texels, or the nearest one.
+    min_filter : {"linear", "nearest", "linear_mipmap_linear", "linear_mipmap_nearest", "nearest_mipmap_linear", \\
+    "nearest_mipmap_nearest"}, optional
+        The same where a texel is smaller than a pixel. The last four use mip levels: the first word says how a
+        level is looked up, the last one whether two levels are mixed. None: "linear_mipmap_linear" with
+        `mipmaps`, else "linear".
+    
     Raises
     ------
     TypeError
         For pixels of another type.
     ValueError
-        For another shape, an image without pixels, NaN, or another `wrap` or `encoding`.
-
+        For another shape, an image without pixels, NaN, another name, or `mipmaps` with a `min_filter` that uses
+        no levels.
+    
     Examples
     --------
     >>> import numpy as np
@@ -2221,8 +2277,10 @@ class Image:
         pixels: np.typing.ArrayLike,
         *,
         mipmaps: bool = False,
-        wrap: Wrap = "repeat",
+        wrap: Wrap | tuple[Wrap, Wrap] = "repeat",
         encoding: Encoding | None = None,
+        mag_filter: MagFilter = "linear",
+        min_filter: MinFilter | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Image) -> str: ...
@@ -2250,9 +2308,21 @@ class Image:
         """
 
     @property
+    def mag_filter(self) -> MagFilter:
+        """
+        str: "linear" or "nearest", for texels larger than a pixel.
+        """
+
+    @property
+    def min_filter(self) -> MinFilter:
+        """
+        str: for texels smaller than a pixel; with mip levels "linear_mipmap_linear" or the like.
+        """
+
+    @property
     def mipmaps(self) -> bool:
         """
-        bool: whether lookups are trilinear.
+        bool: whether lookups use mip levels.
         """
 
     @property
@@ -2268,9 +2338,9 @@ class Image:
         """
 
     @property
-    def wrap(self) -> Wrap:
+    def wrap(self) -> Wrap | tuple[Wrap, Wrap]:
         """
-        str: "repeat" or "clamp".
+        str, or a pair for u and v: "repeat", "clamp" or "mirror".
         """
 
 class Mesh:
@@ -2295,6 +2365,12 @@ class Mesh:
     colors : array_like (V, 3) or (V, 4), optional
         Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Materials with
         ``vertex_colors=True`` show them.
+    uvs1 : array_like (V, 2), optional
+        A second set of texture coordinates, for a `Texture` with ``uv_set=1``.
+    tangents : array_like (V, 4), optional
+        For normal maps. The first three numbers, of any length, point along +u in the surface; the fourth,
+        1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. None: materials that
+        need tangents use those of `with_tangents`.
 
     Raises
     ------
@@ -2652,6 +2728,8 @@ class Mesh:
         normals: np.typing.ArrayLike | None = None,
         uvs: np.typing.ArrayLike | None = None,
         colors: np.typing.ArrayLike | None = None,
+        uvs1: np.typing.ArrayLike | None = None,
+        tangents: np.typing.ArrayLike | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
@@ -2701,7 +2779,7 @@ class Mesh:
         Returns
         -------
         Mesh
-            A new mesh; normals, uvs and colours are the same.
+            A new mesh; all but the positions is the same.
 
         Raises
         ------
@@ -2722,6 +2800,8 @@ class Mesh:
         normals: np.typing.ArrayLike | None = None,
         uvs: np.typing.ArrayLike | None = None,
         colors: np.typing.ArrayLike | None = None,
+        uvs1: np.typing.ArrayLike | None = None,
+        tangents: np.typing.ArrayLike | None = None,
     ) -> None:
         """
         Replace several arrays of the vertices at once.
@@ -2743,6 +2823,10 @@ class Mesh:
             Texture coordinates. None: the texture coordinates stay.
         colors : array_like (V, 3) or (V, 4), optional
             Linear RGB or RGBA; uint8 stands for value/255. None: the colours stay.
+        uvs1 : array_like (V, 2), optional
+            The second set of texture coordinates. None: it stays.
+        tangents : array_like (V, 4), optional
+            Tangents. None: tangents that were given stay, also with new positions.
 
         Raises
         ------
@@ -2769,6 +2853,42 @@ class Mesh:
         ...     mesh.update(positions=np.c_[x.ravel(), y.ravel(), z.ravel()])
         >>> mesh.bounds[1].round(2).tolist()
         [1.0, 0.2, 1.0]
+        """
+
+    def with_tangents(self: Mesh, *, uv_set: typing.SupportsIndex = 0) -> Mesh:
+        """
+        Copy the mesh with the tangents of MikkTSpace, by which most programs bake normal maps.
+
+        Around a vertex the triangles that share edges and have the same orientation of their uvs get one tangent:
+        the mean of their directions of +u in the plane of the vertex's normal, weighted by the angle at the vertex.
+        Where triangles of both orientations, or the sides of a seam, share a vertex, the vertex is split: copies follow
+        all other vertices. Materials that need tangents use such a mesh by themselves where a mesh has none.
+
+        Parameters
+        ----------
+        uv_set : {0, 1}
+            The texture coordinates: 0 for `uvs`, 1 for `uvs1`.
+
+        Returns
+        -------
+        Mesh
+            A new mesh; it keeps its tangents when its vertices are replaced.
+
+        Raises
+        ------
+        ValueError
+            For a mesh without these texture coordinates.
+
+        Notes
+        -----
+        M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, section 3. Triangles without an area of
+        their uvs take the tangent of a neighbour; every tangent is finite and of unit length.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.plane().with_tangents().tangents[0].tolist()
+        [1.0, 0.0, 0.0, 1.0]
         """
 
     @property
@@ -2815,6 +2935,17 @@ class Mesh:
     @positions.setter
     def positions(self, value: np.typing.ArrayLike) -> None: ...
     @property
+    def tangents(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 4) float32 or None: unit vectors along +u and a sign; a read-only view.
+
+        The fourth number, 1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. Tangents can be
+        set. None: materials that need tangents use those of `with_tangents`, made again whenever vertices change.
+        """
+
+    @tangents.setter
+    def tangents(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
     def uvs(self) -> np.typing.NDArray[np.float32] | None:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
@@ -2824,6 +2955,16 @@ class Mesh:
 
     @uvs.setter
     def uvs(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
+    def uvs1(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 2) float32 or None: a second set of texture coordinates; a read-only view.
+
+        It can be set. None: the mesh has none.
+        """
+
+    @uvs1.setter
+    def uvs1(self, value: np.typing.ArrayLike | None) -> None: ...
 
 class Blend:
     """
@@ -3383,6 +3524,11 @@ class GlassMaterial(Material):
         False: F is 0, and only T shows.
     tint : array_like (3,) or (4,), or str
         Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
+    roughness : float
+        From 0, clear, to 1, frosted. A rough surface sees the environment filtered by roughness
+        (`CubeMap.prefilter`): round R, moved towards the normal (S. Lagarde and C. de Rousiers, "Moving
+        Frostbite to Physically Based Rendering", 2014), and round T for roughness * (2 max(ior, 1/ior) - 2),
+        at most roughness. F stays that of a smooth surface.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
@@ -3405,6 +3551,7 @@ class GlassMaterial(Material):
         ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
         tint: str | np.typing.ArrayLike = (1, 1, 1),
+        roughness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
         blend: BlendMode | Blend | None = None,
@@ -3430,6 +3577,14 @@ class GlassMaterial(Material):
 
     @ior.setter
     def ior(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        float: from 0, clear, to 1, frosted.
+        """
+
+    @roughness.setter
+    def roughness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tint(self) -> np.typing.NDArray[np.float32]:
         """
@@ -3717,7 +3872,9 @@ class ShaderMaterial(Material):
 
     ``struct Surface``: ``position`` (world), ``normal`` (world, unit, towards the viewer on
     double-sided surfaces), ``incident`` (world, unit, from the eye to the surface), ``position_object``,
-    ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours).
+    ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours), ``vec2 uv1`` (`Mesh.uvs1`;
+    0 if the mesh has none), ``vec4 tangent`` (`Mesh.tangents` in the world, or those of `Mesh.with_tangents`; 0 if the
+    mesh has neither tangents nor uvs).
 
     ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
     seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps.
@@ -5521,6 +5678,12 @@ class Stats:
     def draw_calls(self) -> int:
         """
         int
+        """
+
+    @property
+    def faces_filtered(self) -> int:
+        """
+        int: faces of cubemaps and probes that were filtered by roughness, since they had changed.
         """
 
     @property
