@@ -453,6 +453,11 @@ class Probe:
         The greatest number of faces that one call draws, from 1 to 6.
     depth_format : str or None
         The format of the depth and stencil buffer, see `Renderer.render`.
+    prefilter : bool, optional
+        Whether the probe is filtered by roughness, as rough surfaces see it (`CubeMap.prefilter`), whenever a
+        face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
+        ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
+        the probe's mipmaps, or the probe as it is.
 
     Raises
     ------
@@ -486,6 +491,7 @@ class Probe:
         parent: Node | None = None,
         faces_per_frame: typing.SupportsInt | typing.SupportsIndex = 6,
         depth_format: DepthFormat | None = "depth_component32f",
+        prefilter: bool | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -576,6 +582,14 @@ class Probe:
 
     @position.setter
     def position(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def prefilter(self) -> bool | None:
+        """
+        bool or None: whether the probe is filtered by roughness; None: if a drawn surface needs it.
+        """
+
+    @prefilter.setter
+    def prefilter(self, value: bool | None) -> None: ...
     @property
     def samples(self) -> int:
         """
@@ -808,13 +822,24 @@ class Scene:
     background : array_like (3,) or (4,), str, or CubeMap, optional
         A colour, or a cubemap as skybox, that pictures show where no node is. Numbers are linear; a CSS name
         or "#rrggbb" is sRGB and is decoded. None: the environment if there is one, else transparent black.
+    environment_intensity : float
+        The factor of the environment's light, at least 0.
+    environment_rotation : array_like (4,), optional
+        Quaternion (w, x, y, z) of any length except 0 that turns the environment: what the cubemap shows in a
+        direction d appears in the direction R d of the world. None: (1, 0, 0, 0).
 
     Raises
     ------
     TypeError
         For an environment or background of another type.
     ValueError
-        For a colour that is not finite.
+        For a colour, intensity or rotation that is not finite, a negative intensity, or a rotation of length 0.
+
+    Notes
+    -----
+    Intensity and rotation belong to the scene's own environment: to the surfaces that show it, to the
+    background where that is None, and so to captures and probes, which show both. They change neither the
+    environment that a node has of its own nor a background that is a cubemap.
 
     Examples
     --------
@@ -879,6 +904,8 @@ class Scene:
         *,
         environment: CubeMap | None = None,
         background: str | np.typing.ArrayLike | CubeMap | None = None,
+        environment_intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        environment_rotation: np.typing.ArrayLike | None = None,
     ) -> None: ...
     def __iter__(self: Scene) -> collections.abc.Iterator[Node]:
         """
@@ -1232,6 +1259,22 @@ class Scene:
 
     @environment.setter
     def environment(self, value: CubeMap | None) -> None: ...
+    @property
+    def environment_intensity(self) -> float:
+        """
+        float: the factor of the light of the scene's environment, at least 0.
+        """
+
+    @environment_intensity.setter
+    def environment_intensity(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def environment_rotation(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (4,) float64: unit quaternion (w, x, y, z) that turns the scene's environment; read-only.
+        """
+
+    @environment_rotation.setter
+    def environment_rotation(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def lights(self) -> tuple[Light, ...]:
         """
@@ -2306,11 +2349,11 @@ class CubeMap:
         """
 
     @property
-    def roughness(self) -> np.typing.NDArray[np.float32] | None:
+    def roughness(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (L,) float32, read-only: the roughness of each of `levels`, from 0 to 1.
 
-        None for a cubemap that `prefilter` did not make.
+        A cubemap that `prefilter` did not make has one level, whose roughness is 0.
         """
 
     @property
@@ -3581,6 +3624,11 @@ class GlassMaterial(Material):
         False: F is 0, and only T shows.
     tint : array_like (3,) or (4,), or str
         Linear RGB or RGBA that multiplies the refracted light; a CSS name or "#rrggbb" is sRGB and is decoded.
+    roughness : float
+        From 0, clear, to 1, frosted. A rough surface sees the environment filtered by roughness
+        (`CubeMap.prefilter`): round R, moved towards the normal (S. Lagarde and C. de Rousiers, "Moving
+        Frostbite to Physically Based Rendering", 2014), and round T for roughness * (2 max(ior, 1/ior) - 2),
+        at most roughness. F stays that of a smooth surface.
     opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
         The options of every `Material`.
 
@@ -3603,6 +3651,7 @@ class GlassMaterial(Material):
         ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
         fresnel: bool = True,
         tint: str | np.typing.ArrayLike = (1, 1, 1),
+        roughness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
         blend: BlendMode | Blend | None = None,
@@ -3628,6 +3677,14 @@ class GlassMaterial(Material):
 
     @ior.setter
     def ior(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        float: from 0, clear, to 1, frosted.
+        """
+
+    @roughness.setter
+    def roughness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def tint(self) -> np.typing.NDArray[np.float32]:
         """
@@ -5722,6 +5779,12 @@ class Stats:
         """
 
     @property
+    def faces_filtered(self) -> int:
+        """
+        int: faces of cubemaps and probes that were filtered by roughness, since they had changed.
+        """
+
+    @property
     def milliseconds(self) -> float:
         """
         float: time of the whole call, including the copy to main memory.
@@ -6460,6 +6523,11 @@ def _brdf(
 ) -> np.typing.NDArray[np.float32]:
     """
     For cubecam.brdf: (..., 2) of arrays of one shape.
+    """
+
+def _brdf_table() -> np.typing.NDArray[np.float32]:
+    """
+    The table of the shaders, (64, 64, 4) float32: roughness by N.V; scale, bias, the albedo of sheen, 0.
     """
 
 def _check_pickle(format: object) -> None:
