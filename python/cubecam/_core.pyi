@@ -2354,11 +2354,11 @@ class CubeMap:
         """
 
     @property
-    def roughness(self) -> np.typing.NDArray[np.float32] | None:
+    def roughness(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (L,) float32, read-only: the roughness of each of `levels`, from 0 to 1.
 
-        None for a cubemap that `prefilter` did not make.
+        A cubemap that `prefilter` did not make has one level, whose roughness is 0.
         """
 
     @property
@@ -7304,6 +7304,11 @@ def _brdf(
 ) -> np.typing.NDArray[np.float32]:
     """
     For cubecam.brdf: (..., 2) of arrays of one shape.
+    """
+
+def _brdf_table() -> np.typing.NDArray[np.float32]:
+    """
+    The table of the shaders, (64, 64, 4) float32: roughness by N.V; scale, bias, the albedo of sheen, 0.
     """
 
 def _check_pickle(format: object) -> None:

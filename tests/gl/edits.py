@@ -120,12 +120,24 @@ def shadow(world, rng, thing):
 
 
 def new_material(world, rng, thing):
-    makers = (cc.BasicMaterial, cc.PhongMaterial, cc.MirrorMaterial, cc.GlassMaterial)
+    makers = (
+        cc.BasicMaterial,
+        cc.PhongMaterial,
+        cc.MirrorMaterial,
+        cc.GlassMaterial,
+        cc.StandardMaterial,
+    )
     return one(rng, None, one(rng, *makers)(), one(rng, *world.things(cc.Material)))
 
 
 def map_of(world, rng, thing):
     return one(rng, None, one(rng, *world.images), random_image(rng), world.textures[0])
+
+
+def placed_map(world, rng, thing):
+    source = one(rng, *world.images, random_image(rng), world.textures[0])
+    placed = cc.Texture(source, offset=rng.random(2), rotation=30, scale=rng.uniform(0.5, 2, 2))
+    return one(rng, None, source, placed)
 
 
 def cube_of(world, rng, thing):
@@ -194,7 +206,7 @@ VALUES = {
     "RenderTexture.samples": choice(1, 4),
     "RenderTexture.scene": scene_of,
     "RenderTexture.size": lambda world, rng, thing: tuple(rng.integers(6, 20, 2).tolist()),
-    "RenderTexture.wrap": choice("clamp", "repeat"),
+    "RenderTexture.wrap": choice("clamp", "repeat", "mirror"),
     "Scene.background": lambda world, rng, thing: one(rng, None, rng.random(4), *world.cubes),
     "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
     "Scene.environment_intensity": number(0, 2),
@@ -206,7 +218,11 @@ VALUES = {
     "Mesh.positions": lambda world, rng, thing: (
         thing.positions * rng.uniform(0.8, 1.2, 3) + rng.uniform(-0.1, 0.1, 3)
     ),
+    "Mesh.tangents": lambda world, rng, thing: one(
+        rng, None, np.c_[rng.normal(size=thing.positions.shape), np.ones(len(thing.positions))]
+    ),
     "Mesh.uvs": lambda world, rng, thing: one(rng, None, rng.random((len(thing.positions), 2))),
+    "Mesh.uvs1": lambda world, rng, thing: one(rng, None, rng.random((len(thing.positions), 2))),
     "Material.blend": blend,
     "Material.color_write": choice(True, False, (True, False, True, True)),
     "Material.depth_test": flag,
@@ -235,6 +251,56 @@ VALUES = {
     "GlassMaterial.fresnel": flag,
     "GlassMaterial.roughness": choice(0, 0.3, 0.8),
     "GlassMaterial.tint": color,
+    "StandardMaterial.alpha_cutoff": number(0, 1),
+    "StandardMaterial.alpha_mode": choice(None, "opaque", "mask", "blend"),
+    "StandardMaterial.anisotropy": choice(0, 0.4, 1),
+    "StandardMaterial.anisotropy_map": placed_map,
+    "StandardMaterial.anisotropy_rotation": number(-90, 90),
+    "StandardMaterial.attenuation_color": vector(0.1, 1),
+    "StandardMaterial.attenuation_distance": choice(float("inf"), 0.3, 2),
+    "StandardMaterial.clearcoat": choice(0, 0.4, 1),
+    "StandardMaterial.clearcoat_map": placed_map,
+    "StandardMaterial.clearcoat_normal_map": placed_map,
+    "StandardMaterial.clearcoat_normal_scale": number(-2, 2),
+    "StandardMaterial.clearcoat_roughness": choice(0, 0.4, 1),
+    "StandardMaterial.clearcoat_roughness_map": placed_map,
+    "StandardMaterial.color": color,
+    "StandardMaterial.dispersion": choice(0, 0.5, 3),
+    "StandardMaterial.emissive": color,
+    "StandardMaterial.emissive_map": placed_map,
+    "StandardMaterial.emissive_strength": number(0, 2),
+    "StandardMaterial.ior": choice(0, 1, 1.4, 2),
+    "StandardMaterial.iridescence": choice(0, 0.4, 1),
+    "StandardMaterial.iridescence_ior": number(1, 2),
+    "StandardMaterial.iridescence_map": placed_map,
+    "StandardMaterial.iridescence_thickness_map": placed_map,
+    "StandardMaterial.iridescence_thickness_max": number(200, 600),
+    "StandardMaterial.iridescence_thickness_min": number(0, 300),
+    "StandardMaterial.map": placed_map,
+    "StandardMaterial.metallic": choice(0, 0.4, 1),
+    "StandardMaterial.metallic_roughness_map": placed_map,
+    "StandardMaterial.multiple_scattering": flag,
+    "StandardMaterial.normal_map": placed_map,
+    "StandardMaterial.normal_scale": number(-2, 2),
+    "StandardMaterial.occlusion_map": placed_map,
+    "StandardMaterial.occlusion_strength": number(0, 1),
+    "StandardMaterial.roughness": choice(0, 0.3, 0.8, 1),
+    "StandardMaterial.sheen_color": color,
+    "StandardMaterial.sheen_color_map": placed_map,
+    "StandardMaterial.sheen_roughness": choice(0, 0.4, 1),
+    "StandardMaterial.sheen_roughness_map": placed_map,
+    "StandardMaterial.specular": choice("levels", "sampled"),
+    "StandardMaterial.specular_color": color,
+    "StandardMaterial.specular_color_map": placed_map,
+    "StandardMaterial.specular_map": placed_map,
+    "StandardMaterial.specular_samples": choice(1, 4, 9),
+    "StandardMaterial.specular_weight": number(0, 1),
+    "StandardMaterial.thickness": choice(0, 0.3, 0.6),
+    "StandardMaterial.thickness_map": placed_map,
+    "StandardMaterial.transmission": choice(0, 0.4, 1),
+    "StandardMaterial.transmission_map": placed_map,
+    "StandardMaterial.unlit": flag,
+    "StandardMaterial.vertex_colors": flag,
     "ShaderMaterial.displacement": choice(None, 0.5, 1.0),
     "ShaderMaterial.fragment": choice(*SOURCES),
     "ShaderMaterial.textures": lambda world, rng, thing: {

@@ -163,6 +163,24 @@ def full_world(rng):
         box, cc.BasicMaterial(color=(1, 0.5, 0.2), opacity=0.5), position=(1.5, 0.3, 0.8), scale=1.2
     )
     scene.add(cc.Mesh.plane(6, 5), cc.PhongMaterial(), position=(0, -1.3, 0), name="floor")
+    plain = cc.StandardMaterial(color=(0.9, 0.7, 0.4), roughness=0.4)
+    scene.add(ball, plain, position=(-1.6, 0.8, 0.2))
+    painted = cc.StandardMaterial(
+        map=images[0],
+        metallic=0.5,
+        roughness=0.6,
+        normal_map=images[1],
+        emissive=(0.2, 0.1, 0),
+        emissive_map=images[0],
+        clearcoat=0.8,
+        clearcoat_map=images[1],
+        sheen_color=(0.2, 0.3, 0.4),
+        iridescence=0.4,
+        anisotropy=0.5,
+        transmission=0.5,
+        thickness=0.2,
+    )
+    scene.add(box, painted, position=(1.4, -0.6, -0.4), environment=glass)
     shader = cc.ShaderMaterial(
         SOURCES[0],
         vertex=VERTEX_SOURCES[0],

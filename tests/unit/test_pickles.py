@@ -197,6 +197,12 @@ MAKE = {
     "PhongMaterial": lambda: cc.PhongMaterial(ka=0.5, double_sided=True),
     "MirrorMaterial": lambda: cc.MirrorMaterial(tint=(1, 0.5, 0)),
     "GlassMaterial": lambda: cc.GlassMaterial(fresnel=False),
+    "StandardMaterial": lambda: cc.StandardMaterial(
+        color=(1, 0.5, 0.25, 0.5),
+        sheen_color=(0.5, 0, 0),
+        alpha_mode="mask",
+        normal_map=cc.Texture(np.ones((1, 2, 3), np.uint8), offset=(0.5, 0)),
+    ),
     "ShaderMaterial": lambda: cc.ShaderMaterial("vec4 shade(Surface s) { return vec4(1); }"),
     "ImageEffect": lambda: cc.ImageEffect("vec4 effect(vec2 uv) { return vec4(1); }"),
     "Shadow": lambda: cc.Shadow(size=64, radius=2, extent=3),
@@ -237,7 +243,7 @@ def test_both_lists_hold_every_class_that_pickles():
         if isinstance(kind, type) and not issubclass(kind, BaseException)
     }
     assert classes - refused - abstract <= {name.partition(" ")[0] for name in MAKE}
-    new_since_0_1 = {"Blend", "Texture"}
+    new_since_0_1 = {"Blend", "StandardMaterial", "Texture"}
     assert set(OLD_PICKLES) == set(MAKE) - new_since_0_1
 
 

@@ -280,7 +280,7 @@ CALLS = {
     "type": (lambda r: cc.Scene().add(light=3), "add(): light: expected Light, got 3"),
     "a choice": (
         lambda r: cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), wrap=None),
-        'RenderTexture(): wrap: expected "repeat" or "clamp", got None',
+        'RenderTexture(): wrap: expected "repeat", "clamp" or "mirror", got None',
     ),
     "many arguments of a choice": (
         lambda r: cc.Image([[[0.0]]], wrap="clamp", mipmaps=object()),

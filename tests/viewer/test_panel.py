@@ -44,10 +44,12 @@ MAKERS: dict[str, Any] = {
         },
     ),
     "SpotLight": lambda: cc.SpotLight((0, 2, 0), (0, -1, 0)),
+    "StandardMaterial": cc.StandardMaterial,
     "StereoCamera": lambda: cc.StereoCamera.off_axis(cc.PerspectiveCamera(), separation=0.1),
 }
 #: Properties without a control, each with its reason.
 WITHOUT = {
+    **{name: "a picture" for name in dir(cc.StandardMaterial) if name.endswith("_map")},
     "map": "a picture",
     "cubemap": "a cubemap or a probe",
     "environment": "a cubemap or a probe",

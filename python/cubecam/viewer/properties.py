@@ -46,7 +46,8 @@ def properties(thing: object, *, leave_out: Collection[str] = ()) -> tuple[Contr
     -------
     tuple of Control
         The properties of the object's own class come first, those of its base classes follow. A property that may be
-        None, for example ``MirrorMaterial.f0``, has a flag "f0 is None" and a control for the number. A colour of four
+        None, for example ``MirrorMaterial.f0``, has a flag "f0 is None" and a control for the number; one that may be
+        infinite has a flag such as "attenuation_distance is inf". A colour of four
         numbers has a colour picker and a number "color alpha".
 
     Raises
@@ -150,6 +151,11 @@ class _Property:
         """The types of the value besides None."""
         return tuple(word for word in self.gives if word != "None")
 
+    @property
+    def off(self) -> float | None:
+        """The value that is switched on and off by a flag: None, or infinity where the docstring names it."""
+        return np.inf if not self.optional and re.search(r"\binf:", self.doc) else None
+
     def control(self, kind: str, **fields: Any) -> Control:
         more = {"name": self.name, "get": self.get, "set": self.set, "keep": self.keep}
         return Control(kind=kind, **{**more, "help": self.doc, **fields})
@@ -243,10 +249,12 @@ def _number(one: _Property, default: float = 1.0) -> Control:
     kept = [
         default if value is None else value
     ]  # the number that comes back when None is switched off
+    if not np.isfinite(kept[0]):
+        kept = [default]
 
     def get() -> float:
         today = one.get()
-        if today is not None:
+        if today is not None and np.isfinite(today):
             kept[0] = today
         # A float32 as a float shows digits that nobody wrote.
         return int(kept[0]) if whole else float(f"{kept[0]:.7g}")
@@ -292,17 +300,17 @@ def _round_up(value: float) -> float:
 
 
 def _or_none(one: _Property, control: Control, start: Any) -> Iterator[Control]:
-    """Give a control, and a flag beside it where the property may be None."""
-    if not one.optional:
+    """Give a control, and a flag beside it where the property may be None or infinite."""
+    if not one.optional and one.off is None:
         yield control
         return
 
-    def set_none(value: bool) -> None:
-        one.set(None if value else control.get())
+    def set_off(value: bool) -> None:
+        one.set(one.off if value else control.get())
 
     control.get()  # remembers the number
     yield one.control(
-        "flag", name=f"{one.name} is None", get=lambda: one.get() is None, set=set_none
+        "flag", name=f"{one.name} is {one.off}", get=lambda: one.get() == one.off, set=set_off
     )
     # The flag brings the value back, None included.
     yield Control(**{**vars(control), "keep": None})
