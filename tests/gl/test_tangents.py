@@ -23,7 +23,9 @@ def mesh_of(uvs=CORNERS, **more):
 def middle(renderer, mesh, fragment, matrix=None, camera=None, **options):
     """The colour in the middle of the picture of one node."""
     scene = cc.Scene()
-    scene.add(mesh, cc.ShaderMaterial(fragment, **options), matrix=np.eye(4) if matrix is None else matrix)
+    scene.add(
+        mesh, cc.ShaderMaterial(fragment, **options), matrix=np.eye(4) if matrix is None else matrix
+    )
     frame = renderer.render(scene, camera or flat_camera(1, 1), (5, 5), format="rgba32f")
     return frame.color[2, 2, :3].astype(float)
 
@@ -71,13 +73,17 @@ def test_given_tangents_are_interpolated(renderer):
 
 def test_the_second_set_of_uvs_is_another(any_path):
     second = np.array([[0, 0], [4, 0], [4, 2], [0, 2]], float)
-    np.testing.assert_allclose(middle(any_path, mesh_of(uvs1=second), SECOND), [2, 1, 0.5], atol=1e-5)
+    np.testing.assert_allclose(
+        middle(any_path, mesh_of(uvs1=second), SECOND), [2, 1, 0.5], atol=1e-5
+    )
     np.testing.assert_allclose(middle(any_path, mesh_of(), SECOND), [0, 0, 0.5], atol=1e-5)
 
 
 def test_without_uvs_there_are_no_tangents(renderer):
     mesh = cc.Mesh(SQUARE, TRIANGLES)
-    np.testing.assert_array_equal(middle(renderer, mesh, "vec3 shade(Surface s) { return s.tangent.xyz; }"), 0)
+    np.testing.assert_array_equal(
+        middle(renderer, mesh, "vec3 shade(Surface s) { return s.tangent.xyz; }"), 0
+    )
     mesh.tangents = [[0, 2, 0, 1]] * 4
     np.testing.assert_allclose(middle(renderer, mesh, TANGENT), [0, 1, 0], atol=1e-6)
 
@@ -101,7 +107,9 @@ def pictures(renderer, scene):
 def lump(rng):
     ball = cc.Mesh.icosphere(1, subdivisions=2)
     count = len(ball.positions)
-    return cc.Mesh(ball.positions, ball.indices, uvs=rng.random((count, 2)), uvs1=rng.random((count, 2)))
+    return cc.Mesh(
+        ball.positions, ball.indices, uvs=rng.random((count, 2)), uvs1=rng.random((count, 2))
+    )
 
 
 @pytest.mark.parametrize("flat", [False, True])
@@ -121,10 +129,15 @@ def test_pictures_after_changes_equal_pictures_from_scratch(renderer, rng, flat)
     for change in changes:
         mesh.update(**change)
         got = pictures(renderer, scene)
-        arrays = {name: getattr(mesh, name) for name in ("positions", "normals", "uvs", "uvs1", "tangents")}
+        arrays = {
+            name: getattr(mesh, name)
+            for name in ("positions", "normals", "uvs", "uvs1", "tangents")
+        }
         again = cc.Mesh(indices=mesh.indices, **arrays)
         with cc.Renderer(device=DEVICE) as fresh:
-            for one, other in zip(got, pictures(fresh, stage(again, flat_shading=flat)), strict=True):
+            for one, other in zip(
+                got, pictures(fresh, stage(again, flat_shading=flat)), strict=True
+            ):
                 assert_identical(one, other)
         assert not np.array_equal(got[0], first[0]) or "normals" in change
     mesh.tangents = None

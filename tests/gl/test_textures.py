@@ -49,7 +49,9 @@ def test_uv_0_0_is_the_bottom_left(renderer, dtype, channels):
     assert_close(got[..., :3], want, "unorm8_filter")
 
 
-@pytest.mark.parametrize("wrap", ["repeat", "clamp", "mirror", ("mirror", "clamp"), ("clamp", "repeat")])
+@pytest.mark.parametrize(
+    "wrap", ["repeat", "clamp", "mirror", ("mirror", "clamp"), ("clamp", "repeat")]
+)
 def test_wrapping(renderer, wrap):
     mesh = quad(CORNERS * 3 - 1.2)
     got, hits, mask = seen(renderer, mesh, cc.BasicMaterial(map=cc.Image(PICTURE, wrap=wrap)))
@@ -100,14 +102,21 @@ def test_filters_of_texels_smaller_than_a_pixel(renderer, name, lod):
         weights = {low: 1 - (lod - low), low + 1: lod - low}
     else:
         weights = {0: 1.0}
-    want = sum(w * sample_image(levels[k], uv, nearest=first == "nearest") for k, w in weights.items())
+    want = sum(
+        w * sample_image(levels[k], uv, nearest=first == "nearest") for k, w in weights.items()
+    )
     # llvmpipe has the level to 8 bits of its fraction.
     np.testing.assert_allclose(got, want, atol=0.006 if between == "linear" else 1e-3)
 
 
 def test_what_a_sampler_says():
     image = cc.Image(PICTURE)
-    assert (image.wrap, image.mag_filter, image.min_filter, image.mipmaps) == ("repeat", "linear", "linear", False)
+    assert (image.wrap, image.mag_filter, image.min_filter, image.mipmaps) == (
+        "repeat",
+        "linear",
+        "linear",
+        False,
+    )
     image = cc.Image(PICTURE, mipmaps=True, wrap=("clamp", "mirror"), mag_filter="nearest")
     assert (image.wrap, image.mag_filter) == (("clamp", "mirror"), "nearest")
     assert (image.min_filter, image.mipmaps) == ("linear_mipmap_linear", True)
@@ -126,7 +135,11 @@ def test_what_a_sampler_says():
         (TypeError, "wrap: expected a name or a pair of names.*, got int", {"wrap": ("clamp", 3)}),
         (TypeError, "wrap: expected a name or a pair of names.*, got tuple", {"wrap": ("clamp",)}),
         (TypeError, "wrap: expected a name or a pair of names.*, got float", {"wrap": 1.0}),
-        (ValueError, 'mag_filter: expected "linear", "nearest", got "cubic"', {"mag_filter": "cubic"}),
+        (
+            ValueError,
+            'mag_filter: expected "linear", "nearest", got "cubic"',
+            {"mag_filter": "cubic"},
+        ),
         (ValueError, 'min_filter: expected "linear", .*, got "cubic"', {"min_filter": "cubic"}),
         (
             ValueError,
