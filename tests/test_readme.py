@@ -114,6 +114,8 @@ def test_every_name_at_hand_exists(tmp_path):
     vec4 shade(Surface surface) {
         vec3 sum = surface.position + surface.normal + surface.incident + surface.position_object;
         sum += surface.normal_object + vec3(surface.uv, 0.0) + surface.color.rgb;
+        sum += environment_filtered(surface.normal, 0.5) + environment_irradiance(surface.normal);
+        sum += vec3(brdf(0.5, 0.5), 0.0);
         sum += environment(surface.normal) + environment_lod(surface.normal, 1.0) + ambient_light();
         if (environment_is_local()) sum += environment_position() * float(environment_levels());
         for (int i = 0; i < light_count(); ++i) {

@@ -15,7 +15,7 @@
 
 #include <cmath>
 #include <memory>
-#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,11 +50,12 @@ Levels levels_of(const CubeMap& cube) {
     return py::tuple(levels);
 }
 
-OneOf<py::array_t<float>, py::none> roughness_of(const CubeMap& cube) {
+py::array_t<float> roughness_of(const CubeMap& cube) {
     const auto state = cube.data();
-    if (!state->levels) return py::none();
     auto values = std::make_shared<std::vector<float>>(1, 0.0F);
-    for (const CubeLevel& level : *state->levels) values->push_back(level.roughness);
+    if (state->levels) {
+        for (const CubeLevel& level : *state->levels) values->push_back(level.roughness);
+    }
     const auto count = static_cast<py::ssize_t>(values->size());
     return readonly_view(std::shared_ptr<const std::vector<float>>(std::move(values)), {count});
 }
@@ -161,6 +162,14 @@ py::array_t<float> brdf_of(const ContiguousArray<float>& n_dot_v,
     return result;
 }
 
+py::array_t<float> brdf_table_view() {
+    const std::span<const glm::vec4> table = brdf_table();
+    // The table lives as long as the process.
+    const std::shared_ptr<const void> owner(table.data(), [](const void*) {});
+    return readonly_view(py::dtype::of<float>(), {brdf_table_size, brdf_table_size, 4},
+                         table.data(), owner);
+}
+
 }  // namespace
 
 }  // namespace cubecam::bindings
@@ -181,4 +190,7 @@ void bind_lighting(py::module_& module) {
                     py::arg("size") = 32, docs::from_sh);
     module.def("_brdf", &brdf_of, py::arg("n_dot_v"), py::arg("roughness"),
                "For cubecam.brdf: (..., 2) of arrays of one shape.");
+    module.def("_brdf_table", &brdf_table_view,
+               "The table of the shaders, (64, 64, 4) float32: roughness by N.V; scale, bias, the "
+               "albedo of sheen, 0.");
 }

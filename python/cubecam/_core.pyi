@@ -16,6 +16,7 @@ import cubecam._shader_inputs
 import cubecam.viewer.controls
 import cubecam.viewer.cube_view
 from cubecam.typing import (
+    AlphaMode,
     BlendEquation,
     BlendFactor,
     BlendMode,
@@ -31,11 +32,14 @@ from cubecam.typing import (
     FileLayout,
     Format,
     Layout,
+    MagFilter,
+    MinFilter,
     Output,
     Pixels,
     Place,
     ProbeUpdate,
     Sampling,
+    SpecularMode,
     StencilFunc,
     StencilOp,
     StereoLayout,
@@ -80,6 +84,7 @@ __all__: list[str] = [
     "ShaderMaterial",
     "Shadow",
     "SpotLight",
+    "StandardMaterial",
     "Stencil",
     "StereoCamera",
     "Texture",
@@ -639,7 +644,7 @@ class RenderTexture:
         Samples of each texel, for smooth edges (MSAA); 1 is none.
     mipmaps : bool
         True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
-    wrap : {"clamp", "repeat"}
+    wrap : {"clamp", "repeat", "mirror"}
         What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
     exclude : iterable of Node
         Nodes of `scene` that the texture leaves out, with all nodes below them.
@@ -803,7 +808,7 @@ class RenderTexture:
     @property
     def wrap(self) -> Wrap:
         """
-        str: "repeat" or "clamp".
+        str: "repeat", "clamp" or "mirror".
         """
 
     @wrap.setter
@@ -2349,11 +2354,11 @@ class CubeMap:
         """
 
     @property
-    def roughness(self) -> np.typing.NDArray[np.float32] | None:
+    def roughness(self) -> np.typing.NDArray[np.float32]:
         """
         ndarray (L,) float32, read-only: the roughness of each of `levels`, from 0 to 1.
 
-        None for a cubemap that `prefilter` did not make.
+        A cubemap that `prefilter` did not make has one level, whose roughness is 0.
         """
 
     @property
@@ -2377,10 +2382,11 @@ class CubeMap:
 class Image:
     """
     A picture that a material shows. It never changes.
-
-    Materials compute with the numbers as they are (uint8 as value/255). Under lights, decode an 8-bit
-    photograph with ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
-
+    
+    `StandardMaterial` decodes 8-bit pictures in its maps of colours. All other materials compute with the
+    numbers as they are (uint8 as value/255): for these, under lights, decode an 8-bit photograph with
+    ``load_image(path, srgb=True)`` first; see docs/conventions.md, "Encoding".
+    
     Parameters
     ----------
     pixels : array_like (H, W, C)
@@ -2388,19 +2394,29 @@ class Image:
         becomes float32. uv (0, 0) is the bottom-left corner.
     mipmaps : bool
         True: lookups are trilinear, for pictures that appear small. False: lookups are bilinear.
-    wrap : {"repeat", "clamp"}
-        What lookups outside 0..1 return: "repeat" repeats the picture, "clamp" its border.
+    wrap : {"repeat", "clamp", "mirror"} or a pair of these
+        What lookups outside 0..1 return, along both axes or along u and v: "repeat" repeats the picture, "clamp"
+        its border, "mirror" repeats it with every other copy mirrored.
     encoding : {"linear", "srgb"}, optional
-        What the numbers are. It changes no lookup, only how pictures of it are saved and shown. None:
-        that of the Frame or Image given as `pixels`; for an array, "srgb" for uint8, else "linear".
-
+        What the numbers are: how pictures of it are saved and shown, and whether a map of colours of
+        `StandardMaterial` decodes its 8-bit numbers. None: that of the Frame or Image given as `pixels`; for an
+        array, "srgb" for uint8, else "linear".
+    mag_filter : {"linear", "nearest"}
+        What a lookup takes where a texel is larger than a pixel: a mix of four texels, or the nearest one.
+    min_filter : {"linear", "nearest", "linear_mipmap_linear", "linear_mipmap_nearest", "nearest_mipmap_linear", \\
+    "nearest_mipmap_nearest"}, optional
+        The same where a texel is smaller than a pixel. The last four use mip levels: the first word says how a
+        level is looked up, the last one whether two levels are mixed. None: "linear_mipmap_linear" with
+        `mipmaps`, else "linear".
+    
     Raises
     ------
     TypeError
         For pixels of another type.
     ValueError
-        For another shape, an image without pixels, NaN, or another `wrap` or `encoding`.
-
+        For another shape, an image without pixels, NaN, another name, or `mipmaps` with a `min_filter` that uses
+        no levels.
+    
     Examples
     --------
     >>> import numpy as np
@@ -2462,8 +2478,10 @@ class Image:
         pixels: np.typing.ArrayLike,
         *,
         mipmaps: bool = False,
-        wrap: Wrap = "repeat",
+        wrap: Wrap | tuple[Wrap, Wrap] = "repeat",
         encoding: Encoding | None = None,
+        mag_filter: MagFilter = "linear",
+        min_filter: MinFilter | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Image) -> str: ...
@@ -2491,9 +2509,21 @@ class Image:
         """
 
     @property
+    def mag_filter(self) -> MagFilter:
+        """
+        str: "linear" or "nearest", for texels larger than a pixel.
+        """
+
+    @property
+    def min_filter(self) -> MinFilter:
+        """
+        str: for texels smaller than a pixel; with mip levels "linear_mipmap_linear" or the like.
+        """
+
+    @property
     def mipmaps(self) -> bool:
         """
-        bool: whether lookups are trilinear.
+        bool: whether lookups use mip levels.
         """
 
     @property
@@ -2509,9 +2539,9 @@ class Image:
         """
 
     @property
-    def wrap(self) -> Wrap:
+    def wrap(self) -> Wrap | tuple[Wrap, Wrap]:
         """
-        str: "repeat" or "clamp".
+        str, or a pair for u and v: "repeat", "clamp" or "mirror".
         """
 
 class Mesh:
@@ -2536,6 +2566,12 @@ class Mesh:
     colors : array_like (V, 3) or (V, 4), optional
         Linear RGB or RGBA, alpha from 0 to 1; uint8 stands for value/255. Materials with
         ``vertex_colors=True`` show them.
+    uvs1 : array_like (V, 2), optional
+        A second set of texture coordinates, for a `Texture` with ``uv_set=1``.
+    tangents : array_like (V, 4), optional
+        For normal maps. The first three numbers, of any length, point along +u in the surface; the fourth,
+        1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. None: materials that
+        need tangents use those of `with_tangents`.
 
     Raises
     ------
@@ -2893,6 +2929,8 @@ class Mesh:
         normals: np.typing.ArrayLike | None = None,
         uvs: np.typing.ArrayLike | None = None,
         colors: np.typing.ArrayLike | None = None,
+        uvs1: np.typing.ArrayLike | None = None,
+        tangents: np.typing.ArrayLike | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
@@ -2942,7 +2980,7 @@ class Mesh:
         Returns
         -------
         Mesh
-            A new mesh; normals, uvs and colours are the same.
+            A new mesh; all but the positions is the same.
 
         Raises
         ------
@@ -2963,6 +3001,8 @@ class Mesh:
         normals: np.typing.ArrayLike | None = None,
         uvs: np.typing.ArrayLike | None = None,
         colors: np.typing.ArrayLike | None = None,
+        uvs1: np.typing.ArrayLike | None = None,
+        tangents: np.typing.ArrayLike | None = None,
     ) -> None:
         """
         Replace several arrays of the vertices at once.
@@ -2984,6 +3024,10 @@ class Mesh:
             Texture coordinates. None: the texture coordinates stay.
         colors : array_like (V, 3) or (V, 4), optional
             Linear RGB or RGBA; uint8 stands for value/255. None: the colours stay.
+        uvs1 : array_like (V, 2), optional
+            The second set of texture coordinates. None: it stays.
+        tangents : array_like (V, 4), optional
+            Tangents. None: tangents that were given stay, also with new positions.
 
         Raises
         ------
@@ -3010,6 +3054,42 @@ class Mesh:
         ...     mesh.update(positions=np.c_[x.ravel(), y.ravel(), z.ravel()])
         >>> mesh.bounds[1].round(2).tolist()
         [1.0, 0.2, 1.0]
+        """
+
+    def with_tangents(self: Mesh, *, uv_set: typing.SupportsIndex = 0) -> Mesh:
+        """
+        Copy the mesh with the tangents of MikkTSpace, by which most programs bake normal maps.
+
+        Around a vertex the triangles that share edges and have the same orientation of their uvs get one tangent:
+        the mean of their directions of +u in the plane of the vertex's normal, weighted by the angle at the vertex.
+        Where triangles of both orientations, or the sides of a seam, share a vertex, the vertex is split: copies follow
+        all other vertices. Materials that need tangents use such a mesh by themselves where a mesh has none.
+
+        Parameters
+        ----------
+        uv_set : {0, 1}
+            The texture coordinates: 0 for `uvs`, 1 for `uvs1`.
+
+        Returns
+        -------
+        Mesh
+            A new mesh; it keeps its tangents when its vertices are replaced.
+
+        Raises
+        ------
+        ValueError
+            For a mesh without these texture coordinates.
+
+        Notes
+        -----
+        M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, section 3. Triangles without an area of
+        their uvs take the tangent of a neighbour; every tangent is finite and of unit length.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cc.Mesh.plane().with_tangents().tangents[0].tolist()
+        [1.0, 0.0, 0.0, 1.0]
         """
 
     @property
@@ -3056,6 +3136,17 @@ class Mesh:
     @positions.setter
     def positions(self, value: np.typing.ArrayLike) -> None: ...
     @property
+    def tangents(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 4) float32 or None: unit vectors along +u and a sign; a read-only view.
+
+        The fourth number, 1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. Tangents can be
+        set. None: materials that need tangents use those of `with_tangents`, made again whenever vertices change.
+        """
+
+    @tangents.setter
+    def tangents(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
     def uvs(self) -> np.typing.NDArray[np.float32] | None:
         """
         ndarray (V, 2) float32 or None: (0, 0) is a picture's bottom-left; a read-only view.
@@ -3065,6 +3156,16 @@ class Mesh:
 
     @uvs.setter
     def uvs(self, value: np.typing.ArrayLike | None) -> None: ...
+    @property
+    def uvs1(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 2) float32 or None: a second set of texture coordinates; a read-only view.
+
+        It can be set. None: the mesh has none.
+        """
+
+    @uvs1.setter
+    def uvs1(self, value: np.typing.ArrayLike | None) -> None: ...
 
 class Blend:
     """
@@ -3972,11 +4073,25 @@ class ShaderMaterial(Material):
 
     ``struct Surface``: ``position`` (world), ``normal`` (world, unit, towards the viewer on
     double-sided surfaces), ``incident`` (world, unit, from the eye to the surface), ``position_object``,
-    ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours).
+    ``normal_object``, ``uv``, ``color`` (of the vertices; white if the mesh has no colours), ``vec2 uv1`` (`Mesh.uvs1`;
+    0 if the mesh has none), ``vec4 tangent`` (`Mesh.tangents` in the world, or those of `Mesh.with_tangents`; 0 if the
+    mesh has neither tangents nor uvs).
 
     ``vec3 environment(vec3 direction)``: the light from a world direction in the node's environment, without
-    seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps.
-    ``int environment_levels()``: how many levels the environment has, 1 without mipmaps and 0 where there is no environment;
+    seams; ``environment_lod(direction, level)``: the same at a level of its mipmaps, or of its levels by
+    roughness. ``int environment_levels()``: how many levels the environment has, 1 without mipmaps or levels by roughness, and 0
+    where there is no environment.
+    ``vec3 environment_filtered(vec3 direction, float roughness)``: the light round a direction, filtered by the
+    lobe of GGX for a roughness from 0, the environment itself, to 1 (`CubeMap.prefilter`).
+    ``vec3 environment_irradiance(vec3 normal)``: the mean of the light round a direction, weighted by the cosine
+    (`CubeMap.irradiance`): a white diffuse surface has this colour.
+    ``vec2 brdf(float n_dot_v, float roughness)``: a GGX surface with the reflectance F0 head-on reflects F0 * x + y
+    of uniform light (`brdf`). If a source contains one of these three names, the renderer filters the environment
+    by roughness, if it has no such levels yet; a probe with ``prefilter=False`` keeps its mipmaps instead, and
+    roughness 1 and irradiance are then the coarsest of these.
+    ``vec3 environment_mip(vec3 direction, float level)``: the light at a level of mipmaps that are averages of
+    boxes of texels, whether the environment has mipmaps or not; ``float environment_size()``: the texels along an edge of
+    level 0.
     ``bool environment_is_local()``: whether a probe captured it; ``vec3 environment_position()``: where in the world the probe
     did.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to
@@ -4134,6 +4249,672 @@ class ShaderMaterial(Material):
 
     @vertex.setter
     def vertex(self, value: str | os.PathLike[str] | None) -> None: ...
+
+class StandardMaterial(Material):
+    """
+    The metallic-roughness material of glTF 2.0, with the KHR_materials extensions.
+
+    The model is that of glTF 2.0, section 3.9 and appendix B: a metal and a dielectric of GGX microfacets (D of
+    Trowbridge and Reitz, separable V of Smith, F of Schlick, alpha = roughness**2), mixed by `metallic`; the
+    dielectric has a Lambertian base. Above it lie, in this order, a thin film, sheen, emission and a clear coat.
+    The parameters, their ranges and most defaults are glTF's. Only `color`, `metallic` and `roughness` matter for
+    most materials; every other part costs nothing until it is used.
+
+    Light comes from the environment, which is that of the node, a CubeMap or a Probe, or else that of the scene,
+    filtered by roughness; and from lights. The unit of a `DirectionalLight` is lux and that of a `PointLight` or
+    `SpotLight` with ``decay=2`` is candela, as in KHR_lights_punctual: a white surface that faces one lux has the
+    radiance 1/pi. An `AmbientLight` acts as an environment of constant radiance.
+
+    A map is an Image, an array (H, W, C), a RenderTexture, or one of these with a place (`Texture`). Maps multiply
+    the parameter beside them, except those of normals and occlusion. Colours in maps of 8 bits (`map`,
+    `emissive_map`, `specular_color_map`, `sheen_color_map`) are sRGB and are decoded; all other maps and all
+    floats are linear. Maps are not shown on meshes without uvs.
+
+    Parameters
+    ----------
+    color : array_like (3,) or (4,), or str
+        Base colour, linear RGB or RGBA from 0 to 1: what a metal reflects head-on and a dielectric scatters; a CSS
+        name or "#rrggbb" is sRGB and is decoded (3.9.2).
+    metallic : float
+        From 0, a dielectric, to 1, a metal (3.9.2).
+    roughness : float
+        From 0, a mirror, to 1 (3.9.2, B.2.3).
+    map : map, optional
+        Times `color`, alpha included.
+    metallic_roughness_map : map, optional
+        Green times `roughness`, blue times `metallic`.
+    normal_map : map, optional
+        Normals in the tangent frame, x along growing u and y along growing v; 0 to 1 stands for -1 to 1 (3.9.3).
+    normal_scale : float
+        Factor of the normals' x and y, finite.
+    occlusion_map : map, optional
+        Red is the share of the light from all around, of the environment and of ambient lights, that reaches the
+        surface; other lights and what shows through are not changed (3.9.3).
+    occlusion_strength : float
+        From 0, no occlusion, to 1.
+    emissive : array_like (3,) or str
+        Linear RGB of the radiance that the surface emits, not negative (3.9.3).
+    emissive_map : map, optional
+        Times `emissive`.
+    emissive_strength : float
+        Times `emissive`, not negative (KHR_materials_emissive_strength).
+    vertex_colors : bool
+        Whether the mesh's colours multiply `color`, alpha included (3.9.2).
+    alpha_mode : {"opaque", "mask", "blend"} or None
+        "opaque" ignores the alpha of colour, map and vertices; "mask" makes holes where it is below `alpha_cutoff`;
+        "blend" blends the surface (3.9.4). None blends it if any alpha is below 1, as other materials do. `opacity`
+        counts in all modes, and ``blend=`` decides how the surface is blended, if it is given. A blended surface
+        multiplies all of its light by alpha, reflections included.
+    alpha_cutoff : float
+        The smallest alpha that "mask" shows, not negative.
+    ior : float
+        Index of refraction of the dielectric, at least 1; 0 stands for infinity (KHR_materials_ior).
+    specular_weight : float
+        Strength of the dielectric's reflection, from 0 to 1 (KHR_materials_specular).
+    specular_map : map, optional
+        Alpha times `specular_weight`.
+    specular_color : array_like (3,) or str
+        Factor of the dielectric's reflectance seen head-on, not negative; the product ends at 1.
+    specular_color_map : map, optional
+        Times `specular_color`.
+    clearcoat : float
+        Share of a clear coat with an index of refraction of 1.5, from 0 to 1 (KHR_materials_clearcoat).
+    clearcoat_map : map, optional
+        Red times `clearcoat`.
+    clearcoat_roughness : float
+        Roughness of the coat, from 0 to 1.
+    clearcoat_roughness_map : map, optional
+        Green times `clearcoat_roughness`.
+    clearcoat_normal_map : map, optional
+        Normals of the coat. Without it the coat has the normals of the mesh.
+    clearcoat_normal_scale : float
+        Factor of the coat's normals' x and y, finite.
+    sheen_color : array_like (3,) or str
+        Linear RGB from 0 to 1 of fibres on the surface, as of velvet (KHR_materials_sheen).
+    sheen_color_map : map, optional
+        Times `sheen_color`.
+    sheen_roughness : float
+        How much the fibres spread, from 0 to 1.
+    sheen_roughness_map : map, optional
+        Alpha times `sheen_roughness`.
+    iridescence : float
+        Share of a thin film in which light interferes, from 0 to 1 (KHR_materials_iridescence).
+    iridescence_map : map, optional
+        Red times `iridescence`.
+    iridescence_ior : float
+        Index of refraction of the film, at least 1.
+    iridescence_thickness_min, iridescence_thickness_max : float
+        Thickness of the film in nanometres where the map is 0 and 1, not negative; without a map it is the latter.
+    iridescence_thickness_map : map, optional
+        Green goes from one thickness to the other.
+    anisotropy : float
+        How much highlights are stretched, from 0 to 1 (KHR_materials_anisotropy).
+    anisotropy_rotation : float
+        Direction of the stretch, degrees from the tangent towards the bitangent.
+    anisotropy_map : map, optional
+        Red and green are a direction to be turned by `anisotropy_rotation`, 0 to 1 for -1 to 1; blue times
+        `anisotropy`.
+    transmission : float
+        Share of the light entering the dielectric that passes through it, times `color`, from 0 to 1
+        (KHR_materials_transmission). The surface shows what lies behind.
+    transmission_map : map, optional
+        Red times `transmission`.
+    thickness : float
+        Thickness of the volume behind the surface, in the mesh's units, not negative; 0 is a thin wall, which bends
+        no light (KHR_materials_volume).
+    thickness_map : map, optional
+        Green times `thickness`.
+    attenuation_distance : float
+        World units, above 0, after which white light in the volume has the colour `attenuation_color`.
+    attenuation_color : array_like (3,) or str
+        Linear RGB from 0 to 1.
+    dispersion : float
+        20 divided by the Abbe number, not negative: how far colours part in the volume (KHR_materials_dispersion).
+    unlit : bool
+        Whether `color` times its map is all that shows (KHR_materials_unlit).
+    specular : {"levels", "sampled"}
+        How the reflection of the environment is found. "levels": one lookup in the environment filtered by
+        roughness, in the main direction of Lagarde and de Rousiers (2014), times the split sum of Karis (2013).
+        "sampled": `specular_samples` directions by importance, looked up in box mipmaps (Krivanek and Colbert
+        2008): slower and closer to the exact integral. Clear coats always use the levels.
+    specular_samples : int
+        From 1 to 1024: 16 leave an error of about 12 %, 64 of 4 %.
+    multiple_scattering : bool
+        Whether the light that rough surfaces scatter more than once is added (Fdez-Aguera 2019); it is lost
+        otherwise. Lights with a place or direction are not changed.
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+        The options of every `Material`.
+
+    Raises
+    ------
+    ValueError
+        For a value out of its range or not finite, or a name that is not in the list.
+    TypeError
+        For a map of another type.
+
+    Notes
+    -----
+    Where glTF leaves a choice: lights see a roughness of at least 1/32, since a lamp of no size would be infinitely
+    bright in a smooth mirror. The light of lights that passes through a transmissive surface is left out.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> gold = cc.StandardMaterial(color=(1, .77, .34), roughness=.3)
+    >>> gold.metallic, gold.roughness, gold.alpha_mode
+    (1.0, 0.3, None)
+    >>> cc.StandardMaterial(color="red", metallic=0, roughness=.5, clearcoat=1)
+    StandardMaterial(color=(1, 0, 0, 1), metallic=0.0, roughness=0.5, clearcoat=1.0)
+    """
+
+    def __init__(
+        self: StandardMaterial,
+        *,
+        color: str | np.typing.ArrayLike = (1, 1, 1),
+        metallic: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        roughness: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        metallic_roughness_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        normal_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        normal_scale: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        occlusion_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        occlusion_strength: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        emissive: str | np.typing.ArrayLike = (0, 0, 0),
+        emissive_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        emissive_strength: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        vertex_colors: bool = True,
+        alpha_mode: AlphaMode | None = None,
+        alpha_cutoff: typing.SupportsFloat | typing.SupportsIndex = 0.5,
+        ior: typing.SupportsFloat | typing.SupportsIndex = 1.5,
+        specular_weight: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        specular_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        specular_color: str | np.typing.ArrayLike = (1, 1, 1),
+        specular_color_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        clearcoat: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        clearcoat_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        clearcoat_roughness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        clearcoat_roughness_map: Texture
+        | Image
+        | RenderTexture
+        | np.typing.ArrayLike
+        | None = None,
+        clearcoat_normal_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        clearcoat_normal_scale: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        sheen_color: str | np.typing.ArrayLike = (0, 0, 0),
+        sheen_color_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        sheen_roughness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        sheen_roughness_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        iridescence: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        iridescence_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        iridescence_ior: typing.SupportsFloat | typing.SupportsIndex = 1.3,
+        iridescence_thickness_min: typing.SupportsFloat | typing.SupportsIndex = 100.0,
+        iridescence_thickness_max: typing.SupportsFloat | typing.SupportsIndex = 400.0,
+        iridescence_thickness_map: Texture
+        | Image
+        | RenderTexture
+        | np.typing.ArrayLike
+        | None = None,
+        anisotropy: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        anisotropy_rotation: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        anisotropy_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        transmission: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        transmission_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        thickness: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        thickness_map: Texture | Image | RenderTexture | np.typing.ArrayLike | None = None,
+        attenuation_distance: typing.SupportsFloat | typing.SupportsIndex = ...,
+        attenuation_color: str | np.typing.ArrayLike = (1, 1, 1),
+        dispersion: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        unlit: bool = False,
+        specular: SpecularMode = "levels",
+        specular_samples: typing.SupportsInt | typing.SupportsIndex = 16,
+        multiple_scattering: bool = True,
+        opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        double_sided: bool = False,
+        blend: BlendMode | Blend | None = None,
+        depth_write: bool | None = None,
+        depth_test: bool = True,
+        color_write: bool | tuple[bool, bool, bool, bool] = True,
+        stencil: Stencil | None = None,
+        flat_shading: bool = False,
+    ) -> None: ...
+    @property
+    def alpha_cutoff(self) -> float:
+        """
+        float: with "mask", the smallest alpha that shows, not negative.
+        """
+
+    @alpha_cutoff.setter
+    def alpha_cutoff(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def alpha_mode(self) -> AlphaMode | None:
+        """
+        str or None: what alpha does; None blends if anything is translucent.
+        """
+
+    @alpha_mode.setter
+    def alpha_mode(self, value: AlphaMode | None) -> None: ...
+    @property
+    def anisotropy(self) -> float:
+        """
+        float: how much highlights are stretched, from 0 to 1.
+        """
+
+    @anisotropy.setter
+    def anisotropy(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def anisotropy_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: red and green are the direction, 0..1 for -1..1, blue times anisotropy.
+        """
+
+    @anisotropy_map.setter
+    def anisotropy_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def anisotropy_rotation(self) -> float:
+        """
+        float: angle of the stretch from the tangent, counter-clockwise, degrees.
+        """
+
+    @anisotropy_rotation.setter
+    def anisotropy_rotation(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def attenuation_color(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (3,) float32: linear RGB, from 0 to 1, read-only.
+        """
+
+    @attenuation_color.setter
+    def attenuation_color(self, value: str | np.typing.ArrayLike) -> None: ...
+    @property
+    def attenuation_distance(self) -> float:
+        """
+        float: world units, above 0, after which white light has the attenuation colour; inf: never.
+        """
+
+    @attenuation_distance.setter
+    def attenuation_distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def clearcoat(self) -> float:
+        """
+        float: share of a clear coat, from 0 to 1.
+        """
+
+    @clearcoat.setter
+    def clearcoat(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def clearcoat_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: red times clearcoat.
+        """
+
+    @clearcoat_map.setter
+    def clearcoat_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def clearcoat_normal_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: normals of the coat; None: those of the mesh.
+        """
+
+    @clearcoat_normal_map.setter
+    def clearcoat_normal_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def clearcoat_normal_scale(self) -> float:
+        """
+        float: factor of x and y in clearcoat_normal_map.
+        """
+
+    @clearcoat_normal_scale.setter
+    def clearcoat_normal_scale(
+        self, value: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    @property
+    def clearcoat_roughness(self) -> float:
+        """
+        float: roughness of the coat, from 0 to 1.
+        """
+
+    @clearcoat_roughness.setter
+    def clearcoat_roughness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def clearcoat_roughness_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: green times clearcoat_roughness.
+        """
+
+    @clearcoat_roughness_map.setter
+    def clearcoat_roughness_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def color(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (4,) float32: linear RGBA of the base, from 0 to 1, read-only.
+        """
+
+    @color.setter
+    def color(self, value: str | np.typing.ArrayLike) -> None: ...
+    @property
+    def dispersion(self) -> float:
+        """
+        float: 20 divided by the Abbe number, not negative; 0: none.
+        """
+
+    @dispersion.setter
+    def dispersion(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def emissive(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (3,) float32: linear RGB of the light that the surface emits, read-only.
+        """
+
+    @emissive.setter
+    def emissive(self, value: str | np.typing.ArrayLike) -> None: ...
+    @property
+    def emissive_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: times emissive.
+        """
+
+    @emissive_map.setter
+    def emissive_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def emissive_strength(self) -> float:
+        """
+        float: times emissive, not negative.
+        """
+
+    @emissive_strength.setter
+    def emissive_strength(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def ior(self) -> float:
+        """
+        float: index of refraction, at least 1; 0 stands for infinity, where all light is reflected.
+        """
+
+    @ior.setter
+    def ior(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def iridescence(self) -> float:
+        """
+        float: share of a thin film, from 0 to 1.
+        """
+
+    @iridescence.setter
+    def iridescence(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def iridescence_ior(self) -> float:
+        """
+        float: index of refraction of the film, at least 1.
+        """
+
+    @iridescence_ior.setter
+    def iridescence_ior(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def iridescence_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: red times iridescence.
+        """
+
+    @iridescence_map.setter
+    def iridescence_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def iridescence_thickness_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: green goes from the least to the greatest thickness.
+        """
+
+    @iridescence_thickness_map.setter
+    def iridescence_thickness_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def iridescence_thickness_max(self) -> float:
+        """
+        float: thickness of the film in nanometres where the map is 1, or without one.
+        """
+
+    @iridescence_thickness_max.setter
+    def iridescence_thickness_max(
+        self, value: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    @property
+    def iridescence_thickness_min(self) -> float:
+        """
+        float: thickness of the film in nanometres where the map is 0.
+        """
+
+    @iridescence_thickness_min.setter
+    def iridescence_thickness_min(
+        self, value: typing.SupportsFloat | typing.SupportsIndex
+    ) -> None: ...
+    @property
+    def map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: times the colour and its alpha.
+        """
+
+    @map.setter
+    def map(self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None) -> None: ...
+    @property
+    def metallic(self) -> float:
+        """
+        float: 0 is a dielectric, 1 a metal.
+        """
+
+    @metallic.setter
+    def metallic(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def metallic_roughness_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: green times the roughness, blue times metallic.
+        """
+
+    @metallic_roughness_map.setter
+    def metallic_roughness_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def multiple_scattering(self) -> bool:
+        """
+        bool: whether light that rough surfaces scatter several times is added.
+        """
+
+    @multiple_scattering.setter
+    def multiple_scattering(self, value: bool) -> None: ...
+    @property
+    def normal_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: normals in the tangent frame, 0..1 for -1..1.
+        """
+
+    @normal_map.setter
+    def normal_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def normal_scale(self) -> float:
+        """
+        float: factor of the normal map's x and y; negative ones turn bumps into dents.
+        """
+
+    @normal_scale.setter
+    def normal_scale(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def occlusion_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: red is the share of the environment that reaches the surface.
+        """
+
+    @occlusion_map.setter
+    def occlusion_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def occlusion_strength(self) -> float:
+        """
+        float: how much the occlusion map counts, from 0 to 1.
+        """
+
+    @occlusion_strength.setter
+    def occlusion_strength(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def roughness(self) -> float:
+        """
+        float: from 0 (smooth) to 1; alpha is its square.
+        """
+
+    @roughness.setter
+    def roughness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def sheen_color(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (3,) float32: linear RGB of a layer of fibres, from 0 to 1, read-only.
+        """
+
+    @sheen_color.setter
+    def sheen_color(self, value: str | np.typing.ArrayLike) -> None: ...
+    @property
+    def sheen_color_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: times sheen_color.
+        """
+
+    @sheen_color_map.setter
+    def sheen_color_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def sheen_roughness(self) -> float:
+        """
+        float: how much the fibres spread, from 0 to 1.
+        """
+
+    @sheen_roughness.setter
+    def sheen_roughness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def sheen_roughness_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: alpha times sheen_roughness.
+        """
+
+    @sheen_roughness_map.setter
+    def sheen_roughness_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def specular(self) -> SpecularMode:
+        """
+        str: "levels" looks the reflection up once, in filtered levels; "sampled" takes many samples.
+        """
+
+    @specular.setter
+    def specular(self, value: SpecularMode) -> None: ...
+    @property
+    def specular_color(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (3,) float32: linear RGB, factor of a dielectric's reflectance seen head-on, read-only.
+        """
+
+    @specular_color.setter
+    def specular_color(self, value: str | np.typing.ArrayLike) -> None: ...
+    @property
+    def specular_color_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: times specular_color.
+        """
+
+    @specular_color_map.setter
+    def specular_color_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def specular_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: alpha times specular_weight.
+        """
+
+    @specular_map.setter
+    def specular_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def specular_samples(self) -> int:
+        """
+        int: how many samples "sampled" takes, from 1 to 1024.
+        """
+
+    @specular_samples.setter
+    def specular_samples(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    @property
+    def specular_weight(self) -> float:
+        """
+        float: strength of a dielectric's reflection, from 0 to 1.
+        """
+
+    @specular_weight.setter
+    def specular_weight(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def thickness(self) -> float:
+        """
+        float: of the volume behind the surface, in the mesh's units; 0: a thin wall.
+        """
+
+    @thickness.setter
+    def thickness(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def thickness_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: green times thickness.
+        """
+
+    @thickness_map.setter
+    def thickness_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def transmission(self) -> float:
+        """
+        float: share of the light entering a dielectric that passes through, from 0 to 1.
+        """
+
+    @transmission.setter
+    def transmission(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+    @property
+    def transmission_map(self) -> Texture | Image | RenderTexture | None:
+        """
+        Texture, Image, RenderTexture or None: red times transmission.
+        """
+
+    @transmission_map.setter
+    def transmission_map(
+        self, value: Texture | Image | RenderTexture | np.typing.ArrayLike | None
+    ) -> None: ...
+    @property
+    def unlit(self) -> bool:
+        """
+        bool: whether the colour alone shows, without light or emission.
+        """
+
+    @unlit.setter
+    def unlit(self, value: bool) -> None: ...
+    @property
+    def vertex_colors(self) -> bool:
+        """
+        bool: whether the colour is multiplied by the mesh's vertex colours.
+        """
+
+    @vertex_colors.setter
+    def vertex_colors(self, value: bool) -> None: ...
 
 class ImageEffect:
     """
@@ -6523,6 +7304,11 @@ def _brdf(
 ) -> np.typing.NDArray[np.float32]:
     """
     For cubecam.brdf: (..., 2) of arrays of one shape.
+    """
+
+def _brdf_table() -> np.typing.NDArray[np.float32]:
+    """
+    The table of the shaders, (64, 64, 4) float32: roughness by N.V; scale, bias, the albedo of sheen, 0.
     """
 
 def _check_pickle(format: object) -> None:

@@ -198,7 +198,7 @@ VALUES = {
     "RenderTexture.samples": choice(1, 4),
     "RenderTexture.scene": scene_of,
     "RenderTexture.size": lambda world, rng, thing: tuple(rng.integers(6, 20, 2).tolist()),
-    "RenderTexture.wrap": choice("clamp", "repeat"),
+    "RenderTexture.wrap": choice("clamp", "repeat", "mirror"),
     "Scene.background": lambda world, rng, thing: one(rng, None, rng.random(4), *world.cubes),
     "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
     "Scene.environment_intensity": number(0, 2),
@@ -210,7 +210,11 @@ VALUES = {
     "Mesh.positions": lambda world, rng, thing: (
         thing.positions * rng.uniform(0.8, 1.2, 3) + rng.uniform(-0.1, 0.1, 3)
     ),
+    "Mesh.tangents": lambda world, rng, thing: one(
+        rng, None, np.c_[rng.normal(size=thing.positions.shape), np.ones(len(thing.positions))]
+    ),
     "Mesh.uvs": lambda world, rng, thing: one(rng, None, rng.random((len(thing.positions), 2))),
+    "Mesh.uvs1": lambda world, rng, thing: one(rng, None, rng.random((len(thing.positions), 2))),
     "Material.blend": blend,
     "Material.color_write": choice(True, False, (True, False, True, True)),
     "Material.depth_test": flag,

@@ -1,4 +1,4 @@
-"""Tangents by M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), section 3, from the text, for small meshes.
+"""Tangents by M. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited" (2008), section 3, for small meshes.
 
 Edges must have at most two triangles, and every triangle an area of its uvs.
 """
@@ -50,7 +50,7 @@ def corner_tangents(positions, normals, uvs, indices):
         parent[root((face, i))] = root((there, (j + 1) % 3))
         parent[root((face, (i + 1) % 3))] = root((there, j))
 
-    sums = {}
+    sums: dict[tuple[int, int], np.ndarray] = {}
     for face, i in parent:
         v = indices[face, i]
         before, after = (p[indices[face, (i + k) % 3]] - p[v] for k in (2, 1))

@@ -112,6 +112,53 @@ def test_texture_coordinates_count_from_the_bottom(load):
     np.testing.assert_array_equal(got, [[0, 1], [0.25, 0.5], [1, -1]])
 
 
+def test_the_second_set_counts_from_the_bottom_too(load):
+    uvs = np.array([[0, 0], [0.25, 0.5], [1, 2]], np.float32)
+    mesh = load(shown(TEXCOORD_1=uvs))
+    assert mesh.uvs is None
+    np.testing.assert_array_equal(mesh.uvs1, [[0, 1], [0.25, 0.5], [1, -1]])
+    file = GltfFile()
+    file.node(mesh=file.mesh(file.primitive(TEXCOORD_1=uvs), file.primitive()))
+    np.testing.assert_array_equal(load(file).uvs1[3:], 0)
+
+
+UP = np.array([[0, 0, 1]] * 3, np.float32)
+TANGENTS = np.array([[1, 0, 0, 1], [0, 1, 0, -1], [0.6, 0.8, 0, 1]], np.float32)
+
+
+def test_tangents_go_with_the_nodes(load):
+    file = GltfFile()
+    mesh = file.mesh(file.primitive(NORMAL=UP, TANGENT=TANGENTS))
+    file.node(mesh=mesh, scale=[2, 1, 1])
+    file.node(mesh=mesh, scale=[-1, 1, 1])
+    got = load(file).tangents
+    stretched = np.array([[1, 0, 0], [0, 1, 0], np.array([1.2, 0.8, 0]) / np.hypot(1.2, 0.8)])
+    np.testing.assert_allclose(got[:3], np.c_[stretched, [1, -1, 1]], atol=1e-6)
+    # A mirror turns round the cross product of normal and tangent, so that the signs change.
+    np.testing.assert_allclose(got[3:], TANGENTS * (-1, 1, 1, -1), atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    "case", ["without normals", "not a number", "of one part", "moved by a morph target"]
+)
+def test_tangents_that_do_not_count(load, case):
+    file = GltfFile()
+    bad = np.full((3, 4), np.nan, np.float32)
+    target = {"POSITION": file.accessor(CORNERS)}
+    parts = {
+        "without normals": [file.primitive(TANGENT=TANGENTS)],
+        "not a number": [file.primitive(NORMAL=UP, TANGENT=bad)],
+        "of one part": [file.primitive(NORMAL=UP, TANGENT=TANGENTS), file.primitive(NORMAL=UP)],
+        "moved by a morph target": [
+            {**file.primitive(NORMAL=UP, TANGENT=TANGENTS), "targets": [target]}
+        ],
+    }[case]
+    file.node(
+        mesh=file.mesh(*parts, **({"weights": [0.5]} if case == "moved by a morph target" else {}))
+    )
+    assert load(file).tangents is None
+
+
 COLORS = np.array([[1, 0, 0, 1], [0, 0.4, 0, 0.2], [0.2, 0.6, 1, 0]])
 
 
@@ -178,6 +225,7 @@ def test_quantized_attributes(load):
         ("NORMAL", np.zeros((3, 2), np.float32), "expected an accessor of VEC3, got VEC2"),
         ("TEXCOORD_0", np.zeros((4, 2), np.float32), "expected 3 elements"),
         ("COLOR_0", np.zeros((3, 2), np.float32), "expected an accessor of VEC3 or VEC4, got VEC2"),
+        ("TEXCOORD_1", np.zeros((3, 3), np.float32), "expected an accessor of VEC2, got VEC3"),
     ],
 )
 def test_attributes_that_do_not_fit_are_refused(load, key, values, text):

@@ -317,7 +317,14 @@ def test_normals_of_a_glb_node_go_by_the_inverse_transpose(tmp_path, matrix):
     assert (np.einsum("ij,ij->i", faced, want[np.asarray(mesh.indices)[:, 0]]) > 0).all()
 
 
-STREAMS = {"positions": 3, "normals": 3, "uvs": 2, "colors": 4}
+STREAMS = {"positions": 3, "normals": 3, "uvs": 2, "colors": 4, "uvs1": 2, "tangents": 4}
+
+
+def random_values(rng, name):
+    values = rng.random((4, STREAMS[name]))
+    if name == "tangents":
+        values[:, 3] = 1
+    return values
 
 
 def quad(**more):
@@ -332,9 +339,9 @@ def by_update(mesh, name, value):
 @pytest.mark.parametrize("change", [by_update, setattr], ids=["update", "property"])
 @pytest.mark.parametrize("name", STREAMS)
 def test_vertices_set_anew_are_those_of_a_new_mesh(rng, name, change):
-    given = {n: rng.random((4, width)) for n, width in STREAMS.items()}
+    given = {n: random_values(rng, n) for n in STREAMS}
     mesh = cc.Mesh(indices=[[0, 1, 2], [0, 2, 3]], **given)
-    given[name] = rng.random((4, STREAMS[name]))
+    given[name] = random_values(rng, name)
     change(mesh, name, given[name])
     wanted = cc.Mesh(indices=[[0, 1, 2], [0, 2, 3]], **given)
     for other in STREAMS:
@@ -343,10 +350,10 @@ def test_vertices_set_anew_are_those_of_a_new_mesh(rng, name, change):
 
 
 def test_arrays_handed_out_keep_their_values(rng):
-    mesh = quad(uvs=rng.random((4, 2)), colors=rng.random((4, 4)))
+    mesh = quad(**{n: random_values(rng, n) for n in STREAMS if n != "positions"})
     before = {name: getattr(mesh, name) for name in STREAMS}
     copies = {name: array.copy() for name, array in before.items()}
-    mesh.update(**{name: rng.random((4, width)) for name, width in STREAMS.items()})
+    mesh.update(**{name: random_values(rng, name) for name in STREAMS})
     for name, array in before.items():
         np.testing.assert_array_equal(array, copies[name])
         assert not np.array_equal(getattr(mesh, name), array)
@@ -439,7 +446,7 @@ BAD_UPDATES = {
 
 @pytest.mark.parametrize(("change", "error", "text"), BAD_UPDATES.values(), ids=BAD_UPDATES)
 def test_a_refused_update_changes_nothing(rng, change, error, text):
-    mesh = quad(uvs=rng.random((4, 2)), colors=rng.random((4, 4)))
+    mesh = quad(**{n: random_values(rng, n) for n in STREAMS if n != "positions"})
     before = {name: getattr(mesh, name).copy() for name in STREAMS}
     good = {"positions": np.ones((4, 3)), "uvs": np.ones((4, 2))}
     with pytest.raises(error, match=text):

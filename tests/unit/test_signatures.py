@@ -249,7 +249,10 @@ CALLS = {
     ),
     "scene": (
         lambda r: cc.Scene(None),
-        "Scene() takes its arguments by name, got 1 by position; it takes environment, background",
+        (
+            "Scene() takes its arguments by name, got 1 by position; it takes environment, background, "
+            "environment_intensity, environment_rotation"
+        ),
     ),
     "colour": (
         lambda r: cc.PointLight(colour="red"),
@@ -277,7 +280,7 @@ CALLS = {
     "type": (lambda r: cc.Scene().add(light=3), "add(): light: expected Light, got 3"),
     "a choice": (
         lambda r: cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), wrap=None),
-        'RenderTexture(): wrap: expected "repeat" or "clamp", got None',
+        'RenderTexture(): wrap: expected "repeat", "clamp" or "mirror", got None',
     ),
     "many arguments of a choice": (
         lambda r: cc.Image([[[0.0]]], wrap="clamp", mipmaps=object()),

@@ -12,7 +12,7 @@ Level 0 is `faces`; level k holds the faces filtered for ``roughness[k]``, in th
 inline constexpr const char* roughness =
     R"doc(ndarray (L,) float32, read-only: the roughness of each of `levels`, from 0 to 1.
 
-None for a cubemap that `prefilter` did not make.)doc";
+A cubemap that `prefilter` did not make has one level, whose roughness is 0.)doc";
 
 inline constexpr const char* prefilter =
     R"doc(Filter the light by roughness, as rough metal reflects it.

@@ -149,6 +149,9 @@ float integrate_sheen(float n_dot_v, float roughness) {
     return std::min(albedo, 1.0F);
 }
 
+/// Lookups clamp n.v to this number: below, the fit of lambda grows without bounds.
+constexpr float least_n_dot_v = 1e-4F;
+
 /// A mirror reflects F; a sheen of roughness 0 has no lobe.
 glm::vec4 table_node(int row, int column) {
     constexpr auto last = static_cast<float>(brdf_table_size - 1);
@@ -158,7 +161,8 @@ glm::vec4 table_node(int row, int column) {
         return {1 - fresnel, fresnel, 0, 0};
     }
     const float roughness = static_cast<float>(row) / last;
-    return {integrate_ggx(n_dot_v, roughness), integrate_sheen(n_dot_v, roughness), 0};
+    const float cosine = std::max(n_dot_v, least_n_dot_v);
+    return {integrate_ggx(cosine, roughness), integrate_sheen(cosine, roughness), 0};
 }
 
 std::vector<glm::vec4> make_brdf_table() {

@@ -61,7 +61,11 @@ def _(mesh: Mesh) -> Card:
         Fact("size", " × ".join(number(side) for side in high - low) + " units"),
         Fact("bounds", f"{vector(low)} to {vector(high)}"),
     ]
-    has = [name for name in ("normals", "uvs", "colors") if getattr(mesh, name) is not None]
+    has = [
+        name
+        for name in ("normals", "uvs", "uvs1", "colors", "tangents")
+        if getattr(mesh, name) is not None
+    ]
     facts.append(Fact("per vertex", ", ".join(["positions", *has])))
     return Card("Mesh", facts, picture=lambda: draw_mesh(mesh))
 

@@ -37,6 +37,9 @@ def _add_target(shape: Surface, target: Attributes, weight: float) -> None:
         shape.normals = _sum(shape.normals, weight, target.floats("NORMAL", "VEC3"))
     if shape.uvs is not None:
         shape.uvs = _sum(shape.uvs, weight, target.floats("TEXCOORD_0", "VEC2"))
+    if shape.uvs1 is not None:
+        shape.uvs1 = _sum(shape.uvs1, weight, target.floats("TEXCOORD_1", "VEC2"))
+    shape.tangents = None  # those of the new shape are made again where a material needs them
     if shape.colors is not None:
         shape.colors = _sum(shape.colors, weight, colors(target, alpha=0.0))
 
@@ -59,6 +62,7 @@ def skin(document: Gltf, shape: Surface, entry: Entry) -> None:
     blended /= total[:, None, None]
     linear = blended[:, :, :3]
     shape.positions = np.einsum("vij,vj->vi", linear, shape.positions) + blended[:, :, 3]
+    shape.tangents = None
     sides = np.sign(np.linalg.det(linear))
     if shape.normals is not None:
         normals = np.einsum("vij,vj->vi", cofactors(linear), shape.normals)

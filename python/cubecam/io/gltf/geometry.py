@@ -170,9 +170,13 @@ class Geometry:
         self._limits.output((vertices + len(shape.faces)) * (times - 1), shape.entry)
         # The specification asks for flat normals where a file has none. load_mesh promises smooth ones for every kind
         # of file; `flat_shading` of a material draws any mesh flat.
-        uvs = None if shape.uvs is None else _from_bottom(shape.uvs)
+        uvs, uvs1 = (
+            None if given is None else _from_bottom(given) for given in (shape.uvs, shape.uvs1)
+        )
         try:
-            part = Part(shape.positions, shape.faces, shape.normals, uvs, shape.colors)
+            part = Part(
+                shape.positions, shape.faces, shape.normals, uvs, shape.colors, uvs1, shape.tangents
+            )
             part.normals = unit_normals(part)
             return placed(part, matrices)
         except ValueError as error:

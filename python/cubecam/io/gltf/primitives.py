@@ -28,7 +28,8 @@ class Surface:
     """The triangles of one primitive in the space of its mesh: V vertices, T triangles.
 
     `positions` is (V, 3), `faces` (T, 3), `normals` (V, 3) of any length, or None if the file has none, `uvs` (V, 2) as
-    in the file, from the top of a picture, `colors` (V, 4) linear, 0..1. `attributes` reads what else there is.
+    in the file, from the top of a picture, `colors` (V, 4) linear, 0..1. `uvs1` is a second set of `uvs`, `tangents`
+    (V, 4) are those of the file, which count only beside its normals. `attributes` reads what else there is.
     """
 
     positions: Floats
@@ -38,6 +39,8 @@ class Surface:
     colors: Floats | None
     attributes: Attributes
     entry: Entry
+    uvs1: Floats | None = None
+    tangents: Floats | None = None
 
 
 class Attributes:
@@ -130,7 +133,18 @@ def surface(
         colors(attributes, alpha=1.0),
         attributes,
         primitive,
+        attributes.floats("TEXCOORD_1", "VEC2"),
+        _tangents(attributes) if "NORMAL" in attributes else None,
     )
+
+
+def _tangents(attributes: Attributes) -> Floats | None:
+    """Read TANGENT; None where the file has none that can be used."""
+    values = attributes.floats("TANGENT", "VEC4")
+    if values is None or not (np.abs(values) <= LARGEST).all():
+        return None
+    values[:, 3] = np.where(values[:, 3] < 0, -1, 1)
+    return values
 
 
 def colors(attributes: Attributes, alpha: float) -> Floats | None:

@@ -19,7 +19,7 @@ class Part:
 
     `positions` is (V, 3) in world units, `faces` (T, 3) with indices of vertices, counter-clockwise seen from outside.
     `normals` (V, 3) may have any length, `uvs` (V, 2) have (0, 0) at a picture's bottom-left, `colors` (V, 4) are 0..1
-    with alpha.
+    with alpha. `uvs1` is a second set of `uvs`, `tangents` (V, 4) are those of `Mesh`.
     """
 
     positions: npt.NDArray[np.float64]
@@ -27,6 +27,8 @@ class Part:
     normals: npt.NDArray[np.float64] | None
     uvs: npt.NDArray[np.float64] | None
     colors: npt.NDArray[np.float64] | None
+    uvs1: npt.NDArray[np.float64] | None = None
+    tangents: npt.NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         """Drop vertices without a place if no triangle has them, as scanners write them; else raise ValueError."""
@@ -44,9 +46,9 @@ class Part:
             )
         self.positions = self.positions[sound]
         self.faces = (np.cumsum(sound) - 1)[self.faces]
-        self.normals = None if self.normals is None else self.normals[sound]
-        self.uvs = None if self.uvs is None else self.uvs[sound]
-        self.colors = None if self.colors is None else self.colors[sound]
+        for name in ("normals", "uvs", "colors", "uvs1", "tangents"):
+            values = getattr(self, name)
+            setattr(self, name, None if values is None else values[sound])
 
 
 def check_indices(faces: npt.NDArray[np.int64], count: int) -> None:
@@ -112,7 +114,15 @@ def joined(parts: list[Part], size: float | None) -> Mesh:
         normals=np.concatenate([unit_normals(part) for part in parts]),
         uvs=_column([part.uvs for part in parts], parts, 2, 0.0),
         colors=_column([part.colors for part in parts], parts, 4, 1.0),
+        uvs1=_column([part.uvs1 for part in parts], parts, 2, 0.0),
+        tangents=_tangents(parts),
     )
+
+
+def _tangents(parts: list[Part]) -> npt.NDArray[np.float64] | None:
+    """Join the tangents if all parts have some; otherwise those of the whole mesh are made when they are needed."""
+    given = [part.tangents for part in parts if part.tangents is not None]
+    return np.concatenate(given) if len(given) == len(parts) else None
 
 
 def _column(

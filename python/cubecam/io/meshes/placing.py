@@ -22,6 +22,13 @@ def placed(part: Part, matrices: Matrices) -> Part:
         # mirror that factor is negative.
         normals = products(part.normals, np.where(mirrored, -1.0, 1.0) * cofactors(linear))
         normals = normals.reshape(-1, 3)
+    tangents = None
+    if part.tangents is not None:
+        # Their fourth number is a factor of the cross product of normal and tangent, which a mirror turns round.
+        signs = np.where(mirrored, -1.0, 1.0) * part.tangents[None, :, 3:]
+        tangents = np.concatenate([products(part.tangents[:, :3], linear), signs], axis=2).reshape(
+            -1, 4
+        )
     # A mirror turns counter-clockwise into clockwise.
     faces = np.where(mirrored, part.faces[:, ::-1], part.faces)
     return Part(
@@ -30,6 +37,8 @@ def placed(part: Part, matrices: Matrices) -> Part:
         normals,
         _repeated(part.uvs, times),
         _repeated(part.colors, times),
+        _repeated(part.uvs1, times),
+        tangents,
     )
 
 
