@@ -55,6 +55,7 @@ CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
 FILTERED = ("tests/gl/test_filtered_environments.py",)
 LABELS = ("tests/gl/test_labels.py",)
+STANDARD = ("tests/gl/test_standard_material.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
 INFINITIES = ("tests/unit/test_cubemap_infinities.py",)
@@ -1689,5 +1690,69 @@ MUTATIONS = [
         '"bottom", "front", "back"',
         '"bottom", "back", "front"',
         ("tests/unit/test_cubemap_names.py",),
+    ),
+    # The metallic-roughness material of glTF.
+    Mutation(
+        "standard: masking of alpha, not of its square",
+        "standard/microfacets.glsl",
+        "return 1.0 / (cosine + sqrt(alpha_squared + (1.0 - alpha_squared) * cosine * cosine));",
+        "return 1.0 / (cosine + sqrt(sqrt(alpha_squared) + (1.0 - alpha_squared) * cosine * cosine));",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: light that is scattered twice is lost",
+        "standard/environment.glsl",
+        "light += several * around;",
+        "",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: mirrors look up the environment along the normal",
+        "standard/environment.glsl",
+        "vec3 light = environment(reflect(-point.view, point.normal)) + AMBIENT;",
+        "vec3 light = environment(point.normal) + AMBIENT;",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: samples are looked up two mip levels too low",
+        "standard/sampled.glsl",
+        "float level = max(0.5 * log2(texels / (4.0 * PI * float(count) * density)) + LEVEL_BIAS, 0.0);",
+        "float level = max(0.5 * log2(texels / (4.0 * PI * float(count) * density)) - 2.0, 0.0);",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: the bitangent runs against v",
+        "standard/normals.glsl",
+        "normal.y * bitangent",
+        "-normal.y * bitangent",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: the coat does not cover emission",
+        "materials/standard.glsl",
+        "base += point.emission;\n    return coat_over(point, base, coat);",
+        "return coat_over(point, base, coat) + point.emission;",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: the way of light in a film does not depend on the angle",
+        "standard/iridescence.glsl",
+        "float path = 2.0 * ior * point.film_thickness * cosine_inside;",
+        "float path = 2.0 * ior * point.film_thickness;",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: occlusion darkens what shows through",
+        "standard/environment.glsl",
+        "below = mix(below, transmitted(point), point.transmission);",
+        "below = mix(below, point.occlusion * transmitted(point), point.transmission);",
+        STANDARD,
+    ),
+    Mutation(
+        "standard: an opaque material blends where its map is translucent",
+        "scene/snapshot.cpp",
+        "if (traits.alpha_mode) return *traits.alpha_mode == AlphaMode::blend;",
+        "if (traits.alpha_mode == AlphaMode::blend) return true;",
+        STANDARD,
     ),
 ]

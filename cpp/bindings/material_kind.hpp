@@ -30,10 +30,11 @@ namespace cubecam::bindings {
 /// gives the default that a signature shows.
 template <class Value>
 struct Conversion {
-    static_assert(sizeof(Value) == 0,
-                  "expected a field of the type glm::vec4 (a colour), float, bool, "
-                  "std::optional<float>, MapSource, PlacedMap, CubeSource or UserSource; another "
-                  "type needs a Conversion in cpp/bindings/material_kind.hpp");
+    static_assert(
+        sizeof(Value) == 0,
+        "expected a field of the type glm::vec4 or glm::vec3 (a colour), float, int, bool, "
+        "std::optional<float>, MapSource, PlacedMap, CubeSource or UserSource; another "
+        "type needs a Conversion in cpp/bindings/material_kind.hpp");
 };
 
 template <>

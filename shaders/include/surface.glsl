@@ -34,6 +34,9 @@ STAGE vec3 v_position_object;
 #ifdef USER_SOURCE
 STAGE vec3 v_normal_object;
 #endif
+#ifdef VOLUME
+flat STAGE vec3 v_scale;  // the lengths of the columns of the node's matrix
+#endif
 #ifdef TRANSLUCENT
 flat STAGE float v_alpha;
 #endif

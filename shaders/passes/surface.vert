@@ -71,6 +71,9 @@ void main() {
 #ifdef USER_SOURCE
     v_normal_object = a_normal;
 #endif
+#ifdef VOLUME
+    v_scale = vec3(length(u_model[0].xyz), length(u_model[1].xyz), length(u_model[2].xyz));
+#endif
 #ifdef TRANSLUCENT
     v_alpha = u_alpha;
 #endif

@@ -1,6 +1,9 @@
-// Light from the environment by samples of the whole reflection model: importance sampling of GGX with lookups in box
-// mipmaps, J. Krivanek and M. Colbert, "Real-time Shading with Filtered Importance Sampling", EGSR 2008.
+// Light from the environment by samples of the whole reflection model: directions by importance, J. Dupuy and A. Benyoub,
+// "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, with lookups in box mipmaps, J. Krivanek and M. Colbert,
+// "Real-time Shading with Filtered Importance Sampling", EGSR 2008.
 #ifdef SAMPLED
+const float LEVEL_BIAS = 0.25;  // trades noise for blur; measured against path-traced spheres
+
 // The axes of the samples: without a tangent those of T. Duff et al., "Building an Orthonormal Basis, Revisited", JCGT
 // 6(1), 2017.
 void sample_axes(Point point, out vec3 x, out vec3 y) {
@@ -31,32 +34,37 @@ void add_samples(Point point, out vec3 scale, out vec3 bias) {
 #endif
     int count = int(SPECULAR_SAMPLES);
     float texels = 6.0 * environment_size() * environment_size();
-    float seen = unmasked_of(point, point.view, point.n_dot_v);
+    // The frame of the facets, in which both roughnesses are 1 and the facets are half a sphere.
+    vec3 stretch = vec3(along, across, 1.0);
+    vec3 view = vec3(dot(x, point.view), dot(y, point.view), point.n_dot_v);
+    vec3 warped = normalize(view * stretch);
+    // The density of a direction is D G1(v) / (4 n.v), and G1(v) / n.v is 2 of these.
+    float seen = 1.0 / (view.z + length(view * stretch));
     scale = vec3(0.0);
     bias = vec3(0.0);
     for (int i = 0; i < count; ++i) {
         // Hammersley's points: i / count, and the bits of i after the point in reverse; both in the middle of a cell.
         float turn = 2.0 * PI * (float(i) + 0.5) / float(count);
         float share = float(bitfieldReverse(uint(i))) * 2.3283064365386963e-10 + 0.5 / float(count);
-        // The half-way vector has the density D n.h (B. Walter et al., 2007, equation 35).
-        float slope = sqrt(share / (1.0 - share));
-        vec3 h = vec3(slope * along * cos(turn), slope * across * sin(turn), 1.0);
-        float length_squared = dot(h, h);
-        h *= inversesqrt(length_squared);
-        float s = length_squared / (1.0 + slope * slope);
-        float d = s * s / (PI * along * across);
-        vec3 half_way = h.x * x + h.y * y + h.z * point.normal;
-        float v_dot_h = dot(point.view, half_way);
-        vec3 to_light = 2.0 * v_dot_h * half_way - point.view;
-        float n_dot_l = dot(point.normal, to_light);
-        bool lit = n_dot_l > 0.0 && v_dot_h > 0.0;
-        float density = d * h.z / (4.0 * max(v_dot_h, 1e-6));
-        float level = max(0.5 * log2(texels / (4.0 * PI * float(count) * density)), 0.0);
-        float answer = lit ? seen * unmasked_of(point, to_light, n_dot_l) * 4.0 * v_dot_h * n_dot_l / h.z : 0.0;
-        vec3 light = answer * (environment_mip(to_light, level) + AMBIENT);
+        // A point of the cap of directions into which the half sphere reflects the view, and the facet between both.
+        float z = (1.0 - share) * (1.0 + warped.z) - warped.z;
+        float sine = sqrt(max(1.0 - z * z, 0.0));
+        vec3 cap = vec3(sine * cos(turn), sine * sin(turn), z) + warped;
+        vec3 h = vec3(cap.xy * stretch.xy, max(cap.z, 0.0));
+        h *= inversesqrt(max(dot(h, h), 1e-36));
+
+        float v_dot_h = dot(view, h);
+        vec3 light = 2.0 * v_dot_h * h - view;
+        // D from the components over both alphas, which lose no digits where the facets are nearly flat.
+        vec3 f = vec3(h.xy / stretch.xy, h.z);
+        float d = 1.0 / (PI * along * across * dot(f, f) * dot(f, f));
+        float density = 0.5 * d * seen;
+        float level = max(0.5 * log2(texels / (4.0 * PI * float(count) * density)) + LEVEL_BIAS, 0.0);
+        float unshadowed = light.z > 0.0 ? 2.0 * light.z / (light.z + length(light * stretch)) : 0.0;  // G1(l)
+        vec3 radiance = environment_mip(light.x * x + light.y * y + light.z * point.normal, level) + AMBIENT;
         float weight = schlick_weight(v_dot_h);
-        scale += (1.0 - weight) * light;
-        bias += weight * light;
+        scale += (1.0 - weight) * unshadowed * radiance;
+        bias += weight * unshadowed * radiance;
     }
     scale /= float(count);
     bias /= float(count);

@@ -4,7 +4,6 @@
 vec3 scene_behind(vec3 exit_from_origin, vec3 direction, float roughness) {
     return environment_filtered(direction, roughness);
 }
-const vec3 v_scale = vec3(1.0);
 
 // The light from behind along the way that `eta` bends, with the attenuation of the volume (KHR_materials_volume,
 // "Attenuation").
