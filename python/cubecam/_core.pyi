@@ -4375,8 +4375,9 @@ class StandardMaterial(Material):
     specular : {"levels", "sampled"}
         How the reflection of the environment is found. "levels": one lookup in the environment filtered by
         roughness, in the main direction of Lagarde and de Rousiers (2014), times the split sum of Karis (2013).
-        "sampled": `specular_samples` directions by importance, looked up in box mipmaps (Krivanek and Colbert
-        2008): slower and closer to the exact integral. Clear coats always use the levels.
+        "sampled": `specular_samples` directions by the visible normals of GGX (Dupuy and Benyoub 2023), looked up in
+        box mipmaps (Krivanek and Colbert 2008): slower and closer to the exact integral. Clear coats always use the
+        levels.
     specular_samples : int
         From 1 to 1024: 16 leave an error of about 12 %, 64 of 4 %.
     multiple_scattering : bool
