@@ -53,6 +53,7 @@ RESULT_MEMORY = ("tests/gl/test_result_memory.py",)
 SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
+FILTERED = ("tests/gl/test_filtered_environments.py",)
 LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
@@ -401,9 +402,65 @@ MUTATIONS = [
     Mutation(
         "probe: a cycle shows old contents",
         "texture_lookup.cpp",
-        "if (!back && held.cube.texture != 0) return known.emplace(held);",
-        "(void)back; if (held.cube.texture != 0) return known.emplace(held);",
+        "known = !context_.probe(number_, probe).drawn() ||",
+        "known = !context_.probe(number_, probe).drawn() &&",
         PROBES + INCREMENTAL,
+    ),
+    Mutation(
+        "probe: filtered although it must not be",
+        "probe_picture.cpp",
+        "if (parts.filtered ? wanted.value_or(true)",
+        "if (parts.filtered ? true",
+        FILTERED,
+    ),
+    Mutation(
+        "environment: changed faces are not filtered again",
+        "filtered_faces.cpp",
+        "changed[i] = revisions_[i] != revisions[i];",
+        "changed[i] = revisions_[i] == 0;",
+        FILTERED,
+    ),
+    Mutation(
+        "environment: turned backwards",
+        "resources/environment.cpp",
+        "block.turn[row] = glm::vec4(to_world[row], 0.0F);",
+        "block.turn[row] = glm::vec4(glm::transpose(to_world)[row], 0.0F);",
+        FILTERED,
+    ),
+    Mutation(
+        "key: the environment's turn forgotten",
+        "resources/environment.cpp",
+        "if (!placing.is_plain()) {",
+        "if (false) {",
+        FILTERED,
+    ),
+    Mutation(
+        "key: the background's turn forgotten",
+        "drawn_picture.cpp",
+        "if (!sky.placing.is_plain()) {",
+        "if (false) {",
+        FILTERED,
+    ),
+    Mutation(
+        "environment: nodes with and without its turn drawn together",
+        "surface_calls.cpp",
+        "a.placing == b.placing && ",
+        "",
+        FILTERED,
+    ),
+    Mutation(
+        "GLSL: borders of filtered faces forgotten",
+        "include/environment.glsl",
+        "on.xy * (place.z + 2.0)",
+        "on.xy * place.z",
+        FILTERED,
+    ),
+    Mutation(
+        "glass: what is refracted is as rough as what is reflected",
+        "glass.hpp",
+        "glm::vec4(roughness, bend * roughness, 0.0F, 0.0F)",
+        "glm::vec4(roughness, roughness + 0.0F * bend, 0.0F, 0.0F)",
+        FILTERED,
     ),
     Mutation(
         "key: what a map shows forgotten",

@@ -60,6 +60,14 @@ color = vector(0, 1)
 place = vector(-2, 2)
 
 
+def some(world, rng, kind):
+    """A random object of a class. If edits took all materials of that class off their nodes, one comes back."""
+    if not world.things(kind):
+        back = next(material for material in world.materials if isinstance(material, kind))
+        world.scene.nodes[-1].material = back
+    return one(rng, *world.things(kind))
+
+
 def random_node(world, rng, scene=None):
     return one(rng, *(scene or world.scene).nodes)
 
@@ -345,7 +353,7 @@ LATE = {"Probe.update": "on_change", "Probe.faces_per_frame": 6}
 def edit_property(name, world, rng, draw):
     """Set a property of a random object that has it. Returns the change in words, and a function to undo it."""
     class_name, attribute = name.split(".")
-    thing = one(rng, *world.things(getattr(cc, class_name)))
+    thing = some(world, rng, getattr(cc, class_name))
     old = getattr(thing, attribute)
     old = dict(old) if attribute in ("uniforms", "textures") else old
     setattr(thing, attribute, VALUES[name](world, rng, thing))
@@ -385,12 +393,12 @@ def method_add_and_remove_lights(world, rng, draw):
 
 
 def method_one_uniform(world, rng, draw):
-    one(rng, *world.things(cc.ShaderMaterial)).uniforms["tone"] = rng.random(3)
+    some(world, rng, cc.ShaderMaterial).uniforms["tone"] = rng.random(3)
     one(rng, *world.things(cc.ImageEffect)).uniforms["strength"] = float(rng.random())
 
 
 def method_one_texture(world, rng, draw):
-    material = one(rng, *world.things(cc.ShaderMaterial))
+    material = some(world, rng, cc.ShaderMaterial)
     material.textures["around"] = one(rng, *world.cubes, *world.probes)
 
 

@@ -79,6 +79,7 @@ class FullWorld:
     images: list
     textures: list = field(default_factory=list)
     probes: list = field(default_factory=list)
+    materials: list = field(default_factory=list)  # at first, whatever the nodes have later
 
     @property
     def scenes(self):
@@ -200,6 +201,7 @@ def full_world(rng):
         for index, texture in enumerate(world.textures)
     ]
     world.textures[1].exclude = [screens[1]]
+    world.materials = world.things(cc.Material)
     return world
 
 

@@ -152,6 +152,26 @@ def test_the_table_of_reflection(renderer):
     assert_close(got[..., :2], cc.brdf(n_dot_v, np.full_like(n_dot_v, 0.3)), "lookup")
 
 
+def test_too_many_textures_on_a_surface_are_an_error(fresh_renderer):
+    picture = np.ones((2, 2, 4), np.float32)
+    names = [name for name in dir(cc.StandardMaterial) if name == "map" or name.endswith("_map")]
+    assert len(names) > 14
+    material = cc.StandardMaterial(**dict.fromkeys(names, picture))
+    scene = cc.Scene(environment=random_cube(13, 8))
+    scene.add(quad(), material)
+    frame = fresh_renderer.render(scene, CAMERA, (8, 8))  # without shadows there is room
+    assert frame.color.any()
+    for k in range(16):
+        scene.add(cc.DirectionalLight((k, -1, 0), shadow=cc.Shadow(size=12)))
+    got = (
+        rf"got {len(names) + 19}: {len(names)} of the material, 3 of the environment, 16 of shadows"
+    )
+    with pytest.raises(
+        ValueError, match=f"StandardMaterial: expected at most .* textures .* {got}"
+    ):
+        fresh_renderer.render(scene, CAMERA, (8, 8))
+
+
 # Only what changed is filtered.
 
 
@@ -277,8 +297,9 @@ def test_mirrors_and_glass_see_the_turned_environment(any_path):
     assert np.quantile(np.abs(got / 2 - want) / want, 0.97) < 1e-3  # the rest is on silhouettes
 
 
-def test_turning_draws_again_and_equal_values_do_not(fresh_renderer):
-    scene = rough_scene(random_cube(11))
+@pytest.mark.parametrize("background", [None, (0, 0, 0, 1)])
+def test_turning_draws_again_and_equal_values_do_not(fresh_renderer, renderer, background):
+    scene = rough_scene(random_cube(11), background=background)
     scene.environment_rotation = TURN
     for name, value, views in (
         ("environment_intensity", 2, 1),
@@ -291,6 +312,7 @@ def test_turning_draws_again_and_equal_values_do_not(fresh_renderer):
         setattr(scene, name, value)
         picture = drawn(fresh_renderer, scene)
         assert fresh_renderer.stats.views_drawn == views, name
+        assert_identical(picture, renderer.render(scene, CAMERA, (48, 24), format="rgba32f").color)
     assert not picture[..., :3].any()
     assert fresh_renderer.stats.faces_filtered == 0
 

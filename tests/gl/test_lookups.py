@@ -5,6 +5,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close
+from tests.gl.flat import flat_camera, quad, random_picture
 from tests.gl.world import (
     World,
     capture_hits,
@@ -201,3 +202,17 @@ def test_mipmapped_lookups_blur_with_distance(renderer):
             renderer.render(scene, camera, (8, 8), format="rgba32f").color[..., :3].std()
         )
     assert spread[True] < 0.12 < 0.25 < spread[False]
+
+
+def test_a_map_and_a_cubemap_of_one_surface(any_path):
+    """Each texture that is set has a unit of its own."""
+    picture, light = random_picture(3).astype(np.float32), np.float32([0.5, 2, 3])
+    around = cc.CubeMap(np.broadcast_to(light, (6, 2, 2, 3)))
+    both = cc.BasicMaterial(map=picture, cubemap=around)
+    scene = cc.Scene()
+    scene.add(quad(9, 6), both)
+    for image, cube in ((picture, None), (None, around), (picture, around)):
+        both.map, both.cubemap = image, cube
+        frame = any_path.render(scene, flat_camera(9, 6), (9, 6), format="rgba32f")
+        want = (picture if image is not None else 1) * (light if cube is not None else 1)
+        assert_close(frame.color[..., :3], np.broadcast_to(want, (6, 9, 3)), "lookup")

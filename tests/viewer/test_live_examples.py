@@ -17,7 +17,7 @@ from tests.helpers import DEVICE
 from tests.programs.oracle import rx, ry, scaled
 
 ROOT = Path(__file__).parents[2]
-PROGRAMS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17")
+PROGRAMS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17", "P18")
 #: The programs whose camera stands in the scene, with the view before any drag.
 VISITORS = {
     "P2": (0, 0, 1),
@@ -28,9 +28,19 @@ VISITORS = {
     "P16": (0, -0.9, -3.2),
     "P17": (0, -1, -5),
 }
-ORBITS = ("P4", "P6", "P12")
+ORBITS = ("P4", "P6", "P12", "P18")
 #: Frames a second.
-RATES = {"P4": 25, "P6": 25, "P12": 25, "P13": 60, "P14": 25, "P15": 25, "P16": 25, "P17": 25}
+RATES = {
+    "P4": 25,
+    "P6": 25,
+    "P12": 25,
+    "P13": 60,
+    "P14": 25,
+    "P15": 25,
+    "P16": 25,
+    "P17": 25,
+    "P18": 25,
+}
 #: The parameters that make a program's textures small.
 SMALL = {"probe_size": 64}
 

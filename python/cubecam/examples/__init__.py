@@ -1,4 +1,5 @@
-"""The programs of the course documents, ready to run. Each is a short module that imports only `cubecam as cc`.
+"""The programs of the course documents, and P18, which goes on from them. Each is a short module that imports only
+`cubecam as cc`.
 
 Each module has
 
@@ -11,8 +12,8 @@ Each module has
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
   ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels).
 
-The programs treat colours as the documents do: the numbers of an 8-bit picture are shown unchanged, light is added in
-these numbers, and no picture is tone-mapped or encoded.
+The programs P1 to P17 treat colours as the documents do: the numbers of an 8-bit picture are shown unchanged, light is
+added in these numbers, and no picture is tone-mapped or encoded. P18 computes with light, and shows it on a screen.
 
 The command line draws them: ``cubecam example --list``.
 """
@@ -32,7 +33,7 @@ from .._calls import checked_call
 
 __all__ = ["NAMES", "Example", "is_live", "load"]
 
-#: The names in the order of the programs' numbers, P1 to P17.
+#: The names in the order of the programs' numbers, P1 to P18.
 NAMES: tuple[str, ...] = (
     "textured_cube",
     "inside_the_box",
@@ -51,6 +52,7 @@ NAMES: tuple[str, ...] = (
     "nothing_redrawn",
     "shared_cubemap",
     "dynamic_refraction",
+    "rough_metal",
 )
 
 

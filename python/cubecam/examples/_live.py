@@ -140,11 +140,13 @@ def live_view(
     controls: Controls | None = None,
     clock: Clock | None = None,
     keys: Keys | None = None,
+    screen: bool = False,
 ) -> Viewer:
     """Make the live form of a program.
 
     controls : the document's mouse; without, a drag moves the camera round its target. clock : the animation, which the
-    space bar stops. keys : what other keys do.
+    space bar stops. keys : what other keys do. screen : whether light is made for a screen (tone curve and sRGB); without,
+    the numbers of a picture are shown unchanged, as `draw` does it.
     """
     controls = controls or Orbit()
     viewer = cc.Viewer(
@@ -154,8 +156,8 @@ def live_view(
         size=size,
         title=title,
         renderer=renderer,
-        tonemap=None,  # as in `draw`, the numbers of a picture are shown unchanged
-        encode=None,
+        tonemap="neutral" if screen else None,
+        encode="srgb" if screen else None,
     )
     actions = dict(keys or {})
     if clock is not None:

@@ -35,7 +35,7 @@ class Levels:
             here = low == level
             share = (place[here] - level)[..., None]
             value = self._one(level, face[here], s[here], t[here]) * (1 - share)
-            if share.any():
+            if share.any():  # never beyond the last level, whose share is 0
                 value = value + self._one(level + 1, face[here], s[here], t[here]) * share
             result[here] = value
         return result
