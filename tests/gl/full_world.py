@@ -174,11 +174,7 @@ def full_world(rng):
         emissive_map=images[0],
         clearcoat=0.8,
         clearcoat_map=images[1],
-        sheen_color=(0.2, 0.3, 0.4),
-        iridescence=0.4,
         anisotropy=0.5,
-        transmission=0.5,
-        thickness=0.2,
     )
     scene.add(box, painted, position=(1.4, -0.6, -0.4), environment=glass)
     shader = cc.ShaderMaterial(

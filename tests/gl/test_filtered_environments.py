@@ -156,7 +156,9 @@ def test_too_many_textures_on_a_surface_are_an_error(fresh_renderer):
     picture = np.ones((2, 2, 4), np.float32)
     names = [name for name in dir(cc.StandardMaterial) if name == "map" or name.endswith("_map")]
     assert len(names) > 14
-    material = cc.StandardMaterial(**dict.fromkeys(names, picture))
+    material = cc.StandardMaterial()
+    for name in names:
+        setattr(material, name, picture)
     scene = cc.Scene(environment=random_cube(13, 8))
     scene.add(quad(), material)
     frame = fresh_renderer.render(scene, CAMERA, (8, 8))  # without shadows there is room

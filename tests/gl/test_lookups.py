@@ -206,7 +206,7 @@ def test_mipmapped_lookups_blur_with_distance(renderer):
 
 def test_a_map_and_a_cubemap_of_one_surface(any_path):
     """Each texture that is set has a unit of its own."""
-    picture, light = random_picture(3).astype(np.float32), np.float32([0.5, 2, 3])
+    picture, light = random_picture(3).astype(np.float32), np.array([0.5, 2, 3], np.float32)
     around = cc.CubeMap(np.broadcast_to(light, (6, 2, 2, 3)))
     both = cc.BasicMaterial(map=picture, cubemap=around)
     scene = cc.Scene()

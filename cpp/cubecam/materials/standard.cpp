@@ -176,7 +176,7 @@ std::array<Switch, 19> Standard::switches() const {
         placed = placed || (is_set(one) && one.placing != MapPlacing{});
     });
     const bool coated = !unlit && clearcoat > 0.0F;
-    const bool volume = transmits() && thickness > 0.0F;
+    const bool volume = shows_behind() && thickness > 0.0F;
     return {{
         {"UNLIT", unlit},
         {"PLACED", placed},
@@ -194,7 +194,7 @@ std::array<Switch, 19> Standard::switches() const {
         {"SHEEN", !unlit && has_sheen()},
         {"IRIDESCENCE", !unlit && iridescence > 0.0F},
         {"ANISOTROPY", is_anisotropic()},
-        {"TRANSMISSION", transmits()},
+        {"TRANSMISSION", shows_behind()},
         {"VOLUME", volume},
         {"DISPERSION", volume && dispersion > 0.0F && ior > 1.0F},
     }};

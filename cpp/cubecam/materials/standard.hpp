@@ -214,7 +214,7 @@ struct Standard {
     bool uses_tangents() const;
     int tangent_uv_set() const;
     /// Whether the scene behind the surface shows through it.
-    bool transmits() const { return !unlit && transmission > 0.0F && has_dielectric(); }
+    bool shows_behind() const { return !unlit && transmission > 0.0F && has_dielectric(); }
 
     bool operator==(const Standard&) const = default;
 
