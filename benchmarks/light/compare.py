@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from rich.console import Console
@@ -29,6 +30,10 @@ LEVELS = {
     ("studio", 1.0): 0.16,
 }
 SAMPLED = {("forest", r): 0.05 for r in (0.2, 0.3, 0.5)}
+TIERS: tuple[tuple[Literal["levels", "sampled"], dict[tuple[str, float], float]], ...] = (
+    ("levels", LEVELS),
+    ("sampled", SAMPLED),
+)
 
 
 def draw(renderer: cc.Renderer, cube: cc.CubeMap, material: cc.StandardMaterial) -> spheres.Array:
@@ -73,7 +78,7 @@ def main() -> None:
                     continue
                 truth = np.load(file).astype(float)
                 row = []
-                for specular, marks in (("levels", LEVELS), ("sampled", SAMPLED)):
+                for specular, marks in TIERS:
                     material = cc.StandardMaterial(
                         color=(1, 1, 1),
                         roughness=roughness,
