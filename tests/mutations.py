@@ -60,6 +60,9 @@ FLAT = ("tests/gl/test_flat_shading.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
 INFINITIES = ("tests/unit/test_cubemap_infinities.py",)
 MASKED = ("tests/unit/test_masked_arrays.py",)
+PREFILTER = ("tests/unit/test_prefilter.py",)
+HARMONICS = ("tests/unit/test_sh.py",)
+BRDF_TABLE = ("tests/unit/test_brdf_table.py",)
 SCENE_QUERIES = ("tests/unit/test_scene_queries.py",)
 OBJ = ("tests/unit/test_obj.py",)
 POLYGONS = ("tests/unit/test_polygons.py",)
@@ -1754,5 +1757,75 @@ MUTATIONS = [
         "if (traits.alpha_mode) return *traits.alpha_mode == AlphaMode::blend;",
         "if (traits.alpha_mode == AlphaMode::blend) return true;",
         STANDARD,
+    ),
+    Mutation(
+        "filtered cubes: alpha is roughness",
+        "filtered_cube.cpp",
+        "const double a = static_cast<double>(roughness) * static_cast<double>(roughness);",
+        "const double a = static_cast<double>(roughness);",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: the lobe without its square",
+        "lobe_kernels.cpp",
+        "lobe = near * near * (clamped",
+        "lobe = near * (clamped",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: lamps act in the middle of their node",
+        "radiance_tree.cpp",
+        "if (!(points && level == 0)) moments[at].set_centers(nodes[at]);",
+        "",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: texels are not adjusted for bilinear lookups",
+        "filtered_cube.cpp",
+        "*to = *from - around / 12.0F;",
+        "*to = *from;",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: nodes are as large across the horizon",
+        "filtered_cube.cpp",
+        "return lowest_cosine >= 0 || node_radius",
+        "return true || node_radius",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: all texels of a face count the same",
+        "radiance_tree.cpp",
+        "angles[row * n + i] = above[i] - above[i + 1] - below[i] + below[i + 1];",
+        "angles[row * n + i] = 1.0 / static_cast<double>(n * n);",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: pickles lose the levels",
+        "bind_cubemap.cpp",
+        "state.size() == 5 ? copy_levels(state[4].cast<py::sequence>()) : nullptr",
+        "nullptr",
+        PREFILTER,
+    ),
+    Mutation(
+        "spherical harmonics: sine and cosine of the angle around z swapped",
+        "spherical_harmonics.cpp",
+        "values[middle + away] = std::numbers::sqrt2 * current * cosine;",
+        "values[middle + away] = std::numbers::sqrt2 * current * sine;",
+        HARMONICS,
+    ),
+    Mutation(
+        "the table: a power of 4 in Schlick's formula",
+        "brdf_table.cpp",
+        "const float fresnel = g * (m * m) * (m * m) * m;",
+        "const float fresnel = g * (m * m) * (m * m);",
+        BRDF_TABLE,
+    ),
+    Mutation(
+        "the table: the sheen's fit is not mirrored",
+        "brdf_table.cpp",
+        "std::exp(2 * fit(0.5F) - fit(1 - cosine))",
+        "std::exp(fit(cosine))",
+        BRDF_TABLE,
     ),
 ]

@@ -1819,7 +1819,7 @@ class CubeMap:
         Write a cubemap as one picture or six files. The method `CubeMap.save`.
 
         A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-        sRGB-encoded. EXR and HDR hold linear numbers.
+        sRGB-encoded. EXR and HDR hold linear numbers. Filtered levels (`CubeMap.levels` of `prefilter`) are not written.
 
         Parameters
         ----------
@@ -2319,7 +2319,7 @@ class CubeMap:
     @property
     def levels(self) -> tuple[np.typing.NDArray[np.uint8 | np.float16 | np.float32], ...]:
         """
-        tuple of ndarray (6, M, M, C) in `dtype`, read-only: the filtered faces.
+        ndarray (6, M, M, C) in `dtype`, read-only, of each level, in a tuple: the filtered faces.
 
         Level 0 is `faces`; level k holds the faces filtered for ``roughness[k]``, in the convention "gl". A cubemap that
         `prefilter` did not make has one level. The levels of `mipmaps` are others, and `sample` looks those up.

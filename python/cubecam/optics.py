@@ -254,8 +254,9 @@ def brdf(n_dot_v: npt.ArrayLike, roughness: npt.ArrayLike) -> npt.NDArray[np.flo
     >>> import cubecam as cc
     >>> cc.brdf(1, 0).tolist()  # a mirror, seen from the front: f0
     [1.0, 0.0]
-    >>> cc.brdf([1, 0.5], 1).round(2).tolist()
-    [[0.31, 0.0], [0.45, 0.0]]
+    >>> cc.brdf([1, 0.5], 1).round(2)
+    array([[0.31, 0.  ],
+           [0.41, 0.  ]], dtype=float32)
     """
     cosine = _numbers(n_dot_v, "n_dot_v", np.dtype(np.float32))
     rough = _numbers(roughness, "roughness", np.dtype(np.float32))

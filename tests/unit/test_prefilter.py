@@ -9,30 +9,12 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from tests.cubes import noise, photograph, random_directions, rms
 from tests.helpers import channel_counts, copies, dtypes
 from tests.reference import lighting
 from tests.reference.cube_faces import unit_texel_directions
 
 PHOTOGRAPHS = ("courtyard", "forest", "interior", "studio", "sunrise", "sunset")
-
-
-def photograph(name, size):
-    cube = cc.load_environment(cc.sample_data(f"{name}.exr"), size=size)
-    return cc.CubeMap(cube.faces.astype(np.float32))
-
-
-def random_directions(count, seed=1):
-    directions = np.random.default_rng(seed).normal(size=(count, 3))
-    return directions / np.linalg.norm(directions, axis=-1, keepdims=True)
-
-
-def noise(size, channels, dtype="float32", seed=0):
-    values = np.random.default_rng(seed).random((6, size, size, channels))
-    return cc.CubeMap((values * 255).astype("uint8") if dtype == "uint8" else values.astype(dtype))
-
-
-def rms(values):
-    return float(np.sqrt(np.mean(np.square(values))))
 
 
 def error_of(level, cube, roughness, directions):
@@ -42,13 +24,13 @@ def error_of(level, cube, roughness, directions):
 
 @pytest.mark.parametrize("name", ["interior", "sunrise"])
 def test_lookups_of_photographs_agree_with_the_sum_over_all_texels(name):
-    """Karis 2013 by brute force. These photographs have small lamps and the sun."""
+    """Karis 2013 by brute force. These photographs have small lamps and the sun; the limits are half of the marks."""
     cube = photograph(name, 128)
     made = cube.prefilter()
     directions = random_directions(150)
     for level, roughness in zip(made.levels[1:], made.roughness[1:], strict=True):
         error = error_of(level, cube, roughness, directions)
-        assert error < (0.006 if roughness >= 0.35 else 0.01), (roughness, error)
+        assert error < (0.003 if roughness >= 0.35 else 0.005), (roughness, error)
 
 
 @pytest.mark.slow

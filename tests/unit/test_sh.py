@@ -5,9 +5,9 @@ import pytest
 from numpy.polynomial import legendre
 
 import cubecam as cc
+from tests.cubes import noise, photograph, random_directions, rms
 from tests.reference import lighting
 from tests.reference.cube_faces import unit_texel_directions
-from tests.unit.test_prefilter import noise, photograph, random_directions, rms
 
 AXIS = np.array([2, -1, 2]) / 3
 

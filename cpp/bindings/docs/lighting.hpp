@@ -4,7 +4,7 @@
 namespace cubecam::docs {
 
 inline constexpr const char* levels =
-    R"doc(tuple of ndarray (6, M, M, C) in `dtype`, read-only: the filtered faces.
+    R"doc(ndarray (6, M, M, C) in `dtype`, read-only, of each level, in a tuple: the filtered faces.
 
 Level 0 is `faces`; level k holds the faces filtered for ``roughness[k]``, in the convention "gl". A cubemap that
 `prefilter` did not make has one level. The levels of `mipmaps` are others, and `sample` looks those up.)doc";

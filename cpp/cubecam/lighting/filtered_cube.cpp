@@ -176,7 +176,7 @@ public:
     }
     /// Returns false if the work was cancelled.
     bool goes_on() {
-        if (progress_ && std::this_thread::get_id() == caller_) {
+        if (!cancelled_ && progress_ && std::this_thread::get_id() == caller_) {
             const auto now = std::chrono::steady_clock::now();
             if (now - last_ > std::chrono::milliseconds(10)) {
                 last_ = now;

@@ -47,7 +47,7 @@ def save_cubemap(
     """Write a cubemap as one picture or six files. The method `CubeMap.save`.
 
     A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-    sRGB-encoded. EXR and HDR hold linear numbers.
+    sRGB-encoded. EXR and HDR hold linear numbers. Filtered levels (`CubeMap.levels` of `prefilter`) are not written.
 
     Parameters
     ----------
