@@ -1757,6 +1757,7 @@ MUTATIONS = [
         "if (traits.alpha_mode) return *traits.alpha_mode == AlphaMode::blend;",
         "if (traits.alpha_mode == AlphaMode::blend) return true;",
         STANDARD,
+    ),
     Mutation(
         "filtered cubes: alpha is roughness",
         "filtered_cube.cpp",
