@@ -212,13 +212,15 @@ def test_an_environment(renderer, surroundings, options, specular):
 
 
 @pytest.mark.parametrize("specular", ["levels", "sampled"])
-@pytest.mark.parametrize("multiple_scattering", [True, False])
-def test_an_anisotropic_surface(renderer, surroundings, specular, multiple_scattering):
+@pytest.mark.parametrize(
+    ("roughness", "multiple_scattering"), [(0.3, True), (0.3, False), (0.0, True)]
+)
+def test_an_anisotropic_surface(renderer, surroundings, specular, roughness, multiple_scattering):
     """A rectangle seen from the side: highlights are stretched along its turned tangent."""
     cube, around = surroundings
     options = {
         "color": (0.9, 0.7, 0.5),
-        "roughness": 0.3,
+        "roughness": roughness,
         "anisotropy": 0.8,
         "anisotropy_rotation": 30,
         "specular": specular,

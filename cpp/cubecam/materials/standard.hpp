@@ -225,10 +225,11 @@ private:
     bool has_dielectric() const;
     bool has_sheen() const { return sheen_color != glm::vec3(0.0F); }
     bool emits() const { return emissive_strength * emissive != glm::vec3(0.0F); }
+    bool is_anisotropic() const { return !unlit && anisotropy > 0.0F; }
+    bool is_smooth() const { return !unlit && roughness == 0.0F && !is_anisotropic(); }
     /// A smooth surface scatters once; it has one direction to look up, so it needs no samples.
-    bool scatters() const { return !unlit && multiple_scattering && roughness > 0.0F; }
-    bool samples() const { return !unlit && specular == SpecularMode::sampled && roughness > 0.0F; }
-    bool is_anisotropic() const { return !unlit && anisotropy > 0.0F && roughness > 0.0F; }
+    bool scatters() const { return !unlit && multiple_scattering && !is_smooth(); }
+    bool samples() const { return !unlit && specular == SpecularMode::sampled && !is_smooth(); }
 };
 
 using StandardMaterial = MaterialOf<Standard>;
