@@ -132,7 +132,7 @@ int Standard::tangent_uv_set() const {
 
 EnvironmentParts Standard::environment_parts() const {
     if (unlit) return {};
-    const bool levels = roughness > 0.0F && specular == SpecularMode::levels;
+    const bool levels = !is_smooth() && specular == SpecularMode::levels;
     const bool coat = clearcoat > 0.0F && clearcoat_roughness > 0.0F;
     // Irradiance lights every surface except a metal that scatters once.
     const bool irradiance = has_dielectric() || scatters() || has_sheen();
@@ -184,7 +184,7 @@ std::array<Switch, 19> Standard::switches() const {
         {"ALPHA_OPAQUE", alpha_mode == AlphaMode::opaque},
         {"METAL", !unlit && has_metal()},
         {"DIELECTRIC", !unlit && has_dielectric()},
-        {"SMOOTH", !unlit && roughness == 0.0F},
+        {"SMOOTH", is_smooth()},
         {"SAMPLED", samples()},
         {"MULTIPLE_SCATTERING", scatters()},
         {"EMISSION", !unlit && emits()},

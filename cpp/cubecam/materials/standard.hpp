@@ -199,6 +199,10 @@ struct Standard {
     /// With "opaque" no alpha counts; with "mask" the shader compares it with the cutoff.
     float alpha() const { return counts_alpha() ? color.a : 1.0F; }
     std::optional<AlphaMode> alpha_use() const { return alpha_mode; }
+    std::optional<AlphaMask> alpha_mask() const {
+        if (alpha_mode != AlphaMode::mask) return std::nullopt;
+        return AlphaMask{color.a, alpha_cutoff};
+    }
     /// As shaders/materials/standard/constants.glsl names them.
     std::array<glm::vec4, 46> constants(const glm::vec3& ambient) const;
     /// Every extension is a switch, so that a plain material costs nothing of the others.
@@ -225,10 +229,11 @@ private:
     bool has_dielectric() const;
     bool has_sheen() const { return sheen_color != glm::vec3(0.0F); }
     bool emits() const { return emissive_strength * emissive != glm::vec3(0.0F); }
+    bool is_anisotropic() const { return !unlit && anisotropy > 0.0F; }
+    bool is_smooth() const { return !unlit && roughness == 0.0F && !is_anisotropic(); }
     /// A smooth surface scatters once; it has one direction to look up, so it needs no samples.
-    bool scatters() const { return !unlit && multiple_scattering && roughness > 0.0F; }
-    bool samples() const { return !unlit && specular == SpecularMode::sampled && roughness > 0.0F; }
-    bool is_anisotropic() const { return !unlit && anisotropy > 0.0F && roughness > 0.0F; }
+    bool scatters() const { return !unlit && multiple_scattering && !is_smooth(); }
+    bool samples() const { return !unlit && specular == SpecularMode::sampled && !is_smooth(); }
 };
 
 using StandardMaterial = MaterialOf<Standard>;

@@ -305,13 +305,15 @@ def _or_none(one: _Property, control: Control, start: Any) -> Iterator[Control]:
         yield control
         return
 
+    def is_off() -> bool:
+        today = one.get()
+        return today is None if one.off is None else bool(today == one.off)
+
     def set_off(value: bool) -> None:
         one.set(one.off if value else control.get())
 
     control.get()  # remembers the number
-    yield one.control(
-        "flag", name=f"{one.name} is {one.off}", get=lambda: one.get() == one.off, set=set_off
-    )
+    yield one.control("flag", name=f"{one.name} is {one.off}", get=is_off, set=set_off)
     # The flag brings the value back, None included.
     yield Control(**{**vars(control), "keep": None})
 
