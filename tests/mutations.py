@@ -56,6 +56,7 @@ KEPT = ("tests/gl/test_kept_snapshots.py",)
 FILTERED = ("tests/gl/test_filtered_environments.py",)
 LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
+STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
 INFINITIES = ("tests/unit/test_cubemap_infinities.py",)
@@ -1750,6 +1751,34 @@ MUTATIONS = [
         "below = mix(below, transmitted(point), point.transmission);",
         "below = mix(below, point.occlusion * transmitted(point), point.transmission);",
         STANDARD,
+    ),
+    Mutation(
+        "standard: a volume takes as much light from a way across as from one along the normal",
+        "standard/transmission.glsl",
+        "exp(-EXTINCTION * length(way))",
+        "exp(-EXTINCTION * point.thickness)",
+        STANDARD_REFERENCE,
+    ),
+    Mutation(
+        "standard: the mean reflectance of a colour in which grazing angles count for more",
+        "standard/environment.glsl",
+        "(f90 - f0) / 21.0",
+        "(f90 - f0) / 6.0",
+        STANDARD_REFERENCE,
+    ),
+    Mutation(
+        "standard: the normal of a stretched highlight is bent less",
+        "standard/anisotropy.glsl",
+        "(a * a) * (a * a)",
+        "a * a",
+        STANDARD_REFERENCE,
+    ),
+    Mutation(
+        "standard: light below a film takes what the film leaves of each colour",
+        "standard/lights.glsl",
+        "(1.0 - max3(fresnel)) * below",
+        "(vec3(1.0) - fresnel) * below",
+        STANDARD_REFERENCE,
     ),
     Mutation(
         "standard: an opaque material blends where its map is translucent",

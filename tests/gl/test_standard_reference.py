@@ -3,6 +3,7 @@
 |got - expected| <= 2/255 max(1, expected): numbers on a screen, and brighter ones in proportion.
 """
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -31,6 +32,9 @@ VIEWS = {
 }
 
 
+BEHIND = (0.2, 0.5, 0.9)  # the colour of the background, which is all that is seen through glass
+
+
 @lru_cache(maxsize=1)
 def environment():
     """(the filtered cubemap, the reference's lookups of the same levels); some lamps stand in soft waves."""
@@ -41,8 +45,20 @@ def environment():
     around = environment_of(
         faces, [np.asarray(level) for level in cube.levels[1:]], np.asarray(cube.irradiance().faces)
     )
-    around.behind = lambda exit_point, direction, roughness: around.radiance(direction, roughness)
     return cube, around
+
+
+def surroundings(view):
+    """The reference's lookups, with what is behind: the background where the exit is in the picture, else lookups."""
+    around = environment()[1]
+
+    def behind(exit_point, direction, roughness):
+        clip = exit_point @ (view.projection @ view.view)[:, :3].T
+        clip = clip + (view.projection @ view.view)[:, 3]
+        inside = (np.abs(clip[..., :2]) <= clip[..., 3:]).all(-1, keepdims=True)
+        return np.where(inside, BEHIND, around.radiance(direction, roughness))
+
+    return replace(around, behind=behind)
 
 
 def lights():
@@ -64,12 +80,13 @@ def lights():
     return ours, theirs
 
 
-def world_of(shape, material, lamps=True):
+def world_of(shape, material, lamps=True, scale=1.0):
     """A sphere, or a plane whose tangent is known, in the environment; returns (world, lights of the oracle)."""
     world = World()
     world.scene.environment = environment()[0]
+    world.scene.background = BEHIND
     if shape == "sphere":
-        world.sphere(1, subdivisions=3, material=material)
+        world.sphere(1, subdivisions=3, material=material, scale=scale)
     else:
         place = {"axis": (1, 2, 0.5), "degrees": 20}
         world.mesh(cc.Mesh.plane(3, 3), material=material, **place)
@@ -90,10 +107,12 @@ def surface_of(world, view, hits, good):
     return Surface(position, v, hits.normal[good], tangent=tangent)
 
 
-def check(renderer, shape, view, given, change=None, lamps=True, mask=None, rule="standard"):
+def check(
+    renderer, shape, view, given, change=None, lamps=True, mask=None, rule="standard", scale=1.0
+):
     """Draw and compare. change(parameters, surface, uv): returns both with the texels of maps in them."""
     view = VIEWS[view]
-    world, theirs = world_of(shape, cc.StandardMaterial(**given), lamps)
+    world, theirs = world_of(shape, cc.StandardMaterial(**given), lamps, scale)
     frame = renderer.render(world.scene, view.camera, view.size, format="rgba32f")
     hits = view.hits(world.shapes)
     good = inner_smooth(hits) & hits.hit
@@ -101,12 +120,13 @@ def check(renderer, shape, view, given, change=None, lamps=True, mask=None, rule
         good &= mask(hits)
     assert good.mean() > 0.2
     surface = surface_of(world, view, hits, good)
+    surface.scale = np.broadcast_to(scale, 3)
     p = parameters_of(given)
     if change is not None:
         p, surface = change(p, surface, hits.uv[good])
-    expected = shade(p, surface, theirs, environment()[1])
-    scale = np.maximum(1, expected)
-    assert_close(frame.color[good][:, :3] / scale, expected / scale, rule)
+    expected = shade(p, surface, theirs, surroundings(view))
+    unit = np.maximum(1, expected)
+    assert_close(frame.color[good][:, :3] / unit, expected / unit, rule)
     return frame.color[..., :3], good
 
 
@@ -240,6 +260,12 @@ def test_each_extension_alone(renderer, name):
 @pytest.mark.parametrize("name", ALONE)
 def test_each_extension_alone_in_the_environment(renderer, name):
     check(renderer, "sphere", "low", ALONE[name], lamps=False)
+
+
+def test_the_way_through_a_volume_grows_with_the_node(renderer):
+    """KHR_materials_volume: thickness is in units of the mesh, and transformations of the node apply to it."""
+    given = {**ALONE["volume"], "attenuation_distance": 0.8}
+    check(renderer, "sphere", "near", given, scale=(0.9, 1.1, 0.7))
 
 
 @pytest.mark.parametrize("rotation", [0, 70])
