@@ -145,8 +145,8 @@ def live_view(
     """Make the live form of a program.
 
     controls : the document's mouse; without, a drag moves the camera round its target. clock : the animation, which the
-    space bar stops. keys : what other keys do. screen : whether light is made for a screen (tone curve and sRGB); without,
-    the numbers of a picture are shown unchanged, as `draw` does it.
+    space bar stops. keys : what other keys do. screen : whether light is made for a screen (tone curve and sRGB);
+    without, the numbers of a picture are shown unchanged, as `draw` does it.
     """
     controls = controls or Orbit()
     viewer = cc.Viewer(
