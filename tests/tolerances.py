@@ -68,6 +68,7 @@ TOLERANCES = {
         relative=0.03,
         mean=2e-3,
     ),
+    "srgb_filter": Tolerance(2e-3, "llvmpipe decodes sRGB by a polynomial"),
     "unorm5": Tolerance(
         1.0 / 31 + 0.5 / 255,
         "llvmpipe cuts 8 bits to 5 for what it shades: the level below, not the nearest",

@@ -178,6 +178,28 @@ void test_bounces_are_pictures_of_their_own() {
     CHECK_EQUAL(world.made.size(), 2U * 3U + 1U);
 }
 
+void test_a_picture_for_one_viewer_comes_after_its_viewer() {
+    // Two probes see each other, directly and in a mirror of their own. Both see probe 0 as long as
+    // it comes before them, so that a mirror shows no less than its viewer sees beside it.
+    const PictureId first = make_id(probe, 0);
+    const PictureId second = make_id(probe, 1);
+    CHECK(first < mirror_in(0, first));
+    CHECK(mirror_in(0, first) < second);
+    CHECK(second < mirror_in(0, second));
+    World world;
+    world.shown = [&](const PictureId& id) -> Ids {
+        if (id.kind == frame) return {first};
+        if (id.kind == mirror) return {*id.viewer == first ? second : first};
+        return {id == first ? second : first, mirror_in(0, id)};
+    };
+    PictureGraph graph = graph_of(world);
+    graph.update({make_id(frame, 0)});
+    CHECK(!graph.is_edge_back(first, second));
+    CHECK(!graph.is_edge_back(mirror_in(0, first), second));
+    CHECK(graph.is_edge_back(second, first));
+    CHECK(graph.is_edge_back(mirror_in(0, second), first));
+}
+
 void test_a_picture_that_depends_on_who_looks() {
     // Two frames look into mirror 0, in which mirror 1 is seen, which shows probe 0.
     World world;
@@ -188,8 +210,8 @@ void test_a_picture_that_depends_on_who_looks() {
         return {};
     };
     CHECK_EQUAL(drawn(world, {make_id(frame, 0), make_id(frame, 1)}),
-                "probe0 mirror1(mirror0(frame0)) mirror0(frame0) mirror1(mirror0(frame1)) "
-                "mirror0(frame1) frame0 frame1");
+                "probe0 mirror1(mirror0(frame0)) mirror0(frame0) frame0 mirror1(mirror0(frame1)) "
+                "mirror0(frame1) frame1");
     // A mirror is made when its viewer is planned, so not before the viewer.
     const auto place = [&world](const PictureId& id) {
         return std::find(world.made.begin(), world.made.end(), id) - world.made.begin();
@@ -309,6 +331,7 @@ int main() {
     test_the_order_does_not_depend_on_where_the_search_began();
     test_a_picture_derived_from_a_picture();
     test_bounces_are_pictures_of_their_own();
+    test_a_picture_for_one_viewer_comes_after_its_viewer();
     test_a_picture_that_depends_on_who_looks();
     test_an_edge_back_inside_a_circle_of_probes();
     test_circles_of_strict_pictures_are_refused_by_name();

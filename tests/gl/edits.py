@@ -350,10 +350,22 @@ VALUES = {
 LATE = {"Probe.update": "on_change", "Probe.faces_per_frame": 6}
 
 
+def has_value(thing, attribute):
+    """Whether an attribute can be read: a node with a sheared matrix has neither rotation nor scale."""
+    try:
+        getattr(thing, attribute)
+    except ValueError:
+        return False
+    return True
+
+
 def edit_property(name, world, rng, draw):
     """Set a property of a random object that has it. Returns the change in words, and a function to undo it."""
     class_name, attribute = name.split(".")
-    thing = some(world, rng, getattr(cc, class_name))
+    kind = getattr(cc, class_name)
+    thing = some(world, rng, kind)
+    if not has_value(thing, attribute):
+        thing = one(rng, *(t for t in world.things(kind) if has_value(t, attribute)))
     old = getattr(thing, attribute)
     old = dict(old) if attribute in ("uniforms", "textures") else old
     setattr(thing, attribute, VALUES[name](world, rng, thing))

@@ -28,7 +28,7 @@ from .standard.samples import (
     sampled_lobes,
     visible_normal,
 )
-from .standard.shade import dominant_direction, lit_base, shade
+from .standard.shade import Fresnel, dominant_direction, lit_base, scattered, shade
 from .standard.tables import brdf_terms, sheen_albedo
 from .transforms import normalised
 
@@ -209,6 +209,17 @@ def test_single_scattering_loses_what_the_table_says():
     )
 
 
+def test_scattered_light_is_a_geometric_series():
+    """Fdez-Aguera 2019, section 3: each further bounce meets the mean reflectance and what single scattering lost."""
+    f = Fresnel(np.array([0.9, 0.5, 0.1]), 0.8)
+    a, b = 0.5, 0.1
+    cosine = (np.arange(4000) + 0.5)[:, None] / 4000
+    mean = (2 * cosine * microfacets.schlick(f.f0, f.f90, cosine)).mean(0)
+    single = f.f0 * a + f.f90 * b
+    bounces = sum(single * (mean * (1 - (a + b))) ** k for k in range(1, 80))
+    np.testing.assert_allclose(scattered(f, a, b), [single, bounces], rtol=1e-5)
+
+
 def test_lights_all_around_are_a_furnace_of_single_scattering():
     """The BRDF for lights, summed over the hemisphere, is the one for an environment."""
     directions, solid_angle = sphere_of(64, 256)
@@ -373,9 +384,9 @@ def matching_functions(nanometres):
 @pytest.mark.parametrize("cosine", [1.0, 0.7, 0.4])
 @pytest.mark.parametrize("thickness", [150.0, 300.0, 450.0, 700.0])
 @pytest.mark.parametrize("base_f0", [0.04, 0.3, 0.7])
-def test_a_film_interferes_as_airys_sum_says(thickness, cosine, base_f0):
+@pytest.mark.parametrize("film_ior", [1.4, 1.8])
+def test_a_film_interferes_as_airys_sum_says(thickness, cosine, base_f0, film_ior):
     """All orders of interference, wavelength by wavelength (Born and Wolf, Principles of Optics, section 7.6)."""
-    film_ior = 1.4
     wavelengths = np.linspace(360.0, 830.0, 471)
     weights = matching_functions(wavelengths)
     weights = weights / weights[:, 1].sum()

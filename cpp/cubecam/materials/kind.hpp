@@ -46,6 +46,16 @@ enum class AlphaMode : std::uint8_t {
 inline constexpr std::array<std::pair<std::string_view, AlphaMode>, 3> alpha_mode_names{
     {{"opaque", AlphaMode::opaque}, {"mask", AlphaMode::mask}, {"blend", AlphaMode::blend}}};
 
+/// The holes of a surface: where the product of this factor, the alpha of the map whose alpha
+/// counts (Field::alpha) and that of the vertices is below the cutoff. A kind that has them has a
+/// function `std::optional<AlphaMask> alpha_mask() const`, and shadows then have the holes, too.
+struct AlphaMask {
+    float factor = 1.0F;  ///< the alpha of its colours
+    float cutoff = 0.5F;
+
+    bool operator==(const AlphaMask&) const = default;
+};
+
 /// One parameter of a kind: its name in Python and GLSL, the member that holds it, and the
 /// docstring of the property.
 template <class Kind, class Value>
@@ -187,6 +197,14 @@ concept HasEnvironmentParts = requires(const Kind& kind) {
 template <class Kind>
 concept HasAlphaUse = requires(const Kind& kind) {
     { kind.alpha_use() } -> std::same_as<std::optional<AlphaMode>>;
+};
+template <class Kind>
+concept HasAlphaMask = requires(const Kind& kind) {
+    { kind.alpha_mask() } -> std::same_as<std::optional<AlphaMask>>;
+};
+template <class Kind>
+concept HasShowsBehind = requires(const Kind& kind) {
+    { kind.shows_behind() } -> std::same_as<bool>;
 };
 template <class Kind>
 concept HasUsesTangents = requires(const Kind& kind) {

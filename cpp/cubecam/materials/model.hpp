@@ -66,6 +66,10 @@ struct MaterialTraits {
     /// tangents then get those of one of their sets of uvs, by `int tangent_uv_set() const`.
     bool uses_tangents = false;
     int tangent_uv_set = 0;
+    std::optional<AlphaMask> alpha_mask;
+    /// Whether the scene behind shows through the surface, which is not blended: the material calls
+    /// scene_behind() (shaders/include/behind.glsl). A kind says so by `bool shows_behind() const`.
+    bool shows_behind = false;
     std::optional<UserCode> user_code;
 
     bool moves_vertices() const { return user_code && user_code->moves_vertices(); }
@@ -115,6 +119,8 @@ public:
         traits_.uses_lights = kind_.uses_lights();
         traits_.vertex_colors = kind_.uses_vertex_colors();
         if constexpr (kinds::HasAlphaUse<Kind>) traits_.alpha_mode = kind_.alpha_use();
+        if constexpr (kinds::HasAlphaMask<Kind>) traits_.alpha_mask = kind_.alpha_mask();
+        if constexpr (kinds::HasShowsBehind<Kind>) traits_.shows_behind = kind_.shows_behind();
         if constexpr (kinds::HasUsesTangents<Kind>) traits_.uses_tangents = kind_.uses_tangents();
         if constexpr (kinds::HasTangentUvSet<Kind>) {
             traits_.tangent_uv_set = kind_.tangent_uv_set();

@@ -199,6 +199,10 @@ struct Standard {
     /// With "opaque" no alpha counts; with "mask" the shader compares it with the cutoff.
     float alpha() const { return counts_alpha() ? color.a : 1.0F; }
     std::optional<AlphaMode> alpha_use() const { return alpha_mode; }
+    std::optional<AlphaMask> alpha_mask() const {
+        if (alpha_mode != AlphaMode::mask) return std::nullopt;
+        return AlphaMask{color.a, alpha_cutoff};
+    }
     /// As shaders/materials/standard/constants.glsl names them.
     std::array<glm::vec4, 46> constants(const glm::vec3& ambient) const;
     /// Every extension is a switch, so that a plain material costs nothing of the others.

@@ -41,6 +41,8 @@ bool moves_vertices(const NodeSnapshot& node) {
     return node.material.value.traits().moves_vertices();
 }
 
+bool shows_behind(const NodeSnapshot& node) { return node.material.value.traits().shows_behind; }
+
 bool receive_shadow(const NodeSnapshot& node) {
     return node.receive_shadow && node.material.value.traits().uses_lights;
 }
@@ -50,8 +52,27 @@ bool has_shadows(const SceneSnapshot& scene) {
                        [](const LightSnapshot& light) { return light.value.shadow.has_value(); });
 }
 
-std::vector<std::size_t> vertex_textures(const NodeSnapshot& node) {
+std::optional<std::size_t> mask_texture(const NodeSnapshot& node) {
+    const MaterialTraits& traits = node.material.value.traits();
+    if (!traits.alpha_mask) return std::nullopt;
+    for (std::size_t place = 0; place < node.textures.size(); ++place) {
+        if (traits.textures[place].alpha_counts && !is_none(node.textures[place])) return place;
+    }
+    return std::nullopt;
+}
+
+bool has_holes(const NodeSnapshot& node) {
+    const MaterialTraits& traits = node.material.value.traits();
+    if (!traits.alpha_mask) return false;
+    const bool by_vertices =
+        traits.vertex_colors != VertexColors::ignored && node.mesh->translucent_colors();
+    return by_vertices || mask_texture(node) ||
+           traits.alpha_mask->factor < traits.alpha_mask->cutoff;
+}
+
+std::vector<std::size_t> shadow_textures(const NodeSnapshot& node) {
     std::vector<std::size_t> found;
+    if (const auto mask = mask_texture(node)) found.push_back(*mask);
     if (!moves_vertices(node)) return found;
     const MaterialTraits& traits = node.material.value.traits();
     for (std::size_t place = 0; place < traits.textures.size(); ++place) {

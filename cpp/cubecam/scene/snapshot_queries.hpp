@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 /// Answers from a snapshot alone: which pictures see a node, and what its material uses.
@@ -21,14 +22,24 @@ const CubeSourceSnapshot& environment_of(const SceneSnapshot& scene, const NodeS
 /// Whether a user's own source moves a node's vertices.
 bool moves_vertices(const NodeSnapshot& node);
 
+/// Whether the scene behind shows through a node, which is not blended.
+bool shows_behind(const NodeSnapshot& node);
+
 /// Whether a node shows shadows: its material must use the lights.
 bool receive_shadow(const NodeSnapshot& node);
 
 /// Whether any light of a scene has a shadow.
 bool has_shadows(const SceneSnapshot& scene);
 
-/// The indices of a node's textures that its vertex function looks up.
-std::vector<std::size_t> vertex_textures(const NodeSnapshot& node);
+/// The index of the texture whose alpha makes holes in a node; none: no such texture, or no mask.
+std::optional<std::size_t> mask_texture(const NodeSnapshot& node);
+
+/// Whether a node may have holes, so that its shadow needs more than its triangles.
+bool has_holes(const NodeSnapshot& node);
+
+/// The indices of a node's textures on which its shadow depends: those that its vertex function
+/// looks up, and that of its mask.
+std::vector<std::size_t> shadow_textures(const NodeSnapshot& node);
 
 /// Whether a probe, or a render texture, of a node's scene sees the node.
 bool is_seen(const SceneSnapshot& scene, const NodeSnapshot& node, std::size_t probe);

@@ -1,9 +1,6 @@
 // KHR_materials_transmission and KHR_materials_volume: the light that passes through the surface, from the scene behind.
 #ifdef TRANSMISSION
-// Replaced by include/behind.glsl when it is there.
-vec3 scene_behind(vec3 exit_from_origin, vec3 direction, float roughness) {
-    return environment_filtered(direction, roughness);
-}
+#include "include/behind.glsl"
 
 // The light from behind along the way that `eta` bends, with the attenuation of the volume (KHR_materials_volume,
 // "Attenuation").

@@ -61,7 +61,7 @@ void add_caster_dependencies(const SceneSnapshot& scene, std::size_t number, Dep
     if (!has_shadows(scene)) return;
     for (const NodeSnapshot& node : scene.nodes) {
         if (!node.cast_shadow) continue;
-        for (const std::size_t place : vertex_textures(node)) {
+        for (const std::size_t place : shadow_textures(node)) {
             add_source(number, node.textures[place], to);
         }
     }
@@ -80,7 +80,13 @@ SceneContents::SceneContents(const SceneSnapshot& scene, std::size_t number) {
         add_dependencies(scene, number, node, pictures);
         if (!pictures.empty()) showing_.push_back({&node, std::move(pictures)});
         if (!shadows_.empty() && receive_shadow(node)) receivers_.push_back(&node);
+        if (cubecam::shows_behind(node)) transmissive_.push_back(&node);
     }
+}
+
+bool SceneContents::shows_behind(const std::function<bool(const NodeSnapshot&)>& wanted) const {
+    return std::any_of(transmissive_.begin(), transmissive_.end(),
+                       [&wanted](const NodeSnapshot* node) { return wanted(*node); });
 }
 
 Dependencies SceneContents::shown(const std::function<bool(const NodeSnapshot&)>& wanted) const {

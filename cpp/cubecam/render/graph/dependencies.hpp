@@ -23,9 +23,9 @@ void add_dependencies(const std::vector<EffectSnapshot>& effects, Dependencies& 
 /// Adds the shadow maps of a scene.
 void add_shadows(const SceneSnapshot& scene, std::size_t number, Dependencies& to);
 
-/// Adds the pictures that a scene's casters look up to move their vertices, whether these casters
-/// are in view or not: the scene's shadow maps depend on these pictures. Adds none if no light has
-/// a shadow.
+/// Adds the pictures that a scene's casters look up to move their vertices or to find their holes,
+/// whether these casters are in view or not: the scene's shadow maps depend on these pictures. Adds
+/// none if no light has a shadow.
 void add_caster_dependencies(const SceneSnapshot& scene, std::size_t number, Dependencies& to);
 
 /// Returns the pictures sorted, each once.
@@ -41,6 +41,9 @@ public:
     /// one of these nodes receives shadows.
     Dependencies shown(const std::function<bool(const NodeSnapshot&)>& wanted) const;
 
+    /// Whether the scene behind shows through one of the nodes for which `wanted` is true.
+    bool shows_behind(const std::function<bool(const NodeSnapshot&)>& wanted) const;
+
 private:
     struct Showing {
         const NodeSnapshot* node;
@@ -49,6 +52,7 @@ private:
 
     std::vector<Showing> showing_;
     std::vector<const NodeSnapshot*> receivers_;
+    std::vector<const NodeSnapshot*> transmissive_;
     Dependencies shadows_;
 };
 

@@ -103,6 +103,7 @@ std::vector<PictureKey> DrawnPicture::keys_of(const std::vector<NodeTextures>& l
             for (const BoundTexture& texture : found.textures) {
                 picture.textures.push_back(texture.revision);
             }
+            if (found.behind.texture != 0) picture.textures.push_back(found.behind.revision);
             key.texture_count =
                 static_cast<std::uint32_t>(picture.textures.size()) - key.first_texture;
             picture.nodes.push_back(key);

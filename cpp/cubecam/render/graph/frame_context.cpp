@@ -1,5 +1,6 @@
 #include "cubecam/render/graph/frame_context.hpp"
 
+#include "cubecam/render/graph/behind_picture.hpp"
 #include "cubecam/render/graph/frame_picture.hpp"
 #include "cubecam/render/graph/picture_kind.hpp"
 #include "cubecam/render/graph/probe_picture.hpp"
@@ -99,6 +100,7 @@ std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
         case PictureKind::probe: return std::make_unique<ProbePicture>(*this, id);
         case PictureKind::texture: return std::make_unique<TexturePicture>(*this, id);
         case PictureKind::shadow: return std::make_unique<ShadowPicture>(*this, id);
+        case PictureKind::behind: return std::make_unique<BehindPicture>(*this, id);
         case PictureKind::frame: break;
     }
     throw std::logic_error("expected a frame to be added before something depends on it");
@@ -106,6 +108,10 @@ std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
 
 ProbePicture& FrameContext::probe(std::size_t scene, std::size_t place) {
     return static_cast<ProbePicture&>(pictures.at(probe_id(scene, place)));
+}
+
+ScenePicture& FrameContext::scene_picture(const PictureId& id) {
+    return static_cast<ScenePicture&>(pictures.at(id));
 }
 
 TexturePicture& FrameContext::texture(std::size_t place) {

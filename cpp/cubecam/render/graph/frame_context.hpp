@@ -15,6 +15,7 @@
 namespace cubecam {
 
 class ProbePicture;
+class ScenePicture;
 class TexturePicture;
 
 /// One call of a renderer: its scenes, and the graph of the pictures that it draws.
@@ -52,6 +53,8 @@ public:
 
     ProbePicture& probe(std::size_t scene, std::size_t place);
     TexturePicture& texture(std::size_t place);
+    /// The picture of a scene with this id.
+    ScenePicture& scene_picture(const PictureId& id);
     /// The shadow maps of a scene, in the order of its lights; they are up to date.
     std::vector<ShadowUse> shadows(std::size_t scene);
 

@@ -11,8 +11,12 @@ namespace cubecam {
 /// picture looks it up.
 class FramePicture final : public ScenePicture {
 public:
-    FramePicture(FrameContext& context, std::vector<View> views, Target& target, Wanted wanted,
-                 PostProcess post_process);
+    FramePicture(FrameContext& context, std::vector<View> views, Target& target,
+                 std::function<bool(const NodeSnapshot&)> wanted, PostProcess post_process);
+
+    bool sees(const NodeSnapshot& node) const override { return wanted_(node); }
+    TargetDescription describe() const override { return target_.description(); }
+    Target::Behind& kept_behind() override { return target_.behind; }
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
@@ -21,9 +25,9 @@ public:
     std::string label(std::size_t place) const override;
 
 private:
-    std::vector<View> views_;  // until they are planned
+    std::vector<View> given_views_;  // until they are planned
     Target& target_;
-    const Wanted wanted_;
+    const std::function<bool(const NodeSnapshot&)> wanted_;
     const PostProcess post_process_;
 };
 

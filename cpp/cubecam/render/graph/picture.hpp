@@ -9,8 +9,9 @@
 
 namespace cubecam {
 
-/// The kind of a picture. Of the pictures in one circle, those with the lower kind come first.
-/// picture_kind.hpp lists the kinds; the graph does not depend on them.
+/// The kind of a picture. Of the pictures in one circle, those with the lower kind come first, and
+/// those for one viewer directly after their viewer. picture_kind.hpp lists the kinds; the graph
+/// does not depend on them.
 enum class PictureKind : std::uint8_t;
 
 /// Identifies a picture: equal values mean the same picture. The members are indices, not

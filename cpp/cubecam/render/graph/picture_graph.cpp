@@ -42,14 +42,18 @@ std::vector<std::size_t> shortest_circle(const std::vector<std::vector<std::size
 }  // namespace
 
 std::strong_ordering PictureId::operator<=>(const PictureId& other) const {
+    if (viewer != nullptr || other.viewer != nullptr) {
+        const PictureId& mine = viewer != nullptr ? *viewer : *this;
+        const PictureId& its = other.viewer != nullptr ? *other.viewer : other;
+        if (const auto order = mine <=> its; order != 0) return order;
+        if (viewer == nullptr || other.viewer == nullptr) {
+            return (viewer != nullptr) <=> (other.viewer != nullptr);
+        }
+    }
     if (const auto order = kind <=> other.kind; order != 0) return order;
     if (const auto order = scene <=> other.scene; order != 0) return order;
     if (const auto order = object <=> other.object; order != 0) return order;
-    if (const auto order = bounce <=> other.bounce; order != 0) return order;
-    if (viewer == nullptr || other.viewer == nullptr) {
-        return (viewer != nullptr) <=> (other.viewer != nullptr);
-    }
-    return *viewer <=> *other.viewer;
+    return bounce <=> other.bounce;
 }
 
 Picture& PictureGraph::at(const PictureId& id) {

@@ -6,7 +6,7 @@ namespace cubecam {
 
 /// The kinds of pictures, in the order in which messages search for the picture to name. A new kind
 /// (a filtered cube, a planar mirror) gets the next number; FrameContext::make makes its pictures.
-enum class PictureKind : std::uint8_t { probe, texture, shadow, frame };
+enum class PictureKind : std::uint8_t { probe, texture, shadow, frame, behind };
 
 inline PictureId probe_id(std::size_t scene, std::size_t probe, std::size_t bounce = 0) {
     return {PictureKind::probe, scene, probe, bounce, nullptr};
@@ -23,5 +23,10 @@ inline PictureId shadow_id(std::size_t scene, std::size_t light) {
 
 /// The frame or capture of the call.
 inline PictureId frame_id() { return {PictureKind::frame, 0, 0, 0, nullptr}; }
+
+/// What lies behind the transmissive surfaces of another picture.
+inline PictureId behind_id(const PictureId& viewer) {
+    return {PictureKind::behind, viewer.scene, 0, 0, std::make_shared<const PictureId>(viewer)};
+}
 
 }  // namespace cubecam

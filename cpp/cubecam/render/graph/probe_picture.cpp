@@ -85,16 +85,10 @@ bool ProbePicture::count_and_decide() {
     return true;
 }
 
-std::vector<PictureId> ProbePicture::possible_dependencies() {
-    return context_.contents(number_).shown([this](const NodeSnapshot& n) { return sees(n); });
-}
-
 std::vector<PictureId> ProbePicture::dependencies() {
     due_ = count_and_decide();
     if (!due_) return {};  // it keeps its contents and depends on nothing
-    return plan(cube_views(probe_.position, probe_.value.near, probe_.value.far), probe_.value.size,
-                probe_.value.size, probe_.value.depth_format,
-                [this](const NodeSnapshot& node) { return sees(node); });
+    return plan(cube_views(probe_.position, probe_.value.near, probe_.value.far), describe());
 }
 
 TargetDescription ProbePicture::describe() const {

@@ -21,7 +21,11 @@ public:
     /// The current cube as a surface with these parts reflects it; it must be drawn.
     Environment environment(const EnvironmentParts& parts);
 
-    std::vector<PictureId> possible_dependencies() override;
+    bool sees(const NodeSnapshot& node) const override;
+    TargetDescription describe() const override;
+    Target::Behind& kept_behind() override { return state_.behind; }
+
+    std::vector<PictureId> possible_dependencies() override { return possible(); }
     std::vector<PictureId> dependencies() override;
     void update() override;
     /// Nothing can replace a probe that moves casters.
@@ -30,8 +34,6 @@ public:
 
 private:
     bool count_and_decide();
-    bool sees(const NodeSnapshot& node) const;
-    TargetDescription describe() const;
     void draw();
     /// Filters the faces that were drawn since the last time.
     const FilteredTexture& filter();

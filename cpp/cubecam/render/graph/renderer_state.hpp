@@ -23,7 +23,8 @@ namespace cubecam {
 
 /// A renderer's state of a probe.
 struct ProbeState {
-    std::unique_ptr<Target> target;          ///< null: not drawn yet
+    std::unique_ptr<Target> target;  ///< null: not drawn yet
+    Target::Behind behind;
     std::uint64_t revision = 0;              ///< new whenever a face was drawn; 0: not drawn yet
     std::int64_t calls = 0;                  ///< calls that needed it, for every_n_frames
     std::size_t next_face = 0;               ///< the next face to draw with faces_per_frame
@@ -58,7 +59,8 @@ private:
 
 /// A renderer's state of a render texture.
 struct TextureState {
-    std::unique_ptr<Target> target;        ///< null: not drawn yet
+    std::unique_ptr<Target> target;  ///< null: not drawn yet
+    Target::Behind behind;
     gl::Texture view;                      ///< its colour, as materials look it up
     Wrap wrap = Wrap::clamp;               ///< of `view`
     std::uint64_t revision = 0;            ///< new whenever lookups may give another result

@@ -1,5 +1,6 @@
 #include "cubecam/render/graph/scene_picture.hpp"
 
+#include "cubecam/render/graph/picture_kind.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <utility>
@@ -9,18 +10,36 @@ namespace cubecam {
 ScenePicture::ScenePicture(FrameContext& context, PictureId id, std::size_t scene)
     : context_(context), id_(std::move(id)), number_(scene), scene_(context.scenes.scene(scene)) {}
 
-Dependencies ScenePicture::plan(std::vector<View> views, int width, int height,
-                                DepthFormat depth_format, const Wanted& wanted) {
+BoundTexture ScenePicture::behind() {
+    if (!shows_behind_) return {};
+    const Target::Behind& kept = kept_behind();
+    return {kept.target->color().id(), kept.revision};
+}
+
+Dependencies ScenePicture::possible() {
+    const auto wanted = [this](const NodeSnapshot& node) { return sees(node); };
+    const SceneContents& contents = context_.contents(number_);
+    Dependencies shown = contents.shown(wanted);
+    if (contents.shows_behind(wanted)) shown.push_back(behind_id(id_));
+    return shown;
+}
+
+Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription& target) {
     views_ = std::move(views);
-    plan_ = make_plan(scene_, views_, width, height, wanted, depth_mode(depth_format));
+    plan_ = make_plan(
+        scene_, views_, target.width, target.height,
+        [this](const NodeSnapshot& node) { return sees(node); }, depth_mode(target.depth_format));
     Dependencies shown;
     const bool shadows = has_shadows(scene_);
     shows_shadows_ = false;
+    shows_behind_ = false;
     plan_.for_each([&](const PlannedNode& planned) {
         const NodeSnapshot& node = scene_.nodes[planned.node];
         add_dependencies(scene_, number_, node, shown);
         shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
+        shows_behind_ = shows_behind_ || (target.color && shows_behind(node));
     });
+    if (shows_behind_) shown.push_back(behind_id(id_));
     if (shows_shadows_) add_shadows(scene_, number_, shown);
     return shown;
 }

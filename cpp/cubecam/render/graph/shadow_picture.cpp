@@ -11,9 +11,9 @@ namespace {
 void add_caster(Key& key, const NodeSnapshot& node, TextureLookup& lookup) {
     key.add(node.world);
     key.add(node.mesh->revision());
-    if (!moves_vertices(node)) return;
+    if (!moves_vertices(node) && !has_holes(node)) return;
     key.add(node.material.revision);
-    for (const BoundTexture& texture : lookup.find_for_vertices(node)) key.add(texture.revision);
+    for (const BoundTexture& texture : lookup.find_for_shadow(node)) key.add(texture.revision);
 }
 
 /// A key of the whole map: it costs less than the layers' keys, which need every caster culled
@@ -82,7 +82,7 @@ void ShadowPicture::draw_changed(TextureLookup& lookup) {
                                     [](const NodeSnapshot& node) { return node.cast_shadow; });
     std::vector<Key> keys = layer_keys(scene_, use_.view, plan, lookup);
     const ShadowInput input{scene_, use_.view, plan, [&lookup](const NodeSnapshot& node) {
-                                return lookup.find_for_vertices(node);
+                                return lookup.find_for_shadow(node);
                             }};
     std::size_t drawn = 0;
     for (std::size_t layer = 0; layer < keys.size(); ++layer) {

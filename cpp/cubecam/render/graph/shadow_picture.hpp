@@ -10,7 +10,8 @@
 namespace cubecam {
 
 /// The shadow map of a light in one scene: the depth of all its casters, whether they are in view
-/// or not. It depends only on the pictures that casters look up to move their vertices.
+/// or not. It depends only on the pictures that casters look up to move their vertices, or to find
+/// their holes.
 ///
 /// Frames, captures, probes and render textures use the same map. A layer is drawn again only if
 /// its key has changed.

@@ -3,6 +3,7 @@
 #include "cubecam/render/graph/frame_context.hpp"
 #include "cubecam/render/graph/picture_kind.hpp"
 #include "cubecam/render/graph/probe_picture.hpp"
+#include "cubecam/render/graph/scene_picture.hpp"
 #include "cubecam/render/graph/texture_picture.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
@@ -89,12 +90,13 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
     for (std::size_t i = 0; i < node.textures.size(); ++i) {
         found.textures.push_back(find(node.textures[i], material.textures[i].srgb));
     }
+    if (material.shows_behind) found.behind = context_.scene_picture(viewer_).behind();
     return found;
 }
 
-std::vector<BoundTexture> TextureLookup::find_for_vertices(const NodeSnapshot& node) {
+std::vector<BoundTexture> TextureLookup::find_for_shadow(const NodeSnapshot& node) {
     std::vector<BoundTexture> found(node.textures.size());
-    for (const std::size_t place : vertex_textures(node)) {
+    for (const std::size_t place : shadow_textures(node)) {
         found[place] = find(node.textures[place]);
     }
     return found;

@@ -27,9 +27,9 @@ public:
     BoundTexture find(const TextureSourceSnapshot& texture, bool colors = false);
     /// Finds all textures that a node's material looks up.
     NodeTextures find(const NodeSnapshot& node);
-    /// Finds the textures that a node looks up to move its vertices, in the order of its inputs;
-    /// the others stay empty.
-    std::vector<BoundTexture> find_for_vertices(const NodeSnapshot& node);
+    /// Finds the textures on which a node's shadow depends, in the order of its inputs; the others
+    /// stay empty.
+    std::vector<BoundTexture> find_for_shadow(const NodeSnapshot& node);
     /// Finds the textures of each effect, in the order of its inputs.
     std::vector<std::vector<BoundTexture>> find(const std::vector<EffectSnapshot>& effects);
     /// The cube behind everything; empty if the background is a colour.

@@ -17,19 +17,15 @@ TexturePicture::TexturePicture(FrameContext& context, const PictureId& id)
 bool TexturePicture::sees(const NodeSnapshot& node) const { return is_seen(texture_, node); }
 
 std::vector<PictureId> TexturePicture::possible_dependencies() {
-    Dependencies shown =
-        context_.contents(number_).shown([this](const NodeSnapshot& node) { return sees(node); });
+    Dependencies shown = possible();
     add_dependencies(texture_.effects, shown);
     return shown;
 }
 
 std::vector<PictureId> TexturePicture::dependencies() {
-    const TargetDescription description = describe();
     const double aspect =
         static_cast<double>(texture_.value.width) / static_cast<double>(texture_.value.height);
-    Dependencies shown = plan({camera_view(matrices(texture_.camera, aspect))}, description.width,
-                              description.height, texture_.value.depth_format,
-                              [this](const NodeSnapshot& node) { return sees(node); });
+    Dependencies shown = plan({camera_view(matrices(texture_.camera, aspect))}, describe());
     add_dependencies(texture_.effects, shown);
     return shown;
 }
@@ -54,10 +50,16 @@ TargetDescription TexturePicture::describe() const {
     }
 }
 
+void TexturePicture::reset() {
+    Target::Behind behind = std::move(state_.behind);
+    state_ = TextureState{};
+    state_.behind = std::move(behind);
+}
+
 void TexturePicture::prepare(const TargetDescription& description) {
     const GladGLContext& gl = context_.gpu.context.gl();
     if (state_.target == nullptr || state_.target->description() != description) {
-        state_ = TextureState{};  // frees the old memory first
+        reset();  // frees the old memory first
         state_.target = std::make_unique<Target>(context_.gpu.context, description);
         state_.view = gl::create_view_2d(
             gl, state_.target->picture(),
@@ -87,7 +89,7 @@ void TexturePicture::update() {
             context_.gpu.context.gl().GenerateTextureMipmap(state_.target->picture().id());
         }
     } catch (...) {
-        state_ = TextureState{};
+        reset();
         throw;
     }
     state_.revision = context_.gpu.contents = next_revision();

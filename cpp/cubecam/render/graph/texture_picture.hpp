@@ -16,6 +16,10 @@ public:
     /// The current picture. A map of colours gets decoded numbers if these are sRGB of 8 bits.
     BoundTexture texture(bool colors);
 
+    bool sees(const NodeSnapshot& node) const override;
+    TargetDescription describe() const override;
+    Target::Behind& kept_behind() override { return state_.behind; }
+
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
     void update() override;
@@ -23,8 +27,8 @@ public:
     std::string label(std::size_t place) const override;
 
 private:
-    bool sees(const NodeSnapshot& node) const;
-    TargetDescription describe() const;
+    /// Forgets the picture, but not what is behind it.
+    void reset();
     /// Makes the target and the view of it, if the texture's size, format or wrapping has changed.
     void prepare(const TargetDescription& description);
     Sampler sampler() const;

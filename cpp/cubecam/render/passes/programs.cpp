@@ -3,6 +3,7 @@
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
+#include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/node_record.hpp"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
     taken += material.textures.empty() ? 0 : 2;  // uv, the object's own position
     taken += variant.uvs1 ? 1 : 0;
     taken += variant.tangents ? 1 : 0;
+    taken += variant.behind == BehindLookup::none ? 0 : 4;  // rows of a matrix; layer
     taken += variant.vertex_colors ? 1 : 0;
     taken += variant.shadows > 0 ? 1 : 0;
     taken += variant.blend == Blend::opaque ? 0 : 1;
@@ -134,13 +136,15 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
     const std::size_t environment =
         (material.uses_environment ? 1U : 0U) + variant.environment.texture_count();
     const auto shadows = static_cast<std::size_t>(variant.shadows);
-    const std::size_t all = maps + environment + shadows;
+    const std::size_t behind = variant.behind == BehindLookup::none ? 0U : 1U;
+    const std::size_t all = maps + environment + shadows + behind;
     if (all <= most_textures_) return;
     throw std::invalid_argument(
         std::string(variant.kind->name) + ": expected at most " + std::to_string(most_textures_) +
         " textures on a surface (GL_MAX_TEXTURE_IMAGE_UNITS), got " + std::to_string(all) + ": " +
         std::to_string(maps) + " of the material, " + std::to_string(environment) +
-        " of the environment, " + std::to_string(shadows) + " of shadows");
+        " of the environment, " + std::to_string(shadows) + " of shadows" +
+        (behind == 0 ? "" : ", 1 of the scene behind"));
 }
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
@@ -163,6 +167,8 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.vertex_colors, "HAS_VERTEX_COLORS");
     define(variant.uvs1, "USES_UV1");
     define(variant.tangents, "USES_TANGENT");
+    define(variant.behind != BehindLookup::none, "SHOWS_BEHIND");
+    define(variant.behind == BehindLookup::cube, "BEHIND_CUBE");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");
@@ -241,9 +247,20 @@ UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_c
                        {"include/user_vertex.glsl", "vertex", material.user_code->vertex}});
 }
 
-const gl::Program& Programs::shadow() {
-    if (!shadow_) shadow_ = gl::Program(*gl_, {"passes/shadow.vert", "passes/shadow.frag"});
-    return shadow_;
+const gl::Program& Programs::shadow(const ShadowVariant& variant) {
+    const auto found = shadows_.find(variant);
+    if (found != shadows_.end()) return found->second;
+    gl::ShaderOptions options;
+    const auto define = [&options](bool wanted, const char* name, unsigned value) {
+        if (wanted) options.defines.emplace_back(name, std::to_string(value));
+    };
+    define(variant.holes, "HOLES", 1);
+    define(variant.map, "UNIT_MASK", texture_unit::first_of_material);
+    define(variant.map, "MASK_UV", variant.second_uvs ? attribute::uv1 : attribute::uv);
+    define(variant.vertex_colors, "HAS_VERTEX_COLORS", 1);
+    return shadows_
+        .emplace(variant, gl::Program(*gl_, {"passes/shadow.vert", "passes/shadow.frag"}, options))
+        .first->second;
 }
 
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) {

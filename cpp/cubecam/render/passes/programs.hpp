@@ -32,6 +32,10 @@ struct EnvironmentVariant {
     auto operator<=>(const EnvironmentVariant&) const = default;
 };
 
+/// How a surface looks up the scene behind it: not at all, in a picture of the same view, or in a
+/// cube.
+enum class BehindLookup : std::uint8_t { none, flat, cube };
+
 /// The variant of surface.vert and surface.frag that a draw call needs.
 struct SurfaceVariant {
     const KindInfo* kind = nullptr;
@@ -53,8 +57,19 @@ struct SurfaceVariant {
     int shadows = 0;                 ///< how many lights, the first ones, have a shadow on it
     std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each: two bits, from the lowest on
     EnvironmentVariant environment;
+    BehindLookup behind = BehindLookup::none;
 
     auto operator<=>(const SurfaceVariant&) const = default;
+};
+
+/// The variant of shadow.vert and shadow.frag that a caster needs.
+struct ShadowVariant {
+    bool holes = false;          ///< there is nothing where alpha is below a cutoff
+    bool map = false;            ///< a map's alpha counts
+    bool second_uvs = false;     ///< the mesh's uvs1 place it
+    bool vertex_colors = false;  ///< the alpha of the vertices counts
+
+    auto operator<=>(const ShadowVariant&) const = default;
 };
 
 /// Compiled programs; each is made when it is first needed.
@@ -69,7 +84,7 @@ public:
     UserProgram& effect(const UserSource& fragment);
     /// `turned`: the environment's placing is not plain.
     const gl::Program& skybox(bool turned);
-    const gl::Program& shadow();
+    const gl::Program& shadow(const ShadowVariant& variant);
     UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
 
@@ -85,7 +100,8 @@ private:
     std::map<SurfaceVariant, gl::Program> surfaces_;
     std::map<std::tuple<Tonemap, Encode, bool>, gl::Program> grades_;
     UserPrograms users_;
-    gl::Program skybox_, turned_skybox_, shadow_;
+    std::map<ShadowVariant, gl::Program> shadows_;
+    gl::Program skybox_, turned_skybox_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

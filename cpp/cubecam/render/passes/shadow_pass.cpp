@@ -2,6 +2,7 @@
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/image/flip.hpp"
+#include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/node_record.hpp"
 #include "cubecam/render/resources/view_record.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
@@ -11,8 +12,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace cubecam {
 namespace {
@@ -20,6 +23,29 @@ namespace {
 constexpr GLenum map_format = GL_DEPTH_COMPONENT32F;
 constexpr DepthState depth_test = depth_state(DepthOrder::nearest);
 constexpr float nothing = depth_test.clear;
+
+/// The uniform block `Mask` of shaders/include/mask.glsl, std140.
+struct MaskBlock {
+    glm::vec4 rows[2];  ///< of the matrix that places the map
+    glm::vec4 numbers;  ///< x: factor, y: cutoff
+};
+
+MaskBlock make_mask_block(const AlphaMask& mask, const MapPlacing& placing) {
+    const glm::mat3x2 columns = matrix(placing);
+    MaskBlock block{};
+    for (int row = 0; row < 2; ++row) {
+        block.rows[row] = glm::vec4(columns[0][row], columns[1][row], columns[2][row], 0.0F);
+    }
+    block.numbers = glm::vec4(mask.factor, mask.cutoff, 0.0F, 0.0F);
+    return block;
+}
+
+/// The casters that one call draws: nodes of one mesh, which differ only in their matrices. Those
+/// with holes also have one material.
+struct Casters {
+    const NodeSnapshot* first;
+    std::vector<ViewRecord> nodes;
+};
 
 }  // namespace
 
@@ -73,11 +99,8 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
 }
 
 void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& map, Stats& stats) {
-    // One call draws all nodes of a mesh, since casters of one mesh differ only in their matrices.
-    // Meshes are in the order of their first node.
-    std::vector<const MeshData*> meshes;
-    std::vector<std::vector<ViewRecord>> nodes;
-    std::map<const MeshData*, std::size_t> places;
+    std::vector<Casters> casters;  // in the order of their first nodes
+    std::map<std::pair<const MeshData*, std::uint64_t>, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
     for (const PlannedNode& planned : input.plan.opaque) {
@@ -91,17 +114,16 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
             moved.push_back(&node);
             continue;
         }
-        const auto [place, added] = places.try_emplace(node.mesh.get(), meshes.size());
-        if (added) {
-            meshes.push_back(node.mesh.get());
-            nodes.emplace_back();
-        }
+        const std::uint64_t material = has_holes(node) ? node.material.revision : 0;
+        const auto [place, added] = places.try_emplace({node.mesh.get(), material}, casters.size());
+        if (added) casters.push_back({&node, {}});
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
-        nodes[place->second].push_back(make_view_record(from, matrix, from.position, layer));
+        casters[place->second].nodes.push_back(
+            make_view_record(from, matrix, from.position, layer));
     }
     std::vector<ViewRecord> instances;
-    for (const auto& of_mesh : nodes) {
-        instances.insert(instances.end(), of_mesh.begin(), of_mesh.end());
+    for (const Casters& some : casters) {
+        instances.insert(instances.end(), some.nodes.begin(), some.nodes.end());
     }
     instances_ = gl::create_buffer(*gl_, instances.size() * sizeof(ViewRecord), instances.data());
 
@@ -118,11 +140,11 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     if (input.view.kind == ShadowView::Kind::parallel) {
         gl_->Scissor(1, 1, map.size - 2, map.size - 2);  // see shadow_view.cpp, empty_border
     }
-    programs_->shadow().use();
     GLuint first = 0;
-    for (std::size_t m = 0; m < meshes.size(); ++m) {
-        const GpuMesh& mesh = cache_->mesh(*meshes[m]);
-        const auto count = static_cast<GLsizei>(nodes[m].size());
+    for (const Casters& some : casters) {
+        const GpuMesh& mesh = cache_->mesh(*some.first->mesh);
+        const auto count = static_cast<GLsizei>(some.nodes.size());
+        bind_program(*some.first, input);
         gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::records, instances_.id(), 0,
                                      sizeof(ViewRecord));
         gl_->BindVertexArray(mesh.array.id());
@@ -133,6 +155,28 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         stats.triangles += std::int64_t{mesh.index_count / 3} * count;
     }
     for (const NodeSnapshot* node : moved) draw_moved(*node, input, layer, stats);
+}
+
+void ShadowPass::bind_program(const NodeSnapshot& node, const ShadowInput& input) {
+    if (!has_holes(node)) return programs_->shadow({}).use();
+    const MaterialTraits& traits = node.material.value.traits();
+    const std::optional<std::size_t> map = mask_texture(node);
+    ShadowVariant variant;
+    variant.holes = true;
+    variant.map = map.has_value();
+    variant.vertex_colors =
+        traits.vertex_colors != VertexColors::ignored && node.mesh->colors() != nullptr;
+    MapPlacing placing;
+    if (map) {
+        const NamedTexture& texture = traits.textures[*map];
+        if (texture.placing != nullptr) placing = *texture.placing;
+        variant.second_uvs = uv_set_of(texture) == 1;
+        gl_->BindTextureUnit(texture_unit::first_of_material, input.look_up(node)[*map].texture);
+    }
+    const MaskBlock block = make_mask_block(*traits.alpha_mask, placing);
+    block_ = gl::create_buffer(*gl_, sizeof(block), &block);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, material_binding, block_.id());
+    programs_->shadow(variant).use();
 }
 
 void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,

@@ -30,7 +30,7 @@ struct ShadowInput {
     const SceneSnapshot& scene;
     const ShadowView& view;
     const DrawPlan& plan;  ///< of the casters, for the view's layers
-    /// Returns the textures that a caster's own vertex function looks up.
+    /// Returns the textures on which a caster's shadow depends, in the order of its inputs.
     std::function<std::vector<BoundTexture>(const NodeSnapshot&)> look_up;
 };
 
@@ -53,6 +53,8 @@ public:
     Buffer<float> read(const ShadowUse& use);
 
 private:
+    /// Binds the program that draws a caster, and what it reads: for a surface with holes its map.
+    void bind_program(const NodeSnapshot& node, const ShadowInput& input);
     /// Draws a caster whose vertices a user's source moves.
     void draw_moved(const NodeSnapshot& node, const ShadowInput& input, std::size_t layer,
                     Stats& stats);

@@ -66,6 +66,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
     outputs_ = description.outputs.without_buffered();
     output_count_ = outputs_.by_slot().size();
     depth_ = depth_state(description.depth_order);
+    behind_ = description.shape.has_faces() ? BehindLookup::cube : BehindLookup::flat;
 
     const SurfaceItems items = find_items(input, *cache_);
     SurfaceCallBuilder builder(
@@ -254,6 +255,7 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
         }
     }
     variant.environment = EnvironmentVariant::of(item.textures->environment, traits);
+    if (traits.shows_behind) variant.behind = behind_;
     if (receive_shadow(node)) {
         variant.shadows = static_cast<int>(lights_.shadow_count);
         variant.shadow_kinds = shadow_kinds_;
@@ -283,6 +285,9 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
     const MaterialTraits& traits = item.node->material.value.traits();
     if (traits.uses_environment || traits.environment_parts.filtered) {
         bind_environment(item.textures->environment);
+    }
+    if (traits.shows_behind) {
+        gl_->BindTextureUnit(texture_unit::behind, item.textures->behind.texture);
     }
 }
 

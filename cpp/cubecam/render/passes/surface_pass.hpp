@@ -69,6 +69,7 @@ private:
     Outputs outputs_;                                      ///< the shaded outputs of the target
     std::size_t output_count_ = 0;                         ///< the length of outputs_
     DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of the target
+    BehindLookup behind_ = BehindLookup::none;             ///< of surfaces in the target
 };
 
 }  // namespace cubecam

@@ -45,6 +45,7 @@ struct Environment {
 struct NodeTextures {
     Environment environment;
     std::vector<BoundTexture> textures;  ///< in the order of the material's fields
+    BoundTexture behind;  ///< the scene behind a transmissive surface; texture 0: none
 };
 
 /// The uniform block `Environment` of shaders/include/environment.glsl, std140.

@@ -13,6 +13,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -145,6 +146,18 @@ public:
     std::vector<std::optional<PictureKey>> keys;
     /// The revision of each layer's picture: new whenever it was drawn.
     std::vector<std::uint64_t> revisions;
+    /// The scene behind the transmissive surfaces of a picture (graph/behind_picture.hpp).
+    struct Behind {
+        std::unique_ptr<Target> target;  ///< null: not drawn yet
+        std::uint64_t revision = 0;      ///< new whenever a layer was drawn
+    };
+    Behind behind;  ///< of the picture in this target, if it is a frame or a capture
+
+    /// The GPU memory of the target and of what is behind it.
+    std::size_t bytes() const {
+        return description_.bytes() + (behind.target ? behind.target->bytes() : 0);
+    }
+
     /// The last call, if it drew nothing.
     std::optional<UnchangedCall> unchanged;
 

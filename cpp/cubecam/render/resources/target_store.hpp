@@ -46,7 +46,7 @@ private:
 
     std::size_t bytes() const {
         std::size_t sum = 0;
-        for (const auto& target : targets_) sum += target->description().bytes();
+        for (const auto& target : targets_) sum += target->bytes();
         return sum;
     }
 
