@@ -1,7 +1,7 @@
 """StandardMaterial against MirrorMaterial, furnaces and the numpy reference of glTF's appendix B and its extensions."""
 
 # Options are chosen by name, and some values are wrong on purpose.
-# mypy: disable-error-code="arg-type, call-overload, union-attr"
+# mypy: disable-error-code="arg-type, assignment, call-overload, union-attr"
 
 import pickle
 from typing import Any
