@@ -1,7 +1,7 @@
 """StandardMaterial against MirrorMaterial, furnaces and the numpy reference of glTF's appendix B and its extensions."""
 
 # Options are chosen by name, and some values are wrong on purpose.
-# mypy: disable-error-code="arg-type, call-overload, union-attr"
+# mypy: disable-error-code="arg-type, assignment, call-overload, union-attr"
 
 import pickle
 from typing import Any
@@ -647,16 +647,22 @@ def test_a_mask_has_holes(renderer):
     assert_close(over_white(renderer, material, mesh)[..., :3], want, "lookup")
 
 
-def test_blending_makes_a_node_late(renderer):
-    """ "blend" does so for an opaque colour, too: the node writes no depth, so what lies behind is drawn first."""
+@pytest.mark.parametrize("translucent", [False, True])
+def test_blending_makes_a_node_late(renderer, translucent):
+    """A late node writes no depth. "blend" makes one of an opaque colour, too; "mask" and "opaque" never do."""
+    picture = np.full((2, 2, 4), 255, np.uint8)
+    picture[..., 3] = 204 if translucent else 255
     scene = cc.Scene()
-    front = scene.add(quad(9, 6), cc.StandardMaterial(unlit=True, color="red"), position=(0, 0, 1))
+    material = cc.StandardMaterial(unlit=True, color="red", map=picture)
+    scene.add(quad(9, 6), material, position=(0, 0, 1))
     scene.add(quad(9, 6), cc.StandardMaterial(unlit=True, color="lime"))
-    for mode, depth in ((None, 4.0), ("blend", 5.0), ("mask", 4.0), ("opaque", 4.0)):
-        front.material.alpha_mode = mode
+    late = {None: translucent, "blend": True, "mask": False, "opaque": False}
+    for mode, wanted in late.items():
+        material.alpha_mode = mode
         frame = renderer.render(scene, flat_camera(9, 6), (9, 6), outputs=("z",))
-        np.testing.assert_allclose(frame.z, depth, atol=1e-4)
-        assert (frame.color == (255, 0, 0, 255)).all()
+        np.testing.assert_allclose(frame.z, 5.0 if wanted else 4.0, atol=1e-4)
+        share = 204 if translucent and wanted else 255
+        assert (frame.color == (share, 255 - share, 0, 255)).all()
 
 
 # --- the class --------------------------------------------------------------------------------------------------------
