@@ -58,6 +58,8 @@ VALUES: dict[str, Any] = {
     "indices": TRIANGLE["indices"],
     "normals": [[0.0, 0.0, 1.0]] * 3,
     "uvs": [[0.0, 1.0]] * 3,
+    "uvs1": [[0.0, 1.0]] * 3,
+    "tangents": [[1.0, 0.0, 0.0, -1.0]] * 3,
     "colors": [[0.0, 1.0, 0.5]] * 3,
     "image": PICTURE,
     "map": PICTURE,
@@ -72,10 +74,20 @@ VALUES: dict[str, Any] = {
     "lod": [0.0],
     "eta": [0.5],
     "f0": [0.5],
+    "source": PICTURE,
+    "offset": [1.0, 2.0],
+    "emissive": [0.25, 0.5, 1.0],
+    "environment_rotation": [1.0, 0.0, 0.0, 0.0],
+    "coefficients": np.ones((9, 3)),
+    "n_dot_v": [0.5],
+    "roughness": [0.5],
 }
+#: The same for names with these ends.
+ENDS: dict[str, Any] = {"_map": PICTURE, "_color": [0.25, 0.5, 1.0]}
 OF_FUNCTIONS: dict[tuple[str, str], Any] = {
     ("Scene.set_positions", "positions"): [[1.0, 2.0, 3.0]],
     ("CubeMap.set_face", "pixels"): CUBE[0],
+    ("Texture", "scale"): [1.0, 2.0],
 }
 
 #: The object whose method is called or whose attribute is set.
@@ -99,6 +111,8 @@ NEEDED: dict[str, Any] = {
     "Scene.add": lambda: {"mesh": cc.Mesh(**TRIANGLE)},
     "ShaderMaterial": lambda: {"fragment": DECLARED},
     "ImageEffect": lambda: {"fragment": EFFECT},
+    "Texture": lambda: {"source": PICTURE},
+    "brdf": lambda: {"n_dot_v": 0.5, "roughness": 0.5},
     "CubeMap.sample": lambda: {"directions": [[1, 0, 0]]},
     "CubeMap.set_face": lambda: {"face": 0},
     "Node.look_at": lambda: {"target": (9, 9, 9)},
@@ -170,7 +184,8 @@ def use(name, argument, annotation, convert, renderer, tmp_path):
     key = argument or name.rpartition(".")[2]
     values = OF_FUNCTIONS.get((name, key))
     if values is None and "Mapping" not in annotation and key != "frames":
-        values = VALUES[key]
+        ends = [value for end, value in ENDS.items() if key.endswith(end)]
+        values = VALUES[key] if key in VALUES else ends[0]
     value: Any
     if key in ("uniforms", "vectors"):
         value = {"a": convert([1.0, 0.5, 0.25])}
