@@ -9,7 +9,7 @@ namespace cubecam {
 
 /// What lies behind the transmissive surfaces of another picture, its viewer: the same views of the
 /// same nodes, except those surfaces, in half floats and with mip levels for rough surfaces
-/// (docs/adr/0023). It is drawn only if the viewer has such a surface in view.
+/// (docs/adr/0020). It is drawn only if the viewer has such a surface in view.
 class BehindPicture final : public ScenePicture {
 public:
     BehindPicture(FrameContext& context, const PictureId& id);
