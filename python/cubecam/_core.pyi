@@ -4379,7 +4379,7 @@ class StandardMaterial(Material):
         box mipmaps (Krivanek and Colbert 2008): slower and closer to the exact integral. Clear coats always use the
         levels.
     specular_samples : int
-        From 1 to 1024: 16 leave an error of about 12 %, 64 of 4 %.
+        From 1 to 1024: 16 leave an error of about 12 %, 64 of 5 %.
     multiple_scattering : bool
         Whether the light that rough surfaces scatter more than once is added (Fdez-Aguera 2019); it is lost
         otherwise. Lights with a place or direction are not changed.
