@@ -84,7 +84,7 @@ BAD = {
     "samples 0": ("samples", 0, ValueError, "samples of at least 1, got 0"),
     "samples float": ("samples", 1.5, TypeError, "samples"),
     "format": ("format", "rgb8", ValueError, "format"),
-    "wrap": ("wrap", "mirror", ValueError, "wrap"),
+    "wrap": ("wrap", "edge", ValueError, "wrap"),
     "exclude a node": ("exclude", cc.Scene().add(), TypeError, "exclude"),
     "exclude numbers": ("exclude", [3], TypeError, "exclude"),
     "exclude None": ("exclude", None, TypeError, "exclude"),
