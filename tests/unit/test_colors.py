@@ -225,6 +225,7 @@ OWNERS = {
     "mirror color": (lambda **c: cc.MirrorMaterial(**c), "color"),
     "mirror tint": (lambda **c: cc.MirrorMaterial(**c), "tint"),
     "glass": (lambda **c: cc.GlassMaterial(**c), "tint"),
+    "standard": (lambda **c: cc.StandardMaterial(**c), "color"),
     "ambient": (lambda **c: cc.AmbientLight(**c), "color"),
     "point": (lambda **c: cc.PointLight(**c), "color"),
     "spot": (lambda **c: cc.SpotLight(**c), "color"),
