@@ -957,8 +957,8 @@ MUTATIONS = [
     Mutation(
         "GLSL: levels of the environment from behind",
         "scene.glsl",
-        "textureLod(u_cube, in_cube(direction_world), level).rgb);\n#endif",
-        "textureLod(u_cube, in_cube(-direction_world), level).rgb);\n#endif",
+        "textureLod(u_cube, environment_in_cube(direction_world), level).rgb);\n#endif",
+        "textureLod(u_cube, environment_in_cube(-direction_world), level).rgb);\n#endif",
         ("tests/gl/test_shader_material.py",),
     ),
     Mutation(
@@ -1811,8 +1811,15 @@ MUTATIONS = [
     Mutation(
         "filtered cubes: texels are not adjusted for bilinear lookups",
         "filtered_cube.cpp",
-        "*to = *from - around / 12.0F;",
-        "*to = *from;",
+        "*from - around / 12.0F",
+        "*from",
+        PREFILTER,
+    ),
+    Mutation(
+        "filtered cubes: light becomes negative around lamps",
+        "filtered_cube.cpp",
+        "glm::max(*from - around / 12.0F, glm::min(*from, 0.0F))",
+        "*from - around / 12.0F",
         PREFILTER,
     ),
     Mutation(

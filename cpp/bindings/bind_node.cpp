@@ -63,7 +63,7 @@ void bind_placing(Class<Node>& node) {
             return quaternion_array(transform_of(self.value().placing).rotation);
         },
         [](Node& self, const ArrayLike& value) {
-            const glm::dquat rotation = to_rotation(value, "rotation");
+            const glm::dquat rotation = to_rotation(value, "rotation", ", or matrix= in its place");
             self.edit_placing([&](Placing& next) {
                 Transform transform = transform_of(next);
                 transform.rotation = rotation;

@@ -5,6 +5,7 @@
 #include "objects.hpp"
 
 #include "cubecam/image/image.hpp"
+#include "cubecam/materials/placed_map.hpp"
 #include "cubecam/materials/texture_source.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
@@ -26,6 +27,11 @@ inline MapSource to_map_source(py::handle value, const char* name) {
         py::isinstance<Scene>(value)) {
         refuse(value, name,
                "an Image, an array (H, W, C), a RenderTexture or None (see cubecam.load_image)");
+    }
+    // numpy would make an array of an object.
+    if (py::isinstance<PlacedMap>(value)) {
+        refuse(value, name,
+               "an Image, an array (H, W, C), a RenderTexture or None, without a place");
     }
     if (!py::isinstance<Image>(value)) return to_map_source(py::type::of<Image>()(value), name);
     return std::shared_ptr<const Image>(py::cast<std::shared_ptr<Image>>(value));

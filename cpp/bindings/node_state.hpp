@@ -52,7 +52,8 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
     }
     Transform transform;
     if (!position.is_none()) transform.position = to_point(position, "position");
-    if (!rotation.is_none()) transform.rotation = to_rotation(rotation, "rotation");
+    if (!rotation.is_none())
+        transform.rotation = to_rotation(rotation, "rotation", ", or matrix= in its place");
     if (!scale.is_none()) transform.scale = to_scale(scale, "scale");
     return transform;
 }

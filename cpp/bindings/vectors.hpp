@@ -47,15 +47,15 @@ inline glm::dvec3 to_scale(py::handle value, const char* name) {
     return glm::dvec3(*double_array(given, name, "()").data());
 }
 
-/// The quaternion (w, x, y, z), of any length except 0.
-inline glm::dquat to_rotation(py::handle value, const char* name) {
+/// The quaternion (w, x, y, z), of any length except 0. `instead` names what else could be given.
+inline glm::dquat to_rotation(py::handle value, const char* name, const char* instead = "") {
     // Three angles and a matrix of three rows are the usual guesses.
     const Py_ssize_t length = py::isinstance<py::str>(value) ? -1 : PySequence_Size(value.ptr());
     if (length < 0) PyErr_Clear();
     if (length == 3) {
         throw py::value_error(std::string(name) +
-                              ": expected a quaternion (w, x, y, z), as cc.axis_angle gives, or "
-                              "matrix= in its place; got a sequence of 3");
+                              ": expected a quaternion (w, x, y, z), as cc.axis_angle gives" +
+                              instead + "; got a sequence of 3");
     }
     const glm::dvec4 v = to_vec4(value, name);
     return {v.x, v.y, v.z, v.w};

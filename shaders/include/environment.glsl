@@ -7,7 +7,7 @@ layout(std140, binding = 5) uniform Environment {
     ivec4 u_environment_levels;   // x: how many levels; 0: there is no environment
     vec4 u_environment_turn[3];   // xyz: rows of the matrix from the world to the cube; [0].w: intensity
     vec4 u_environment_texel;     // xy: width and height of a texel of u_filtered
-    vec4 u_environment_places[16];  // of the levels in u_filtered, [0]: of the irradiance; see place_in()
+    vec4 u_environment_places[16];  // of the levels in u_filtered, [0]: of the irradiance; see environment_place()
 };
 #elif defined(USER_SOURCE)
 const vec4 u_environment_position = vec4(0.0);
@@ -16,26 +16,28 @@ const ivec4 u_environment_levels = ivec4(0);
 
 // The scene's own environment may be turned and brighter or darker than its cube.
 #ifdef ENVIRONMENT_TURNED
-vec3 in_cube(vec3 direction_world) {
+vec3 environment_in_cube(vec3 direction_world) {
     return vec3(dot(u_environment_turn[0].xyz, direction_world), dot(u_environment_turn[1].xyz, direction_world),
                 dot(u_environment_turn[2].xyz, direction_world));
 }
-vec3 with_intensity(vec3 light) { return u_environment_turn[0].w * light; }
+vec3 environment_scaled(vec3 light) { return u_environment_turn[0].w * light; }
 #else
-#define in_cube(direction_world) direction_world
-#define with_intensity(light) light
+#define environment_in_cube(direction_world) direction_world
+#define environment_scaled(light) light
 #endif
 
 // The light from a world direction (from the surface outwards, of any length). It needs no sign flip, since faces are
 // in GL's layout.
-vec3 environment(vec3 direction_world) { return with_intensity(texture(u_cube, in_cube(direction_world)).rgb); }
+vec3 environment(vec3 direction_world) {
+    return environment_scaled(texture(u_cube, environment_in_cube(direction_world)).rgb);
+}
 
 #ifdef USES_ENVIRONMENT_MIPS
 // The same environment with levels that are averages of boxes of texels.
 layout(binding = 4) uniform samplerCube u_box_mipmaps;
 
 vec3 environment_mip(vec3 direction_world, float lod) {
-    return with_intensity(textureLod(u_box_mipmaps, in_cube(direction_world), lod).rgb);
+    return environment_scaled(textureLod(u_box_mipmaps, environment_in_cube(direction_world), lod).rgb);
 }
 
 // Texels along an edge of level 0.
@@ -57,7 +59,7 @@ layout(binding = 2) uniform sampler2D u_filtered;
 
 // The face that a direction meets: xy: its column and row among the faces of a level (x, y, z; positive, negative);
 // zw: the place on the face, from 0 to 1.
-vec4 on_face(vec3 direction) {
+vec4 environment_face(vec3 direction) {
     vec3 size = abs(direction);
     bool x = size.x >= size.y && size.x >= size.z;
     bool y = !x && size.y >= size.z;
@@ -70,13 +72,13 @@ vec4 on_face(vec3 direction) {
 
 // A bilinear lookup in one level. `place` is the level's element of u_environment_places: xy: the first texel of its
 // first face, z: texels along an edge; faces have a border of one texel.
-vec3 place_in(vec4 place, vec4 on) {
+vec3 environment_place(vec4 place, vec4 on) {
     vec2 at = place.xy + on.xy * (place.z + 2.0) + on.zw * place.z;
     return textureLod(u_filtered, at * u_environment_texel.xy, 0.0).rgb;
 }
 
 // The level of a roughness; a whole number where it is the roughness of a level.
-float level_of(float roughness) {
+float environment_level_of(float roughness) {
 #ifdef ENVIRONMENT_UNEVEN
     float level = 0.0;
     for (int k = 1; k < u_environment_levels.x; ++k) {
@@ -91,30 +93,31 @@ float level_of(float roughness) {
 
 // The filtered radiance round a direction at a level, between two levels linearly; level 0 is the cube itself.
 vec3 environment_level(vec3 direction_world, float level) {
-    vec3 direction = in_cube(direction_world);
+    vec3 direction = environment_in_cube(direction_world);
     int lower = clamp(int(level), 0, max(u_environment_levels.x - 2, 0));
-    vec4 on = on_face(direction);
+    vec4 on = environment_face(direction);
     // Every fragment makes all lookups: the level of a mipmapped lookup depends on the neighbour fragments.
     vec3 sharp = texture(u_cube, direction).rgb;
-    vec3 low = place_in(u_environment_places[lower], on);
-    vec3 high = place_in(u_environment_places[lower + 1], on);
-    return with_intensity(mix(lower == 0 ? sharp : low, high, clamp(level - float(lower), 0.0, 1.0)));
+    vec3 low = environment_place(u_environment_places[lower], on);
+    vec3 high = environment_place(u_environment_places[lower + 1], on);
+    return environment_scaled(mix(lower == 0 ? sharp : low, high, clamp(level - float(lower), 0.0, 1.0)));
 }
 
 // The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
-    return environment_level(direction_world, level_of(roughness));
+    return environment_level(direction_world, environment_level_of(roughness));
 }
 
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.
 vec3 environment_irradiance(vec3 normal_world) {
-    return with_intensity(place_in(u_environment_places[0], on_face(in_cube(normal_world))));
+    vec3 normal = environment_in_cube(normal_world);
+    return environment_scaled(environment_place(u_environment_places[0], environment_face(normal)));
 }
 #else
 // Without filtered levels the mipmaps replace them, or the cube itself if it has none.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
     float level = clamp(roughness, 0.0, 1.0) * float(max(u_environment_levels.x - 1, 0));
-    return with_intensity(textureLod(u_cube, in_cube(direction_world), level).rgb);
+    return environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
 }
 
 vec3 environment_irradiance(vec3 normal_world) { return environment_filtered(normal_world, 1.0); }

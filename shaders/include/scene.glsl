@@ -30,7 +30,7 @@ vec3 environment_lod(vec3 direction_world, float level) {
 #ifdef ENVIRONMENT_FILTERED
     return environment_level(direction_world, level);
 #else
-    return with_intensity(textureLod(u_cube, in_cube(direction_world), level).rgb);
+    return environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
 #endif
 }
 

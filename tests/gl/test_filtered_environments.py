@@ -174,6 +174,27 @@ def test_too_many_textures_on_a_surface_are_an_error(fresh_renderer):
         fresh_renderer.render(scene, CAMERA, (8, 8))
 
 
+@pytest.mark.parametrize("turned", [False, True], ids=["plain", "turned"])
+def test_users_may_name_functions_as_the_library_names_its_own(renderer, turned):
+    scene = cc.Scene(environment=random_cube(14, 8), environment_intensity=2 if turned else 1)
+    want = looked_up(renderer, scene, "environment_filtered(d, 0.5) * (d.x > 0.0 ? 1.0 : 0.5)")
+    names = ("in_cube", "with_intensity", "on_face", "place_in", "level_of")
+    for name in names:
+        source = f"""uniform sampler2D way;
+        bool {name}(vec3 d) {{ return d.x > 0.0; }}
+        vec3 shade(Surface s) {{
+            vec3 d = texelFetch(way, ivec2(gl_FragCoord.xy), 0).xyz;
+            return environment_filtered(d, 0.5) * ({name}(d) ? 1.0 : 0.5);
+        }}"""
+        material = cc.ShaderMaterial(source, textures={"way": cc.Image(DIRECTIONS)})
+        node = scene.add(quad(WIDTH, HEIGHT), material, position=(0, 0, 4.5))
+        frame = renderer.render(
+            scene, flat_camera(WIDTH, HEIGHT), (WIDTH, HEIGHT), format="rgba32f"
+        )
+        scene.remove(node)
+        assert_identical(frame.color[..., :3], want)
+
+
 # Only what changed is filtered.
 
 
@@ -354,7 +375,11 @@ def test_properties_of_a_scene():
         ("environment_intensity", np.nan, "environment_intensity finite"),
         ("environment_intensity", np.inf, "environment_intensity finite"),
         ("environment_rotation", (0, 0, 0, 0), "a rotation .* not all 0"),
-        ("environment_rotation", (0, 90, 0), "environment_rotation: expected a quaternion"),
+        (
+            "environment_rotation",
+            (0, 90, 0),
+            r"environment_rotation: expected a quaternion \(w, x, y, z\), as cc.axis_angle gives; got",
+        ),
     ],
 )
 def test_bad_placings_are_errors(name, value, message):

@@ -752,6 +752,30 @@ def test_repr_and_pickling():
     assert_identical(again.map.source.pixels, PICTURE)
 
 
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"attenuation_distance": 1e-45, "attenuation_color": (1e-3, 1, 0.5), "hidden": 0},
+        {"attenuation_distance": 1e-45, "attenuation_color": (0, 1, 0.5), "hidden": 0},
+        {"thickness": 1e38},
+    ],
+    ids=["strong attenuation, no way", "black, no way", "a way without end"],
+)
+def test_volumes_without_measure_give_finite_pictures(renderer, options):
+    """The extinction, a logarithm over the distance, or the length of the way exceeds float32."""
+    options = dict(options)
+    hidden = options.pop("hidden", None)
+    if hidden is not None:
+        options["thickness_map"] = np.full((1, 1, 3), hidden, np.uint8)
+    material = cc.StandardMaterial(
+        **{"metallic": 0, "transmission": 1, "thickness": 1, "roughness": 0.2, **options}
+    )
+    scene = cc.Scene(environment=cc.CubeMap(np.full((6, 2, 2, 3), 0.5, np.float32)))
+    scene.add(cc.Mesh.icosphere(1, subdivisions=2), material)
+    camera = cc.PerspectiveCamera(fov=40, position=(0, 0, 3), target=(0, 0, 0))
+    assert np.isfinite(renderer.render(scene, camera, (16, 16), format="rgba32f").color).all()
+
+
 def test_a_change_redraws_and_an_equal_value_does_not(fresh_renderer):
     material = cc.StandardMaterial(roughness=0.5)
     world, view = ball(material, constant_cube((0.5, 0.4, 0.3)))

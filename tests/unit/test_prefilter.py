@@ -67,6 +67,20 @@ def test_a_lamp_of_one_texel():
         assert error_of(level, cube, roughness, directions) < 0.01, roughness
 
 
+def test_light_that_is_not_negative_stays_so():
+    """Where the cosine of a lamp ends, sharpening the levels for bilinear lookups would give negative light."""
+    faces = np.zeros((6, 32, 32, 3), np.float32)
+    faces[2, 20, 27] = 1e6
+    cube = cc.CubeMap(faces)
+    for level in (*cube.prefilter().levels, cube.irradiance(16).faces):
+        assert level.min() == 0
+        assert level.max() > 0
+    below = cc.CubeMap(-faces).prefilter().levels
+    assert all(
+        level.min() < 0 for level in below
+    )  # a difference of two environments keeps its sign
+
+
 def test_irradiance_of_a_photograph():
     cube = photograph("interior", 64)
     directions = random_directions(200)

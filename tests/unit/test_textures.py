@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -116,6 +117,11 @@ def test_a_render_texture_may_be_the_source():
             {"source": None},
         ),
         (TypeError, "source: expected an Image.*, got str", {"source": "wood.png"}),
+        (
+            TypeError,
+            "source: expected an Image.* without a place, got Texture",
+            {"source": cc.Texture(PIXELS)},
+        ),
         (ValueError, "uv_set: expected an int from 0 to 1, got 2", {"uv_set": 2}),
         (TypeError, "uv_set: expected an int, got 0.5", {"uv_set": 0.5}),
         (ValueError, r"offset: expected shape \(2,\)", {"offset": (1, 2, 3)}),
@@ -130,3 +136,12 @@ def test_wrong_arguments_are_errors(error, message, given):
     source = arguments.pop("source")
     with pytest.raises(error, match=message):
         cc.Texture(source, **arguments)
+
+
+def test_materials_with_one_map_take_no_place():
+    place: Any = cc.Texture(PIXELS)
+    for make in (cc.BasicMaterial, cc.PhongMaterial):
+        with pytest.raises(
+            TypeError, match=r"map: expected an Image.* without a place, got Texture"
+        ):
+            make(map=place)

@@ -199,7 +199,8 @@ private:
 
 /// Bilinear lookups flatten peaks: between texels with the distance 1, they give
 /// f + f'' t (1 - t) / 2, on average f + f'' / 12. Each texel is moved by -f'' / 12 in both
-/// directions, so that lookups are right on average, with a third of the error.
+/// directions, so that lookups are right on average, with a third of the error. Where the cosine of
+/// a small lamp ends, f'' has a peak that would make light negative; such a texel becomes 0.
 void sharpen(FilteredLevel& level) {
     // Lobes that are not wider than texels have no such derivatives.
     if (static_cast<float>(level.size) * level.roughness * level.roughness < 2.5F) return;
@@ -214,7 +215,7 @@ void sharpen(FilteredLevel& level) {
             for (int column = 0; column < n; ++column, ++from, ++to) {
                 const glm::vec4 around = (from[-1] - *from) + (from[1] - *from) +
                                          (*(from - side) - *from) + (from[side] - *from);
-                *to = *from - around / 12.0F;
+                *to = glm::max(*from - around / 12.0F, glm::min(*from, 0.0F));
             }
         }
     }

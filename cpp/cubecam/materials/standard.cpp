@@ -54,13 +54,14 @@ void for_each_map(const Standard& material, Visit&& visit) {
 }
 
 /// By KHR_materials_volume, "Attenuation", white light becomes color^(x / distance) on a way of the
-/// length x, which is exp(-x * extinction). Black becomes the largest finite number, since GLSL has
-/// no rule for infinity times 0.
+/// length x, which is exp(-x * extinction). Numbers end at 1e30, as that of black does, since
+/// infinity times 0 would be NaN.
 glm::vec3 extinction_of(const glm::vec3& color, float distance) {
     glm::vec3 extinction(0.0F);
     for (int i = 0; i < 3; ++i) {
         if (!std::isfinite(distance)) continue;
-        extinction[i] = color[i] > 0.0F ? -std::log(color[i]) / distance : 1e30F;
+        const float exact = color[i] > 0.0F ? -std::log(color[i]) / distance : 1e30F;
+        extinction[i] = std::min(exact, 1e30F);
     }
     return extinction;
 }

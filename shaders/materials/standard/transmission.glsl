@@ -9,7 +9,7 @@ vec3 light_behind(Point point, float eta) {
 #ifdef VOLUME
     vec3 direction = point.thickness > 0.0 ? refract(-point.view, point.normal, eta) : -point.view;
     vec3 way = direction * point.thickness * v_scale;
-    return scene_behind(point.from_origin + way, direction, roughness) * exp(-EXTINCTION * length(way));
+    return scene_behind(point.from_origin + way, direction, roughness) * exp(-EXTINCTION * min(length(way), 1e30));
 #else
     return scene_behind(point.from_origin, -point.view, roughness);
 #endif
