@@ -4061,8 +4061,8 @@ class ShaderMaterial(Material):
     nodes that write depth write outputs. The number of the driver's draw buffers (usually 8) limits colour
     and these outputs together. Without a request the output is an ordinary variable.
 
-    The source may use the names below. Names that begin with ``u_``, ``v_``, ``a_``, ``o_`` or ``gl_`` are
-    reserved.
+    The source may use the names below. Names that begin with ``u_``, ``v_``, ``a_``, ``o_``, ``gl_`` or
+    ``environment_`` are reserved.
 
     In both stages: ``mat4 model_matrix()`` (mesh to world), ``mat3 normal_matrix()`` (its inverse
     transpose, whose result may have any length), ``vec3 eye_position()`` (world space; for perspective views).

@@ -1,6 +1,5 @@
 #include "cubecam/render/graph/drawn_picture.hpp"
 
-#include "cubecam/core/revision.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
@@ -172,7 +171,7 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (damaged[v].empty()) continue;
         target.keys[v] = std::move(keys[v]);
-        target.revisions[v] = next_revision();
+        target.revisions[v] = ++gpu.views_drawn;
     }
     return budget ? last : count;
 }

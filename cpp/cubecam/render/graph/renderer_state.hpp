@@ -88,6 +88,9 @@ struct RendererState {
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
     FilteredCubes filtered_cubes;
+    /// Numbers the drawings of views. It is no revision: live views look for changes of the newest
+    /// revision, and drawing alone changes nothing.
+    std::uint64_t views_drawn = 0;
     /// New whenever the contents of a probe, shadow map or render texture may have changed.
     std::uint64_t contents = 0;
 };

@@ -144,7 +144,7 @@ public:
 
     /// The key of each layer's picture; none: the contents are not valid.
     std::vector<std::optional<PictureKey>> keys;
-    /// The revision of each layer's picture: new whenever it was drawn.
+    /// Of each layer: the number of its last drawing (RendererState::views_drawn).
     std::vector<std::uint64_t> revisions;
     /// The scene behind the transmissive surfaces of a picture (graph/behind_picture.hpp).
     struct Behind {
