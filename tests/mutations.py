@@ -1755,7 +1755,7 @@ MUTATIONS = [
     Mutation(
         "standard: a volume takes as much light from a way across as from one along the normal",
         "standard/transmission.glsl",
-        "exp(-EXTINCTION * length(way))",
+        "exp(-EXTINCTION * min(length(way), 1e30))",
         "exp(-EXTINCTION * point.thickness)",
         STANDARD_REFERENCE,
     ),
