@@ -353,3 +353,37 @@ def test_probes_that_see_each_other_through_panes(renderer, rng):
         assert_identical(got, PICTURES["frame"](fresh, scene))
     PICTURES["frame"](renderer, scene)
     assert renderer.stats.views_drawn == 0
+
+
+@pytest.mark.parametrize("kind", PICTURES)
+def test_what_is_blended_before_a_pane_counts_once(any_path, kind):
+    """Smoke between the eye and a clear pane is not seen through the pane, too; smoke behind it is."""
+    scene = cc.Scene(background=(0.5, 0.25, 0.125, 1))
+    smoke = cc.BasicMaterial(color=(0.2, 0.9, 0.4), opacity=0.5)
+    for direction in np.concatenate([np.eye(3), -np.eye(3)]):
+        for distance in (1.5, 5):
+            node = scene.add(
+                cc.Mesh.box(0.3 * distance),
+                smoke,
+                position=distance * direction,
+            )
+            node.look_at(distance * direction * 2)
+    want = PICTURES[kind](any_path, scene)
+    scene.add(cc.Mesh.box((7, 7, 0.1)), pane(), position=(0, 0, -3.5))
+    got = PICTURES[kind](any_path, scene)
+    wrong = (np.abs(got - want) > 2e-3 * (1 + want)).any(-1)  # half floats have 11 bits
+    # With samples, pixels on edges of the smoke before and behind are products of averages.
+    assert wrong.mean() <= (0.05 if kind == "samples" else 0)
+    assert want[..., :3].std() > 0.05
+
+
+def test_smoke_that_moves_through_a_pane_is_drawn_as_from_scratch(new_renderer):
+    scene, live = cc.Scene(background=(0.5, 0.25, 0.125, 1)), new_renderer()
+    scene.add(cc.Mesh.box((7, 7, 0.1)), pane(), position=(0, 0, -3.5))
+    smoke = scene.add(cc.Mesh.sphere(0.5), cc.BasicMaterial(color="lime", opacity=0.5))
+    pictures = []
+    for z in (-2.5, -3.5, -4.5, -2.5):
+        smoke.position = (0, 0, z)
+        pictures.append(PICTURES["frame"](live, scene))
+        assert_identical(pictures[-1], PICTURES["frame"](new_renderer(), scene))
+    assert_identical(pictures[0], pictures[3])

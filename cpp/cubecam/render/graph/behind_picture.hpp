@@ -27,7 +27,14 @@ public:
     std::string label(std::size_t place) const override;
 
 private:
+    /// Whether a blended node lies before all transmissive ones, in all views: it is blended over
+    /// them, and would count twice if it were also seen through them. Other nodes hide what they
+    /// lie before.
+    bool is_in_front(const NodeSnapshot& node) const;
+
     ScenePicture& viewer_;
+    /// For each view, the distance from which there are transmissive nodes; empty: not yet known.
+    std::vector<double> nearest_;
     Target::Behind none_;
 };
 
