@@ -1816,6 +1816,20 @@ MUTATIONS = [
         PREFILTER,
     ),
     Mutation(
+        "behind: smoke before a pane counts twice",
+        "behind_picture.cpp",
+        "&& !is_in_front(node)",
+        "",
+        ("tests/gl/test_behind.py",),
+    ),
+    Mutation(
+        "environments: macros of plain ones take users' names",
+        "environment.glsl",
+        "#define environment_in_cube(direction_world) direction_world",
+        "#define in_cube(direction_world) direction_world\n#define environment_in_cube(d) d",
+        ("tests/gl/test_filtered_environments.py",),
+    ),
+    Mutation(
         "filtered cubes: light becomes negative around lamps",
         "filtered_cube.cpp",
         "glm::max(*from - around / 12.0F, glm::min(*from, 0.0F))",
