@@ -1824,7 +1824,7 @@ MUTATIONS = [
     ),
     Mutation(
         "environments: macros of plain ones take users' names",
-        "environment.glsl",
+        "include/environment.glsl",
         "#define environment_in_cube(direction_world) direction_world",
         "#define in_cube(direction_world) direction_world\n#define environment_in_cube(d) d",
         ("tests/gl/test_filtered_environments.py",),
