@@ -1,5 +1,10 @@
 // material[0]: tint, eta = n_outside / n_inside = 1 / ior. Without FRESNEL only the refraction, except at total
-// reflection. With ROUGH, material[1].xy: the roughness of what is reflected and of what is refracted. Reflectance of unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
+// reflection. With ROUGH, material[1].xy: the roughness of what is reflected and of what is refracted. Reflectance of
+// unpolarised light: M. Born, E. Wolf, "Principles of Optics", section 1.5.2.
+#ifdef ROUGH
+#include "include/main_direction.glsl"
+#endif
+
 vec3 shade(Surface surface) {
     float eta = material[0].a;
     vec3 reflected = reflect(surface.incident, surface.normal);
@@ -18,10 +23,7 @@ vec3 shade(Surface surface) {
 
     // Every fragment makes both lookups: the level of a mipmapped lookup depends on the neighbour fragments.
 #ifdef ROUGH
-    // The direction in which a rough surface reflects most light: S. Lagarde, C. de Rousiers, "Moving Frostbite to
-    // Physically Based Rendering", SIGGRAPH 2014.
-    float a = material[1].x * material[1].x;
-    reflected = mix(surface.normal, reflected, (1.0 - a) * (sqrt(1.0 - a) + a));
+    reflected = main_direction(surface.normal, -surface.incident, material[1].x);
     vec3 mirrored = environment_filtered(reflected, material[1].x);
     vec3 passed = environment_filtered(total ? reflected : refracted, total ? material[1].x : material[1].y);
     return f * mirrored + (1.0 - f) * material[0].rgb * passed;

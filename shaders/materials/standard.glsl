@@ -6,6 +6,7 @@
 #ifndef UNLIT
 #include "materials/standard/normals.glsl"
 #include "materials/standard/microfacets.glsl"
+#include "include/main_direction.glsl"
 #include "materials/standard/point.glsl"
 #include "materials/standard/anisotropy.glsl"
 #include "materials/standard/iridescence.glsl"

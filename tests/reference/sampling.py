@@ -50,9 +50,12 @@ def _nearest(faces, face, s, t):
 
 def sample_faces(faces, directions):
     """Seamless bilinear lookup at level 0: (..., 3) -> (..., C)."""
-    padded = pad_faces(faces)
+    return sample_padded(pad_faces(faces), *direction_to_face_uv(directions))
+
+
+def sample_padded(padded, face, s, t):
+    """Bilinear lookup in faces that `pad_faces` made, at places on the faces."""
     n = padded.shape[1] - 2
-    face, s, t = direction_to_face_uv(directions)
     x, y = s * n + 0.5, t * n + 0.5  # in the padded picture texel 0 is the neighbour's
     column = np.clip(np.floor(x).astype(int), 0, n)
     row = np.clip(np.floor(y).astype(int), 0, n)

@@ -64,6 +64,12 @@ inline void expect_not_negative(double value, std::string_view name) {
     }
 }
 
+inline void expect_share(float value, std::string_view name) {
+    if (!(value >= 0.0F && value <= 1.0F)) {
+        expect(false, std::string(name).append(" from 0 to 1"), describe(value));
+    }
+}
+
 inline void expect_positive(double value, std::string_view name) {
     if (!(value > 0.0 && fits_float(value))) {
         expect(false, std::string(name).append(" finite and above 0"), describe(value));

@@ -251,7 +251,8 @@ std::shared_ptr<const CubeMap::MipChain> CubeMap::mip_chain() const {
         if (mip_chain_) return mip_chain_;
         state = data_;
     }
-    auto chain = std::make_shared<const MipChain>(make_mip_chain(*state));
+    auto chain =
+        std::make_shared<const MipChain>(state->mipmaps ? make_mip_chain(*state) : MipChain());
     const std::lock_guard lock(mutex_);
     if (data_ == state) mip_chain_ = chain;
     return chain;
@@ -294,7 +295,6 @@ bool CubeMap::same_contents(const CubeMap& other) const {
 
 CubeMap::MipChain make_mip_chain(const CubeMapData& data) {
     CubeMap::MipChain chain;
-    if (!data.mipmaps) return chain;
     const std::byte* level = data.pixels->data();
     for (int size = data.size; size > 1; size = std::max(1, size / 2)) {
         chain.push_back(halve_faces(level, size, data.channels, data.dtype));

@@ -116,7 +116,7 @@ private:
     mutable std::shared_ptr<const MipChain> mip_chain_;  ///< of data_; made on first use
 };
 
-/// Box-filtered levels of a state; see CubeMap::mip_chain.
+/// Box-filtered levels of a state, whether it has mipmaps or not; see CubeMap::mip_chain.
 CubeMap::MipChain make_mip_chain(const CubeMapData& data);
 
 /// Like CubeMap::sample, for one state; `chain` may be null.

@@ -9,8 +9,6 @@ namespace cubecam {
 
 namespace {
 
-constexpr std::array<bool, face_count> every_face = {true, true, true, true, true, true};
-
 /// The texels with `channels` channels, as pixels.
 PixelBuffer to_pixels(const FilteredLevel& level, int channels, DType dtype) {
     const auto stride = static_cast<std::size_t>(channels);
@@ -32,7 +30,7 @@ std::shared_ptr<CubeMap> prefilter(const CubeMapData& cube, int levels,
         throw std::invalid_argument("levels: expected at least 2, got " + std::to_string(levels));
     }
     FilteredCube filtered({.size = cube.size, .levels = levels, .irradiance_size = 0});
-    if (!filtered.update(cube, every_face, progress)) return nullptr;
+    if (!filtered.update(cube, {}, progress)) return nullptr;
     auto made = std::make_shared<CubeLevels>();
     for (const FilteredLevel& level : filtered.levels()) {
         made->push_back(
@@ -47,7 +45,7 @@ std::shared_ptr<CubeMap> prefilter(const CubeMapData& cube, int levels,
 std::shared_ptr<CubeMap> irradiance(const CubeMapData& cube, int size,
                                     const FilteredCube::Progress& progress) {
     FilteredCube filtered({.size = cube.size, .levels = 1, .irradiance_size = size});
-    if (!filtered.update(cube, every_face, progress)) return nullptr;
+    if (!filtered.update(cube, {}, progress)) return nullptr;
     return std::make_shared<CubeMap>(size, cube.channels, cube.dtype,
                                      to_pixels(filtered.irradiance(), cube.channels, cube.dtype),
                                      cube.mipmaps, OutputList(), cube.encoding);

@@ -41,15 +41,6 @@ std::vector<glm::vec4> radiance_face(const CubeMapData& cube, Face face) {
                        cube.channels, cube.dtype);
 }
 
-std::array<std::vector<glm::vec4>, face_count>
-radiance_faces(const CubeMapData& cube, const std::array<bool, face_count>& changed) {
-    std::array<std::vector<glm::vec4>, face_count> faces;
-    for (const Face face : all_faces) {
-        if (changed[face_index(face)]) faces[face_index(face)] = radiance_face(cube, face);
-    }
-    return faces;
-}
-
 std::vector<FilteredLevel> own_levels(const CubeMapData& cube) {
     std::vector<FilteredLevel> levels;
     if (!cube.levels) return levels;

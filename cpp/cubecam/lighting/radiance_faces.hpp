@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include <array>
 #include <vector>
 
 namespace cubecam {
@@ -15,12 +14,6 @@ namespace cubecam {
 /// The texels of one face as floats, uint8 as value/255. One channel becomes grey; alpha is 1 where
 /// the cube has none.
 std::vector<glm::vec4> radiance_face(const CubeMapData& cube, Face face);
-
-/// Six faces, as FilteredCube takes them. Only the faces with `changed` are converted; the others
-/// are empty.
-std::array<std::vector<glm::vec4>, face_count>
-radiance_faces(const CubeMapData& cube,
-               const std::array<bool, face_count>& changed = {true, true, true, true, true, true});
 
 /// The levels that a cubemap has of its own (CubeMapData::levels), as floats: levels 1, 2, ...;
 /// empty if it has none.

@@ -32,9 +32,7 @@ struct Glass {
             expect(false, "ior finite and above 0", describe(ior));
         }
         expect_color(tint, "tint");
-        if (!(roughness >= 0.0F && roughness <= 1.0F)) {
-            expect(false, "roughness from 0 to 1", describe(roughness));
-        }
+        expect_share(roughness, "roughness");
     }
     float alpha() const { return tint.a; }
     std::array<glm::vec4, 2> constants(const glm::vec3&) const {

@@ -6,12 +6,7 @@
 
 namespace cubecam {
 
-void check(const MaterialValue& value) {
-    const float opacity = value.surface.opacity;
-    if (!(opacity >= 0.0F && opacity <= 1.0F)) {
-        expect(false, "opacity from 0 to 1", describe(opacity));
-    }
-}
+void check(const MaterialValue& value) { expect_share(value.surface.opacity, "opacity"); }
 
 Material::Material(MaterialValue value) : value_((cubecam::check(value), std::move(value))) {}
 

@@ -14,12 +14,6 @@ namespace cubecam {
 
 namespace {
 
-void expect_share(float value, std::string_view name) {
-    if (!(value >= 0.0F && value <= 1.0F)) {
-        expect(false, std::string(name).append(" from 0 to 1"), describe(value));
-    }
-}
-
 /// A colour of which no channel reflects more light than there is.
 void expect_reflectance(const glm::vec3& color, std::string_view name) {
     for (int i = 0; i < 3; ++i) {

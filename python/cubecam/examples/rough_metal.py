@@ -55,12 +55,12 @@ Floats = npt.NDArray[np.float64]
 
 @dataclass
 class Program:
-    """`filtered` and `irradiance` are what the formula looks up; `balls` stand row by row."""
+    """`levels` and `irradiance` are what the formula looks up; `balls` stand row by row."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
     balls: tuple[cc.Node, ...]
-    filtered: cc.CubeMap
+    levels: tuple[cc.CubeMap, ...]  # for roughness 0 to 1, in equal steps
     irradiance: cc.CubeMap
     multiple_scattering: bool
 
@@ -97,7 +97,8 @@ def build(
         for column, roughness in enumerate(ROUGHNESS)
     )
     camera = cc.PerspectiveCamera(fov=FOV, position=(0, 0, FAR_AWAY), target=(0, 0, 0))
-    return Program(scene, camera, balls, filtered, environment.irradiance(), multiple_scattering)
+    levels = tuple(cc.CubeMap(level) for level in filtered.levels)
+    return Program(scene, camera, balls, levels, environment.irradiance(), multiple_scattering)
 
 
 def turn(program: Program, frame: float) -> None:
@@ -152,7 +153,7 @@ def formula(program: Program, frame: cc.Frame) -> Picture:
         alpha = roughness**2
         share = (1 - alpha) * (np.sqrt(1 - alpha) + alpha)
         towards = normal + share * (cc.reflect(incident, normal) - normal)
-        radiance = _levels(program.filtered, towards @ to_world, roughness)
+        radiance = _looked_up(program.levels, towards @ to_world, roughness)
         around = program.irradiance.sample(normal @ to_world)[:, :3].astype(np.float64)
 
         scale, bias = cc.brdf(n_dot_v, roughness).T[..., None]
@@ -182,14 +183,12 @@ def _reflected(
     return once * radiance + again * around, (once + again).max(axis=-1, keepdims=True)
 
 
-def _levels(filtered: cc.CubeMap, directions: Floats, roughness: float) -> Floats:
+def _looked_up(levels: tuple[cc.CubeMap, ...], directions: Floats, roughness: float) -> Floats:
     """Look up between the two levels whose roughnesses are nearest."""
-    last = len(filtered.levels) - 1
+    last = len(levels) - 1
     lower = min(int(roughness * last), last - 1)
     share = roughness * last - lower
-    near, far = (
-        cc.CubeMap(filtered.levels[level]).sample(directions)[:, :3] for level in (lower, lower + 1)
-    )
+    near, far = (level.sample(directions)[:, :3] for level in levels[lower : lower + 2])
     return np.asarray((1 - share) * near + share * far, np.float64)
 
 

@@ -26,10 +26,3 @@ float facets(float alpha_squared, vec3 normal, vec3 half_way) {
 float unmasked(float alpha_squared, float cosine) {
     return 1.0 / (cosine + sqrt(alpha_squared + (1.0 - alpha_squared) * cosine * cosine));
 }
-
-// The main direction of the light that a surface of this roughness reflects: S. Lagarde and C. de Rousiers, "Moving
-// Frostbite to PBR", SIGGRAPH 2014, section 4.9.3. Its length is not 1.
-vec3 main_direction(vec3 normal, vec3 view, float roughness) {
-    float alpha = roughness * roughness;
-    return mix(normal, reflect(-view, normal), (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha));
-}

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..cube_faces import direction_to_face_uv
-from ..sampling import mip_levels, pad_faces
+from ..sampling import mip_levels, pad_faces, sample_padded
 from .material import Environment
 
 
@@ -12,17 +12,6 @@ class Levels:
 
     def __init__(self, levels):
         self.padded = [pad_faces(np.asarray(level)[..., :3]) for level in levels]
-
-    def _one(self, level, face, s, t):
-        padded = self.padded[level]
-        n = padded.shape[1] - 2
-        x, y = s * n + 0.5, t * n + 0.5
-        column = np.clip(np.floor(x).astype(int), 0, n)
-        row = np.clip(np.floor(y).astype(int), 0, n)
-        fx, fy = (x - column)[..., None], (y - row)[..., None]
-        top = padded[face, row, column] * (1 - fx) + padded[face, row, column + 1] * fx
-        bottom = padded[face, row + 1, column] * (1 - fx) + padded[face, row + 1, column + 1] * fx
-        return top * (1 - fy) + bottom * fy
 
     def at(self, directions, place):
         """(..., 3) at directions (..., 3); place (..., 1): the level, 1.25 for a quarter of level 2."""
@@ -34,9 +23,12 @@ class Levels:
         for level in np.unique(low):
             here = low == level
             share = (place[here] - level)[..., None]
-            value = self._one(level, face[here], s[here], t[here]) * (1 - share)
+            value = sample_padded(self.padded[level], face[here], s[here], t[here]) * (1 - share)
             if share.any():  # never beyond the last level, whose share is 0
-                value = value + self._one(level + 1, face[here], s[here], t[here]) * share
+                value = (
+                    value
+                    + sample_padded(self.padded[level + 1], face[here], s[here], t[here]) * share
+                )
             result[here] = value
         return result
 

@@ -7,10 +7,7 @@ namespace {
 
 FilteredLevel irradiance_of(const CubeMapData& data) {
     FilteredCube filter({.size = data.size, .levels = 1});
-    const auto texels = radiance_faces(data);
-    FilteredCube::Faces faces;
-    for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = texels[i];
-    filter.update(faces, {true, true, true, true, true, true});
+    filter.update(data, {});  // the first time, all faces
     return filter.irradiance();
 }
 

@@ -277,12 +277,7 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
     const bool changed = entry.face_revisions != data.face_revisions;
     // The levels are computed on the CPU, so that CubeMap::sample and a shader see the same
     // numbers.
-    CubeMap::MipChain chain;
-    if (mipmaps && changed) {
-        CubeMapData with_mipmaps = data;
-        with_mipmaps.mipmaps = true;
-        chain = make_mip_chain(with_mipmaps);
-    }
+    const CubeMap::MipChain chain = mipmaps && changed ? make_mip_chain(data) : CubeMap::MipChain{};
     for (std::size_t face = 0; face < all_faces.size(); ++face) {
         if (entry.face_revisions[face] == data.face_revisions[face]) continue;
         upload(0, face, data.size, data.face_pixels(all_faces[face]).data());
