@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace cubecam::bindings {
 
@@ -47,6 +48,25 @@ inline py::dict from_variants(const Variants& variants) {
     py::dict made;
     for (const auto& [name, material] : variants) made[py::str(name)] = material;
     return made;
+}
+
+inline std::shared_ptr<Skin> to_skin(py::handle value) {
+    return to_shared_or_none<Skin>(value, "skin", "a Skin or None");
+}
+
+inline std::vector<float> to_weights(py::handle value) {
+    return to_vector(float_array(value, "weights", "(T,)"));
+}
+
+/// A weight for each morph target of the node's mesh, read-only.
+inline py::array_t<float> weights_array(const NodeValue& value) {
+    const std::size_t targets = value.mesh ? value.mesh->data()->target_count() : 0;
+    py::array_t<float> array(static_cast<py::ssize_t>(targets));
+    for (std::size_t i = 0; i < targets; ++i) {
+        array.mutable_data()[i] = i < value.weights.size() ? value.weights[i] : 0.0F;
+    }
+    array.attr("flags").attr("writeable") = false;
+    return array;
 }
 
 inline std::int32_t to_render_order(py::handle value) {
@@ -81,8 +101,8 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
 }
 
 /// The state of a node in a pickle: (mesh, material, position, rotation, scale, matrix,
-/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow, label, a
-/// dict of the materials of variants and what belongs to them).
+/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow, label, skin,
+/// weights, a dict of the materials of variants and what belongs to them).
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
     py::dict more;
@@ -94,18 +114,17 @@ inline py::tuple state_of_node(const NodeValue& value) {
         parts ? py::object(point_array(parts->scale)) : py::none(),
         parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
         from_cube_source(value.environment), value.visible, value.in_captures, value.name,
-        value.render_order, value.cast_shadow, value.receive_shadow, value.label, more);
+        value.render_order, value.cast_shadow, value.receive_shadow, value.label, value.skin,
+        weights_array(value), more);
 }
 
-/// Sets what the last entry of a node's state holds; older pickles have no such entry.
-inline void set_more(NodeValue& value, py::handle last) {
-    if (!py::isinstance<py::dict>(last)) return;
-    const auto more = py::reinterpret_borrow<py::dict>(last);
+/// Sets what the last entry of a node's state holds.
+inline void set_more(NodeValue& value, const py::dict& more) {
     if (more.contains("variants")) value.variants = to_variants(more["variants"]);
     if (more.contains("own_material")) value.own_material = to_material(more["own_material"]);
 }
 
-/// Older pickles of the same format have no label.
+/// Older pickles of the same format have no label, or none of what follows it.
 inline NodeValue node_from_state(const py::tuple& state) {
     NodeValue value{to_placing(state[2], state[3], state[4], state[5]),
                     to_mesh(state[0]),
@@ -117,8 +136,10 @@ inline NodeValue node_from_state(const py::tuple& state) {
                     to_render_order(state[10]),
                     state[11].cast<bool>(),
                     state[12].cast<bool>(),
-                    state.size() > 13 ? to_label(state[13]) : 0};
-    set_more(value, state[state.size() - 1]);
+                    state.size() > 13 ? to_label(state[13]) : 0,
+                    state.size() > 14 ? to_skin(state[14]) : nullptr,
+                    state.size() > 15 ? to_weights(state[15]) : std::vector<float>()};
+    if (state.size() > 16) set_more(value, state[16]);
     return value;
 }
 

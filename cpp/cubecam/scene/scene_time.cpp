@@ -76,7 +76,10 @@ void Scene::set_time(double seconds, const Animation& animation) {
         check(change.placing);
     }
     for (const Change& change : changes) {
-        if (change.weights) Node::check_weights(change.node->value_, *change.weights);
+        if (!change.weights) continue;
+        NodeValue next = change.node->value_;
+        next.weights = *change.weights;
+        Node::check_skin(next, change.node->value_, *graph_);
     }
     for (Change& change : changes) {
         NodeValue& value = change.node->value_;
