@@ -167,7 +167,7 @@ def test_bad_values_are_errors(call, words):
 
 
 def test_bad_joints_and_kinds_are_errors():
-    with pytest.raises(IndexError, match="joints: expected indices from 0 to 65536 - 1, got 65536"):
+    with pytest.raises(IndexError, match="joints: expected indices from 0 to 65536 - 1"):
         cc.Mesh(CORNERS, TRIANGLES, joints=JOINTS + 65536, joint_weights=SHARES)
     with pytest.raises(
         TypeError, match="joints: expected Nodes, or None for a node that is gone, got Scene"
@@ -205,7 +205,7 @@ def test_a_skin_must_fit_the_mesh_and_the_scene():
     assert node.skin is skin
     node.skin = None
     node.mesh = cc.Mesh.box()
-    assert len(scene.nodes) == 5
+    assert len(scene.nodes) == 4
 
 
 @copies
@@ -229,15 +229,14 @@ def test_copies_of_a_scene_have_skins_of_their_own(make_copy):
 
 
 def test_older_pickles_of_nodes_have_no_skin_and_no_weights():
-    node = cc.Scene().add(quad(morph_targets=[target()]), weights=[2])
-    scene, (remake, arguments, closed) = cc.Scene, node.__reduce__()[1][0].__reduce__()
-    number, state = closed
-    record = state["nodes"][0]
-    assert record[2][14:16][0] is None
-    old = {**state, "nodes": [(record[0], record[1], record[2][:14])]}
+    scene = cc.Scene()
+    scene.add(quad(morph_targets=[target()]), weights=[2])
+    remake, arguments, (number, state) = scene.__reduce__()
+    (record,) = state["nodes"]
+    assert record[2][14] is None
+    assert record[2][15].tolist() == [2]
     again = remake(*arguments)
-    again.__setstate__((number, old))
-    assert isinstance(again, scene)
+    again.__setstate__((number, {**state, "nodes": [(*record[:2], record[2][:14])]}))
     assert again.nodes[0].skin is None
     assert again.nodes[0].weights.tolist() == [0]
 
