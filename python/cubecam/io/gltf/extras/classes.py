@@ -7,6 +7,7 @@ value goes through the constructor or the setter that users call, and is checked
 from __future__ import annotations
 
 import functools
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -99,17 +100,31 @@ def materials() -> dict[str, type[Any]]:
     return {
         name: kind
         for name, kind in vars(_core).items()
-        if isinstance(kind, type) and issubclass(kind, _core.Material) and kind is not _core.Material
+        if isinstance(kind, type)
+        and issubclass(kind, _core.Material)
+        and kind is not _core.Material
     }
 
 
 @functools.cache
-def material_names(kind: type[Any]) -> tuple[str, ...]:
+def material_names(kind: Callable[..., Any]) -> tuple[str, ...]:
     """Return the properties of a kind of material: those that its pickles hold."""
     if kind is _core.ShaderMaterial:
         surface = _core.ShaderMaterial("vec3 shade(Surface s) { return vec3(0.0); }")
-        return ("fragment", *_SHADER, *surface.__reduce__()[2][1][5])
-    return tuple(kind().__reduce__()[2][1])
+        return ("fragment", *_SHADER, *state_of(surface)[5])
+    return tuple(state_of(kind()))
+
+
+def state_of(thing: object) -> Any:
+    """Return the state of an object in its pickle."""
+    reduced: Any = thing.__reduce__()
+    return reduced[2][1]
+
+
+def arguments_of(thing: object) -> Any:
+    """Return the arguments of the constructor in an object's pickle."""
+    reduced: Any = thing.__reduce__()
+    return reduced[1][2]
 
 
 def blank(kind: type[Any], fragment: str) -> Any:

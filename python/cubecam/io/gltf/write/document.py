@@ -34,7 +34,7 @@ class Document:
         self.pictures: list[bytes] = []
         self._chunks: list[bytes] = []
         self._length = 0
-        self._views: dict[tuple[bytes, int | None], int] = {}
+        self._views: dict[tuple[bytes, int | None, int | None], int] = {}
         self._accessors: dict[tuple[Any, ...], int] = {}
         self._pictures: dict[bytes, int] = {}
 
@@ -49,9 +49,9 @@ class Document:
         self.used.add(extension)
         entry.setdefault("extensions", {})[extension] = content
 
-    def view(self, data: bytes, target: int | None = None) -> int:
+    def view(self, data: bytes, target: int | None = None, stride: int | None = None) -> int:
         """Store bytes, and return the index of their buffer view."""
-        key = (data, target)
+        key = (data, target, stride)
         if key not in self._views:
             padding = -self._length % 4
             entry = {
@@ -61,6 +61,8 @@ class Document:
             }
             if target is not None:
                 entry["target"] = target
+            if stride is not None:  # two accessors may show the same bytes, as on a sphere
+                entry["byteStride"] = stride
             self._chunks += [b"\0" * padding, data]
             self._length += padding + len(data)
             self._views[key] = self.add("bufferViews", entry)
@@ -74,7 +76,8 @@ class Document:
         else:
             kind = "SCALAR" if array.ndim == 1 else _VECTORS[array.shape[1]]
         array = np.ascontiguousarray(array)
-        view = self.view(array.tobytes(), target)
+        stride = array.strides[0] if target == VERTICES else None
+        view = self.view(array.tobytes(), target, stride)
         key = (view, kind, array.dtype.name, bounds)
         if key not in self._accessors:
             entry: Json = {
@@ -138,6 +141,6 @@ class Document:
         tree.update(self.lists)
         if buffer is not None:
             tree["buffers"] = [buffer]
-        return json.dumps(
-            tree, ensure_ascii=False, allow_nan=False, separators=(",", ":")
-        ).encode("utf-8")
+        return json.dumps(tree, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode(
+            "utf-8"
+        )

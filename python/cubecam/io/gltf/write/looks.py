@@ -43,7 +43,9 @@ def _of_kind(material: Material) -> StandardMaterial:
         )
     if isinstance(material, BasicMaterial):
         return StandardMaterial(
-            color=_color(material.color[:3], material.color[3]), map=_image(material.map), unlit=True
+            color=_color(material.color[:3], material.color[3]),
+            map=_image(material.map),
+            unlit=True,
         )
     if isinstance(material, PhongMaterial):
         # The width of the highlight: B. Walter et al., "Microfacet Models for Refraction", 2007, section 5.2.

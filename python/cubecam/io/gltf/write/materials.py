@@ -26,7 +26,8 @@ class Materials:
         """Return the index of a material."""
         if id(material) not in self._known:
             shown = plain(similar(material), self._is_translucent)
-            entry: Json = {"name": material.name} if getattr(material, "name", "") else {}
+            name = getattr(material, "name", "")
+            entry: Json = {"name": name} if name else {}
             entry |= self._standard.entry(shown)
             index = self._document.add("materials", entry)
             self._known[id(material)] = (material, index)
@@ -57,7 +58,7 @@ class Materials:
             done += 1
 
     def _extras(self, material: Material, values: Values) -> Json:
-        kind = kind_of(material)
+        kind: Any = kind_of(material)
         names = [name for name in material_names(kind) if name != "name"]
         if kind is StandardMaterial:
             return values.changed(material, self._plain[id(material)], names)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...._core import Material, Mesh
-from ..extras.classes import KEY
+from ..extras.classes import KEY, arguments_of
 from .document import TRIANGLES, VERTICES, Array, Document, Json
 from .materials import Materials
 from .values import Values
@@ -53,12 +53,12 @@ class Meshes:
 
     def index(self, shown: Shown) -> int:
         """Return the index of the entry for a mesh in its materials."""
-        key = (id(shown.mesh), id(shown.material)) + tuple(
-            part for name, material in shown.variants for part in (self._variants[name], id(material))
-        )
-        if key not in self._known:
-            self._known[key] = (shown, self._add(shown))
-        return self._known[key][1]
+        key = [id(shown.mesh), id(shown.material)]
+        for name, material in shown.variants:
+            key += [self._variants[name], id(material)]
+        if tuple(key) not in self._known:
+            self._known[tuple(key)] = (shown, self._add(shown))
+        return self._known[tuple(key)][1]
 
     def _add(self, shown: Shown) -> int:
         mesh, materials = shown.mesh, [shown.material, *(m for _, m in shown.variants)]
@@ -75,7 +75,10 @@ class Meshes:
         targets = getattr(mesh, "morph_targets", ())
         if targets:
             primitive["targets"] = [self._target(target, attributes) for target in targets]
-            if any(self._is_lacking(t, made) for t, made in zip(targets, primitive["targets"], strict=True)):
+            if any(
+                self._is_lacking(t, made)
+                for t, made in zip(targets, primitive["targets"], strict=True)
+            ):
                 exact["morph_targets"] = self._values.value(targets)
             entry["weights"] = [0.0] * len(targets)
             if any(target.name for target in targets):
@@ -105,11 +108,12 @@ class Meshes:
         exact: Json = {}
         found: dict[str, Array] = {}
         positions = mesh.positions
-        arguments: Any = mesh.__reduce__()[1][2]
-        if arguments["normals"] is None:  # smooth ones, which follow the positions
+        if arguments_of(mesh)["normals"] is None:  # smooth ones, which follow the positions
             exact["normals"] = None
         found["NORMAL"] = _unit(mesh.normals)
-        if exact.get("normals", 0) is not None and not np.array_equal(found["NORMAL"], mesh.normals):
+        if exact.get("normals", 0) is not None and not np.array_equal(
+            found["NORMAL"], mesh.normals
+        ):
             exact["normals"] = self._values.array(mesh.normals)
         if mesh.tangents is not None:
             lengths = np.linalg.norm(mesh.tangents[:, :3], axis=1)
@@ -156,8 +160,6 @@ class Meshes:
             weights[lost, 0] = 1
             weights = weights.astype(np.float32)
         joints = np.where(weights > 0, joints, 0)  # section 3.7.3.3: unused joints are 0
-        if not np.array_equal(joints, mesh.joints):
-            exact["joints"] = self._values.array(np.asarray(mesh.joints, np.uint16))
         kind = np.uint8 if joints.max(initial=0) < 256 else np.uint16
         for level in range(joints.shape[1] // 4):
             part = slice(4 * level, 4 * level + 4)
@@ -186,7 +188,7 @@ class Meshes:
             found["POSITION"] = np.zeros((self._vertices(attributes), 3), np.float32)
         for key in ("TEXCOORD_0", "TEXCOORD_1"):
             if key in found:
-                found[key] = found[key] * np.float32([1, -1])
+                found[key] = found[key] * np.array([1, -1], np.float32)
         add = self._document.accessor
         return {k: add(v, target=VERTICES, bounds=k == "POSITION") for k, v in found.items()}
 
@@ -200,6 +202,7 @@ class Meshes:
             getattr(target, name) is not None and key not in made
             for key, name in _DIFFERENCES.items()
         )
+
 
 def _unit(normals: Array) -> Array:
     """Return normals that all have a length; one without, of a vertex without area, points up."""

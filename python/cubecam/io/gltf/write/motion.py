@@ -47,7 +47,9 @@ class Skins:
         return self._known[id(skin)][1]
 
 
-def add_animation(document: Document, nodes: dict[Node, int], animation: Any, values: Values) -> int | None:
+def add_animation(
+    document: Document, nodes: dict[Node, int], animation: Any, values: Values
+) -> int | None:
     """Write an animation, and return its index; None if none of its channels is in the scene."""
     channels: list[Json] = []
     samplers: list[Json] = []

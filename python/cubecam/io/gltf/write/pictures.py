@@ -45,7 +45,7 @@ class Pictures:
         self._written: dict[int, _Written] = {}
 
     def texture(self, image: Image, colors: bool | None = None) -> int:
-        """Return the texture of an image; `colors` says whether it lies in a map of colours, whose 8-bit numbers are sRGB."""
+        """Return the texture of an image; `colors` says whether a map of colours shows it, where 8 bits are sRGB."""
         found = self._written.get(id(image))
         if found is None:
             # The source follows in `finish`, when it is known which maps show the image.

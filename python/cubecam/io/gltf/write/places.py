@@ -175,9 +175,7 @@ def _extras(thing: Any, carried: bool, values: Values) -> Json:
     else:
         found = {}
     if isinstance(thing, Camera):
-        found |= values.changed(
-            thing, kind(), [n for n in ("shift", "pixel_aspect") if n in names]
-        )
+        found |= values.changed(thing, kind(), [n for n in ("shift", "pixel_aspect") if n in names])
         if isinstance(thing, OrthographicCamera) and thing.near < 0:
             found |= values.properties(thing, ("near", "far"))
         return found

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ...._core import Image, Material, Node, Scene
-from ..extras.classes import FORMAT, KEY, NODE, SCENE
+from ..extras.classes import FORMAT, KEY, NODE, SCENE, state_of
 from .document import Array, Document, Json
 from .materials import Materials
 from .meshes import Meshes, Shown
@@ -60,7 +60,7 @@ class _Writer:
         cameras = list(getattr(scene, "cameras", ()))
         animations = list(getattr(scene, "animations", ()))
         document.lists["scenes"] = [{}]
-        states = {record[0]: record[2] for record in scene.__reduce__()[2][1]["nodes"]}
+        states = {record[0]: record[2] for record in state_of(scene)["nodes"]}
         moved = {c.node for a in animations for c in a.channels if c.node is not None}
         for node in scene.nodes:
             document.add("nodes", self._place(node, states[node.id], node in moved))
@@ -110,7 +110,7 @@ class _Writer:
             document.extras[KEY] = {"format": FORMAT, **found}
 
     def _groups(self) -> list[list[int]]:
-        """Return the roots that need a carrier above them, since the joints of a skin have a common root (section 3.7.3)."""
+        """Return the roots that need a carrier above them, as the joints of a skin have one root (section 3.7.3)."""
         groups: list[set[int]] = []
         for skin in self.skins.all:
             tops = set()
@@ -177,7 +177,9 @@ class _Writer:
             # The usual order is that of the nodes.
             if None in held or held != sorted(held):  # type: ignore[type-var]
                 extras[word] = [
-                    {"node": index} if index is not None else self.values.inline(thing)
+                    {"node": index}
+                    if index is not None
+                    else self.values.inline(thing)
                     if word == "lights"
                     else self.values.value(thing)
                     for index, thing in zip(held, things, strict=True)
@@ -216,7 +218,7 @@ def _add_parts(entry: Json, position: Any, turn: Any, scale: Any) -> None:
 
 
 def parts_of(matrix: Array) -> tuple[Array, Array, Array, bool]:
-    """Split a matrix into translation, rotation (x, y, z, w) and scale; the last value says whether these are all of it."""
+    """Split a matrix into translation, rotation (x, y, z, w) and scale, and say whether these are all of it."""
     linear = matrix[:3, :3]
     scale = np.linalg.norm(linear, axis=0)
     turn = linear / scale

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...._core import Image, StandardMaterial, Texture
+from ..extras.classes import state_of
 from .document import Document, Json
 from .pictures import Pictures
 from .values import number, numbers, same
@@ -125,7 +126,8 @@ class StandardWriter:
 
     def _words(self, material: StandardMaterial, words: dict[str, str]) -> Json:
         """Return the words whose properties are not at their defaults."""
-        fresh, made = _fresh(), {}
+        fresh = _fresh()
+        made: Json = {}
         for word, name in words.items():
             value = getattr(material, name)
             if same(value, getattr(fresh, name)):
@@ -208,7 +210,9 @@ def plain(
     ):
         if getattr(made, of) is None:
             setattr(made, strength, 1)
-    if made.unlit:  # the other properties change no picture, and other extensions may not stand beside it
+    if (
+        made.unlit
+    ):  # the other properties change no picture, and other extensions may not stand beside it
         made = StandardMaterial(
             color=made.color, map=made.map, alpha_mode=made.alpha_mode,
             alpha_cutoff=made.alpha_cutoff, double_sided=made.double_sided, unlit=True,
@@ -218,12 +222,12 @@ def plain(
 
 def map_names() -> list[str]:
     """Return the properties of StandardMaterial that are maps."""
-    return [name for name in _fresh().__reduce__()[2][1] if name == "map" or name.endswith("_map")]
+    return [name for name in state_of(_fresh()) if name == "map" or name.endswith("_map")]
 
 
 def copy_of(material: StandardMaterial) -> StandardMaterial:
     made = StandardMaterial()
-    for name, value in material.__reduce__()[2][1].items():
+    for name, value in state_of(material).items():
         setattr(made, name, value)
     return made
 

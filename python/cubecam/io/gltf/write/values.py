@@ -25,7 +25,7 @@ from ...._core import (
     RenderTexture,
     Scene,
 )
-from ..extras.classes import CUBE, PLANS
+from ..extras.classes import CUBE, PLANS, state_of
 from .document import Array, Document, Json
 
 #: Larger arrays become bytes of a buffer view.
@@ -107,9 +107,9 @@ class Values:
 
     def array(self, values: Array) -> Any:
         """Return a list of numbers, or bytes of a buffer view for a large array or one of another dtype."""
-        if values.size <= _FEW and values.dtype in (np.float32, np.float64):
-            if np.isfinite(values).all():
-                return numbers(values)
+        plain = values.dtype in (np.float32, np.float64)
+        if plain and values.size <= _FEW and np.isfinite(values).all():
+            return numbers(values)
         data = np.ascontiguousarray(values)
         if data.dtype.byteorder == ">":
             data = data.astype(data.dtype.newbyteorder("<"))
@@ -139,7 +139,7 @@ class Values:
 
     def _cube(self, cube: CubeMap) -> Json:
         """Return the parts of a cubemap, with captured outputs and filtered levels."""
-        parts: Any = dict(zip(CUBE, cube.__reduce__()[2][1], strict=False))
+        parts: Any = dict(zip(CUBE, state_of(cube), strict=False))
         found = {name: self.value(parts[name]) for name in ("mipmaps", "encoding")}
         found["faces"] = self.array(parts["faces"])
         if parts["outputs"]:
@@ -147,5 +147,3 @@ class Values:
         if parts.get("levels"):
             found["levels"] = [[number(r), self.array(faces)] for r, faces in parts["levels"]]
         return found
-
-
