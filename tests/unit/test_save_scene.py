@@ -91,10 +91,12 @@ def test_a_scene_that_gltf_can_say_has_no_extras_and_no_extensions(tmp_path):
     scene.nodes[0].mesh.normals = scene.nodes[0].mesh.normals
     raw = raw_of(scene, tmp_path)
     assert extras_in(raw) == 0
-    assert "extensionsUsed" not in raw and "extras" not in raw
+    assert "extensionsUsed" not in raw
+    assert "extras" not in raw
     assert raw["nodes"][0]["children"] == [1]
     assert raw["nodes"][1] == {"name": "below", "translation": [1, 2, 3]}
-    assert raw["scenes"] == [{"nodes": [0]}] and raw["scene"] == 0
+    assert raw["scenes"] == [{"nodes": [0]}]
+    assert raw["scene"] == 0
     assert raw["asset"] == {"version": "2.0", "generator": f"cubecam {cc.__version__}"}
 
 
@@ -128,7 +130,8 @@ def test_arrays_of_a_mesh(tmp_path):
     assert np.float32(entry["min"]).tolist() == positions.min(axis=0).tolist()
     assert np.float32(entry["max"]).tolist() == positions.max(axis=0).tolist()
     got = document.accessor(primitive["indices"]).reshape(-1, 3)
-    assert got.dtype == np.uint8 and (got == mesh.indices).all()
+    assert got.dtype == np.uint8
+    assert (got == mesh.indices).all()
 
 
 @pytest.mark.parametrize(
@@ -140,7 +143,8 @@ def test_indices_are_of_the_smallest_type_whose_largest_number_is_no_index(most,
     mesh = cc.Mesh(positions, [[0, 1, most]], normals=positions + 1)
     document = tree_of(scene_of(opaque(), mesh=mesh), tmp_path)
     got = document.stored(document.tree.raw["meshes"][0]["primitives"][0]["indices"])
-    assert got.dtype == dtype and got.tolist() == [0, 1, most]
+    assert got.dtype == dtype
+    assert got.tolist() == [0, 1, most]
 
 
 def test_a_mesh_in_two_materials_is_stored_once(tmp_path):
@@ -149,7 +153,8 @@ def test_a_mesh_in_two_materials_is_stored_once(tmp_path):
     raw = raw_of(scene_of(one, other, one, mesh=mesh), tmp_path)
     assert [node["mesh"] for node in raw["nodes"]] == [0, 1, 0]
     first, second = (entry["primitives"][0] for entry in raw["meshes"])
-    assert first["attributes"] == second["attributes"] and first["indices"] == second["indices"]
+    assert first["attributes"] == second["attributes"]
+    assert first["indices"] == second["indices"]
     assert (first["material"], second["material"]) == (0, 1)
 
 
@@ -353,7 +358,8 @@ def test_hidden_nodes_and_matrices(tmp_path):
         "extensions": {"KHR_node_visibility": {"visible": False}},
     }
     # glTF has no shear (section 3.5.2): other programs see the nearest rotation and scale.
-    assert "matrix" not in raw["nodes"][1] and "scale" in raw["nodes"][1]
+    assert "matrix" not in raw["nodes"][1]
+    assert "scale" in raw["nodes"][1]
     assert raw["nodes"][1]["extras"]["cubecam"]["matrix"] == shear.tolist()
 
 
