@@ -101,6 +101,9 @@ class _Builder:
             index: [primitive.mesh for primitive in found]
             for index, found in self.meshes.primitives.items()
         }
+        if self.extras:  # they may name any material
+            for index in range(document.count("materials")):
+                self.materials.get(index)
         self.parts.materials = {
             index: material for index, material in self.materials.made.items() if index is not None
         }
