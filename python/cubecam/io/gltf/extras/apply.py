@@ -12,7 +12,6 @@ from ...._core import (
     Animation,
     AnimationChannel,
     Material,
-    Mesh,
     MeshError,
     Node,
     Scene,
