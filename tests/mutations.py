@@ -1397,7 +1397,7 @@ MUTATIONS = [
     Mutation(
         "pick: a mirror sees along the view",
         "viewer/picking.py",
-        "if parallel else position - camera.position",
+        "if parallel else position - camera.world_position",
         "if parallel else camera.position - position",
         VIEWER,
     ),
