@@ -72,7 +72,7 @@ class Meshes:
         }
         entry: Json = {"primitives": [primitive]}
         extras: Json = {}
-        targets = getattr(mesh, "morph_targets", ())
+        targets = mesh.morph_targets
         if targets:
             primitive["targets"] = [self._target(target, attributes) for target in targets]
             if any(
@@ -146,17 +146,15 @@ class Meshes:
     def _influences(self, mesh: Mesh, exact: Json) -> dict[str, Array]:
         """Return JOINTS_n and WEIGHTS_n (section 3.7.3.3)."""
         found: dict[str, Array] = {}
-        joints, weights = getattr(mesh, "joints", None), getattr(mesh, "joint_weights", None)
+        joints, weights = mesh.joints, mesh.joint_weights
         if joints is None or weights is None:
             return found
-        weights = np.asarray(weights, np.float32)
         sums = weights.sum(axis=1, dtype=np.float64)
         if (np.abs(sums - 1) > _UNIT).any():
             exact["joint_weights"] = self._values.array(weights)
             lost = sums <= 0
-            weights = weights / np.where(lost, 1, sums)[:, None]
+            weights = (weights / np.where(lost, 1, sums)[:, None]).astype(np.float32)
             weights[lost, 0] = 1
-            weights = weights.astype(np.float32)
         joints = np.where(weights > 0, joints, 0)  # section 3.7.3.3: unused joints are 0
         kind = np.uint8 if joints.max(initial=0) < 256 else np.uint16
         for level in range(joints.shape[1] // 4):
