@@ -38,6 +38,7 @@ __all__ = [
     "BlendMode",
     "Center",
     "Color",
+    "Compression",
     "ControlsName",
     "Convention",
     "CubeMode",
@@ -84,6 +85,7 @@ BlendFactor: TypeAlias = Literal[
     "one_minus_dst_alpha",
     "src_alpha_saturate",
 ]
+Compression: TypeAlias = Literal["zstd", "zlib"]
 BlendMode: TypeAlias = Literal[
     "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied"
 ]
