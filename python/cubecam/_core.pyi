@@ -7,6 +7,7 @@ from __future__ import annotations
 import collections.abc
 import enum
 import os
+import pathlib
 import typing
 
 import numpy as np
@@ -29,6 +30,7 @@ from cubecam.typing import (
     DepthOrder,
     Encode,
     Encoding,
+    Engine,
     FaceName,
     FileLayout,
     Format,
@@ -1863,8 +1865,9 @@ class CubeMap:
         Parameters
         ----------
         path : path, sequence of six paths, or a name with {face}
-            The extension names the kind of file, as in `save_image`, or .ktx2, .dds or .env (Babylon.js). {face} becomes
-            px nx py ny pz nz. With {level}, too, such as "sky/{level}_{face}.hdr", each filtered level becomes six files.
+            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
+            in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
+            ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
         layout : str, optional
             "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
             "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -1915,6 +1918,54 @@ class CubeMap:
         >>> cube.save(folder / "probe.exr", layout="cross", convention="inside")
         >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
         True
+        """
+
+    def save_for(self, engine: Engine, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
+        """
+        Write light for an engine: a file that it loads, the right way round, and a README. The method `CubeMap.save_for`.
+
+        Parameters
+        ----------
+        engine : {"three", "babylon", "unity", "godot", "blender", "filament"}
+            three.js, Babylon.js, Unity, Godot 4, Blender or Filament.
+        folder : path
+            Where the files are written; made if it does not exist.
+
+        Returns
+        -------
+        list of Path
+            The files; the last one is README.txt, whose five lines say how the engine loads the others.
+
+        Raises
+        ------
+        ValueError
+            For an unknown engine, or, for Babylon.js, a size that is no power of two.
+        OSError
+            If the folder cannot be made or written.
+
+        Notes
+        -----
+        ===========  ==============================================================================
+        engine       files
+        ===========  ==============================================================================
+        three        environment.exr, a panorama with +X in the middle; px.hdr ... nz.hdr, six faces
+        babylon      environment.env: levels by roughness in Babylon's steps, and the irradiance
+        unity        environment.exr, a panorama with -X in the middle (Unity's +X)
+        godot        environment.exr, a panorama with +Z in the middle
+        blender      environment.exr, a panorama with +X in the middle
+        filament     environment.hdr, a panorama with +Z in the middle, mirrored; sh.json
+        ===========  ==============================================================================
+
+        All engines but Babylon.js filter the light themselves and get level 0 alone. A cube without filtered levels is
+        filtered for Babylon.js. Numbers are light: what is "srgb" is decoded. Panoramas are four times as wide as a face;
+        EXR holds half floats, light above 65504 is clipped.
+
+        Examples
+        --------
+        >>> import cubecam as cc, tempfile
+        >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=32)
+        >>> [path.name for path in cube.save_for("godot", tempfile.mkdtemp())]
+        ['environment.exr', 'README.txt']
         """
 
     def set_face(

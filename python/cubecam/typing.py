@@ -46,6 +46,7 @@ __all__ = [
     "DepthOrder",
     "Encode",
     "Encoding",
+    "Engine",
     "FaceName",
     "FileLayout",
     "FilePixels",
@@ -103,6 +104,7 @@ DepthFormat: TypeAlias = Literal[
 DepthOrder: TypeAlias = Literal["nearest", "farthest"]
 Encode: TypeAlias = Literal["srgb"]
 Encoding: TypeAlias = Literal["linear", "srgb"]
+Engine: TypeAlias = Literal["three", "babylon", "unity", "godot", "blender", "filament"]
 FaceName: TypeAlias = Literal[
     "+x",
     "-x",

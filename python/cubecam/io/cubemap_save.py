@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,7 @@ from .._calls import checked_call
 from .._core import CubeMap
 from ..typing import Center, Compression, Convention, FileLayout, Tonemap
 from . import formats
+from .babylon_env import encode_env
 from .cube_files import SUFFIXES, encode_cube
 from .cubemap_names import (
     Source,
@@ -23,6 +25,7 @@ from .cubemap_outputs import encode_output
 from .files import as_path
 from .pixels import Array
 from .screen import Clipping, check_look, curve_for
+from .sh_file import encode_sh
 from .stored_as import stored_files
 from .writing import write_files
 
@@ -55,8 +58,9 @@ def save_cubemap(
     Parameters
     ----------
     path : path, sequence of six paths, or a name with {face}
-        The extension names the kind of file, as in `save_image`, or .ktx2, .dds or .env (Babylon.js). {face} becomes
-        px nx py ny pz nz. With {level}, too, such as "sky/{level}_{face}.hdr", each filtered level becomes six files.
+        The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
+        in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
+        ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
     layout : str, optional
         "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
         "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -110,6 +114,12 @@ def save_cubemap(
     """
     named = layout_name(layout)
     check_names(convention, center)
+    if isinstance(path, (str, os.PathLike)) and "{level}" in str(as_path(path)):
+        _save_levels(
+            cube, str(as_path(path)), layout=layout, convention=convention, width=width, center=center,
+            exposure=exposure, tonemap=tonemap, srgb=srgb, half=half, output=output,
+        )  # fmt: skip
+        return
     paths = six_paths(path, for_reading=False)
     if paths is not None and len(set(paths)) < 6:
         raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
@@ -120,6 +130,10 @@ def save_cubemap(
     suffix = "" if paths is not None else as_path(path).suffix.lower()
     if compression is not None and suffix != ".ktx2":
         raise ValueError(f'compression: expected with ".ktx2" only, got {compression!r}')
+    if suffix in (".env", ".json"):
+        data = encode_env(cube) if suffix == ".env" else encode_sh(cube)
+        write_files({as_path(path): data})
+        return
     if suffix in SUFFIXES:
         if wanted is not None or output != "color" or srgb:
             raise ValueError(
@@ -206,6 +220,15 @@ def save_cubemap(
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
     clipping.warn()
     write_files({target: encoded})
+
+
+def _save_levels(cube: CubeMap, name: str, **options: Any) -> None:
+    """Write each filtered level under its number."""
+    if options["output"] != "color":
+        raise ValueError(f'output: expected "color" for files of levels, got {options["output"]!r}')
+    for k, level in enumerate(cube.levels):
+        faces = CubeMap(level, mipmaps=False, encoding=cube.encoding)
+        save_cubemap(faces, name.replace("{level}", str(k)), **options)
 
 
 def _storable(cube: CubeMap, target: Path) -> CubeMap:
