@@ -1,4 +1,4 @@
-"""The command `cubecam`: info, demo, convert, capture, example, view.
+"""The command `cubecam`: info, demo, render, convert, capture, example, view.
 
 Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 141 if the program that
 reads the output has ended, as in `cubecam info | head -1`.
@@ -16,6 +16,7 @@ from .convert import convert
 from .example import example
 from .help import Command, Group, option
 from .info import info
+from .render import render
 from .terminal import guard_streams
 from .view import view
 
@@ -52,7 +53,7 @@ def demo(out: str, frames: int, size: int, device: str | None) -> None:
         run(out, frames=frames, size=size, device=parse_device(device))
 
 
-for _command in (info, demo, convert, capture, example, view):
+for _command in (info, demo, render, convert, capture, example, view):
     app.add_command(_command)
 
 
