@@ -4,6 +4,7 @@
 #include "numbers.hpp"
 #include "objects.hpp"
 #include "vectors.hpp"
+#include "vertices.hpp"
 
 #include "cubecam/core/checks.hpp"
 #include "cubecam/geometry/mesh.hpp"
@@ -21,13 +22,6 @@
 namespace cubecam::bindings {
 
 namespace {
-
-template <class Vector, class Scalar>
-std::vector<Vector> to_vectors(const ContiguousArray<Scalar>& array) {
-    static_assert(sizeof(Vector) == Vector::length() * sizeof(Scalar));
-    const auto* from = reinterpret_cast<const Vector*>(array.data());
-    return std::vector<Vector>(from, from + array.shape(0));
-}
 
 /// The shape "(V, 3)", with the number of vertices in place of V if the number is known.
 std::string rows_of(std::optional<std::size_t> vertices, int columns) {
@@ -54,10 +48,55 @@ std::vector<glm::vec4> to_vertex_colors(py::handle colors,
     return vectors;
 }
 
+using TargetsLike = OneOf<py::typing::Iterable<MorphTarget>>;
+
+/// The shape "(V, 4 k)".
+void check_influence_shape(const py::array& array, const char* name, std::size_t vertices) {
+    if (array.ndim() == 2 && array.shape(0) == static_cast<py::ssize_t>(vertices) &&
+        array.shape(1) > 0 && array.shape(1) % 4 == 0) {
+        return;
+    }
+    throw py::value_error(std::string(name) + ": expected shape (" + std::to_string(vertices) +
+                          ", 4 k), got " + shape_text(array));
+}
+
+/// Joints with weights; both are given or neither.
+std::shared_ptr<const Influences> to_influences(py::handle joints, py::handle weights,
+                                                std::size_t vertices) {
+    if (joints.is_none() && weights.is_none()) return nullptr;
+    if (joints.is_none() || weights.is_none()) {
+        throw py::value_error("joints: expected joints and joint_weights together, got only " +
+                              std::string(joints.is_none() ? "joint_weights" : "joints"));
+    }
+    const py::array given = to_array(joints, "joints");
+    check_influence_shape(given, "joints", vertices);
+    const std::string shape =
+        "(" + std::to_string(vertices) + ", " + std::to_string(given.shape(1)) + ")";
+    const auto numbers = index_array(given, "joints", shape, std::uint64_t{1} << 16);
+    const auto shares = float_array(weights, "joint_weights", shape);
+    return std::make_shared<const Influences>(
+        static_cast<std::size_t>(given.shape(1)),
+        std::vector<std::uint16_t>(numbers.data(), numbers.data() + numbers.size()),
+        to_vector(shares));
+}
+
+MorphTargets to_targets(py::handle targets) {
+    if (py::isinstance<MorphTarget>(targets) || !py::isinstance<py::iterable>(targets)) {
+        refuse(targets, "morph_targets", "a sequence of MorphTargets");
+    }
+    MorphTargets found;
+    for (const py::handle target : py::iter(targets)) {
+        found.push_back(to_shared<MorphTarget>(target, "morph_targets", "MorphTargets"));
+    }
+    return found;
+}
+
 std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& indices,
                                 const OrNone<ArrayLike>& normals, const OrNone<ArrayLike>& uvs,
                                 const OrNone<ArrayLike>& colors, const OrNone<ArrayLike>& uvs1,
-                                const OrNone<ArrayLike>& tangents) {
+                                const OrNone<ArrayLike>& tangents, const OrNone<ArrayLike>& joints,
+                                const OrNone<ArrayLike>& joint_weights,
+                                const TargetsLike& morph_targets) {
     MeshData::Arrays arrays;
     arrays.positions = to_vectors<glm::vec3>(float_array(positions, "positions", "(V, 3)"));
     arrays.triangles =
@@ -71,6 +110,8 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
     if (!tangents.is_none()) {
         arrays.tangents = to_vectors<glm::vec4>(float_array(tangents, "tangents", "(V, 4)"));
     }
+    arrays.influences = to_influences(joints, joint_weights, arrays.positions.size());
+    arrays.targets = to_targets(morph_targets);
     const py::gil_scoped_release release;
     return std::make_shared<Mesh>(MeshData(std::move(arrays)));
 }
@@ -99,9 +140,32 @@ void apply(Mesh& mesh, MeshUpdate update) {
     mesh.update(std::move(update));
 }
 
+template <class Scalar>
+py::object influence_rows(const std::shared_ptr<const Influences>& owner,
+                          const std::vector<Scalar>& values) {
+    return readonly_view(
+        py::dtype::of<Scalar>(),
+        {static_cast<py::ssize_t>(owner->vertices()), static_cast<py::ssize_t>(owner->count())},
+        values.data(), owner);
+}
+
+py::object joints_of(const Mesh& mesh) {
+    const auto influences = mesh.data()->influences();
+    if (!influences) return py::none();
+    return influence_rows(influences, influences->joints());
+}
+
+py::object joint_weights_of(const Mesh& mesh) {
+    const auto influences = mesh.data()->influences();
+    if (!influences) return py::none();
+    return influence_rows(influences, influences->weights());
+}
+
 void update_mesh(Mesh& self, const OrNone<ArrayLike>& positions, const OrNone<ArrayLike>& normals,
                  const OrNone<ArrayLike>& uvs, const OrNone<ArrayLike>& colors,
-                 const OrNone<ArrayLike>& uvs1, const OrNone<ArrayLike>& tangents) {
+                 const OrNone<ArrayLike>& uvs1, const OrNone<ArrayLike>& tangents,
+                 const OrNone<ArrayLike>& joints, const OrNone<ArrayLike>& joint_weights,
+                 const OneOf<py::typing::Iterable<MorphTarget>, py::none>& morph_targets) {
     MeshUpdate update;
     if (!positions.is_none()) update.positions = new_positions(self, positions);
     if (!normals.is_none()) update.normals = new_normals(self, normals);
@@ -109,20 +173,15 @@ void update_mesh(Mesh& self, const OrNone<ArrayLike>& positions, const OrNone<Ar
     if (!colors.is_none()) update.colors = to_vertex_colors(colors, vertices_of(self));
     if (!uvs1.is_none()) update.uvs1 = new_uvs(self, uvs1, "uvs1");
     if (!tangents.is_none()) update.tangents = new_tangents(self, tangents);
+    if (!joints.is_none() || !joint_weights.is_none()) {
+        const py::object numbers = joints.is_none() ? joints_of(self) : py::object(joints);
+        const py::object shares =
+            joint_weights.is_none() ? joint_weights_of(self) : py::object(joint_weights);
+        update.influences = to_influences(numbers, shares, vertices_of(self));
+    }
+    if (!morph_targets.is_none()) update.targets = to_targets(morph_targets);
     apply(self, std::move(update));
 }
-
-/// A read-only view, or None.
-template <class Scalar, class Vector>
-py::object rows(const MeshData::Array<Vector>& vectors) {
-    if (!vectors) return py::none();
-    const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(vectors->size()),
-                                         Vector::length()};
-    return readonly_view(py::dtype::of<Scalar>(), shape, vectors->data(), vectors);
-}
-
-using FloatRows = py::array_t<float>;
-using FloatRowsOrNone = OrNone<FloatRows>;
 
 std::string represent(const Mesh& mesh) {
     const auto data = mesh.data();
@@ -241,6 +300,30 @@ void bind_vertices(Class<Mesh>& mesh) {
             apply(self, std::move(update));
         },
         docs::tangents);
+    mesh.def_property_readonly(
+        "joints",
+        [](const Mesh& self) -> OrNone<py::array_t<std::uint16_t>> { return joints_of(self); },
+        docs::joints);
+    mesh.def_property_readonly(
+        "joint_weights", [](const Mesh& self) -> FloatRowsOrNone { return joint_weights_of(self); },
+        docs::joint_weights);
+    mesh.def_property(
+        "morph_targets",
+        [](const Mesh& self) -> py::typing::Tuple<MorphTarget, py::ellipsis> {
+            const auto targets = self.data()->targets();
+            py::list list;
+            if (!targets) return py::tuple(list);
+            for (const auto& target : *targets) {
+                list.append(std::const_pointer_cast<MorphTarget>(target));
+            }
+            return py::tuple(list);
+        },
+        [](Mesh& self, const TargetsLike& value) {
+            MeshUpdate update;
+            update.targets = to_targets(value);
+            apply(self, std::move(update));
+        },
+        docs::morph_targets);
 }
 
 }  // namespace
@@ -256,7 +339,8 @@ void bind_mesh(pybind11::module_& module) {
     mesh.def(py::init(&make_mesh), py::arg("positions"), py::arg("indices"), py::kw_only(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none(), py::arg("uvs1") = py::none(),
-             py::arg("tangents") = py::none());
+             py::arg("tangents") = py::none(), py::arg("joints") = py::none(),
+             py::arg("joint_weights") = py::none(), py::arg("morph_targets") = py::tuple());
     bind_primitives(mesh);
     mesh.def_static(
         "from_trimesh",
@@ -278,7 +362,8 @@ void bind_mesh(pybind11::module_& module) {
         "flat_shaded",
         [](const Mesh& self) {
             const py::gil_scoped_release release;
-            return std::make_shared<Mesh>(MeshData(*self.flat_shaded(self.data())));
+            const auto data = self.data();
+            return std::make_shared<Mesh>(MeshData(*self.flat_shaded(data)).with_targets_of(*data));
         },
         docs::flat_shaded);
     mesh.def(
@@ -289,13 +374,16 @@ void bind_mesh(pybind11::module_& module) {
             const auto data = self.data();
             expect(data->uvs(set) != nullptr, set == 0 ? "a mesh with uvs" : "a mesh with uvs1",
                    "none");
-            return std::make_shared<Mesh>(MeshData(*self.with_tangents(data, set, false)));
+            return std::make_shared<Mesh>(
+                MeshData(*self.with_tangents(data, set, false)).with_targets_of(*data));
         },
         py::kw_only(), py::arg("uv_set") = 0, docs::with_tangents);
     mesh.def("update", &update_mesh, py::kw_only(), py::arg("positions") = py::none(),
              py::arg("normals") = py::none(), py::arg("uvs") = py::none(),
              py::arg("colors") = py::none(), py::arg("uvs1") = py::none(),
-             py::arg("tangents") = py::none(), docs::update);
+             py::arg("tangents") = py::none(), py::arg("joints") = py::none(),
+             py::arg("joint_weights") = py::none(), py::arg("morph_targets") = py::none(),
+             docs::update);
     bind_vertices(mesh);
     mesh.def_property_readonly(
         "bounds", [](const Mesh& self) { return bounds_array(self.data()->bounds()); },
@@ -303,8 +391,9 @@ void bind_mesh(pybind11::module_& module) {
 
     mesh.def("__repr__", &represent);
     mesh.def("__reduce__", [](const py::object& self) {
-        py::dict arguments = attributes_of(self, "positions", "indices", "normals", "uvs", "colors",
-                                           "uvs1", "tangents");
+        py::dict arguments =
+            attributes_of(self, "positions", "indices", "normals", "uvs", "colors", "uvs1",
+                          "tangents", "joints", "joint_weights", "morph_targets");
         // Smooth normals are computed again, so that those of the copy follow its positions, too.
         if (self.cast<const Mesh&>().data()->smooth()) arguments["normals"] = py::none();
         return reduced(self, arguments);

@@ -130,6 +130,20 @@ void bind_contents(Class<Node>& node) {
         },
         "Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.");
     node.def_property(
+        "skin", [](const Node& self) { return or_none(self.value().skin); },
+        [](Node& self, const OrNone<Skin>& value) {
+            const auto skin = to_skin(value);
+            self.edit([&](NodeValue& next) { next.skin = skin; });
+        },
+        docs::node_skin);
+    node.def_property(
+        "weights", [](const Node& self) { return weights_array(self.value()); },
+        [](Node& self, const ArrayLike& value) {
+            const auto weights = to_weights(value);
+            self.edit([&](NodeValue& next) { next.weights = weights; });
+        },
+        docs::node_weights);
+    node.def_property(
         "environment",
         [](const Node& self) -> CubeLike { return from_cube_source(self.value().environment); },
         [](Node& self, const CubeLike& value) {

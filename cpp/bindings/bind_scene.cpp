@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 
 #include <string>
+#include <vector>
 
 namespace cubecam::bindings {
 
@@ -41,14 +42,13 @@ BackgroundNow from_background(const Background& background) {
     return py::none();
 }
 
-std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
-                               const OrNone<Material>& material, const OrNone<ArrayLike>& position,
-                               const OrNone<ArrayLike>& rotation,
-                               const OneOf<py::float_, ArrayLike, py::none>& scale,
-                               const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
-                               const CubeLike& environment, bool visible, bool in_captures,
-                               std::string name, const WholeNumber& render_order, bool cast_shadow,
-                               bool receive_shadow, const WholeNumber& label) {
+std::shared_ptr<Node>
+add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& material,
+         const OrNone<ArrayLike>& position, const OrNone<ArrayLike>& rotation,
+         const OneOf<py::float_, ArrayLike, py::none>& scale, const OrNone<ArrayLike>& matrix,
+         const OrNone<Node>& parent, const CubeLike& environment, bool visible, bool in_captures,
+         std::string name, const WholeNumber& render_order, bool cast_shadow, bool receive_shadow,
+         const WholeNumber& label, const OrNone<Skin>& skin, const OrNone<ArrayLike>& weights) {
     NodeValue value{{},
                     to_mesh(mesh),
                     to_material(material),
@@ -59,7 +59,9 @@ std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
                     to_render_order(render_order),
                     cast_shadow,
                     receive_shadow,
-                    to_label(label)};
+                    to_label(label),
+                    to_skin(skin),
+                    weights.is_none() ? std::vector<float>() : to_weights(weights)};
     value.placing = to_placing(position, rotation, scale, matrix);
     value.render_order = to_render_order(render_order);
     return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
@@ -231,7 +233,8 @@ void bind_scene(pybind11::module_& module) {
               py::arg("parent") = py::none(), py::arg("environment") = py::none(),
               py::arg("visible") = true, py::arg("in_captures") = true, py::arg("name") = "",
               py::arg("render_order") = 0, py::arg("cast_shadow") = true,
-              py::arg("receive_shadow") = true, py::arg("label") = 0, docs::add_node);
+              py::arg("receive_shadow") = true, py::arg("label") = 0, py::arg("skin") = py::none(),
+              py::arg("weights") = py::none(), docs::add_node);
     scene.def("set_positions", &set_positions, py::arg("nodes"), py::arg("positions"),
               docs::set_positions);
     scene.def("set_matrices", &set_matrices, py::arg("nodes"), py::arg("matrices"),

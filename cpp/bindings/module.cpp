@@ -21,6 +21,7 @@ void bind_cubemap(pybind11::module_& module);
 void bind_lighting(pybind11::module_& module);
 void bind_image(pybind11::module_& module);
 void bind_radiance(pybind11::module_& module);
+void bind_skin(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_blend(pybind11::module_& module);
 void bind_stencil(pybind11::module_& module);
@@ -95,6 +96,7 @@ PYBIND11_MODULE(_core, module) {
     bind_lighting(module);
     bind_image(module);
     bind_radiance(module);
+    bind_skin(module);
     bind_mesh(module);
     bind_blend(module);
     bind_stencil(module);

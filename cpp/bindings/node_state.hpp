@@ -15,6 +15,7 @@
 #include <memory>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace cubecam::bindings {
 
@@ -25,6 +26,25 @@ inline std::shared_ptr<Mesh> to_mesh(py::handle value) {
 
 inline std::shared_ptr<Material> to_material(py::handle value) {
     return to_shared_or_none<Material>(value, "material", "a Material or None");
+}
+
+inline std::shared_ptr<Skin> to_skin(py::handle value) {
+    return to_shared_or_none<Skin>(value, "skin", "a Skin or None");
+}
+
+inline std::vector<float> to_weights(py::handle value) {
+    return to_vector(float_array(value, "weights", "(T,)"));
+}
+
+/// A weight for each morph target of the node's mesh, read-only.
+inline py::array_t<float> weights_array(const NodeValue& value) {
+    const std::size_t targets = value.mesh ? value.mesh->data()->target_count() : 0;
+    py::array_t<float> array(static_cast<py::ssize_t>(targets));
+    for (std::size_t i = 0; i < targets; ++i) {
+        array.mutable_data()[i] = i < value.weights.size() ? value.weights[i] : 0.0F;
+    }
+    array.attr("flags").attr("writeable") = false;
+    return array;
 }
 
 inline std::int32_t to_render_order(py::handle value) {
@@ -59,7 +79,8 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
 }
 
 /// The state of a node in a pickle: (mesh, material, position, rotation, scale, matrix,
-/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow, label).
+/// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow, label, skin,
+/// weights).
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
     return py::make_tuple(
@@ -68,10 +89,11 @@ inline py::tuple state_of_node(const NodeValue& value) {
         parts ? py::object(point_array(parts->scale)) : py::none(),
         parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
         from_cube_source(value.environment), value.visible, value.in_captures, value.name,
-        value.render_order, value.cast_shadow, value.receive_shadow, value.label);
+        value.render_order, value.cast_shadow, value.receive_shadow, value.label, value.skin,
+        weights_array(value));
 }
 
-/// Older pickles of the same format have no label.
+/// Older pickles of the same format have no label, or no skin and no weights.
 inline NodeValue node_from_state(const py::tuple& state) {
     return {to_placing(state[2], state[3], state[4], state[5]),
             to_mesh(state[0]),
@@ -83,7 +105,9 @@ inline NodeValue node_from_state(const py::tuple& state) {
             to_render_order(state[10]),
             state[11].cast<bool>(),
             state[12].cast<bool>(),
-            state.size() > 13 ? to_label(state[13]) : 0};
+            state.size() > 13 ? to_label(state[13]) : 0,
+            state.size() > 14 ? to_skin(state[14]) : nullptr,
+            state.size() > 15 ? to_weights(state[15]) : std::vector<float>()};
 }
 
 }  // namespace cubecam::bindings

@@ -71,6 +71,7 @@ __all__: list[str] = [
     "Mesh",
     "MeshError",
     "MirrorMaterial",
+    "MorphTarget",
     "Node",
     "OrthographicCamera",
     "PerspectiveCamera",
@@ -83,6 +84,7 @@ __all__: list[str] = [
     "ShaderError",
     "ShaderMaterial",
     "Shadow",
+    "Skin",
     "SpotLight",
     "StandardMaterial",
     "Stencil",
@@ -390,6 +392,22 @@ class Node:
     @scale.setter
     def scale(self, value: float | np.typing.ArrayLike) -> None: ...
     @property
+    def skin(self) -> Skin | None:
+        """
+        Skin or None: the joints that move the vertices of the node's mesh.
+
+        The mesh needs `Mesh.joints` and `Mesh.joint_weights`. A picture then shows the mesh where its joints are:
+        the place of the node itself, its `matrix` and its parents, has no effect on the mesh, as in glTF (2.0, section
+        3.7.3), but has on the nodes below it. While a joint is not in the scene of the node, for example because
+        it was removed, or if the mesh has lost its joints, the node is drawn as if it had no skin.
+
+        ValueError is raised for a mesh without joints, for a joint of another scene, and if the mesh names a joint that
+        the skin does not have.
+        """
+
+    @skin.setter
+    def skin(self, value: Skin | None) -> None: ...
+    @property
     def visible(self) -> bool:
         """
         bool: False: no picture shows the node or any node below it.
@@ -397,6 +415,17 @@ class Node:
 
     @visible.setter
     def visible(self, value: bool) -> None: ...
+    @property
+    def weights(self) -> np.typing.NDArray[np.float32]:
+        """
+        ndarray (T,) float32: how much of each of the mesh's `morph_targets` is added; read-only.
+
+        Any numbers are possible; 0 by default. Another mesh with another number of targets makes all 0. ValueError is
+        raised for another number of weights than the mesh has targets.
+        """
+
+    @weights.setter
+    def weights(self, value: np.typing.ArrayLike) -> None: ...
     @property
     def world_bounds(self) -> np.typing.NDArray[np.float64]:
         """
@@ -984,6 +1013,8 @@ class Scene:
         cast_shadow: bool = True,
         receive_shadow: bool = True,
         label: typing.SupportsIndex = 0,
+        skin: Skin | None = None,
+        weights: np.typing.ArrayLike | None = None,
     ) -> Node:
         """
         Add a mesh with a material, or a group.
@@ -1022,6 +1053,10 @@ class Scene:
             Whether shadows show on the node's own surface.
         label : int
             A number of your own that the output "label" shows, such as a class; 32 bits. Nodes may share a label.
+        skin : Skin, optional
+            The joints that move the mesh's vertices. None: the mesh does not bend.
+        weights : array_like (T,), optional
+            How much of each of the mesh's morph targets is added. None: nothing.
 
         Returns
         -------
@@ -2544,6 +2579,185 @@ class Image:
         str, or a pair for u and v: "repeat", "clamp" or "mirror".
         """
 
+class MorphTarget:
+    """
+    A change of a mesh's shape: what a weight of 1 adds to each vertex.
+
+    A mesh has any number of them, and each node its own `Node.weights`. Normals and tangents get unit length
+    afterwards, and colours are limited to 0 to 1. Smooth normals that the mesh computed are computed again for
+    the changed shape. A kind of numbers that the mesh itself does not have, for example colours, has no effect.
+    Morph targets never change.
+
+    Parameters
+    ----------
+    positions : array_like (V, 3), optional
+        Added to the positions, one row for each vertex of the mesh. None: positions stay; so do all others.
+    normals : array_like (V, 3), optional
+        Added to the normals.
+    tangents : array_like (V, 3), optional
+        Added to the first three numbers of the tangents; the sign stays.
+    uvs : array_like (V, 2), optional
+        Added to the texture coordinates.
+    colors : array_like (V, 3) or (V, 4), optional
+        Added to the colours; three numbers leave alpha as it is.
+    uvs1 : array_like (V, 2), optional
+        Added to the second texture coordinates.
+    name : str
+        A name for people.
+
+    Raises
+    ------
+    ValueError
+        For no array, arrays of unequal lengths, other shapes, NaN or infinity.
+
+    Notes
+    -----
+    glTF 2.0, section 3.7.2.2.
+
+    Examples
+    --------
+    >>> import cubecam as cc, numpy as np
+    >>> box = cc.Mesh.box(2)
+    >>> taller = cc.MorphTarget(positions=np.where(box.positions > 0, (0, 1, 0), 0), name="taller")
+    >>> box.morph_targets = [taller]
+    >>> node = cc.Scene().add(box, weights=[0.5])
+    >>> node.world_bounds.tolist()
+    [[-1.0, -1.0, -1.0], [1.0, 1.5, 1.0]]
+    """
+
+    def __init__(
+        self: MorphTarget,
+        *,
+        positions: np.typing.ArrayLike | None = None,
+        normals: np.typing.ArrayLike | None = None,
+        tangents: np.typing.ArrayLike | None = None,
+        uvs: np.typing.ArrayLike | None = None,
+        colors: np.typing.ArrayLike | None = None,
+        uvs1: np.typing.ArrayLike | None = None,
+        name: str = "",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: MorphTarget) -> str: ...
+    @property
+    def colors(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 4) float32 or None: added to the colours; a read-only view.
+        """
+
+    @property
+    def name(self) -> str:
+        """
+        str: a name for people.
+        """
+
+    @property
+    def normals(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 3) float32 or None: added to the normals; a read-only view.
+        """
+
+    @property
+    def positions(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 3) float32 or None: added to the positions; a read-only view.
+        """
+
+    @property
+    def tangents(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 3) float32 or None: added to the tangents; a read-only view.
+        """
+
+    @property
+    def uvs(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 2) float32 or None: added to the texture coordinates; a read-only view.
+        """
+
+    @property
+    def uvs1(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 2) float32 or None: added to the second texture coordinates; a read-only view.
+        """
+
+class Skin:
+    """
+    Joints that bend a mesh: nodes of a scene, which move the vertices near them.
+
+    A vertex with the joints j and the weights w of the mesh goes to the mean of ``joint[j].world_matrix @
+    inverse_bind_matrices[j] @ vertex``, weighted by w. Moving a joint moves the mesh, with no other call. `Node.skin` is
+    the attribute that uses a skin; any number of nodes may share one. Skins never change, and do not keep their
+    joints alive.
+
+    Parameters
+    ----------
+    joints : sequence of Node
+        Nodes of one scene. None in place of a node stands for one that is gone; pickles may need that.
+    inverse_bind_matrices : array_like (J, 4, 4), optional
+        For each joint the matrix from the mesh's space to that of the joint, with the last row (0, 0, 0, 1). In most
+        cases it is the inverse of the joint's `Node.world_matrix` at the time when the mesh lies at rest. None: unit
+        matrices.
+    skeleton : Node, optional
+        The node above all joints, for files; no picture depends on it.
+
+    Raises
+    ------
+    TypeError
+        For joints that are no nodes.
+    ValueError
+        For no joint, another number of matrices than joints, or a matrix that is not finite or has another last row.
+
+    Notes
+    -----
+    glTF 2.0, section 3.7.3. Normals are multiplied by the inverse of the transposed matrix. Where joints mirror, the
+    triangles whose corners are mostly mirrored are turned round, so that they stay visible from outside.
+
+    Examples
+    --------
+    A stick of two bones, whose upper half bends:
+
+    >>> import cubecam as cc, numpy as np
+    >>> stick = cc.Mesh.box((0.1, 2, 0.1))
+    >>> upper = stick.positions[:, 1] > 0
+    >>> stick.update(joints=np.c_[upper, 0 * np.ones((len(upper), 3), int)],
+    ...              joint_weights=np.tile((1, 0, 0, 0), (len(upper), 1)))
+    >>> scene = cc.Scene()
+    >>> root = scene.add(position=(0, -1, 0))
+    >>> elbow = scene.add(position=(0, 1, 0), parent=root)
+    >>> rest = [np.linalg.inv(joint.world_matrix) for joint in (root, elbow)]
+    >>> node = scene.add(stick, skin=cc.Skin([root, elbow], rest))
+    >>> elbow.rotation = cc.axis_angle((0, 0, 1), -90)
+    >>> node.world_bounds.round(2).tolist()
+    [[-0.05, -1.0, -0.05], [1.0, 0.05, 0.05]]
+    """
+
+    def __init__(
+        self: Skin,
+        joints: collections.abc.Iterable[Node | None],
+        inverse_bind_matrices: np.typing.ArrayLike | None = None,
+        *,
+        skeleton: Node | None = None,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: Skin) -> str: ...
+    @property
+    def inverse_bind_matrices(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (J, 4, 4) float64: for each joint the matrix from the mesh's space to that of the joint; read-only.
+        """
+
+    @property
+    def joints(self) -> tuple[Node | None, ...]:
+        """
+        tuple of Node or None: the nodes that `Mesh.joints` counts from 0; None for a node that is gone.
+        """
+
+    @property
+    def skeleton(self) -> Node | None:
+        """
+        Node or None: the node above all joints; no picture depends on it.
+        """
+
 class Mesh:
     """
     Indexed triangles, which any number of nodes, scenes and renderers share.
@@ -2572,6 +2786,15 @@ class Mesh:
         For normal maps. The first three numbers, of any length, point along +u in the surface; the fourth,
         1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. None: materials that
         need tangents use those of `with_tangents`.
+    joints : array_like (V, 4 k) of int, optional
+        For a `Skin`: the numbers of the joints that move each vertex, from 0; k is any number of sets. The
+        number of a joint whose weight is 0 means nothing and becomes 0.
+    joint_weights : array_like (V, 4 k), optional
+        How much each of these joints moves the vertex, 0 or more; given together with `joints`. The weights
+        are kept as they are, and divided by their sum where they are used. A vertex without any weight moves
+        with joint 0.
+    morph_targets : sequence of MorphTarget
+        Changes of the shape, which `Node.weights` mixes.
 
     Raises
     ------
@@ -2580,7 +2803,7 @@ class Mesh:
     ValueError
         For other shapes, unequal lengths, NaN or infinity, or no triangle.
     IndexError
-        For an index outside 0 to V - 1.
+        For an index outside 0 to V - 1, or a joint outside 0 to 65535.
 
     Examples
     --------
@@ -2931,6 +3154,9 @@ class Mesh:
         colors: np.typing.ArrayLike | None = None,
         uvs1: np.typing.ArrayLike | None = None,
         tangents: np.typing.ArrayLike | None = None,
+        joints: np.typing.ArrayLike | None = None,
+        joint_weights: np.typing.ArrayLike | None = None,
+        morph_targets: collections.abc.Iterable[MorphTarget] = (),
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Mesh) -> str: ...
@@ -2985,7 +3211,8 @@ class Mesh:
         Raises
         ------
         ValueError
-            For a size that is not above 0, or a mesh whose vertices are all at one point.
+            For a size that is not above 0, a mesh whose vertices are all at one point, or one with joints, since
+            the matrices of a skin fit one size only.
 
         Examples
         --------
@@ -3003,6 +3230,9 @@ class Mesh:
         colors: np.typing.ArrayLike | None = None,
         uvs1: np.typing.ArrayLike | None = None,
         tangents: np.typing.ArrayLike | None = None,
+        joints: np.typing.ArrayLike | None = None,
+        joint_weights: np.typing.ArrayLike | None = None,
+        morph_targets: collections.abc.Iterable[MorphTarget] | None = None,
     ) -> None:
         """
         Replace several arrays of the vertices at once.
@@ -3028,6 +3258,10 @@ class Mesh:
             The second set of texture coordinates. None: it stays.
         tangents : array_like (V, 4), optional
             Tangents. None: tangents that were given stay, also with new positions.
+        joints, joint_weights : array_like (V, 4 k), optional
+            The joints that move the vertices, and their weights. None: they stay.
+        morph_targets : sequence of MorphTarget, optional
+            New morph targets. None: they stay, and add the same numbers to new positions.
 
         Raises
         ------
@@ -3114,6 +3348,32 @@ class Mesh:
         ndarray (F, 3) uint32: the corners of each triangle, counter-clockwise seen from outside; a read-only view.
         """
 
+    @property
+    def joint_weights(self) -> np.typing.NDArray[np.float32] | None:
+        """
+        ndarray (V, 4 k) float32 or None: how much each of the `joints` moves the vertex; a read-only view.
+
+        `update` replaces them.
+        """
+
+    @property
+    def joints(self) -> np.typing.NDArray[np.uint16] | None:
+        """
+        ndarray (V, 4 k) uint16 or None: the joints that move each vertex; a read-only view.
+
+        They count the joints of `Node.skin` from 0. `update` replaces them.
+        """
+
+    @property
+    def morph_targets(self) -> tuple[MorphTarget, ...]:
+        """
+        tuple of MorphTarget: changes of the shape, which `Node.weights` mixes.
+
+        They can be set. Where a node has fewer weights than there are targets, the others are 0.
+        """
+
+    @morph_targets.setter
+    def morph_targets(self, value: collections.abc.Iterable[MorphTarget]) -> None: ...
     @property
     def normals(self) -> np.typing.NDArray[np.float32]:
         """

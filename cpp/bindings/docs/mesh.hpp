@@ -30,6 +30,15 @@ tangents : array_like (V, 4), optional
     For normal maps. The first three numbers, of any length, point along +u in the surface; the fourth,
     1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. None: materials that
     need tangents use those of `with_tangents`.
+joints : array_like (V, 4 k) of int, optional
+    For a `Skin`: the numbers of the joints that move each vertex, from 0; k is any number of sets. The
+    number of a joint whose weight is 0 means nothing and becomes 0.
+joint_weights : array_like (V, 4 k), optional
+    How much each of these joints moves the vertex, 0 or more; given together with `joints`. The weights
+    are kept as they are, and divided by their sum where they are used. A vertex without any weight moves
+    with joint 0.
+morph_targets : sequence of MorphTarget
+    Changes of the shape, which `Node.weights` mixes.
 
 Raises
 ------
@@ -38,7 +47,7 @@ TypeError
 ValueError
     For other shapes, unequal lengths, NaN or infinity, or no triangle.
 IndexError
-    For an index outside 0 to V - 1.
+    For an index outside 0 to V - 1, or a joint outside 0 to 65535.
 
 Examples
 --------
@@ -83,6 +92,21 @@ inline constexpr const char* tangents =
 
 The fourth number, 1 or -1, is the factor of ``cross(normal, tangent)``, which points along +v. Tangents can be
 set. None: materials that need tangents use those of `with_tangents`, made again whenever vertices change.)doc";
+
+inline constexpr const char* joints =
+    R"doc(ndarray (V, 4 k) uint16 or None: the joints that move each vertex; a read-only view.
+
+They count the joints of `Node.skin` from 0. `update` replaces them.)doc";
+
+inline constexpr const char* joint_weights =
+    R"doc(ndarray (V, 4 k) float32 or None: how much each of the `joints` moves the vertex; a read-only view.
+
+`update` replaces them.)doc";
+
+inline constexpr const char* morph_targets =
+    R"doc(tuple of MorphTarget: changes of the shape, which `Node.weights` mixes.
+
+They can be set. Where a node has fewer weights than there are targets, the others are 0.)doc";
 
 inline constexpr const char* with_tangents =
     R"doc(Copy the mesh with the tangents of MikkTSpace, by which most programs bake normal maps.
@@ -143,6 +167,10 @@ uvs1 : array_like (V, 2), optional
     The second set of texture coordinates. None: it stays.
 tangents : array_like (V, 4), optional
     Tangents. None: tangents that were given stay, also with new positions.
+joints, joint_weights : array_like (V, 4 k), optional
+    The joints that move the vertices, and their weights. None: they stay.
+morph_targets : sequence of MorphTarget, optional
+    New morph targets. None: they stay, and add the same numbers to new positions.
 
 Raises
 ------
@@ -485,7 +513,8 @@ Mesh
 Raises
 ------
 ValueError
-    For a size that is not above 0, or a mesh whose vertices are all at one point.
+    For a size that is not above 0, a mesh whose vertices are all at one point, or one with joints, since
+    the matrices of a skin fit one size only.
 
 Examples
 --------

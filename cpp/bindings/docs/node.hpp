@@ -22,6 +22,23 @@ Examples
 [0.0, 3.0, 0.0]
 )doc";
 
+inline constexpr const char* node_skin =
+    R"doc(Skin or None: the joints that move the vertices of the node's mesh.
+
+The mesh needs `Mesh.joints` and `Mesh.joint_weights`. A picture then shows the mesh where its joints are:
+the place of the node itself, its `matrix` and its parents, has no effect on the mesh, as in glTF (2.0, section
+3.7.3), but has on the nodes below it. While a joint is not in the scene of the node, for example because
+it was removed, or if the mesh has lost its joints, the node is drawn as if it had no skin.
+
+ValueError is raised for a mesh without joints, for a joint of another scene, and if the mesh names a joint that
+the skin does not have.)doc";
+
+inline constexpr const char* node_weights =
+    R"doc(ndarray (T,) float32: how much of each of the mesh's `morph_targets` is added; read-only.
+
+Any numbers are possible; 0 by default. Another mesh with another number of targets makes all 0. ValueError is
+raised for another number of weights than the mesh has targets.)doc";
+
 inline constexpr const char* world_bounds =
     R"doc(ndarray (2, 3) float64: the lowest and the highest corner of the node and all nodes below it, read-only.
 

@@ -99,6 +99,10 @@ receive_shadow : bool
     Whether shadows show on the node's own surface.
 label : int
     A number of your own that the output "label" shows, such as a class; 32 bits. Nodes may share a label.
+skin : Skin, optional
+    The joints that move the mesh's vertices. None: the mesh does not bend.
+weights : array_like (T,), optional
+    How much of each of the mesh's morph targets is added. None: nothing.
 
 Returns
 -------

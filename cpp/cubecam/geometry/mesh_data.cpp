@@ -3,6 +3,7 @@
 #include "cubecam/core/checks.hpp"
 #include "cubecam/core/revision.hpp"
 #include "cubecam/geometry/tangents.hpp"
+#include "cubecam/geometry/vertex_checks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,27 +17,6 @@ namespace cubecam {
 
 namespace {
 
-constexpr std::size_t block_size = 1024;  // blocks have no branch, so compilers use SIMD
-
-template <class Vector>
-void check_finite(const std::vector<Vector>& values, const char* name) {
-    const float* floats = values.empty() ? nullptr : &values.front()[0];
-    const std::size_t count = values.size() * Vector::length();
-    for (std::size_t begin = 0; begin < count; begin += block_size) {
-        const std::size_t end = std::min(count, begin + block_size);
-        bool finite = true;
-        for (std::size_t i = begin; i < end; ++i) {
-            finite &= std::abs(floats[i]) <= std::numeric_limits<float>::max();
-        }
-        for (std::size_t i = begin; i < end && !finite; ++i) {
-            if (std::isfinite(floats[i])) continue;
-            throw std::invalid_argument(std::string("expected finite ") + name + ", got " +
-                                        describe(floats[i]) + " at vertex " +
-                                        std::to_string(i / Vector::length()));
-        }
-    }
-}
-
 void check_alpha(const std::vector<glm::vec4>& colors) {
     for (std::size_t i = 0; i < colors.size(); ++i) {
         const glm::vec4& c = colors[i];
@@ -44,14 +24,6 @@ void check_alpha(const std::vector<glm::vec4>& colors) {
         throw std::invalid_argument("expected colors with an alpha from 0 to 1, got " +
                                     describe(c) + " at vertex " + std::to_string(i));
     }
-}
-
-template <class Vector>
-void check_length(const std::vector<Vector>& values, std::size_t vertices, const char* name) {
-    if (values.empty() || values.size() == vertices) return;
-    throw std::invalid_argument("expected as many " + std::string(name) + " as positions, " +
-                                std::to_string(vertices) + ", got " +
-                                std::to_string(values.size()));
 }
 
 void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
@@ -82,8 +54,8 @@ bool unit_length(const glm::vec3& normal) {
 void normalize_all(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>& positions,
                    const std::vector<glm::uvec3>& triangles) {
     std::vector<glm::vec3> smooth;
-    for (std::size_t begin = 0; begin < normals.size(); begin += block_size) {
-        const std::size_t end = std::min(normals.size(), begin + block_size);
+    for (std::size_t begin = 0; begin < normals.size(); begin += vertex_block) {
+        const std::size_t end = std::min(normals.size(), begin + vertex_block);
         bool unit = true;
         for (std::size_t i = begin; i < end; ++i) unit &= unit_length(normals[i]);
         for (std::size_t i = begin; i < end && !unit; ++i) {
@@ -164,6 +136,16 @@ std::vector<T> gathered(const std::vector<T>& values, const std::vector<std::uin
     return found;
 }
 
+/// The vertices of the triangles' corners, one after the other.
+std::vector<std::uint32_t> corners_of(const std::vector<glm::uvec3>& triangles) {
+    std::vector<std::uint32_t> corners;
+    corners.reserve(3 * triangles.size());
+    for (const glm::uvec3& triangle : triangles) {
+        for (int i = 0; i < 3; ++i) corners.push_back(triangle[i]);
+    }
+    return corners;
+}
+
 template <class T>
 VertexStream<T> stream_of(std::vector<T>&& values, std::uint64_t revision) {
     if (values.empty()) return {nullptr, revision};
@@ -182,6 +164,8 @@ MeshData::MeshData(Arrays arrays)
     set_colors(std::move(arrays.colors));
     set_uvs1(std::move(arrays.uvs1));
     set_tangents(std::move(arrays.tangents));
+    set_influences(std::move(arrays.influences));
+    set_targets(std::move(arrays.targets));
 }
 
 void MeshData::set_positions(std::vector<glm::vec3> positions) {
@@ -231,6 +215,19 @@ void MeshData::set_colors(std::vector<glm::vec4> colors) {
     colors_ = stream_of(std::move(colors), revision_);
 }
 
+void MeshData::set_influences(std::shared_ptr<const Influences> influences) {
+    if (influences) check_length(influences->vertices(), positions()->size(), "joints");
+    influences_ = std::move(influences);
+}
+
+void MeshData::set_targets(MorphTargets targets) {
+    for (const auto& target : targets) {
+        expect(target != nullptr, "morph targets", "none");
+        check_length(target->vertices(), positions()->size(), "displacements of a morph target");
+    }
+    targets_ = targets.empty() ? nullptr : std::make_shared<const MorphTargets>(std::move(targets));
+}
+
 MeshData MeshData::updated(MeshUpdate update) const {
     MeshData next = *this;
     next.revision_ = next_revision();
@@ -250,6 +247,8 @@ MeshData MeshData::updated(MeshUpdate update) const {
     if (update.colors) next.set_colors(std::move(*update.colors));
     if (update.uvs1) next.set_uvs1(std::move(*update.uvs1));
     if (update.tangents) next.set_tangents(std::move(*update.tangents));
+    if (update.influences) next.set_influences(std::move(*update.influences));
+    if (update.targets) next.set_targets(std::move(*update.targets));
     return next;
 }
 
@@ -291,6 +290,14 @@ MeshData MeshData::flat_shaded(const MeshData* before) const {
     follow(&MeshData::colors_);
     follow(&MeshData::uvs1_);
     follow(&MeshData::tangents_);
+    flat.targets_ = nullptr;
+    if (influences_ && before != nullptr && before->influences_of_ == influences_) {
+        flat.influences_ = before->influences_;
+    } else if (influences_) {
+        flat.influences_ =
+            std::make_shared<const Influences>(influences_->gathered(corners_of(*triangles())));
+    }
+    flat.influences_of_ = influences_;
     return flat;
 }
 
@@ -342,6 +349,15 @@ MeshData MeshData::with_tangents(int uv_set, const MeshData* before) const {
     follow(&MeshData::uvs_);
     follow(&MeshData::colors_);
     follow(&MeshData::uvs1_);
+    made.targets_ = nullptr;
+    if (influences_ && made.sources_) {
+        const bool kept = before != nullptr && before->influences_of_ == influences_ &&
+                          before->sources_ == made.sources_;
+        made.influences_ =
+            kept ? before->influences_
+                 : std::make_shared<const Influences>(influences_->gathered(*made.sources_));
+    }
+    made.influences_of_ = influences_;
     // Split vertices would get other smooth normals after an update of their positions.
     if (made.sources_) made.smooth_ = false;
     return made;
@@ -352,8 +368,23 @@ MeshData MeshData::of_new_mesh() && {
     return std::move(*this);
 }
 
+MeshData MeshData::with_targets_of(const MeshData& base) && {
+    if (!base.targets_) return std::move(*this);
+    MorphTargets targets = *base.targets_;
+    if (sources_ || triangles_ != base.triangles_) {
+        const std::vector<std::uint32_t> from =
+            sources_ ? *sources_ : corners_of(*base.triangles());
+        for (auto& target : targets) {
+            target = std::make_shared<const MorphTarget>(target->gathered(from));
+        }
+    }
+    set_targets(std::move(targets));
+    return std::move(*this);
+}
+
 MeshData MeshData::centered_and_scaled(double size) const {
     expect_positive(size, "size");
+    expect(!influences_, "a mesh without joints, whose matrices fit its size", "one with joints");
     const glm::dvec3 extent = bounds().extent();
     const double largest = std::max({extent.x, extent.y, extent.z});
     expect(largest > 0.0, "a mesh of some extent", "all vertices at one point");
@@ -368,6 +399,13 @@ MeshData MeshData::centered_and_scaled(double size) const {
     MeshData next = *this;
     next.revision_ = next_revision();
     next.set_positions(std::move(scaled));
+    if (targets_) {
+        MorphTargets targets = *targets_;
+        for (auto& target : targets) {
+            target = std::make_shared<const MorphTarget>(target->scaled(factor));
+        }
+        next.set_targets(std::move(targets));
+    }
     return next;
 }
 

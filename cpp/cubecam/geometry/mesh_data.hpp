@@ -1,5 +1,8 @@
 #pragma once
 
+#include "cubecam/geometry/influences.hpp"
+#include "cubecam/geometry/morph_target.hpp"
+
 #include <glm/glm.hpp>
 
 #include <cstddef>
@@ -48,15 +51,21 @@ struct MeshUpdate {
     std::optional<std::vector<glm::vec3>>
         normals;                                ///< empty: smooth normals, also after later updates
     std::optional<std::vector<glm::vec2>> uvs;  ///< empty: none
-    std::optional<std::vector<glm::vec4>> colors;    ///< empty: none
-    std::optional<std::vector<glm::vec2>> uvs1;      ///< empty: none
-    std::optional<std::vector<glm::vec4>> tangents;  ///< empty: none
+    std::optional<std::vector<glm::vec4>> colors;                 ///< empty: none
+    std::optional<std::vector<glm::vec2>> uvs1;                   ///< empty: none
+    std::optional<std::vector<glm::vec4>> tangents;               ///< empty: none
+    std::optional<std::shared_ptr<const Influences>> influences;  ///< null: none
+    std::optional<MorphTargets> targets;
 
-    bool empty() const { return !positions && !normals && !uvs && !colors && !uvs1 && !tangents; }
+    bool empty() const {
+        return !positions && !normals && !uvs && !colors && !uvs1 && !tangents && !influences &&
+               !targets;
+    }
 };
 
 /// Indexed triangles with normals and, if the mesh has them, two sets of texture coordinates,
-/// colours and tangents, at one moment: the data never change. Copies share the values.
+/// colours, tangents, joints and morph targets, at one moment: the data never change. Copies share
+/// the values.
 class MeshData {
 public:
     template <class T>
@@ -70,6 +79,8 @@ public:
         std::vector<glm::vec4> colors;      ///< empty: none
         std::vector<glm::vec2> uvs1;        ///< empty: none
         std::vector<glm::vec4> tangents;    ///< empty: none
+        std::shared_ptr<const Influences> influences = nullptr;  ///< null: none
+        MorphTargets targets = {};
     };
 
     /// @throws std::invalid_argument for no triangle, a value that is not finite, or lengths that
@@ -89,6 +100,12 @@ public:
     /// xyz: unit vectors along +u; w: 1 or -1, the factor of cross(normal, xyz), which points along
     /// +v. Null: none.
     const Array<glm::vec4>& tangents() const { return tangents_.values; }
+    /// The joints of each vertex; null: none.
+    const std::shared_ptr<const Influences>& influences() const { return influences_; }
+    /// Null: none.
+    const std::shared_ptr<const MorphTargets>& targets() const { return targets_; }
+    std::size_t target_count() const { return targets_ ? targets_->size() : 0; }
+    /// Of the positions, whatever joints and morph targets make of them.
     const Bounds& bounds() const { return bounds_; }
     std::uint64_t revision() const { return revision_; }
 
@@ -114,14 +131,15 @@ public:
     MeshData updated(MeshUpdate update) const;
 
     /// The same triangles without shared vertices, so that their smooth normals are those of their
-    /// planes. The vertices of triangle i are 3 i, 3 i + 1 and 3 i + 2.
+    /// planes. The vertices of triangle i are 3 i, 3 i + 1 and 3 i + 2. The result has no morph
+    /// targets: they are applied first.
     /// @param before the result for an earlier moment of this mesh: the new one is the same mesh
     /// after an update, so that the GPU gets only the arrays that changed. Null: none.
     MeshData flat_shaded(const MeshData* before = nullptr) const;
 
     /// The same triangles with the tangents of MikkTSpace (tangents.hpp) for one of the sets of
     /// texture coordinates. A vertex that needs several tangents becomes several vertices: the
-    /// first keeps its place, the others follow all vertices.
+    /// first keeps its place, the others follow all vertices. The result has no morph targets.
     /// @param uv_set 0: uvs(), 1: uvs1(); the mesh must have them.
     /// @param before as for flat_shaded().
     MeshData with_tangents(int uv_set, const MeshData* before = nullptr) const;
@@ -129,7 +147,11 @@ public:
     /// The same data as a new mesh, with an identity of its own.
     MeshData of_new_mesh() &&;
 
+    /// This mesh, which flat_shaded() or with_tangents() made of `base`, with its morph targets.
+    MeshData with_targets_of(const MeshData& base) &&;
+
     /// A copy that is centred at the origin and scaled so that its largest extent is `size`.
+    /// @throws std::invalid_argument for a mesh of no extent, and for one with joints.
     MeshData centered_and_scaled(double size) const;
 
 private:
@@ -139,6 +161,8 @@ private:
     void set_uvs1(std::vector<glm::vec2> uvs);
     void set_tangents(std::vector<glm::vec4> tangents);
     void set_colors(std::vector<glm::vec4> colors);
+    void set_influences(std::shared_ptr<const Influences> influences);
+    void set_targets(MorphTargets targets);
 
     std::shared_ptr<const MeshIdentity> identity_;
     Array<glm::uvec3> triangles_;
@@ -151,6 +175,10 @@ private:
     /// For each vertex the vertex of another mesh from which with_tangents() made it; null: no such
     /// mesh, or all vertices are its vertices.
     Array<std::uint32_t> sources_;
+    std::shared_ptr<const Influences> influences_;
+    /// Those of the mesh from which flat_shaded() or with_tangents() made `influences_`.
+    std::shared_ptr<const Influences> influences_of_;
+    std::shared_ptr<const MorphTargets> targets_;
     Bounds bounds_;
     bool smooth_ = false;
     bool translucent_colors_ = false;

@@ -101,7 +101,7 @@ Transform transform_of(const Placing& placing) {
 Node::Node(std::int32_t id, NodeValue value)
     : id_(id), value_(std::move(value)), graph_(std::make_shared<NodeGraph>(false)) {
     check(value_.placing);
-    complete(value_);
+    complete(value_, {});
 }
 
 Node::~Node() {
@@ -123,8 +123,41 @@ Node::~Node() {
     pending = nullptr;
 }
 
-void Node::complete(NodeValue& value) {
+void Node::complete(NodeValue& value, const NodeValue& before) {
     if (value.mesh && !value.material) value.material = std::make_shared<PhongMaterial>();
+    if (value.mesh != before.mesh && value.weights == before.weights &&
+        (!value.mesh || value.mesh->data()->target_count() != value.weights.size())) {
+        value.weights.clear();
+    }
+}
+
+void Node::check_skin(const NodeValue& value, const NodeValue& before, const NodeGraph& graph) {
+    if (value.weights != before.weights) {
+        const std::size_t targets = value.mesh ? value.mesh->data()->target_count() : 0;
+        expect(value.weights.empty() || value.weights.size() == targets,
+               "as many weights as the mesh has morph targets, " + std::to_string(targets),
+               std::to_string(value.weights.size()));
+        for (const float weight : value.weights) {
+            expect_finite(static_cast<double>(weight), "weights");
+        }
+    }
+    if (!value.skin || (value.skin == before.skin && value.mesh == before.mesh)) return;
+    if (value.mesh) {
+        const auto data = value.mesh->data();
+        expect(data->influences() != nullptr, "a mesh with joints and joint_weights for a skin",
+               "a mesh without");
+        const std::size_t needed = data->influences()->needed_joints();
+        expect(needed <= value.skin->joints().size(),
+               "a skin of at least " + std::to_string(needed) + " joints, which the mesh names",
+               std::to_string(value.skin->joints().size()));
+    }
+    if (!graph.of_scene) return;  // it may still become part of the joints' tree
+    for (const auto& weak : value.skin->joints()) {
+        const auto joint = weak.lock();
+        if (!joint || joint->graph().get() == &graph) continue;
+        expect(false, "a skin whose joints are in the node's scene",
+               "node " + std::to_string(joint->id()) + ", which is in another scene or in none");
+    }
 }
 
 std::shared_ptr<NodeGraph> Node::graph() const {

@@ -5,6 +5,7 @@
 #include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/materials/material.hpp"
 #include "cubecam/materials/texture_source.hpp"
+#include "cubecam/scene/skin.hpp"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -50,11 +51,14 @@ struct NodeValue {
     bool cast_shadow = true;        ///< false: nodes below it cast none either
     bool receive_shadow = true;     ///< whether its own surface shows shadows
     std::int32_t label = 0;         ///< a user's number, which the output "label" shows
+    std::shared_ptr<Skin> skin;     ///< null: none
+    /// Of the mesh's morph targets. If there are fewer weights than targets, the others are 0.
+    std::vector<float> weights;
 
-    /// All members except `placing`.
+    /// All members except `placing` and `weights`, which often change alone.
     auto contents() const {
         return std::tie(mesh, material, environment, visible, in_captures, name, render_order,
-                        cast_shadow, receive_shadow, label);
+                        cast_shadow, receive_shadow, label, skin);
     }
 };
 
@@ -94,8 +98,8 @@ struct NodeGraph {
         moved.clear();
         return std::exchange(snapshot, nullptr);
     }
-    /// Notes that a node was moved and nothing else changed: the kept snapshot can be brought up to
-    /// date.
+    /// Notes that a node was moved or got other weights and nothing else changed: the kept snapshot
+    /// can be brought up to date.
     void node_moved(Node& node) {
         ++changes;
         next_revision();
@@ -156,10 +160,11 @@ public:
         NodeValue next = value_;
         std::forward<Change>(change)(next);
         check(next.placing);
-        complete(next);
+        complete(next, value_);
+        check_skin(next, value_, *lock.graph);
         if (next.contents() != value_.contents()) {
             outdated = lock.graph->changed();
-        } else if (next.placing != value_.placing) {
+        } else if (next.placing != value_.placing || next.weights != value_.weights) {
             lock.graph->node_moved(*this);
         } else {
             return;
@@ -193,8 +198,12 @@ private:
         std::unique_lock<std::mutex> lock;
     };
 
-    /// Gives a mesh without a material the default one.
-    static void complete(NodeValue& value);
+    /// Gives a mesh without a material the default one, and a new mesh new weights, unless they
+    /// are new, too.
+    static void complete(NodeValue& value, const NodeValue& before);
+    /// @throws std::invalid_argument for a skin that does not fit the mesh or the graph, and for
+    /// weights that do not fit the mesh. Only what differs from `before` is checked.
+    static void check_skin(const NodeValue& value, const NodeValue& before, const NodeGraph& graph);
 
     std::shared_ptr<NodeGraph> graph() const;
     Lock lock() const;

@@ -109,6 +109,7 @@ std::shared_ptr<Node> Scene::add(NodeValue value, const std::shared_ptr<Node>& p
                                     std::to_string(parent->id()) +
                                     ", which is in another scene or in none");
     }
+    Node::check_skin(value, {}, *graph_);
     if (next_id_ > last_id) throw std::length_error("all 2,147,483,646 ids of the scene are used");
     outdated = graph_->changed();
     auto node = insert(nodes_.size(), next_id_, std::move(value));

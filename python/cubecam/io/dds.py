@@ -64,14 +64,14 @@ def _plain(name: str, dtype: str, channels: int, order: tuple[int, ...] | None =
     return _Format(name, kind.itemsize * channels, decode)
 
 
-def _small_floats(data: bytes, count: int) -> Array:
+def small_floats(data: bytes, count: int) -> Array:
     """R11G11B10: floats without a sign, 5 bits of exponent as in half floats, 6, 6 and 5 bits of fraction."""
     words = np.frombuffer(data, "<u4", count)
     halves = np.stack([(words & 0x7FF) << 4, (words >> 11 & 0x7FF) << 4, (words >> 22) << 5], -1)
     return halves.astype(np.uint16).view(np.float16)
 
 
-def _shared_exponent(data: bytes, count: int) -> Array:
+def shared_exponent(data: bytes, count: int) -> Array:
     """R9G9B9E5: fraction / 512 * 2**(exponent - 15)."""
     words = np.frombuffer(data, "<u4", count)
     fractions = np.stack([words & 0x1FF, words >> 9 & 0x1FF, words >> 18 & 0x1FF], -1)
@@ -116,7 +116,7 @@ _DXGI = {
     10: _plain("R16G16B16A16_FLOAT", "<f2", 4),
     11: _plain("R16G16B16A16_UNORM", "<u2", 4),
     24: _masked(32, (0x3FF, 0xFFC00, 0x3FF00000, 0xC0000000)),
-    26: _Format("R11G11B10_FLOAT", 4, _small_floats),
+    26: _Format("R11G11B10_FLOAT", 4, small_floats),
     27: _plain("R8G8B8A8_TYPELESS", "u1", 4),
     28: _plain("R8G8B8A8_UNORM", "u1", 4),
     29: _plain("R8G8B8A8_UNORM_SRGB", "u1", 4),
@@ -124,7 +124,7 @@ _DXGI = {
     54: _plain("R16_FLOAT", "<f2", 1),
     56: _plain("R16_UNORM", "<u2", 1),
     61: _plain("R8_UNORM", "u1", 1),
-    67: _Format("R9G9B9E5_SHAREDEXP", 4, _shared_exponent),
+    67: _Format("R9G9B9E5_SHAREDEXP", 4, shared_exponent),
     71: _Format("BC1_UNORM", 8),
     72: _Format("BC1_UNORM_SRGB", 8),
     74: _Format("BC2_UNORM", 16),
@@ -312,6 +312,31 @@ def decode(
     if pixels.size != np.prod(shape):
         raise ImageError(f"expected {shape} pixels of {dds.told}, got {pixels.shape}")
     return pixels.reshape(shape)[:, : dds.height]
+
+
+def header(
+    width: int,
+    height: int,
+    number: int,
+    *,
+    levels: int = 1,
+    cube: bool = False,
+    row: int = 0,
+    remark: bytes = b"",
+) -> bytes:
+    """Make the headers of a file, with the one that follows "DX10".
+
+    `number` is DXGI's of the format, `row` the bytes of a row of the first level (0: not said), `remark` up to 44 bytes
+    in the place that is reserved for programs' own use.
+    """
+    flags = 0x1007 | (0x20000 if levels > 1 else 0) | (0x8 if row else 0)
+    caps = 0x1000 | (0x8 if levels > 1 or cube else 0) | (0x400000 if levels > 1 else 0)
+    caps2 = _CAPS2_CUBE | 0xFC00 if cube else 0
+    top = struct.pack("<4s7I", MAGIC, 124, flags, height, width, row, 0, levels)
+    form = struct.pack("<2I4s5I", 32, _FLAG_FOUR_CC, b"DX10", 0, 0, 0, 0, 0)
+    rest = struct.pack("<5I", caps, caps2, 0, 0, 0)
+    more = _DX10.pack(number, 3, _MISC_CUBE if cube else 0, 1, 0)
+    return top + remark.ljust(44, b"\0") + form + rest + more
 
 
 def _one_picture(dds: Dds, height: int) -> bytes:

@@ -12,7 +12,7 @@ from .._core import ImageError
 from . import dds, oiio, radiance
 from .files import as_path, open_file
 from .oiio import Picture
-from .picture_kinds import DDS, check_canvas, find_kind, refused_kind
+from .picture_kinds import DDS, Kind, check_canvas, find_kind, refused_kind
 from .pixels import Array
 
 #: A part of a file that holds several pictures: a number from 0 on, or a name.
@@ -46,28 +46,54 @@ def read_picture(path: object, part: Part | None = None, *, faces: bool = False)
         file.seek(0)
         # These two are read here, other kinds by OpenImageIO, which opens the file by its name.
         data = file.read() if start.startswith((radiance.MAGIC, dds.MAGIC)) else b""
-    refused = refused_kind(start)
-    if refused:
-        raise ImageError(
-            f"{found}: {refused} files are not read yet; expected EXR, HDR, PNG, JPEG, TIFF, WebP, DDS, ..."
-        )
     try:
+        _refuse(start)
         if start.startswith(radiance.MAGIC):
             _only(part)
             return Picture(radiance.read(data))
         if start.startswith(dds.MAGIC):
             return _read_dds(data, part, faces)
-        kind = find_kind(start, end, found.suffix)
-        if kind is None:
-            raise ImageError(
-                f"expected a picture file (EXR, HDR, PNG, JPEG, ...), got {length} bytes of another kind"
-            )
-        check_canvas(kind, start, length)
-        return oiio.read(found, kind, part)
+        return oiio.read(found, _kind(start, end, found.suffix, length), part)
     except ImageError as error:
         raise ImageError(f"{found}: {error}") from error.__cause__
     except ValueError as error:
         raise ValueError(f"{found}: {error}") from error.__cause__
+
+
+def decode_picture(data: bytes) -> Picture:
+    """Read a picture of a file that is in memory; its errors name no file.
+
+    Raises
+    ------
+    ImageError
+        When the contents are not a picture that is read, end early, or claim more than their bytes can hold.
+    """
+    start = data[:64]
+    _refuse(start)
+    if start.startswith(radiance.MAGIC):
+        return Picture(radiance.read(data))
+    if start.startswith(dds.MAGIC):
+        return _read_dds(data, None, False)
+    return oiio.read_bytes(data, _kind(start, data[-26:], "", len(data)))
+
+
+def _refuse(start: bytes) -> None:
+    refused = refused_kind(start)
+    if refused:
+        raise ImageError(
+            f"{refused} files are not read yet; expected EXR, HDR, PNG, JPEG, TIFF, WebP, DDS, ..."
+        )
+
+
+def _kind(start: bytes, end: bytes, suffix: str, length: int) -> Kind:
+    """Find the kind of a file that OpenImageIO reads, and check the canvas that it claims."""
+    kind = find_kind(start, end, suffix)
+    if kind is None:
+        raise ImageError(
+            f"expected a picture file (EXR, HDR, PNG, JPEG, ...), got {length} bytes of another kind"
+        )
+    check_canvas(kind, start, length)
+    return kind
 
 
 def _checked(part: object) -> Part | None:

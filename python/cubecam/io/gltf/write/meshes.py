@@ -1,0 +1,220 @@
+"""Meshes: one primitive each (section 3.7.2 of glTF 2.0). The arrays of a mesh are stored once."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...._core import Material, Mesh
+from ..extras.classes import KEY, arguments_of
+from .document import TRIANGLES, VERTICES, Array, Document, Json
+from .materials import Materials
+from .values import Values
+
+_VARIANTS = "KHR_materials_variants"
+#: The attributes of a morph target, and the properties of MorphTarget.
+_DIFFERENCES = {
+    "POSITION": "positions",
+    "NORMAL": "normals",
+    "TANGENT": "tangents",
+    "TEXCOORD_0": "uvs",
+    "TEXCOORD_1": "uvs1",
+    "COLOR_0": "colors",
+}
+#: How far the length of a normal may be from 1, and the sum of weights of joints.
+_UNIT = 1e-4
+
+
+@dataclass(frozen=True)
+class Shown:
+    """What a node shows: a mesh, its material, and the materials of variants."""
+
+    mesh: Mesh
+    material: Material
+    variants: tuple[tuple[str, Material], ...] = ()
+
+
+class Meshes:
+    """The meshes of a document: an entry for each mesh with the materials in which it is shown."""
+
+    def __init__(
+        self, document: Document, materials: Materials, values: Values, variants: Mapping[str, int]
+    ) -> None:
+        self._document = document
+        self._materials = materials
+        self._values = values
+        self._variants = variants
+        self._known: dict[tuple[int, ...], tuple[Shown, int]] = {}
+        self._first: dict[int, int] = {}
+        self._indices: dict[int, int] = {}
+
+    def index(self, shown: Shown) -> int:
+        """Return the index of the entry for a mesh in its materials."""
+        key = [id(shown.mesh), id(shown.material)]
+        for name, material in shown.variants:
+            key += [self._variants[name], id(material)]
+        if tuple(key) not in self._known:
+            self._known[tuple(key)] = (shown, self._add(shown))
+        return self._known[tuple(key)][1]
+
+    def _add(self, shown: Shown) -> int:
+        mesh, materials = shown.mesh, [shown.material, *(m for _, m in shown.variants)]
+        uv_sets = set().union(*(self._materials.uv_sets(m) for m in materials))
+        colors = all(self._materials.shows_colors(m) for m in materials)
+        attributes, exact = self._attributes(mesh, uv_sets, colors)
+        primitive: Json = {
+            "attributes": attributes,
+            "indices": self._triangles(mesh),
+            "material": self._materials.index(shown.material),
+        }
+        entry: Json = {"primitives": [primitive]}
+        extras: Json = {}
+        targets = getattr(mesh, "morph_targets", ())
+        if targets:
+            primitive["targets"] = [self._target(target, attributes) for target in targets]
+            if any(
+                self._is_lacking(t, made)
+                for t, made in zip(targets, primitive["targets"], strict=True)
+            ):
+                exact["morph_targets"] = self._values.value(targets)
+            entry["weights"] = [0.0] * len(targets)
+            if any(target.name for target in targets):
+                extras["targetNames"] = [target.name for target in targets]
+        self._add_variants(primitive, shown)
+        index = self._document.add("meshes", entry)
+        first = self._first.setdefault(id(mesh), index)
+        if first != index:
+            extras[KEY] = {"same": first}
+        elif exact:
+            extras[KEY] = exact
+        if extras:
+            entry["extras"] = extras
+        return index
+
+    def _add_variants(self, primitive: Json, shown: Shown) -> None:
+        """Name the material of each variant; variants with the same material stand together."""
+        mappings: dict[int, list[int]] = {}
+        for name, material in shown.variants:
+            mappings.setdefault(self._materials.index(material), []).append(self._variants[name])
+        if mappings:
+            content = [{"material": m, "variants": v} for m, v in mappings.items()]
+            self._document.extend(primitive, _VARIANTS, {"mappings": content})
+
+    def _attributes(self, mesh: Mesh, uv_sets: set[int], colors: bool) -> tuple[Json, Json]:
+        """Return the attributes of a mesh, and what has to be said besides, for `extras`."""
+        exact: Json = {}
+        found: dict[str, Array] = {}
+        positions = mesh.positions
+        if arguments_of(mesh)["normals"] is None:  # smooth ones, which follow the positions
+            exact["normals"] = None
+        found["NORMAL"] = _unit(mesh.normals)
+        if exact.get("normals", 0) is not None and not np.array_equal(
+            found["NORMAL"], mesh.normals
+        ):
+            exact["normals"] = self._values.array(mesh.normals)
+        if mesh.tangents is not None:
+            lengths = np.linalg.norm(mesh.tangents[:, :3], axis=1)
+            if (np.abs(lengths - 1) < _UNIT).all():
+                found["TANGENT"] = mesh.tangents
+            else:
+                exact["tangents"] = self._values.array(mesh.tangents)
+        for number, (name, uvs) in enumerate((("uvs", mesh.uvs), ("uvs1", mesh.uvs1))):
+            if uvs is None and number in uv_sets:
+                # A material that looks them up needs them, and sees (0, 0) everywhere in a mesh without.
+                exact[name] = None
+                uvs = np.zeros((len(positions), 2), np.float32)
+            if uvs is not None and (number == 0 or mesh.uvs is not None or 0 in uv_sets):
+                found[f"TEXCOORD_{number}"] = _from_top(uvs)
+            elif uvs is not None:  # the sets have no gaps (section 3.7.2.1)
+                exact["uvs"] = None
+                found["TEXCOORD_0"] = np.zeros((len(positions), 2), np.float32)
+                found["TEXCOORD_1"] = _from_top(uvs)
+        if mesh.colors is not None:
+            clipped = np.clip(mesh.colors, 0, 1)
+            if colors:
+                found["COLOR_0"] = clipped
+            if not colors or not np.array_equal(clipped, mesh.colors):
+                exact["colors"] = self._values.array(mesh.colors)
+        found |= self._influences(mesh, exact)
+        add = self._document.accessor
+        attributes = {"POSITION": add(positions, target=VERTICES, bounds=True)}
+        for key, array in found.items():
+            attributes[key] = add(array, target=VERTICES)
+        return attributes, exact
+
+    def _influences(self, mesh: Mesh, exact: Json) -> dict[str, Array]:
+        """Return JOINTS_n and WEIGHTS_n (section 3.7.3.3)."""
+        found: dict[str, Array] = {}
+        joints, weights = getattr(mesh, "joints", None), getattr(mesh, "joint_weights", None)
+        if joints is None or weights is None:
+            return found
+        weights = np.asarray(weights, np.float32)
+        sums = weights.sum(axis=1, dtype=np.float64)
+        if (np.abs(sums - 1) > _UNIT).any():
+            exact["joint_weights"] = self._values.array(weights)
+            lost = sums <= 0
+            weights = weights / np.where(lost, 1, sums)[:, None]
+            weights[lost, 0] = 1
+            weights = weights.astype(np.float32)
+        joints = np.where(weights > 0, joints, 0)  # section 3.7.3.3: unused joints are 0
+        kind = np.uint8 if joints.max(initial=0) < 256 else np.uint16
+        for level in range(joints.shape[1] // 4):
+            part = slice(4 * level, 4 * level + 4)
+            found[f"JOINTS_{level}"] = joints[:, part].astype(kind)
+            found[f"WEIGHTS_{level}"] = weights[:, part]
+        return found
+
+    def _triangles(self, mesh: Mesh) -> int:
+        """Return the accessor of the indices, of the smallest type: the largest number of a type is no index."""
+        if id(mesh) not in self._indices:
+            indices = mesh.indices.reshape(-1)
+            most = int(indices.max())
+            kind = np.uint8 if most < 255 else np.uint16 if most < 65535 else np.uint32
+            number = self._document.accessor(indices.astype(kind), target=TRIANGLES)
+            self._indices[id(mesh)] = number
+        return self._indices[id(mesh)]
+
+    def _target(self, target: Any, attributes: Json) -> Json:
+        """Return the attributes of a morph target that the mesh has, too: they are differences (section 3.7.2.2)."""
+        found = {
+            key: np.asarray(getattr(target, name), np.float32)
+            for key, name in _DIFFERENCES.items()
+            if key in attributes and getattr(target, name) is not None
+        }
+        if not found:  # a target has an attribute at least
+            found["POSITION"] = np.zeros((self._vertices(attributes), 3), np.float32)
+        for key in ("TEXCOORD_0", "TEXCOORD_1"):
+            if key in found:
+                found[key] = found[key] * np.array([1, -1], np.float32)
+        add = self._document.accessor
+        return {k: add(v, target=VERTICES, bounds=k == "POSITION") for k, v in found.items()}
+
+    def _vertices(self, attributes: Json) -> int:
+        return int(self._document.lists["accessors"][attributes["POSITION"]]["count"])
+
+    @staticmethod
+    def _is_lacking(target: Any, made: Json) -> bool:
+        """Say whether an attribute of a target is not in its entry, since the mesh has no such attribute."""
+        return any(
+            getattr(target, name) is not None and key not in made
+            for key, name in _DIFFERENCES.items()
+        )
+
+
+def _unit(normals: Array) -> Array:
+    """Return normals that all have a length; one without, of a vertex without area, points up."""
+    lengths = np.linalg.norm(normals, axis=1)
+    if (np.abs(lengths - 1) < _UNIT).all():
+        return normals
+    lost = ~(lengths > 0)
+    made = normals / np.where(lost, 1, lengths)[:, None]
+    made[lost] = (0, 1, 0)
+    return made.astype(np.float32)
+
+
+def _from_top(uvs: Array) -> Array:
+    """Turn v, which cubecam counts from the bottom of a picture, into glTF's, from its top."""
+    return np.stack([uvs[:, 0], np.float32(1) - uvs[:, 1]], axis=1)
