@@ -326,14 +326,16 @@ def _stage(model: str, environment: str | None, variant: str | None) -> Shoot:
     from ..io.scenes import load_scene
     from ..staging.shoot import Shoot
 
-    scene = load_scene(model)
+    scene: Any = load_scene(model)
     if variant is not None:
-        scene.variant = variant
-    cube = None if environment is None else _environment(environment)
+        names = list(scene.variants)
+        found = number_or_name(variant, names, "variant")
+        scene.variant = found if isinstance(found, str) else names[found]
+    cube = None if environment is None else environment_of(environment)
     return Shoot(scene, cube, lambda: load_environment(sample_data(_SAMPLE), size=256))
 
 
-def _environment(name: str) -> CubeMap:
+def environment_of(name: str) -> CubeMap:
     """Read an environment: a file, or a sample photograph by its name."""
     from ..data import find_sample
     from ..io.cubemaps import load_environment
@@ -362,10 +364,10 @@ class _Plan:
         seconds: float | None,
         fps: float,
     ) -> _Plan:
-        known = getattr(shoot.scene, "animations", ())
+        known = shoot.scene.animations
         wanted: int | str | None = None
         if animation is not None or time is not None or (film and known and not turns):
-            wanted = _number_or_name(animation or "0", [one.name for one in known], "animation")
+            wanted = number_or_name(animation or "0", [one.name for one in known], "animation")
         if not film:
             if wanted is not None:
                 shoot.set_time(time or 0.0, wanted)
@@ -382,7 +384,7 @@ class _Plan:
         return _Plan(wanted, rounds, lasts, count)
 
 
-def _number_or_name(text: str, names: list[str], what: str) -> int | str:
+def number_or_name(text: str, names: list[str], what: str) -> int | str:
     """Find one of several things by its name, else by its number."""
     if text in names:
         return text
@@ -399,7 +401,7 @@ def _number_or_name(text: str, names: list[str], what: str) -> int | str:
 def _camera_of(shoot: Shoot, wanted: str) -> Any:
     cameras = shoot.scene.cameras
     names = [_name_of(camera) for camera in cameras]
-    found = _number_or_name(wanted, names, "camera")
+    found = number_or_name(wanted, names, "camera")
     return cameras[found if isinstance(found, int) else names.index(found)]
 
 
