@@ -26,7 +26,16 @@ SCENE = (
     "environment", "background", "environment_intensity", "environment_rotation", "variants", "variant", "lights",
     "cameras", "animations",
 )  # fmt: skip
-MESH = ("positions", "indices", "normals", "colors", "tangents", "joints", "joint_weights", "morph_targets")
+MESH = (
+    "positions",
+    "indices",
+    "normals",
+    "colors",
+    "tangents",
+    "joints",
+    "joint_weights",
+    "morph_targets",
+)
 OTHERS = {
     "Skin": ("joints", "inverse_bind_matrices", "skeleton"),
     "MorphTarget": ("positions", "normals", "tangents", "uvs", "uvs1", "colors", "name"),

@@ -148,9 +148,9 @@ def fit_camera(
     z = max((right + left) / (2 * lens.across), (top + bottom) / (2 * lens.along))
     x, y = (right - left) / 2, (top - bottom) / 2
     camera = PerspectiveCamera(fov=_vertical(fov, aspect))
+    _clip(camera, z - near, z + far)
     camera.position = x * axes[0] + y * axes[1] + z * axes[2]
     camera.target = x * axes[0] + y * axes[1] + (near - far) / 2 * axes[2]
-    _clip(camera, z - near, z + far)
     return camera
 
 
@@ -187,11 +187,11 @@ def fit_turntable(
     )
     axes = axes_towards(*at)
     camera = PerspectiveCamera(fov=_vertical(fov, aspect))
+    radius = float(np.linalg.norm((extent.reach[:3] + extent.reach[3:6]) / 2))
+    _clip(camera, z - near.max(), z + radius)
     target = middle + np.array([0.0, lift / max(axes[1][1], 0.2), 0.0])
     camera.position = target + z * axes[2]
     camera.target = target
-    radius = float(np.linalg.norm((extent.reach[:3] + extent.reach[3:6]) / 2))
-    _clip(camera, z - near.max(), z + radius)
     return camera
 
 

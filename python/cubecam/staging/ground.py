@@ -75,17 +75,18 @@ class Ground:
         half = self.side / 2
         level = np.full_like(across, self.height - self._centre[1])
         points = np.stack([across * half, level, along * half], axis=-1)
-        camera = OrthographicCamera(height=2.05 * self._radius)
-        camera.near, camera.far = self._radius, 5 * self._radius
         lost = np.zeros(across.shape)
         self.node.visible = False
         try:
             for towards in self._directions:
-                camera.position, camera.target = (
-                    self._centre + 3 * self._radius * towards,
-                    self._centre,
+                camera = OrthographicCamera(
+                    height=2.05 * self._radius,
+                    near=self._radius,
+                    far=5 * self._radius,
+                    position=self._centre + 3 * self._radius * towards,
+                    target=self._centre,
+                    up=(0, 0, -1) if abs(towards[1]) > 0.9 else (0, 1, 0),
                 )
-                camera.up = (0, 0, -1) if abs(towards[1]) > 0.9 else (0, 1, 0)
                 size = (self._texels, self._texels)
                 frame = renderer.render(self._scene, camera, size, outputs=("id",), format=None)
                 lost += _looked_up(frame.id > 0, points, towards, camera)
