@@ -109,9 +109,15 @@ class Shoot:
         else:
             self.scene.background = background
 
-    def exposure(self, renderer: Renderer) -> float:
+    @property
+    def measures(self) -> bool:
+        """Whether `exposure` needs a renderer and a camera: light of lamps is measured on the model."""
+        return self._own_lights or self._around is None
+
+    def exposure(self, renderer: Renderer | None) -> float:
         """Choose the stops that make a grey model neither dark nor pale in this light."""
-        if not self._own_lights and self._around is not None:
+        if not self.measures or renderer is None:
+            assert self._around is not None
             return exposure_for(self._around, self.scene.environment_intensity)
         return self._measured(renderer)
 

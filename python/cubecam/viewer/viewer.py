@@ -150,7 +150,8 @@ class Viewer(LiveView):
         _expect(value, Scene, "scene")
         with self._lock:
             self._scene = value
-            self._player, self._follows = Player(value), None
+            before, self._player, self._follows = self._player, Player(value), None
+            self._player.playing, self._player.speed = before.playing, before.speed
             self._frame, self._node_of = None, (-1, {})
         self._set_something()
 
