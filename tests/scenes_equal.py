@@ -123,6 +123,9 @@ class Walk:
         elif isinstance(want, (cc.Texture, cc.Blend, cc.Stencil, cc.Shadow)):
             # Equal ones are interchangeable, and properties make a new one at each look.
             self.properties(got, want, PLANS[kind].names, where)
+        elif isinstance(want, cc.Image):
+            # An image never changes, so that equal ones are interchangeable, too.
+            self.properties(got, want, PLANS[kind].names, where)
         elif self.known(got, want, where):
             return
         elif isinstance(want, cc.Mesh):

@@ -32,6 +32,7 @@ class Limits:
         self._output = 0
         self._morphs = 0
         self._nodes = 0
+        self._motion = 0
 
     @property
     def left(self) -> int:
@@ -59,6 +60,16 @@ class Limits:
             raise MeshError(
                 f"{entry.where or 'nodes'}: expected at most {most} nodes in a file of "
                 f"{self._document.size} bytes, got {self._nodes} or more"
+            )
+
+    def motion(self, count: int, entry: Entry) -> None:
+        """Count numbers of animations, since many channels may share an accessor."""
+        self._motion += count
+        most = _FREE_OUTPUT + 8 * self._document.size
+        if self._motion > most:
+            raise MeshError(
+                f"{entry.where}: expected at most {most} numbers of animations in a file of "
+                f"{self._document.size} bytes, got more"
             )
 
     def morphs(self, count: int, entry: Entry) -> None:

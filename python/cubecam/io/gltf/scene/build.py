@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,13 +14,20 @@ from ...left_out import LeftOut
 from ..document import Gltf
 from ..entries import Entry
 from ..extensions import INSTANCING, unread
+from ..extras import Extras
 from ..geometry import instances
 from ..limits import Limits
 from ..nodes import hidden
+from .animations import Animations
+from .cameras import camera_of
+from .environment import add_environment
+from .lights import light_of
 from .materials import Materials
 from .meshes import Meshes, Primitive
+from .skins import Skins, joints_of
 from .textures import Textures
 from .values import at
+from .variants import variant_materials, variant_names
 
 #: What takes the place of a scale of 0: a node's matrix must have an inverse.
 _SMALLEST = 1e-6
@@ -37,6 +45,8 @@ def read_scene(path: Path, data: bytes, left_out: LeftOut) -> Scene:
 class Parts:
     """The objects that were made of the entries of a document, by their indices there."""
 
+    #: The image of a texture.
+    texture: Callable[[int], Any]
     nodes: dict[int, Node] = field(default_factory=dict)
     #: The nodes that show a glTF node's mesh: itself, or those below it.
     shown: dict[int, list[Node]] = field(default_factory=dict)
@@ -53,9 +63,11 @@ class _Builder:
         self.document = document
         self.left_out = left_out
         self.limits = Limits(document)
-        self.textures = Textures(document, left_out)
-        self.materials = Materials(document, self.textures, left_out)
-        self.parts = Parts()
+        self.extras = Extras(document)
+        self.textures = Textures(document, self.extras, left_out)
+        self.materials = Materials(document, self.textures, self.extras, left_out)
+        self.parts = Parts(self.textures.image)
+        self.variants = variant_names(document)
 
     def scene(self) -> Scene:
         document = self.document
@@ -72,8 +84,20 @@ class _Builder:
             parent = document.nodes.parents[index]
             if parent in self.parts.nodes:
                 self.parts.nodes[index].parent = self.parts.nodes[parent]
+        scene.variants = self.variants
+        skins = Skins(document, self.parts.nodes)
         for index, entry in entries.items():
             self._show(scene, index, entry)
+            self._bend(index, entry, skins)
+        self._add_lights_and_cameras(scene, entries)
+        motion = Animations(
+            document, self.parts.nodes, self.parts.shown, self.limits, self.left_out
+        )
+        self.parts.animations = motion.all()
+        for animation in self.parts.animations:
+            if animation is not None:
+                scene.add(animation)
+        add_environment(document, scene, self.textures, self.left_out)
         self.parts.meshes = {
             index: [primitive.mesh for primitive in found]
             for index, found in self.meshes.primitives.items()
@@ -81,7 +105,33 @@ class _Builder:
         self.parts.materials = {
             index: material for index, material in self.materials.made.items() if index is not None
         }
+        self.extras.finish(scene, self.parts)
         return scene
+
+    def _bend(self, index: int, entry: Entry, skins: Skins) -> None:
+        """Give the nodes that show a mesh its skin and the weights of its morph targets."""
+        document = self.document
+        number = entry.index("skin", document.count("skins"))
+        mesh = entry.index("mesh", document.count("meshes"))
+        weights = entry.numbers("weights")
+        if weights is None and mesh is not None:
+            weights = document.entry("meshes", mesh).numbers("weights")
+        with at(entry):
+            for node in self.parts.shown.get(index, []):
+                if weights is not None and len(node.weights):
+                    node.weights = weights
+                if number is not None and node.mesh is not None and node.mesh.joints is not None:
+                    node.skin = skins.get(number)
+
+    def _add_lights_and_cameras(self, scene: Scene, entries: dict[int, Entry]) -> None:
+        for index, entry in entries.items():
+            node = self.parts.nodes[index]
+            light = light_of(self.document, entry, node, self.left_out)
+            if light is not None:
+                self.parts.lights[index] = scene.add(light)
+            camera = camera_of(self.document, entry, node, self.left_out)
+            if camera is not None:
+                self.parts.cameras[index] = scene.add(camera)
 
     def _order(self) -> list[int]:
         """Return the nodes of the scene in the order of the file."""
@@ -90,6 +140,13 @@ class _Builder:
         roots = tree.roots
         if document.count("scenes"):
             roots = document.entry("scenes", number or 0).indices("nodes", document.count("nodes"))
+        # Joints move meshes also where they lie outside of the scene.
+        joints = {joint for skin in document.all("skins") for joint in joints_of(document, skin)}
+        shown = set(tree.below(roots))
+        for joint in sorted(joints - shown):
+            while tree.parents[joint] >= 0:
+                joint = tree.parents[joint]
+            roots = [*roots, joint]
         found = sorted(tree.below(roots))
         self.limits.nodes(len(found), document.tree)
         return found
@@ -108,6 +165,7 @@ class _Builder:
                 index = primitive.index("material", document.count("materials"))
                 if index is not None:
                     used.add(index)
+                used |= set(variant_materials(document, primitive, len(self.variants)).values())
         return [document.entry("materials", index) for index in sorted(used)]
 
     def _show(self, scene: Scene, index: int, entry: Entry) -> None:
@@ -141,9 +199,16 @@ class _Builder:
         index = primitive.entry.index("material", self.document.count("materials"))
         material = self.materials.get(index, flat=primitive.flat)
         if number is not None:
-            return scene.add(primitive.mesh, material, name=f"{name}.{number}", parent=holder)
-        holder.mesh = primitive.mesh
-        holder.material = material
+            holder = scene.add(primitive.mesh, material, name=f"{name}.{number}", parent=holder)
+        else:
+            holder.mesh = primitive.mesh
+            holder.material = material
+        found = variant_materials(self.document, primitive.entry, len(self.variants))
+        if found:
+            holder.variants = {
+                self.variants[variant]: self.materials.get(other, flat=primitive.flat)
+                for variant, other in found.items()
+            }
         return holder
 
 

@@ -8,10 +8,11 @@ from typing import Any, cast
 
 import numpy as np
 
-from ...._core import Image, StandardMaterial, Texture
+from ...._core import Image, Material, StandardMaterial, Texture
 from ...left_out import LeftOut
 from ..document import Gltf
 from ..entries import Entry
+from ..extras import Extras
 from .textures import Textures
 from .values import Values, at
 
@@ -23,9 +24,12 @@ _ALPHA_MODES = {"OPAQUE": "opaque", "MASK": "mask", "BLEND": "blend"}
 class Materials:
     """The materials of a document, each made once."""
 
-    def __init__(self, document: Gltf, textures: Textures, left_out: LeftOut) -> None:
+    def __init__(
+        self, document: Gltf, textures: Textures, extras: Extras, left_out: LeftOut
+    ) -> None:
         self._document = document
         self._textures = textures
+        self._extras = extras
         self._left_out = left_out
         #: By index; None is the material of primitives that have none.
         self.made: dict[int | None, Any] = {}
@@ -43,7 +47,7 @@ class Materials:
             self._flat[index].flat_shading = True
         return self._flat[index]
 
-    def _material(self, index: int | None) -> StandardMaterial:
+    def _material(self, index: int | None) -> Material:
         if index is None:
             return StandardMaterial(alpha_mode="opaque")
         entry = self._document.entry("materials", index)
@@ -59,7 +63,8 @@ class Materials:
             if extension is not None:
                 options |= read(self, extension)
         with at(entry):
-            return StandardMaterial(**options)
+            made = StandardMaterial(**options, name=entry.text("name") or "")
+        return self._extras.material(index, made)
 
     def _values(self, entry: Entry | None) -> Values:
         return Values(entry, self._left_out)

@@ -15,6 +15,7 @@ from ..entries import Entry
 from ..geometry import Geometry
 from ..limits import Limits
 from ..primitives import MODES, Floats, Surface
+from .skins import influences, morph_targets
 from .values import at
 
 
@@ -74,6 +75,10 @@ class Meshes:
         if surface is None:
             self._left_out.add("primitives without triangles are left out", primitive.where)
             return None
+        joints, joint_weights = influences(surface)
+        targets = morph_targets(
+            self._document, surface, target_names(mesh), self._sets, self._limits
+        )
         with at(primitive):
             made = Mesh(
                 surface.positions,
@@ -83,6 +88,9 @@ class Meshes:
                 colors=_finite(surface.colors),
                 uvs1=self._uvs(surface, 1),
                 tangents=surface.tangents,
+                joints=joints,
+                joint_weights=joint_weights,
+                morph_targets=targets,
             )
         return made, surface.normals is None
 

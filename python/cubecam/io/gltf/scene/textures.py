@@ -12,6 +12,7 @@ from ...left_out import LeftOut
 from ...model_pictures import Key, ModelPictures, numbers_for
 from ..document import Gltf
 from ..entries import Entry
+from ..extras import Extras
 from ..references import read_uri
 from .values import Values
 
@@ -48,13 +49,14 @@ class Textures:
     texture coordinates are the first and second ones of a mesh.
     """
 
-    def __init__(self, document: Gltf, left_out: LeftOut) -> None:
+    def __init__(self, document: Gltf, extras: Extras, left_out: LeftOut) -> None:
         self.document = document
         self.left_out = left_out
         self.pictures = ModelPictures(self._source)
         self.sets: dict[int, int] = {0: 0, 1: 1}
-        #: Images that stand for textures in place of the file's own, by texture.
-        self.given: dict[int, Image] = {}
+        self._extras = extras
+        #: What cubecam wrote beside some textures: images that need no picture.
+        self._given: dict[int, Image] = {}
         self._colors: set[tuple[Key, ...]] = set()
         self._images: dict[tuple[Any, ...], Image] = {}
 
@@ -65,7 +67,7 @@ class Textures:
         for name, info in _infos(materials):
             used.add(self._set_of(info))
             index = info.index("index", self.document.count("textures"))
-            if index is None or index in self.given:
+            if index is None or self._own(index) is not None:
                 continue
             source = self._picture_of(self.document.entry("textures", index))
             if source is None:
@@ -90,8 +92,9 @@ class Textures:
 
     def image(self, index: int, place: str = "") -> Image | None:
         """Return the picture of a texture with its sampler; None if it cannot be read, which is noted."""
-        if index in self.given:
-            return self.given[index]
+        given = self._own(index)
+        if given is not None:
+            return given
         texture = self.document.entry("textures", index)
         key = self._picture_of(texture)
         if key is None:
@@ -102,8 +105,17 @@ class Textures:
         try:
             pixels = self.pictures.pixels(key)
         except FileError as error:
+            for name in SOURCES:
+                if name in self.document.required and texture.extension(name) is not None:
+                    raise MeshError(
+                        f"{texture.where}: {name}, which is required: {error}"
+                    ) from None
             self.left_out.add(f"a picture is left out: {error}", texture.where)
             return None
+        written = self._extras.image(index, pixels)
+        if written is not None:
+            self._given[index] = written
+            return written
         # Two textures of equal picture and sampler are one image.
         found = self._images.get((key, sampler))
         if found is None:
@@ -122,11 +134,11 @@ class Textures:
             self._images[key, sampler] = found
         return found
 
-    def pixels(self, info: Entry) -> Any:
-        """Return the pixels that a map shows, as the file has them; None if they cannot be read."""
-        index = info.index("index", self.document.count("textures"))
-        image = None if index is None else self.image(index)
-        return None if image is None else image.pixels
+    def pictures_of(self, images: list[int]) -> list[Any]:
+        """Return the pixels of images, decoded at the same time; `FileError` if one of them cannot be read."""
+        keys = [self._key(number) for number in images]
+        self.pictures.prefetch(keys)
+        return [self.pictures.pixels(key) for key in keys]
 
     def like(self, placed: Texture | Image, pixels: Any) -> Texture | Image:
         """Put other pixels, linear ones, in the place of a map's own."""
@@ -147,6 +159,14 @@ class Textures:
             rotation=placed.rotation,
             scale=placed.scale,
         )
+
+    def _own(self, index: int) -> Image | None:
+        if index not in self._given:
+            image = self._extras.image(index)
+            if image is None:
+                return None
+            self._given[index] = image
+        return self._given[index]
 
     def _placed(self, image: Image, info: Entry) -> Texture | Image:
         """Read where a map lies: its set of texture coordinates, and KHR_texture_transform."""
