@@ -174,7 +174,6 @@ private:
         const auto [found, added] = numbers_.try_emplace(value.scene.get(), numbers_.size());
         if (added) others.push_back(value.scene);
         RenderTextureSnapshot snapshot{texture, std::move(value), {}, found->second, {}, {}};
-        snapshot.camera = snapshot.value.camera->value();
         for (const auto& excluded : snapshot.value.exclude) {
             const auto node = excluded.lock();
             if (node && snapshot.value.scene->contains(*node)) {
@@ -389,6 +388,10 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
         snapshot->others.push_back(next->snapshot_alone(shared));
     }
     snapshot->textures = std::move(shared.textures);
+    // The parents of cameras may be in any scene, so no scene is locked here.
+    for (RenderTextureSnapshot& texture : snapshot->textures) {
+        texture.camera = texture.value.camera->world_value();
+    }
     snapshot->seen = shared.take_seen();
     snapshot->revision = next_revision();
     // Render textures refer to scenes, and scenes to them: a kept snapshot must not keep them
@@ -444,12 +447,18 @@ void Scene::follow_moves(SceneSnapshot& snapshot) const {
             probe.position += glm::dvec3(parent->locked_world_matrix()[3]);
         }
     }
+    for (LightSnapshot& light : snapshot.lights) {
+        if (const auto parent = light.value.parent.lock()) {
+            light.value.parameters = transformed(light.own, parent->locked_world_matrix());
+        }
+    }
     snapshot.revision = next_revision();
 }
 
 SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes) const {
     SceneSnapshot snapshot;
     SnapshotBuilder::Elsewhere elsewhere;
+    std::vector<std::pair<LightSnapshot*, std::shared_ptr<Node>>> lights_elsewhere;
     {
         const std::lock_guard lock(graph_->mutex);
         if (changes != nullptr) *changes = graph_->changes;
@@ -470,12 +479,22 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes)
         elsewhere = builder.take_elsewhere();
         snapshot.lights.reserve(lights_.size());
         for (const auto& light : lights_) {
-            snapshot.lights.push_back({light, shared.value_of(*light)});
+            LightSnapshot& added = snapshot.lights.emplace_back(light, shared.value_of(*light));
+            added.own = added.value.parameters;
+            auto parent = added.value.parent.lock();
+            if (parent && contains(*parent)) {
+                added.value.parameters = transformed(added.own, parent->locked_world_matrix());
+            } else if (parent) {
+                lights_elsewhere.emplace_back(&added, std::move(parent));
+            }
         }
     }
     // The lock is released here: otherwise two scenes whose probes follow each other's nodes could
     // wait for each other.
-    snapshot.follows_others = !elsewhere.empty();
+    snapshot.follows_others = !elsewhere.empty() || !lights_elsewhere.empty();
+    for (const auto& [light, parent] : lights_elsewhere) {
+        light->value.parameters = transformed(light->own, parent->world_matrix());
+    }
     for (const auto& [index, parent] : elsewhere) {
         snapshot.probes[index].position += glm::dvec3(parent->world_matrix()[3]);
     }

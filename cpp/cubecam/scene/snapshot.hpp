@@ -85,7 +85,8 @@ struct NodeSnapshot {
 /// A light at the moment of the snapshot; `object` identifies its shadow map.
 struct LightSnapshot {
     std::shared_ptr<Light> object;
-    LightValue value;
+    LightValue value;       ///< with position and direction in the world
+    LightParameters own{};  ///< as they were set: relative to the parent if there is one
 };
 
 /// An image effect as a call sees it.
@@ -135,7 +136,8 @@ struct SceneSnapshot {
 
     /// The objects from which the snapshot was read, except nodes, with their revisions.
     std::vector<SeenRevision> seen;
-    /// Whether a probe follows a node of another scene, whose changes `seen` does not contain.
+    /// Whether a probe or a light follows a node of another scene, whose changes `seen` does not
+    /// contain.
     bool follows_others = false;
 
     /// Returns a scene by its number: 0 is this one, then the others follow.
