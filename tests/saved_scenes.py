@@ -78,7 +78,7 @@ def _standard(scene):
         {"dispersion": 0.3, "color_write": (True, False, True, True), "depth_test": False},
         {"iridescence": 1, "iridescence_thickness_map": cc.Texture(other, offset=(0.1, 0.7), rotation=200)},
         {"anisotropy": 0.5, "anisotropy_rotation": 77, "anisotropy_map": cc.Texture(one, uv_set=1, scale=(2, -3))},
-        {"stencil": cc.Stencil(func="equal", reference=3, depth_pass="increment"), "specular_color": (3, 2, 1)},
+        {"stencil": cc.Stencil(func="equal", reference=3, depth_pass="incr"), "specular_color": (3, 2, 1)},
     ):  # fmt: skip
         scene.add(full_mesh(), cc.StandardMaterial(**options))
 
@@ -143,10 +143,110 @@ def _textures(scene):
     scene.add(mesh(), cc.StandardMaterial(map=cc.RenderTexture(scene, matrices)))
 
 
+def _held(scene):
+    """Lights and cameras of nodes, at their origin and elsewhere, several at one node."""
+    top = scene.add(position=(1, 2, 3), rotation=cc.axis_angle((0, 1, 0), 30), scale=2)
+    below = scene.add(parent=top, position=(0, 1, 0))
+    for parent in (below, top):
+        scene.add(cc.PointLight(parent=parent, decay=2, range=7, intensity=3))
+        scene.add(cc.SpotLight((0, 0, 0), (0, 0, -1), parent=parent, penumbra=0.5, range=2))
+        scene.add(cc.DirectionalLight((1, 1, 0), parent=parent))
+        scene.add(cc.PerspectiveCamera(parent=parent))
+        scene.add(cc.OrthographicCamera(parent=parent, height=3, position=(1, 2, 3), target=(0, 0, 1)))
+    scene.add(cc.DirectionalLight((0, 0, -1), parent=scene.add()))
+
+
+def _cameras(scene):
+    scene.add(cc.OrthographicCamera(height=3, near=-5, far=-1))
+    scene.add(cc.PerspectiveCamera(fov=35, position=(1, 5, 2), target=(1, 0, 2), up=(0, 0, -1), near=3, far=9))
+    scene.add(cc.PerspectiveCamera(position=(1, 2, 3), target=(3, 2, 1), shift=(0.5, 0.25), pixel_aspect=1.5))
+    view = np.eye(4)
+    view[:3, 3] = (1, 2, -3)
+    scene.add(cc.Camera(view=view, projection=scene.cameras[1].projection(2)))
+    scene.add(cc.OrthographicCamera(height=0.25))
+    shown = cc.RenderTexture(scene, scene.cameras[2], size=(4, 4))
+    scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))
+
+
+def _variants(scene):
+    red, blue, mirror = cc.StandardMaterial(color="red"), cc.StandardMaterial(color="blue"), cc.MirrorMaterial()
+    scene.variants = ["day", "night", "ä"]
+    shape = mesh()
+    for materials in ({"day": red, "ä": mirror}, {"night": blue}, {"day": blue, "night": blue}, {}):
+        scene.add(shape, red).variants = materials
+    scene.variant = "night"
+
+
+def _motion(scene):
+    still, moved = scene.add(name="still"), scene.add(matrix=np.diag([2.0, 2, 2, 1]))
+    times = [0, 0.5, 2]
+    turns = [cc.axis_angle((1, 2, 3), angle) for angle in (0, 90, 200)]
+    channel = cc.AnimationChannel
+    scene.add(cc.Animation([
+        channel(moved, "translation", times, RNG.random((3, 3)), interpolation="step"),
+        channel(moved, "rotation", times, turns),
+        channel(moved, "scale", times, 1 + RNG.random((9, 3)), interpolation="cubic"),
+    ], name="jump"))  # fmt: skip
+    scene.add(cc.Animation([channel(still, "rotation", [1], [(1, 0, 0, 0)])]))
+    # glTF has no times before 0.
+    scene.add(cc.Animation([
+        channel(moved, "rotation", [0, 1], turns[:2]),
+        channel(still, "translation", [-1, 1], RNG.random((2, 3))),
+    ]))  # fmt: skip
+
+
+def skinned(count=6, joints=3):
+    weights = RNG.random((count, 4))
+    return cc.Mesh(
+        RNG.normal(size=(count, 3)),
+        RNG.integers(0, count, (4, 3)),
+        joints=RNG.integers(0, joints, (count, 4)),
+        joint_weights=weights / weights.sum(axis=1, keepdims=True),
+    )
+
+
+def _skins(scene):
+    hip = scene.add(position=(0, 1, 0))
+    knee = scene.add(parent=hip, position=(0, -1, 0))
+    apart = scene.add(position=(3, 0, 0))
+    binds = np.tile(np.eye(4), (3, 1, 1))
+    binds[:, :3, 3] = RNG.normal(size=(3, 3))
+    skin = cc.Skin([hip, knee, apart], binds, skeleton=hip)
+    shape = skinned()
+    scene.add(shape, cc.StandardMaterial(), skin=skin)
+    scene.add(shape, cc.StandardMaterial(), skin=skin)
+    scene.add(skinned(4, 2), cc.StandardMaterial(), skin=cc.Skin([knee, hip]))
+
+
+def _morphs(scene):
+    count = 6
+    targets = [
+        cc.MorphTarget(positions=RNG.normal(size=(count, 3)), name="smile"),
+        cc.MorphTarget(
+            positions=RNG.normal(size=(count, 3)),
+            normals=RNG.normal(size=(count, 3)),
+            tangents=RNG.normal(size=(count, 3)),
+            uvs=RNG.normal(size=(count, 2)),
+            uvs1=RNG.normal(size=(count, 2)),
+            colors=RNG.normal(size=(count, 4)),
+        ),
+    ]
+    whole = full_mesh(count)
+    arrays = {n: getattr(whole, n) for n in ("normals", "uvs", "uvs1", "colors", "tangents")}
+    face = cc.Mesh(whole.positions, whole.indices, morph_targets=targets, **arrays)
+    node = scene.add(face, cc.StandardMaterial(), weights=[0.25, -0.5])
+    # Targets of attributes that the mesh lacks.
+    scene.add(mesh(count, morph_targets=targets), cc.StandardMaterial(), weights=[0, 1])
+    scene.add(face, cc.MirrorMaterial())
+    values = RNG.random((2, 2))
+    scene.add(cc.Animation([cc.AnimationChannel(node, "weights", [0, 1], values)]))
+
+
 #: One function for each kind of thing; it fills an empty scene.
 KINDS = {
     f.__name__[1:]: f
-    for f in (_nodes, _meshes, _standard, _kinds, _lights, _surroundings, _background, _textures)
+    for f in (_nodes, _meshes, _standard, _kinds, _lights, _surroundings, _background, _textures, _held, _cameras, _variants,
+              _motion, _skins, _morphs)
 }
 
 
