@@ -157,7 +157,7 @@ def test_a_broken_file_keeps_the_old_scene_and_is_told(script):
 WRONG = {
     "missing": (["no.glb"], 1, "no.glb"),
     "unknown": ([__file__ + ".xyz"], 1, "No such file"),
-    "kind": (["Makefile"], 1, "expected a mesh (.glb"),
+    "kind": (["Makefile"], 1, "expected a model (.glb"),
     "two": (["a.glb", "--page", "--window"], 2, "expected one of --page, --window and --terminal"),
     "host": (["{script}", "--host", "0.0.0.0"], 1, "or a password for '0.0.0.0'"),
     "port": (["{script}", "--port", "70000"], 2, "expected at most 65535, got 70000"),
