@@ -17,7 +17,7 @@ __all__ = ["load_scene"]
 _READERS = {
     ".glb": ".gltf.scene",
     ".gltf": ".gltf.scene",
-    ".obj": ".meshes.plain_scene",
+    ".obj": ".meshes.obj_scene",
     ".ply": ".meshes.plain_scene",
     ".stl": ".meshes.plain_scene",
     ".off": ".meshes.plain_scene",
