@@ -73,7 +73,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
 
 def centred_on_x(pixels: Array) -> Array:
-    """(H, W, 4) float32 of a panorama with -Z in its middle, as three.js looks it up: bottom row first, +X in the middle."""
+    """(H, W, 4) float32 of a panorama with -Z in its middle, for three.js: bottom row first, +X in the middle."""
     turned = np.roll(pixels[::-1], -pixels.shape[1] // 4, axis=1)
     opaque = np.ones((*turned.shape[:2], 1), np.float32)
     return np.ascontiguousarray(np.concatenate([turned, opaque], -1).astype("<f4"))
