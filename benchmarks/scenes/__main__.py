@@ -87,7 +87,7 @@ def save_picture(pictures: dict[str, Array], file: Path) -> None:
 def main() -> None:
     """Print a row for each tile."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.scenes", description=__doc__)
-    parser.add_argument("photograph", nargs="?", default="courtyard")
+    parser.add_argument("photograph", nargs="?", default="sunset")
     parser.add_argument("--three", type=Path, default=THREE, metavar="DIR", help="npm's package")
     parser.add_argument("--only", choices=RENDERERS, action="append", help="draw these alone")
     parser.add_argument("--out", type=Path, default=OUT, metavar="DIR")

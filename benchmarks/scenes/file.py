@@ -191,8 +191,10 @@ def materials(texture: dict[str, int]) -> list[dict[str, Any]]:
                 **plain((0.9, 0.9, 0.9), 0, 0.6),
             },
             "occlusionTexture": {"index": texture["occlusion"], "texCoord": 1, "strength": 0.9},
+            # In both places: Filament does not read the texCoord of the extension.
             "emissiveTexture": {
                 "index": texture["emissive"],
+                "texCoord": 1,
                 **transform((0.5, 0.0), 0.0, (2.0, 1.0), 1),
             },
             "emissiveFactor": (0.3, 0.24, 0.18),
