@@ -26,7 +26,16 @@ SCENE = (
     "environment", "background", "environment_intensity", "environment_rotation", "variants", "variant", "lights",
     "cameras", "animations",
 )  # fmt: skip
-MESH = ("positions", "indices", "normals", "colors", "tangents", "joints", "joint_weights", "morph_targets")
+MESH = (
+    "positions",
+    "indices",
+    "normals",
+    "colors",
+    "tangents",
+    "joints",
+    "joint_weights",
+    "morph_targets",
+)
 OTHERS = {
     "Skin": ("joints", "inverse_bind_matrices", "skeleton"),
     "MorphTarget": ("positions", "normals", "tangents", "uvs", "uvs1", "colors", "name"),
@@ -113,6 +122,9 @@ class Walk:
             self.scene(got, want, where)
         elif isinstance(want, (cc.Texture, cc.Blend, cc.Stencil, cc.Shadow)):
             # Equal ones are interchangeable, and properties make a new one at each look.
+            self.properties(got, want, PLANS[kind].names, where)
+        elif isinstance(want, cc.Image):
+            # An image never changes, so that equal ones are interchangeable, too.
             self.properties(got, want, PLANS[kind].names, where)
         elif self.known(got, want, where):
             return

@@ -21,7 +21,7 @@ cubemap : CubeMap or Probe, optional
     sphere shows all of it, and turns it when it turns. The alpha of the cubemap does not count.
 vertex_colors : bool
     Whether the mesh's colours multiply color.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
     The options of every `Material`.
 
 Raises

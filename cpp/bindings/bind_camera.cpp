@@ -2,9 +2,11 @@
 #include "arguments.hpp"
 #include "docs/camera.hpp"
 #include "objects.hpp"
+#include "parent.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/scene/camera.hpp"
+#include "cubecam/scene/node.hpp"
 
 #include <pybind11/pybind11.h>
 
@@ -16,9 +18,10 @@ namespace cubecam::bindings {
 
 namespace {
 
-Placement placement(const ArrayLike& position, const OrNone<ArrayLike>& target,
-                    const ArrayLike& up) {
+Placement placement(const ArrayLike& position, const OrNone<ArrayLike>& target, const ArrayLike& up,
+                    const OrNone<Node>& parent) {
     Placement made;
+    made.parent = to_parent(parent);
     made.position = to_point(position, "position");
     if (!target.is_none()) made.target = to_point(target, "target");
     made.up = to_point(up, "up");
@@ -73,6 +76,46 @@ void bind_shift(Class<PerspectiveCamera, Camera>& made) {
         "heights of the picture, read-only.");
 }
 
+template <class Lens>
+void bind_parent(Class<CameraOf<Lens>, Camera>& made) {
+    using C = CameraOf<Lens>;
+    made.def_property(
+        "parent", [](const C& self) { return or_none(self.placed().placement.parent.lock()); },
+        [](C& self, const OrNone<Node>& value) {
+            const auto parent = to_parent(value);
+            self.edit_placed([&](Placed<Lens>& placed) { placed.placement.parent = parent; });
+        },
+        "Node or None: the node that the camera moves with. Position, target and up stay, and are "
+        "in the node's coordinates.");
+    made.def_property_readonly(
+        "world_position",
+        [](const C& self) {
+            return point_array(std::get<Placed<Lens>>(self.world_value()).placement.position);
+        },
+        "ndarray (3,) float64: the position in world space, read-only.");
+    made.def(
+        "_world_placement",
+        [](const C& self) {
+            const Placement p = std::get<Placed<Lens>>(self.world_value()).placement;
+            return py::make_tuple(point_array(p.position),
+                                  p.target ? py::object(point_array(*p.target)) : py::none(),
+                                  point_array(p.up), point_array(forward_of(p)));
+        },
+        "Position, target, up and the way to the target, in world space.");
+    made.def(
+        "_place_in_world",
+        [](C& self, const ArrayLike& position, const OrNone<ArrayLike>& target) {
+            const glm::dvec3 at = to_point(position, "position");
+            std::optional<glm::dvec3> to;
+            if (!target.is_none()) to = to_point(target, "target");
+            self.edit_in_world([&](Placed<Lens>& placed) {
+                placed.placement.position = at;
+                placed.placement.target = to;
+            });
+        },
+        py::arg("position"), py::arg("target"), "Set position and target, in world space.");
+}
+
 /// Defines the class of a camera with a position; `opening` names the first parameter of its lens.
 template <class Lens>
 void bind_placed(py::module_& module, const char* class_name, const char* class_doc,
@@ -80,40 +123,43 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
     using C = CameraOf<Lens>;
     auto made = declare<C, Camera>(module, class_name, class_doc);
     if constexpr (std::is_same_v<Lens, PerspectiveLens>) {
-        made.def(py::init([](double size, const ArrayLike& position,
-                             const OrNone<ArrayLike>& target, const ArrayLike& up, double near,
-                             double far, const ArrayLike& shift, double pixel_aspect) {
-                     return std::make_shared<C>(
-                         Lens{size, near, far, to_shift(shift), pixel_aspect},
-                         placement(position, target, up));
-                 }),
-                 py::kw_only(), py::arg(opening) = Lens{}.*field,
-                 py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
-                 py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
-                 py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0),
-                 py::arg("pixel_aspect") = Lens{}.pixel_aspect);
+        made.def(
+            py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
+                        const ArrayLike& up, double near, double far, const ArrayLike& shift,
+                        double pixel_aspect, const OrNone<Node>& parent) {
+                return std::make_shared<C>(Lens{size, near, far, to_shift(shift), pixel_aspect},
+                                           placement(position, target, up, parent));
+            }),
+            py::kw_only(), py::arg(opening) = Lens{}.*field,
+            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
+            py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
+            py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0),
+            py::arg("pixel_aspect") = Lens{}.pixel_aspect, py::arg("parent") = py::none());
         bind_shift(made);
         number<Lens>(made, "pixel_aspect", &Lens::pixel_aspect,
                      "float: the width of a pixel over its height; 1 for pixels of every screen.");
     } else {
         made.def(
             py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
-                        const ArrayLike& up, double near, double far) {
-                return std::make_shared<C>(Lens{size, near, far}, placement(position, target, up));
+                        const ArrayLike& up, double near, double far, const OrNone<Node>& parent) {
+                return std::make_shared<C>(Lens{size, near, far},
+                                           placement(position, target, up, parent));
             }),
             py::kw_only(), py::arg(opening) = Lens{}.*field,
             py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
             py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
-            py::arg("far") = Lens{}.far);
+            py::arg("far") = Lens{}.far, py::arg("parent") = py::none());
     }
     number<Lens>(made, opening, field, opening_doc);
     number<Lens>(made, "near", &Lens::near, "float: the nearest depth that is drawn, world units.");
     number<Lens>(made, "far", &Lens::far, "float: the farthest depth that is drawn, world units.");
     point<Lens>(
         made, "position", &Placement::position,
-        "ndarray (3,) float64: world space, read-only. Setting the position keeps the target.");
+        "ndarray (3,) float64: world space, or the parent's coordinates; read-only. Setting the "
+        "position keeps the target.");
     point<Lens>(made, "up", &Placement::up,
-                "ndarray (3,) float64: the direction that is up in the picture, read-only.");
+                "ndarray (3,) float64: the direction that is up in the picture, in world space or "
+                "the parent's coordinates; read-only.");
     made.def_property(
         "target",
         [](const C& self) -> OrNone<py::array_t<double>> {
@@ -125,9 +171,10 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
             if (!value.is_none()) target = to_point(value, "target");
             self.edit_placed([&](Placed<Lens>& placed) { placed.placement.target = target; });
         },
-        "ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the "
-        "camera "
-        "looks along -Z.");
+        "ndarray (3,) float64 or None: the point that the camera looks at, in world space or the "
+        "parent's coordinates; read-only. None: the camera looks along -Z, with a parent along the "
+        "parent's.");
+    bind_parent(made);
     made.def_property_readonly(
         "view", [](const C& self) { return matrix_array(self.matrices(1.0).view); },
         "ndarray (4, 4) float64: world to camera, read-only.");
@@ -136,7 +183,8 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
         const Placement& p = placed.placement;
         return std::string(class_name) + "(" + opening + "=" + describe(placed.lens.*field) +
                ", position=" + tuple_text(p.position) +
-               ", target=" + (p.target ? tuple_text(*p.target) : "None") + ")";
+               ", target=" + (p.target ? tuple_text(*p.target) : "None") + parent_text(p.parent) +
+               ")";
     });
     made.def("__reduce__", [opening](const py::object& self) {
         py::dict arguments =
@@ -144,8 +192,9 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
         for (const char* name : {"shift", "pixel_aspect"}) {
             if (py::hasattr(self, name)) arguments[name] = self.attr(name);
         }
-        return reduced(self, arguments);
+        return reduced_with_parent(self, arguments);
     });
+    def_setstate(made, "tuple", &set_parent_state);
 }
 
 /// Camera.__init__ called on an object of a class below it makes pybind11 (3.1) end the process.

@@ -73,7 +73,7 @@ void bind_views(Class<CameraOf<Lens>, Camera> made) {
            double margin) {
             const double shape = to_aspect(size, aspect);
             const Bounds bounds = bounds_of(what);
-            self.edit_placed([&](Placed<Lens>& placed) { fit(placed, bounds, shape, margin); });
+            self.edit_in_world([&](Placed<Lens>& placed) { fit(placed, bounds, shape, margin); });
         },
         py::arg("what"), py::kw_only(), py::arg("size") = py::none(),
         py::arg("aspect") = py::none(), py::arg("margin") = 0.05, docs::fit);

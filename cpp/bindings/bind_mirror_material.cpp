@@ -28,7 +28,7 @@ f0 : float, optional
     The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
     f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
     Rendering", 1994). None: env_weight is the same at all angles.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
     The options of every `Material`.
 
 Raises

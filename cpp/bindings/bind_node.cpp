@@ -126,9 +126,29 @@ void bind_contents(Class<Node>& node) {
         "material", [](const Node& self) { return or_none(self.value().material); },
         [](Node& self, const OrNone<Material>& value) {
             const auto material = to_material(value);
-            self.edit([&](NodeValue& next) { next.material = material; });
+            self.edit([&](NodeValue& next) {
+                next.material = material;
+                next.own_material.reset();
+            });
         },
-        "Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.");
+        "Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial. A "
+        "material that is set becomes the node's own, also while the scene shows a variant.");
+    node.def_property_readonly(
+        "own_material",
+        [](const Node& self) {
+            const NodeValue value = self.value();
+            return or_none(value.own_material.value_or(value.material));
+        },
+        "Material or None: the `material` that the node has while the scene shows no variant.");
+    node.def_property(
+        "variants",
+        [](const Node& self) -> py::typing::Dict<py::str, Material> {
+            return from_variants(self.value().variants);
+        },
+        [](Node& self, const OneOf<py::typing::Dict<py::str, Material>>& value) {
+            self.set_variants(to_variants(value));
+        },
+        docs::node_variants);
     node.def_property(
         "skin", [](const Node& self) { return or_none(self.value().skin); },
         [](Node& self, const OrNone<Skin>& value) {

@@ -27,7 +27,7 @@ map : Image, array_like (H, W, C) or RenderTexture, optional
     A picture that multiplies color, placed by the mesh's uvs.
 vertex_colors : bool
     Whether the mesh's colours multiply color.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
     The options of every `Material`.
 
 Raises

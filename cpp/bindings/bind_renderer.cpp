@@ -97,7 +97,8 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
     if (py::isinstance<StereoCamera>(camera)) {
         return camera.cast<std::shared_ptr<StereoCamera>>()->value();
     }
-    return bindings::to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")->value();
+    return bindings::to_shared<Camera>(camera, "camera", "a Camera or a StereoCamera")
+        ->world_value();
 }
 
 PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,

@@ -1,5 +1,6 @@
 // cubecam.Scene
 #include "docs/scene.hpp"
+#include "near_names.hpp"
 #include "node_list.hpp"
 #include "node_state.hpp"
 
@@ -8,7 +9,10 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cubecam::bindings {
@@ -67,12 +71,75 @@ add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& materia
     return scene.add(std::move(value), to_shared_or_none<Node>(parent, "parent", "a Node or None"));
 }
 
-void remove_thing(Scene& scene, const OneOf<Node, Light>& thing) {
+void remove_thing(Scene& scene, const OneOf<Node, Light, Camera, Animation>& thing) {
     if (py::isinstance<Light>(thing)) {
         scene.remove(py::cast<std::shared_ptr<Light>>(thing));
+    } else if (py::isinstance<Camera>(thing)) {
+        scene.remove(py::cast<std::shared_ptr<Camera>>(thing));
+    } else if (py::isinstance<Animation>(thing)) {
+        scene.remove(py::cast<std::shared_ptr<Animation>>(thing));
     } else {
-        scene.remove(to_shared<Node>(thing, "node", "a Node or a Light"));
+        scene.remove(to_shared<Node>(thing, "node", "a Node, a Light, a Camera or an Animation"));
     }
+}
+
+/// The animation that an index, a name or the animation itself means.
+std::shared_ptr<Animation> to_animation(const Scene& scene, py::handle value) {
+    constexpr const char* expected = "an index, a name or an Animation";
+    if (py::isinstance<Animation>(value)) return value.cast<std::shared_ptr<Animation>>();
+    const auto known = scene.animations();
+    if (py::isinstance<py::str>(value)) {
+        const auto name = value.cast<std::string>();
+        std::set<std::string> names;
+        for (const auto& animation : known) {
+            if (animation->name() == name) return animation;
+            names.insert(animation->name());
+        }
+        names.erase("");
+        throw py::key_error("animation: expected the name of an animation of the scene, got " +
+                            with_near_names(name, names));
+    }
+    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
+        refuse(value, "animation", expected);
+    }
+    const std::int64_t index = to_int(value, "animation");
+    const auto count = static_cast<std::int64_t>(known.size());
+    if (index >= count || index < -count) {
+        throw py::index_error("animation: expected an index of the scene's " +
+                              std::to_string(count) + (count == 1 ? " animation" : " animations") +
+                              ", got " + std::to_string(index));
+    }
+    return known[static_cast<std::size_t>(index < 0 ? index + count : index)];
+}
+
+std::vector<std::string> to_names(py::handle value) {
+    constexpr const char* expected = "a sequence of names";
+    if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value)) {
+        refuse(value, "variants", expected);
+    }
+    std::vector<std::string> names;
+    for (const py::handle name : py::iter(value)) {
+        if (!py::isinstance<py::str>(name)) refuse(name, "variants", expected);
+        names.push_back(name.cast<std::string>());
+    }
+    return names;
+}
+
+void set_variant(Scene& scene, const std::optional<std::string>& name) {
+    const auto known = scene.variants();
+    const std::set<std::string> names(known.begin(), known.end());
+    if (name && !names.contains(*name)) {
+        throw py::value_error("variant: expected a variant of the scene or None, got " +
+                              with_near_names(*name, names));
+    }
+    scene.set_variant(name);
+}
+
+/// Adds something and returns it.
+template <class Thing>
+std::shared_ptr<Thing> add_thing(Scene& scene, const std::shared_ptr<Thing>& thing) {
+    scene.add(thing);
+    return thing;
 }
 
 std::vector<std::shared_ptr<Node>> to_node_list(const Nodes& value) {
@@ -125,6 +192,10 @@ py::dict state_of(const Scene& scene) {
     state["environment_intensity"] = placing.intensity;
     state["environment_rotation"] = quaternion_array(placing.rotation);
     state["lights"] = py::list(py::cast(scene.lights()));
+    state["cameras"] = py::list(py::cast(scene.cameras()));
+    state["animations"] = py::list(py::cast(scene.animations()));
+    state["variants"] = scene.variants();
+    state["variant"] = scene.variant();
     state["nodes"] = nodes;
     state["next_id"] = scene.next_id();
     return state;
@@ -143,6 +214,17 @@ void set_state(Scene& scene, const py::dict& state) {
     for (const py::handle light : state["lights"]) {
         scene.add(to_shared<Light>(light, "lights", "Lights"));
     }
+    if (state.contains("cameras")) {  // older pickles have none of these
+        for (const py::handle camera : state["cameras"]) {
+            scene.add(to_shared<Camera>(camera, "cameras", "Cameras"));
+        }
+        for (const py::handle animation : state["animations"]) {
+            scene.add(to_shared<Animation>(animation, "animations", "Animations"));
+        }
+        // The nodes, which follow, already have the materials of the variant.
+        scene.set_variants(to_names(state["variants"]));
+        scene.set_variant(state["variant"].cast<std::optional<std::string>>());
+    }
     for (const py::handle item : state["nodes"]) {
         const auto record = py::reinterpret_borrow<py::tuple>(item);
         const NodeValue value = node_from_state(record[2]);
@@ -155,6 +237,42 @@ void set_state(Scene& scene, const py::dict& state) {
         scene.restore(record[0].cast<std::int32_t>())->set_parent(scene.restore(parent));
     }
     scene.skip_ids(state["next_id"].cast<std::int32_t>());
+}
+
+void bind_parts(Class<Scene>& scene) {
+    scene.def_property_readonly(
+        "cameras",
+        [](const Scene& self) -> py::typing::Tuple<Camera, py::ellipsis> {
+            return py::tuple(py::cast(self.cameras()));
+        },
+        "tuple of Camera: all cameras of the scene, in order of add; no picture depends on them.");
+    scene.def_property_readonly(
+        "animations",
+        [](const Scene& self) -> py::typing::Tuple<Animation, py::ellipsis> {
+            return py::tuple(py::cast(self.animations()));
+        },
+        "tuple of Animation: all animations of the scene, in order of add.");
+    scene.def(
+        "set_time",
+        [](const OneOf<Scene>& self, double seconds,
+           const OneOf<WholeNumber, py::str, Animation>& animation) {
+            auto& changed = self.cast<Scene&>();
+            changed.set_time(seconds, *to_animation(changed, animation));
+            return self;
+        },
+        py::arg("seconds"), py::arg("animation") = 0, docs::set_time);
+    scene.def_property(
+        "variants",
+        [](const Scene& self) -> py::typing::Tuple<py::str, py::ellipsis> {
+            return py::tuple(py::cast(self.variants()));
+        },
+        [](Scene& self, const OneOf<py::typing::Iterable<py::str>>& value) {
+            self.set_variants(to_names(value));
+        },
+        "tuple of str: the names of the variants that the scene can show. If the present one is "
+        "not "
+        "among the names that are set, `variant` becomes None.");
+    scene.def_property("variant", &Scene::variant, &set_variant, docs::variant);
 }
 
 void bind_pickling(Class<Scene>& scene) {
@@ -220,13 +338,9 @@ void bind_scene(pybind11::module_& module) {
         "ndarray (4,) float64: unit quaternion (w, x, y, z) that turns the scene's environment; "
         "read-only.");
 
-    scene.def(
-        "add",
-        [](Scene& self, const std::shared_ptr<Light>& light) {
-            self.add(light);
-            return light;
-        },
-        py::arg("light"), docs::add_light);
+    scene.def("add", &add_thing<Light>, py::arg("light"), docs::add_light);
+    scene.def("add", &add_thing<Camera>, py::arg("camera"), docs::add_camera);
+    scene.def("add", &add_thing<Animation>, py::arg("animation"), docs::add_animation);
     scene.def("add", &add_node, py::arg("mesh") = py::none(), py::arg("material") = py::none(),
               py::kw_only(), py::arg("position") = py::none(), py::arg("rotation") = py::none(),
               py::arg("scale") = py::none(), py::arg("matrix") = py::none(),
@@ -240,7 +354,8 @@ void bind_scene(pybind11::module_& module) {
     scene.def("set_matrices", &set_matrices, py::arg("nodes"), py::arg("matrices"),
               docs::set_matrices);
     scene.def("remove", &remove_thing, py::arg("thing"), docs::remove);
-    scene.def("clear", &Scene::clear, "Remove all nodes and lights.");
+    scene.def("clear", &Scene::clear,
+              "Remove all nodes, lights, cameras, animations and variants.");
     scene.def_property_readonly(
         "nodes",
         [](const Scene& self) -> py::typing::Tuple<Node, py::ellipsis> {
@@ -253,6 +368,7 @@ void bind_scene(pybind11::module_& module) {
             return py::tuple(py::cast(self.lights()));
         },
         "tuple of Light: all lights of the scene, in order of add.");
+    bind_parts(scene);
     scene.def("__repr__", [](const Scene& self) {
         const std::size_t nodes = self.nodes().size();
         const std::size_t lights = self.lights().size();

@@ -1,6 +1,7 @@
 // What cubecam.Scene says about its nodes: iteration, names and bounds.
 #include "bounds.hpp"
 #include "docs/scene_queries.hpp"
+#include "near_names.hpp"
 #include "node_state.hpp"
 #include "objects.hpp"
 
@@ -46,17 +47,8 @@ NodeList find_nodes(const Scene& scene, const OneOf<py::str, py::none>& name,
     std::set<std::string> names;
     for (const auto& node : scene.nodes()) names.insert(node->value().name);
     names.erase("");
-    const auto near = py::module_::import("difflib")
-                          .attr("get_close_matches")(name, std::vector(names.begin(), names.end()))
-                          .cast<std::vector<std::string>>();
-    const auto quoted = [](const std::string& text) {
-        return py::repr(py::str(text)).cast<std::string>();
-    };
-    std::string text = "expected the name of a node of the scene, got " + quoted(name);
-    for (const std::string& one : near) {
-        text += (&one == &near.front() ? "; did you mean " : " or ") + quoted(one);
-    }
-    throw py::key_error(text + (near.empty() ? "" : "?"));
+    throw py::key_error("expected the name of a node of the scene, got " +
+                        with_near_names(name, names));
 }
 
 std::shared_ptr<Node> get_item(const Scene& scene, const OneOf<py::str>& name) {
@@ -70,6 +62,8 @@ std::shared_ptr<Node> get_item(const Scene& scene, const OneOf<py::str>& name) {
 bool contains_thing(const Scene& scene, py::handle thing) {
     if (py::isinstance<Node>(thing)) return scene.contains(thing.cast<const Node&>());
     if (py::isinstance<py::str>(thing)) return !named(scene, thing.cast<std::string>()).empty();
+    if (py::isinstance<Camera>(thing)) return scene.contains(thing.cast<const Camera&>());
+    if (py::isinstance<Animation>(thing)) return scene.contains(thing.cast<const Animation&>());
     return py::isinstance<Light>(thing) && scene.contains(thing.cast<const Light&>());
 }
 
@@ -95,8 +89,9 @@ void bind_scene_queries(pybind11::module_& module) {
     scene.def(
         "__bool__", [](const Scene&) { return true; },
         "True, also for a scene without nodes, so that ``scene or other`` is the scene.");
-    scene.def("__contains__", &contains_thing, py::arg("thing"),
-              "Whether a node, a light or a node of a name is in the scene.");
+    scene.def(
+        "__contains__", &contains_thing, py::arg("thing"),
+        "Whether a node, a light, a camera, an animation or a node of a name is in the scene.");
     scene.def("__getitem__", &get_item, py::arg("name"), docs::get_item);
     scene.def("find", &find_nodes, py::arg("name") = py::none(), py::kw_only(),
               py::arg("label") = py::none(), docs::find);

@@ -142,7 +142,7 @@ specular_samples : int
 multiple_scattering : bool
     Whether the light that rough surfaces scatter more than once is added (Fdez-Aguera 2019); it is lost
     otherwise. Lights with a place or direction are not changed.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
     The options of every `Material`.
 
 Raises

@@ -21,6 +21,9 @@ void edit_surface(Material& material, Change change) {
 }  // namespace
 
 void bind_surface_options(Class<Material>& material) {
+    material.def_property("name", &Material::name, &Material::set_name,
+                          "str: a name for people, empty by default; no picture depends on it, and "
+                          "it need not be unique.");
     surface_property(
         material, "opacity", [](const SurfaceOptions& s) { return shortest(s.opacity); },
         [](Material& self, float value) {

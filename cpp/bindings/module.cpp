@@ -32,6 +32,7 @@ void bind_shadow(pybind11::module_& module);
 void bind_light(pybind11::module_& module);
 void bind_camera(pybind11::module_& module);
 void bind_camera_views(pybind11::module_& module);
+void bind_animation(pybind11::module_& module);
 void bind_stereo(pybind11::module_& module);
 void bind_probe(pybind11::module_& module);
 void bind_render_texture(pybind11::module_& module);
@@ -107,6 +108,7 @@ PYBIND11_MODULE(_core, module) {
     bind_light(module);
     bind_camera(module);
     bind_camera_views(module);
+    bind_animation(module);
     bind_stereo(module);
     bind_probe(module);
     bind_render_texture(module);

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -20,12 +21,33 @@
 namespace cubecam::bindings {
 
 inline std::shared_ptr<Mesh> to_mesh(py::handle value) {
-    return to_shared_or_none<Mesh>(value, "mesh",
-                                   "a Mesh (see cubecam.load_mesh), a Light or None");
+    return to_shared_or_none<Mesh>(
+        value, "mesh", "a Mesh (see cubecam.load_mesh), a Light, a Camera, an Animation or None");
 }
 
 inline std::shared_ptr<Material> to_material(py::handle value) {
     return to_shared_or_none<Material>(value, "material", "a Material or None");
+}
+
+using Variants = std::vector<std::pair<std::string, std::shared_ptr<Material>>>;
+
+/// The materials of variants: a dict of Materials by name.
+inline Variants to_variants(py::handle value) {
+    constexpr const char* expected = "a dict of Materials by the names of variants";
+    if (!py::isinstance<py::dict>(value)) refuse(value, "variants", expected);
+    Variants variants;
+    for (const auto& [name, material] : py::reinterpret_borrow<py::dict>(value)) {
+        if (!py::isinstance<py::str>(name)) refuse(name, "variants", expected);
+        variants.emplace_back(name.cast<std::string>(),
+                              to_shared<Material>(material, "variants", expected));
+    }
+    return variants;
+}
+
+inline py::dict from_variants(const Variants& variants) {
+    py::dict made;
+    for (const auto& [name, material] : variants) made[py::str(name)] = material;
+    return made;
 }
 
 inline std::shared_ptr<Skin> to_skin(py::handle value) {
@@ -80,9 +102,12 @@ inline Placing to_placing(py::handle position, py::handle rotation, py::handle s
 
 /// The state of a node in a pickle: (mesh, material, position, rotation, scale, matrix,
 /// environment, visible, in_captures, name, render_order, cast_shadow, receive_shadow, label, skin,
-/// weights).
+/// weights, a dict of the materials of variants and what belongs to them).
 inline py::tuple state_of_node(const NodeValue& value) {
     const auto* parts = std::get_if<Transform>(&value.placing);
+    py::dict more;
+    if (!value.variants.empty()) more["variants"] = from_variants(value.variants);
+    if (value.own_material) more["own_material"] = *value.own_material;
     return py::make_tuple(
         value.mesh, value.material, parts ? py::object(point_array(parts->position)) : py::none(),
         parts ? py::object(quaternion_array(parts->rotation)) : py::none(),
@@ -90,24 +115,32 @@ inline py::tuple state_of_node(const NodeValue& value) {
         parts ? py::none() : py::object(matrix_array(std::get<glm::dmat4>(value.placing))),
         from_cube_source(value.environment), value.visible, value.in_captures, value.name,
         value.render_order, value.cast_shadow, value.receive_shadow, value.label, value.skin,
-        weights_array(value));
+        weights_array(value), more);
 }
 
-/// Older pickles of the same format have no label, or no skin and no weights.
+/// Sets what the last entry of a node's state holds.
+inline void set_more(NodeValue& value, const py::dict& more) {
+    if (more.contains("variants")) value.variants = to_variants(more["variants"]);
+    if (more.contains("own_material")) value.own_material = to_material(more["own_material"]);
+}
+
+/// Older pickles of the same format have no label, or none of what follows it.
 inline NodeValue node_from_state(const py::tuple& state) {
-    return {to_placing(state[2], state[3], state[4], state[5]),
-            to_mesh(state[0]),
-            to_material(state[1]),
-            to_cube_source(state[6], "environment"),
-            state[7].cast<bool>(),
-            state[8].cast<bool>(),
-            state[9].cast<std::string>(),
-            to_render_order(state[10]),
-            state[11].cast<bool>(),
-            state[12].cast<bool>(),
-            state.size() > 13 ? to_label(state[13]) : 0,
-            state.size() > 14 ? to_skin(state[14]) : nullptr,
-            state.size() > 15 ? to_weights(state[15]) : std::vector<float>()};
+    NodeValue value{to_placing(state[2], state[3], state[4], state[5]),
+                    to_mesh(state[0]),
+                    to_material(state[1]),
+                    to_cube_source(state[6], "environment"),
+                    state[7].cast<bool>(),
+                    state[8].cast<bool>(),
+                    state[9].cast<std::string>(),
+                    to_render_order(state[10]),
+                    state[11].cast<bool>(),
+                    state[12].cast<bool>(),
+                    state.size() > 13 ? to_label(state[13]) : 0,
+                    state.size() > 14 ? to_skin(state[14]) : nullptr,
+                    state.size() > 15 ? to_weights(state[15]) : std::vector<float>()};
+    if (state.size() > 16) set_more(value, state[16]);
+    return value;
 }
 
 }  // namespace cubecam::bindings

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace cubecam::bindings {
 
@@ -82,7 +83,7 @@ void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
     made.def(py::init([make](Own... own, float opacity, bool double_sided, const BlendLike& blend,
                              const DepthWriteLike& depth_write, bool depth_test,
                              const ColorWriteLike& color_write, const OrNone<Stencil>& stencil,
-                             bool flat_shading) {
+                             bool flat_shading, std::string name) {
                  SurfaceOptions surface;
                  surface.opacity = opacity;
                  surface.double_sided = double_sided;
@@ -92,17 +93,21 @@ void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
                  surface.color_write = to_color_write(color_write);
                  surface.stencil = to_stencil(stencil);
                  surface.flat_shading = flat_shading;
-                 return std::make_shared<MaterialOf<Kind>>(make(own...), surface);
+                 auto material = std::make_shared<MaterialOf<Kind>>(make(own...), surface);
+                 material->set_name(std::move(name));
+                 return material;
              }),
              named..., py::arg("opacity") = 1.0F, py::arg("double_sided") = false,
              py::arg("blend") = py::none(), py::arg("depth_write") = py::none(),
              py::arg("depth_test") = true, py::arg("color_write") = true,
-             py::arg("stencil") = py::none(), py::arg("flat_shading") = false);
+             py::arg("stencil") = py::none(), py::arg("flat_shading") = false,
+             py::arg("name") = "");
 }
 
 /// The options of a material by name, for pickling.
 inline py::dict surface_state(py::handle material) {
     py::dict state;
+    state["name"] = material.attr("name");
     for (const char* name : {"opacity", "double_sided", "blend", "depth_write", "depth_test",
                              "color_write", "stencil", "flat_shading"}) {
         state[name] = material.attr(name);

@@ -17,6 +17,7 @@ import cubecam.viewer.controls
 import cubecam.viewer.cube_view
 from cubecam.typing import (
     AlphaMode,
+    AnimationPath,
     BlendEquation,
     BlendFactor,
     BlendMode,
@@ -31,6 +32,7 @@ from cubecam.typing import (
     FaceName,
     FileLayout,
     Format,
+    Interpolation,
     Layout,
     MagFilter,
     MinFilter,
@@ -50,6 +52,8 @@ from cubecam.typing import (
 
 __all__: list[str] = [
     "AmbientLight",
+    "Animation",
+    "AnimationChannel",
     "BasicMaterial",
     "Blend",
     "Camera",
@@ -314,7 +318,7 @@ class Node:
     @property
     def material(self) -> Material | None:
         """
-        Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial.
+        Material or None: the surface; on a node with a mesh, None becomes a new PhongMaterial. A material that is set becomes the node's own, also while the scene shows a variant.
         """
 
     @material.setter
@@ -343,6 +347,12 @@ class Node:
 
     @name.setter
     def name(self, value: str) -> None: ...
+    @property
+    def own_material(self) -> Material | None:
+        """
+        Material or None: the `material` that the node has while the scene shows no variant.
+        """
+
     @property
     def parent(self) -> Node | None:
         """
@@ -407,6 +417,30 @@ class Node:
 
     @skin.setter
     def skin(self, value: Skin | None) -> None: ...
+    @property
+    def variants(self) -> dict[str, Material]:
+        """
+        dict of str to Material: what `material` becomes while the scene shows a variant of that name.
+
+        The dict is a copy: set it as a whole. A name that is none of `Scene.variants` has no effect.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> scene.variants = ["day", "night"]
+        >>> shoe = scene.add(cc.Mesh.box(), cc.PhongMaterial(name="white"))
+        >>> shoe.variants = {"night": cc.PhongMaterial(color="navy", name="blue")}
+        >>> scene.variant = "night"
+        >>> shoe.material.name, shoe.own_material.name
+        ('blue', 'white')
+        >>> scene.variant = None
+        >>> shoe.material.name
+        'white'
+        """
+
+    @variants.setter
+    def variants(self, value: dict[str, Material]) -> None: ...
     @property
     def visible(self) -> bool:
         """
@@ -900,7 +934,7 @@ class Scene:
 
     def __contains__(self: Scene, thing: object) -> bool:
         """
-        Whether a node, a light or a node of a name is in the scene.
+        Whether a node, a light, a camera, an animation or a node of a name is in the scene.
         """
 
     def __getitem__(self: Scene, name: str) -> Node:
@@ -995,6 +1029,58 @@ class Scene:
         """
 
     @typing.overload
+    def add(self: Scene, camera: Camera) -> Camera:
+        """
+        Add a camera to `Scene.cameras`.
+
+        Parameters
+        ----------
+        camera : Camera
+            The camera to add. It may be in other scenes, too. No picture depends on the cameras of a scene: any
+            camera can draw any scene.
+
+        Returns
+        -------
+        Camera
+            The same camera.
+
+        Raises
+        ------
+        ValueError
+            If the camera is already in this scene.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> car = scene.add(position=(0, 0, 5), name="car")
+        >>> camera = scene.add(cc.PerspectiveCamera(position=(0, 1, 0), parent=car))
+        >>> camera in scene, camera.world_position.tolist()
+        (True, [0.0, 1.0, 5.0])
+        """
+
+    @typing.overload
+    def add(self: Scene, animation: Animation) -> Animation:
+        """
+        Add an animation to `Scene.animations`.
+
+        Parameters
+        ----------
+        animation : Animation
+            An animation of nodes of this scene.
+
+        Returns
+        -------
+        Animation
+            The same animation.
+
+        Raises
+        ------
+        ValueError
+            If the animation is already in this scene, or moves a node that is not.
+        """
+
+    @typing.overload
     def add(
         self: Scene,
         mesh: Mesh | None = None,
@@ -1083,7 +1169,7 @@ class Scene:
 
     def clear(self: Scene) -> None:
         """
-        Remove all nodes and lights.
+        Remove all nodes, lights, cameras, animations and variants.
         """
 
     def find(
@@ -1122,15 +1208,15 @@ class Scene:
         [1]
         """
 
-    def remove(self: Scene, thing: Node | Light) -> None:
+    def remove(self: Scene, thing: Node | Light | Camera | Animation) -> None:
         """
-        Remove a light, or a node with all nodes below it.
+        Remove a light, a camera, an animation, or a node with all nodes below it.
 
         Removed objects keep their values; their ids are not used again.
 
         Parameters
         ----------
-        thing : Node or Light
+        thing : Node, Light, Camera or Animation
             The object to remove.
 
         Raises
@@ -1207,6 +1293,57 @@ class Scene:
         [0.0, 1.0, 0.0]
         """
 
+    def set_time(
+        self: Scene,
+        seconds: typing.SupportsFloat | typing.SupportsIndex,
+        animation: typing.SupportsIndex | str | Animation = 0,
+    ) -> Scene:
+        """
+        Move the nodes to where an animation has them at a time.
+
+        Parameters
+        ----------
+        seconds : float
+            Before the first and after the last key of a channel, the channel has the value of that key.
+        animation : int, str or Animation
+            Which animation: an index of `animations`, a name, or the animation itself.
+
+        Returns
+        -------
+        Scene
+            This scene.
+
+        Raises
+        ------
+        IndexError
+            For an index that no animation has.
+        KeyError
+            For a name that no animation has; the message names similar ones.
+        TypeError
+            For another kind of object.
+        ValueError
+            For seconds that are not finite, or a node whose `matrix` has a shear, which position, rotation and scale
+            cannot express. In this case no node changes.
+
+        Notes
+        -----
+        What the animation does not name stays as it is, and so do nodes that are no longer in the scene. A node that
+        was given a whole `matrix` is taken apart, as by setting `Node.rotation`; glTF has no animations of such nodes.
+        A scale nearer to 0 than 1e-6 becomes 1e-6, since a node's matrix must not be singular.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(), name="ball")
+        >>> way = cc.AnimationChannel(ball, "translation", [0, 2], [(0, 0, 0), (4, 0, 0)])
+        >>> fly = scene.add(cc.Animation([way], name="fly"))
+        >>> scene.set_time(.5)["ball"].position.tolist()
+        [1.0, 0.0, 0.0]
+        >>> scene.set_time(9, "fly")["ball"].position.tolist()
+        [4.0, 0.0, 0.0]
+        """
+
     def show(
         self,
         where: Place | None = None,
@@ -1264,6 +1401,12 @@ class Scene:
         """
 
     @property
+    def animations(self) -> tuple[Animation, ...]:
+        """
+        tuple of Animation: all animations of the scene, in order of add.
+        """
+
+    @property
     def background(self) -> np.typing.NDArray[np.float32] | CubeMap | None:
         """
         ndarray (4,) float32, CubeMap or None: what pictures show where no node is. None: the environment if there is one, else transparent black.
@@ -1289,6 +1432,12 @@ class Scene:
         >>> ball = scene.add(cc.Mesh.sphere(.5), position=(0, 2, 0))
         >>> scene.bounds.tolist()
         [[-0.5, -1.0, -1.0], [4.0, 2.5, 1.0]]
+        """
+
+    @property
+    def cameras(self) -> tuple[Camera, ...]:
+        """
+        tuple of Camera: all cameras of the scene, in order of add; no picture depends on them.
         """
 
     @property
@@ -1326,6 +1475,26 @@ class Scene:
         """
         tuple of Node: all nodes of the scene, in order of id.
         """
+
+    @property
+    def variant(self) -> str | None:
+        """
+        str or None: which of `variants` the scene shows; see `Node.variants`.
+
+        Setting it gives each node that has a material of that name this material. None gives each node its own
+        material again, which is the one that was last set by `Node.material`.
+        """
+
+    @variant.setter
+    def variant(self, value: str | None) -> None: ...
+    @property
+    def variants(self) -> tuple[str, ...]:
+        """
+        tuple of str: the names of the variants that the scene can show. If the present one is not among the names that are set, `variant` becomes None.
+        """
+
+    @variants.setter
+    def variants(self, value: collections.abc.Iterable[str]) -> None: ...
 
 class Face(enum.IntEnum):
     """
@@ -3871,6 +4040,14 @@ class Material:
     @flat_shading.setter
     def flat_shading(self, value: bool) -> None: ...
     @property
+    def name(self) -> str:
+        """
+        str: a name for people, empty by default; no picture depends on it, and it need not be unique.
+        """
+
+    @name.setter
+    def name(self, value: str) -> None: ...
+    @property
     def opacity(self) -> float:
         """
         float: from 0 to 1; multiplies the alpha of the colours.
@@ -3902,7 +4079,7 @@ class BasicMaterial(Material):
         sphere shows all of it, and turns it when it turns. The alpha of the cubemap does not count.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
     Raises
@@ -3934,6 +4111,7 @@ class BasicMaterial(Material):
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
         flat_shading: bool = False,
+        name: str = "",
     ) -> None: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
@@ -3990,7 +4168,7 @@ class GlassMaterial(Material):
         (`CubeMap.prefilter`): round R, moved towards the normal (S. Lagarde and C. de Rousiers, "Moving
         Frostbite to Physically Based Rendering", 2014), and round T for roughness * (2 max(ior, 1/ior) - 2),
         at most roughness. F stays that of a smooth surface.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
     Raises
@@ -4021,6 +4199,7 @@ class GlassMaterial(Material):
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
         flat_shading: bool = False,
+        name: str = "",
     ) -> None: ...
     @property
     def fresnel(self) -> bool:
@@ -4077,7 +4256,7 @@ class MirrorMaterial(Material):
         The reflectance seen head-on, from 0 to 1: env_weight is multiplied by
         f0 + (1 - f0) (1 - N.V)**5 (C. Schlick, "An Inexpensive BRDF Model for Physically-based
         Rendering", 1994). None: env_weight is the same at all angles.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
     Raises
@@ -4109,6 +4288,7 @@ class MirrorMaterial(Material):
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
         flat_shading: bool = False,
+        name: str = "",
     ) -> None: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
@@ -4172,7 +4352,7 @@ class PhongMaterial(Material):
         A picture that multiplies color, placed by the mesh's uvs.
     vertex_colors : bool
         Whether the mesh's colours multiply color.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
     Raises
@@ -4211,6 +4391,7 @@ class PhongMaterial(Material):
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
         flat_shading: bool = False,
+        name: str = "",
     ) -> None: ...
     @property
     def color(self) -> np.typing.NDArray[np.float32]:
@@ -4292,7 +4473,7 @@ class ShaderMaterial(Material):
     displacement : float, optional
         The greatest distance by which `vertex` moves a vertex, in the mesh's units. None: unknown; the node is
         never culled, and any change of it draws the whole picture again.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
     Attributes
@@ -4417,6 +4598,7 @@ class ShaderMaterial(Material):
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
         flat_shading: bool = False,
+        name: str = "",
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: ShaderMaterial) -> str: ...
@@ -4643,7 +4825,7 @@ class StandardMaterial(Material):
     multiple_scattering : bool
         Whether the light that rough surfaces scatter more than once is added (Fdez-Aguera 2019); it is lost
         otherwise. Lights with a place or direction are not changed.
-    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+    opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
         The options of every `Material`.
 
     Raises
@@ -4737,6 +4919,7 @@ class StandardMaterial(Material):
         color_write: bool | tuple[bool, bool, bool, bool] = True,
         stencil: Stencil | None = None,
         flat_shading: bool = False,
+        name: str = "",
     ) -> None: ...
     @property
     def alpha_cutoff(self) -> float:
@@ -5449,6 +5632,11 @@ class Light:
         Give what `rich.print` shows.
         """
 
+    def __setstate__(self: Light, state: object) -> None:
+        """
+        For unpickling.
+        """
+
     def _repr_html_(self) -> str:
         """
         Give the HTML that Jupyter shows.
@@ -5510,7 +5698,9 @@ class PointLight(Light):
         color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        range: typing.SupportsFloat | typing.SupportsIndex = ...,
         shadow: Shadow | bool | None = None,
+        parent: Node | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: PointLight) -> str: ...
@@ -5523,13 +5713,29 @@ class PointLight(Light):
     @decay.setter
     def decay(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: the node that the light moves with. Position and direction stay, and are in the node's coordinates.
+        """
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None: ...
+    @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: world space, read-only.
+        ndarray (3,) float64: world space, or the parent's coordinates; read-only.
         """
 
     @position.setter
     def position(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def range(self) -> float:
+        """
+        float: the distance at which the light ends, world units; infinity for none.
+        """
+
+    @range.setter
+    def range(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -5538,6 +5744,11 @@ class PointLight(Light):
 
     @shadow.setter
     def shadow(self, value: Shadow | bool | None) -> None: ...
+    @property
+    def world_position(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (3,) float64: the position in world space, read-only.
+        """
 
 class SpotLight(Light):
     """
@@ -5587,7 +5798,9 @@ class SpotLight(Light):
         color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         decay: typing.SupportsFloat | typing.SupportsIndex = 0.0,
+        range: typing.SupportsFloat | typing.SupportsIndex = ...,
         shadow: Shadow | bool | None = None,
+        parent: Node | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: SpotLight) -> str: ...
@@ -5610,11 +5823,19 @@ class SpotLight(Light):
     @property
     def direction(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: the way the light travels, unit length, read-only.
+        ndarray (3,) float64: the way the light travels, in world space or the parent's coordinates; unit length, read-only.
         """
 
     @direction.setter
     def direction(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: the node that the light moves with. Position and direction stay, and are in the node's coordinates.
+        """
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None: ...
     @property
     def penumbra(self) -> float:
         """
@@ -5626,11 +5847,19 @@ class SpotLight(Light):
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: world space, read-only.
+        ndarray (3,) float64: world space, or the parent's coordinates; read-only.
         """
 
     @position.setter
     def position(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def range(self) -> float:
+        """
+        float: the distance at which the light ends, world units; infinity for none.
+        """
+
+    @range.setter
+    def range(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -5639,6 +5868,17 @@ class SpotLight(Light):
 
     @shadow.setter
     def shadow(self, value: Shadow | bool | None) -> None: ...
+    @property
+    def world_direction(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (3,) float64: the way the light travels in world space, unit length, read-only.
+        """
+
+    @property
+    def world_position(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (3,) float64: the position in world space, read-only.
+        """
 
 class DirectionalLight(Light):
     """
@@ -5676,17 +5916,26 @@ class DirectionalLight(Light):
         color: str | np.typing.ArrayLike = (1, 1, 1),
         intensity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         shadow: Shadow | bool | None = None,
+        parent: Node | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: DirectionalLight) -> str: ...
     @property
     def direction(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: the way the light travels, unit length, read-only.
+        ndarray (3,) float64: the way the light travels, in world space or the parent's coordinates; unit length, read-only.
         """
 
     @direction.setter
     def direction(self, value: np.typing.ArrayLike) -> None: ...
+    @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: the node that the light moves with. Position and direction stay, and are in the node's coordinates.
+        """
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None: ...
     @property
     def shadow(self) -> Shadow | None:
         """
@@ -5695,6 +5944,11 @@ class DirectionalLight(Light):
 
     @shadow.setter
     def shadow(self, value: Shadow | bool | None) -> None: ...
+    @property
+    def world_direction(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (3,) float64: the way the light travels in world space, unit length, read-only.
+        """
 
 class AmbientLight(Light):
     """
@@ -5955,9 +6209,34 @@ class PerspectiveCamera(Camera):
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         shift: np.typing.ArrayLike = (0, 0),
         pixel_aspect: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+        parent: Node | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: PerspectiveCamera) -> str: ...
+    def __setstate__(self: PerspectiveCamera, state: object) -> None:
+        """
+        For unpickling.
+        """
+
+    def _place_in_world(
+        self: PerspectiveCamera, position: np.typing.ArrayLike, target: np.typing.ArrayLike | None
+    ) -> None:
+        """
+        Set position and target, in world space.
+        """
+
+    def _world_placement(
+        self: PerspectiveCamera,
+    ) -> tuple[
+        np.typing.NDArray[np.float64],
+        object,
+        np.typing.NDArray[np.float64],
+        np.typing.NDArray[np.float64],
+    ]:
+        """
+        Position, target, up and the way to the target, in world space.
+        """
+
     def fit(
         self: PerspectiveCamera,
         what: Scene | Node | np.typing.ArrayLike,
@@ -6235,6 +6514,14 @@ class PerspectiveCamera(Camera):
     @near.setter
     def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: the node that the camera moves with. Position, target and up stay, and are in the node's coordinates.
+        """
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None: ...
+    @property
     def pixel_aspect(self) -> float:
         """
         float: the width of a pixel over its height; 1 for pixels of every screen.
@@ -6245,7 +6532,7 @@ class PerspectiveCamera(Camera):
     @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
+        ndarray (3,) float64: world space, or the parent's coordinates; read-only. Setting the position keeps the target.
         """
 
     @position.setter
@@ -6261,7 +6548,7 @@ class PerspectiveCamera(Camera):
     @property
     def target(self) -> np.typing.NDArray[np.float64] | None:
         """
-        ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
+        ndarray (3,) float64 or None: the point that the camera looks at, in world space or the parent's coordinates; read-only. None: the camera looks along -Z, with a parent along the parent's.
         """
 
     @target.setter
@@ -6269,7 +6556,7 @@ class PerspectiveCamera(Camera):
     @property
     def up(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: the direction that is up in the picture, read-only.
+        ndarray (3,) float64: the direction that is up in the picture, in world space or the parent's coordinates; read-only.
         """
 
     @up.setter
@@ -6278,6 +6565,12 @@ class PerspectiveCamera(Camera):
     def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
+        """
+
+    @property
+    def world_position(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (3,) float64: the position in world space, read-only.
         """
 
 class OrthographicCamera(Camera):
@@ -6326,9 +6619,34 @@ class OrthographicCamera(Camera):
         up: np.typing.ArrayLike = (0, 1, 0),
         near: typing.SupportsFloat | typing.SupportsIndex = 0.1,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
+        parent: Node | None = None,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: OrthographicCamera) -> str: ...
+    def __setstate__(self: OrthographicCamera, state: object) -> None:
+        """
+        For unpickling.
+        """
+
+    def _place_in_world(
+        self: OrthographicCamera, position: np.typing.ArrayLike, target: np.typing.ArrayLike | None
+    ) -> None:
+        """
+        Set position and target, in world space.
+        """
+
+    def _world_placement(
+        self: OrthographicCamera,
+    ) -> tuple[
+        np.typing.NDArray[np.float64],
+        object,
+        np.typing.NDArray[np.float64],
+        np.typing.NDArray[np.float64],
+    ]:
+        """
+        Position, target, up and the way to the target, in world space.
+        """
+
     def fit(
         self: OrthographicCamera,
         what: Scene | Node | np.typing.ArrayLike,
@@ -6606,9 +6924,17 @@ class OrthographicCamera(Camera):
     @near.setter
     def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def parent(self) -> Node | None:
+        """
+        Node or None: the node that the camera moves with. Position, target and up stay, and are in the node's coordinates.
+        """
+
+    @parent.setter
+    def parent(self, value: Node | None) -> None: ...
+    @property
     def position(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: world space, read-only. Setting the position keeps the target.
+        ndarray (3,) float64: world space, or the parent's coordinates; read-only. Setting the position keeps the target.
         """
 
     @position.setter
@@ -6616,7 +6942,7 @@ class OrthographicCamera(Camera):
     @property
     def target(self) -> np.typing.NDArray[np.float64] | None:
         """
-        ndarray (3,) float64 or None: the point that the camera looks at, read-only. None: the camera looks along -Z.
+        ndarray (3,) float64 or None: the point that the camera looks at, in world space or the parent's coordinates; read-only. None: the camera looks along -Z, with a parent along the parent's.
         """
 
     @target.setter
@@ -6624,7 +6950,7 @@ class OrthographicCamera(Camera):
     @property
     def up(self) -> np.typing.NDArray[np.float64]:
         """
-        ndarray (3,) float64: the direction that is up in the picture, read-only.
+        ndarray (3,) float64: the direction that is up in the picture, in world space or the parent's coordinates; read-only.
         """
 
     @up.setter
@@ -6633,6 +6959,195 @@ class OrthographicCamera(Camera):
     def view(self) -> np.typing.NDArray[np.float64]:
         """
         ndarray (4, 4) float64: world to camera, read-only.
+        """
+
+    @property
+    def world_position(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (3,) float64: the position in world space, read-only.
+        """
+
+class AnimationChannel:
+    """
+    One property of a node as a function of time, by keys.
+
+    A channel does not change once it is made.
+
+    Parameters
+    ----------
+    node : Node
+        The node that moves.
+    path : str
+        "translation" (`Node.position`), "rotation" (w, x, y, z), "scale" or "weights" (`Node.weights`).
+    times : array_like (K,)
+        Seconds, increasing strictly.
+    values : array_like (K, n) or (3K, n)
+        A row for each key. n is 3, for rotations 4, for weights the number of the mesh's morph targets. Of
+        "cubic" three rows for each key: in-tangent, value, out-tangent.
+    interpolation : str
+        "step": a value stays until the next key. "linear": rotations are interpolated spherically, along the
+        shorter way. "cubic": a cubic Hermite spline.
+
+    Raises
+    ------
+    TypeError
+        For a node of another type.
+    ValueError
+        For times that do not increase or are not finite, values of another shape or not finite, a rotation of
+        length 0, or another name.
+
+    Notes
+    -----
+    The formulas are those of glTF 2.0, appendix C. Rotations are normalised, keys and results. A channel does
+    not keep its node alive.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> door = scene.add(cc.Mesh.box((1, 2, .1)))
+    >>> turns = [cc.axis_angle((0, 1, 0), degrees) for degrees in (0, 90)]
+    >>> channel = cc.AnimationChannel(door, "rotation", [0, 1], turns)
+    >>> channel
+    AnimationChannel(node 1, 'rotation', 2 keys, 0 to 1 s, 'linear')
+    >>> bool((channel.sample(.5) == channel.sample(.5)).all()), channel.sample(.5).round(3).tolist()
+    (True, [0.924, 0.0, 0.383, 0.0])
+    """
+
+    @staticmethod
+    def _remake(
+        path: AnimationPath,
+        times: np.typing.ArrayLike,
+        values: np.typing.ArrayLike,
+        interpolation: Interpolation,
+    ) -> AnimationChannel:
+        """
+        For unpickling: a channel without a node.
+        """
+
+    def __init__(
+        self: AnimationChannel,
+        node: Node,
+        path: AnimationPath,
+        times: np.typing.ArrayLike,
+        values: np.typing.ArrayLike,
+        *,
+        interpolation: Interpolation = "linear",
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, tuple[type], tuple[object, ...]]: ...
+    def __repr__(self: AnimationChannel) -> str: ...
+    def __setstate__(self: AnimationChannel, state: object) -> None:
+        """
+        For unpickling.
+        """
+
+    def sample(
+        self: AnimationChannel, seconds: typing.SupportsFloat | typing.SupportsIndex
+    ) -> np.typing.NDArray[np.float64]:
+        """
+        The value of the channel at a time.
+
+        Parameters
+        ----------
+        seconds : float
+            Before the first and after the last key, the value is that of the key.
+
+        Returns
+        -------
+        ndarray (n,) float64
+
+        Raises
+        ------
+        ValueError
+            For seconds that are not finite.
+        """
+
+    @property
+    def interpolation(self) -> Interpolation:
+        """
+        str: "step", "linear" or "cubic".
+        """
+
+    @property
+    def node(self) -> Node | None:
+        """
+        Node or None: the node that moves; None once it no longer exists.
+        """
+
+    @property
+    def path(self) -> AnimationPath:
+        """
+        str: "translation", "rotation", "scale" or "weights".
+        """
+
+    @property
+    def times(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (K,) float64: seconds, read-only.
+        """
+
+    @property
+    def values(self) -> np.typing.NDArray[np.float64]:
+        """
+        ndarray (K, n) or (3K, n) float64: as they were given, read-only.
+        """
+
+class Animation:
+    """
+    Channels that move nodes of a scene together.
+
+    `Scene.set_time` moves the nodes. An animation does not change once it is made.
+
+    Parameters
+    ----------
+    channels : sequence of AnimationChannel
+        At most one for each path of each node.
+    name : str
+        A name for people, and for `Scene.set_time`.
+
+    Raises
+    ------
+    TypeError
+        For another kind of object.
+    ValueError
+        For two channels of the same path of the same node.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> lift = scene.add(cc.Mesh.box())
+    >>> rise = cc.AnimationChannel(lift, "translation", [0, 4], [(0, 0, 0), (0, 3, 0)])
+    >>> animation = scene.add(cc.Animation([rise], name="rise"))
+    >>> animation
+    Animation(name='rise', 1 channel, 4 s)
+    >>> for frame in range(5):
+    ...     height = scene.set_time(frame).nodes[0].position[1]
+    >>> float(height)
+    3.0
+    """
+
+    def __init__(
+        self: Animation, channels: collections.abc.Iterable[AnimationChannel], *, name: str = ""
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: Animation) -> str: ...
+    @property
+    def channels(self) -> tuple[AnimationChannel, ...]:
+        """
+        tuple of AnimationChannel: in the order in which they were given.
+        """
+
+    @property
+    def duration(self) -> float:
+        """
+        float: the time of the last key of all channels, seconds.
+        """
+
+    @property
+    def name(self) -> str:
+        """
+        str: a name for people.
         """
 
 class StereoCamera:

@@ -59,7 +59,7 @@ def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     if angle == 0:
         return
     standing = Standing(camera)
-    camera.target = standing.ahead(_turned(standing.direction, standing.up, angle))
+    standing.turn(_turned(standing.direction, standing.up, angle))
 
 
 @checked_call
@@ -94,7 +94,7 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
     if change == 0:
         return
     standing = Standing(camera)
-    camera.target = standing.ahead(_raised(standing.direction, standing.up, change))
+    standing.turn(_raised(standing.direction, standing.up, change))
 
 
 @checked_call
@@ -200,7 +200,7 @@ def orbit(
     if rise != 0:
         outward = _raised(outward, standing.up, rise)
     if turn != 0 or rise != 0:
-        camera.position = standing.target + standing.distance * outward
+        standing.place(standing.target + standing.distance * outward, standing.target)
 
 
 @checked_call
@@ -232,11 +232,11 @@ def look(camera: PerspectiveCamera | OrthographicCamera, direction: npt.ArrayLik
     >>> camera.target.tolist()
     [1.0, 0.0, 1.0]
     """
-    camera.target = Standing(camera).ahead(_direction(direction))
+    Standing(camera).turn(_direction(direction))
 
 
 class Standing:
-    """The position and the direction of a camera, read once."""
+    """The position and the direction of a camera in the world, read once."""
 
     def __init__(self, camera: PerspectiveCamera | OrthographicCamera) -> None:
         if not isinstance(camera, (PerspectiveCamera, OrthographicCamera)):
@@ -245,41 +245,28 @@ class Standing:
                 f"got {type(camera).__name__}"
             )
         self.camera = camera
-        self.position, self.target = camera.position, camera.target
-        self.up = _unit(camera.up)
-        if self.target is None:
-            self.direction, self.distance = np.array([0.0, 0.0, -1.0]), 1.0
-        else:
-            offset = self.target - self.position
-            self.direction, self.distance = _unit(offset), float(_length(offset))
+        self.position, self.target, up, ahead = camera._world_placement()
+        self.up, self.direction = _unit(up), _unit(ahead)
+        self.distance = 1.0 if self.target is None else float(_length(ahead))
 
     @property
     def right(self) -> Vector:
         """The direction to the right, of length 1."""
         return _unit(np.cross(self.direction, self.up))
 
-    def ahead(self, direction: Vector) -> Vector:
-        """Return the target at the present distance in a direction of length 1."""
-        return self.position + self.distance * direction
+    def turn(self, direction: Vector) -> None:
+        """Set the target at the present distance in a direction of length 1."""
+        self.place(self.position, self.position + self.distance * direction)
+
+    def place(self, position: Vector, target: Vector | None) -> None:
+        """Set position and target in the world, both or neither."""
+        self.camera._place_in_world(position, target)
 
     def move(self, offset: Vector) -> None:
         """Move position and target by the same offset, both or neither."""
-        camera = self.camera
-        if not offset.any():
-            return
-        if self.target is None:
-            camera.position = self.position + offset
-            return
-        moved = {"position": self.position + offset, "target": self.target + offset}
-        # The one in front moves first, so that position and target are never equal.
-        forwards = float(offset @ self.direction) > 0
-        first, second = ("target", "position") if forwards else ("position", "target")
-        setattr(camera, first, moved[first])
-        try:
-            setattr(camera, second, moved[second])
-        except ValueError:
-            setattr(camera, first, getattr(self, first))
-            raise
+        if offset.any():
+            target = None if self.target is None else self.target + offset
+            self.place(self.position + offset, target)
 
 
 def _turned(vector: Vector, axis: Vector, radians: float) -> Vector:

@@ -33,6 +33,7 @@ else:
 
 __all__ = [
     "AlphaMode",
+    "AnimationPath",
     "BlendEquation",
     "BlendFactor",
     "BlendMode",
@@ -49,6 +50,7 @@ __all__ = [
     "FileLayout",
     "FilePixels",
     "Format",
+    "Interpolation",
     "Layout",
     "MagFilter",
     "MinFilter",
@@ -70,6 +72,7 @@ __all__ = [
 
 # The tables in C++ list the names as well; scripts/stubs.py reports a list that differs from its table.
 AlphaMode: TypeAlias = Literal["opaque", "mask", "blend"]
+AnimationPath: TypeAlias = Literal["translation", "rotation", "scale", "weights"]
 BlendEquation: TypeAlias = Literal["add", "subtract", "reverse_subtract", "min", "max"]
 BlendFactor: TypeAlias = Literal[
     "zero",
@@ -122,6 +125,7 @@ FaceName: TypeAlias = Literal[
     "neg_z",
 ]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
+Interpolation: TypeAlias = Literal["step", "linear", "cubic"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
 CubeMode: TypeAlias = Literal["cross", "panorama", "look"]
 Theme: TypeAlias = Literal["dark", "light"]

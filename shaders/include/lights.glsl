@@ -3,7 +3,9 @@
 const int MAX_LIGHTS = 256;
 
 struct Light {
-    vec4 position;  // xyz: its position, from u_origin (w = 1), or the direction towards it (w = 0); world
+    // xyz: its position, from u_origin, or the direction towards it (w = 0); world. w of a light with a position: 1, or
+    // -1 / range if it has a range.
+    vec4 position;
     vec4 color;     // rgb: linear colour times intensity; a: decay
     vec4 cone;      // spot lights: xyz: scaled direction in which they point; w: see cone_share. Others: 0, 0, 0, 1
 };
@@ -23,9 +25,24 @@ layout(std140, binding = 1) uniform Lights {
 };
 #endif
 
+// 1 for a light with a position, 0 for a directional one. Without any range, w is that number.
+float is_at_place(vec4 position) {
+#if defined(LIGHT_RANGE) || defined(USER_SOURCE)
+    return abs(sign(position.w));
+#else
+    return position.w;
+#endif
+}
+
+// The share of a light that its range leaves (KHR_lights_punctual): max(min(1 - (distance / range)^4, 1), 0).
+float range_share(vec4 position, float distance_squared) {
+    float share = distance_squared * position.w * position.w;
+    return position.w < 0.0 ? max(1.0 - share * share, 0.0) : 1.0;
+}
+
 // The share of a spot light in a direction (unit length, from the light): 0 outside its cone, 1 where the penumbra
-// ends.
+// ends; between them the square that KHR_lights_punctual recommends.
 float cone_share(vec4 cone, vec3 way) {
     float t = clamp(dot(cone.xyz, way) + cone.w, 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
+    return t * t;
 }

@@ -63,10 +63,11 @@ struct LightSample {
 // The light that light number `index` sends to a surface; the surface's angle to it is not included.
 LightSample sample_light(int index, Surface surface) {
     Light light = u_lights[index];
-    vec3 to_light = light.position.xyz - surface.from_origin * light.position.w;
+    vec3 to_light = light.position.xyz - surface.from_origin * is_at_place(light.position);
     float distance_squared = dot(to_light, to_light);
     vec3 direction = to_light * inversesqrt(max(distance_squared, 1e-36));
     float share = light.position.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.color.a);
+    share *= range_share(light.position, distance_squared);
     share *= cone_share(light.cone, -direction) * light_visibility(index, surface.from_origin, surface.normal);
     return LightSample(direction, light.color.rgb * share);
 }

@@ -6,7 +6,7 @@
 vec3 light_answer(Surface surface, vec3 tint, int index, Light source) {
     vec4 place = source.position;
     vec4 light = source.color;
-    vec3 to_light = place.xyz - surface.from_origin * place.w;
+    vec3 to_light = place.xyz - surface.from_origin * is_at_place(place);
     float distance_squared = dot(to_light, to_light);
     to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface must not give NaN
     float n_dot_l = dot(surface.normal, to_light);
@@ -17,6 +17,9 @@ vec3 light_answer(Surface surface, vec3 tint, int index, Light source) {
     vec3 answer = n_dot_l * material[1].rgb * tint + material[1].a * highlight;
 #ifdef LIGHT_DECAY
     answer *= place.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * light.a);
+#endif
+#ifdef LIGHT_RANGE
+    answer *= range_share(place, distance_squared);
 #endif
 #ifdef LIGHT_CONE
     answer *= cone_share(source.cone, -to_light);

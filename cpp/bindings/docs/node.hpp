@@ -114,4 +114,24 @@ Examples
 [0.0, 0.0, 1.0, 0.0]
 )doc";
 
+inline constexpr const char* node_variants =
+    R"doc(dict of str to Material: what `material` becomes while the scene shows a variant of that name.
+
+The dict is a copy: set it as a whole. A name that is none of `Scene.variants` has no effect.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> scene.variants = ["day", "night"]
+>>> shoe = scene.add(cc.Mesh.box(), cc.PhongMaterial(name="white"))
+>>> shoe.variants = {"night": cc.PhongMaterial(color="navy", name="blue")}
+>>> scene.variant = "night"
+>>> shoe.material.name, shoe.own_material.name
+('blue', 'white')
+>>> scene.variant = None
+>>> shoe.material.name
+'white'
+)doc";
+
 }  // namespace cubecam::docs

@@ -63,6 +63,105 @@ ValueError
     If the light is already in this scene.
 )doc";
 
+inline constexpr const char* add_camera = R"doc(Add a camera to `Scene.cameras`.
+
+Parameters
+----------
+camera : Camera
+    The camera to add. It may be in other scenes, too. No picture depends on the cameras of a scene: any
+    camera can draw any scene.
+
+Returns
+-------
+Camera
+    The same camera.
+
+Raises
+------
+ValueError
+    If the camera is already in this scene.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> car = scene.add(position=(0, 0, 5), name="car")
+>>> camera = scene.add(cc.PerspectiveCamera(position=(0, 1, 0), parent=car))
+>>> camera in scene, camera.world_position.tolist()
+(True, [0.0, 1.0, 5.0])
+)doc";
+
+inline constexpr const char* add_animation = R"doc(Add an animation to `Scene.animations`.
+
+Parameters
+----------
+animation : Animation
+    An animation of nodes of this scene.
+
+Returns
+-------
+Animation
+    The same animation.
+
+Raises
+------
+ValueError
+    If the animation is already in this scene, or moves a node that is not.
+)doc";
+
+inline constexpr const char* set_time =
+    R"doc(Move the nodes to where an animation has them at a time.
+
+Parameters
+----------
+seconds : float
+    Before the first and after the last key of a channel, the channel has the value of that key.
+animation : int, str or Animation
+    Which animation: an index of `animations`, a name, or the animation itself.
+
+Returns
+-------
+Scene
+    This scene.
+
+Raises
+------
+IndexError
+    For an index that no animation has.
+KeyError
+    For a name that no animation has; the message names similar ones.
+TypeError
+    For another kind of object.
+ValueError
+    For seconds that are not finite, or a node whose `matrix` has a shear, which position, rotation and scale
+    cannot express. In this case no node changes.
+
+Notes
+-----
+What the animation does not name stays as it is, and so do nodes that are no longer in the scene. A node that
+was given a whole `matrix` is taken apart, as by setting `Node.rotation`; glTF has no animations of such nodes.
+A scale nearer to 0 than 1e-6 becomes 1e-6, since a node's matrix must not be singular.
+
+Examples
+--------
+>>> import cubecam as cc
+>>> scene = cc.Scene()
+>>> ball = scene.add(cc.Mesh.sphere(), name="ball")
+>>> way = cc.AnimationChannel(ball, "translation", [0, 2], [(0, 0, 0), (4, 0, 0)])
+>>> fly = scene.add(cc.Animation([way], name="fly"))
+>>> scene.set_time(.5)["ball"].position.tolist()
+[1.0, 0.0, 0.0]
+>>> scene.set_time(9, "fly")["ball"].position.tolist()
+[4.0, 0.0, 0.0]
+)doc";
+
+inline constexpr const char* variant =
+    R"doc(str or None: which of `variants` the scene shows; see `Node.variants`.
+
+Setting it gives each node that has a material of that name this material. None gives each node its own
+material again, which is the one that was last set by `Node.material`.
+)doc";
+
 inline constexpr const char* add_node = R"doc(Add a mesh with a material, or a group.
 
 Parameters
@@ -179,13 +278,14 @@ Examples
 [2.0, 2.0, 2.0]
 )doc";
 
-inline constexpr const char* remove = R"doc(Remove a light, or a node with all nodes below it.
+inline constexpr const char* remove =
+    R"doc(Remove a light, a camera, an animation, or a node with all nodes below it.
 
 Removed objects keep their values; their ids are not used again.
 
 Parameters
 ----------
-thing : Node or Light
+thing : Node, Light, Camera or Animation
     The object to remove.
 
 Raises

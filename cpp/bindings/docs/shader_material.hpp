@@ -25,7 +25,7 @@ textures : dict of str, optional
 displacement : float, optional
     The greatest distance by which `vertex` moves a vertex, in the mesh's units. None: unknown; the node is
     never culled, and any change of it draws the whole picture again.
-opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading
+opacity, double_sided, blend, depth_write, depth_test, color_write, stencil, flat_shading, name
     The options of every `Material`.
 
 Attributes

@@ -8,7 +8,9 @@
 #include <glm/glm.hpp>
 
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 
 namespace cubecam {
@@ -65,8 +67,14 @@ public:
         });
     }
 
+    /// A name for people. It is no part of the value, since no picture depends on it.
+    std::string name() const;
+    void set_name(std::string name);
+
 private:
     Versioned<MaterialValue> value_;
+    mutable std::mutex name_guard_;
+    std::string name_;
 };
 
 /// Each kind has a class of its own, so that C++ and Python users can name it.

@@ -56,7 +56,7 @@ public:
     Frame render(const SceneSnapshot& scene, const CameraValue& camera,
                  const FrameOptions& options);
     Frame render(const Scene& scene, const Camera& camera, const FrameOptions& options) {
-        return render(*scene.snapshot(), camera.value(), options);
+        return render(*scene.snapshot(), camera.world_value(), options);
     }
 
     /// Draws the pictures of both eyes as one; each eye has the `aspect` of its part.

@@ -2,6 +2,7 @@
 
 #include "cubecam/core/checks.hpp"
 #include "cubecam/math/transform.hpp"
+#include "cubecam/scene/node.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -91,10 +92,71 @@ Matrices matrices_of(const Placed<Lens>& placed, double aspect) {
     return {look_along(p.position, forward_of(p), p.up), projection_of(placed.lens, aspect)};
 }
 
+/// Calls `change` with the placement, if the camera has one.
+template <class Change>
+void for_placement(CameraValue& value, Change&& change) {
+    if (auto* perspective = std::get_if<Placed<PerspectiveLens>>(&value)) {
+        change(perspective->placement);
+    } else if (auto* parallel = std::get_if<Placed<OrthographicLens>>(&value)) {
+        change(parallel->placement);
+    }
+}
+
 }  // namespace
 
 glm::dvec3 forward_of(const Placement& placement) {
-    return placement.target ? *placement.target - placement.position : glm::dvec3(0.0, 0.0, -1.0);
+    return placement.target ? *placement.target - placement.position : placement.forward;
+}
+
+std::optional<glm::dmat4> parent_matrix(const Placement& placement) {
+    const auto parent = placement.parent.lock();
+    return parent ? std::optional(parent->world_matrix()) : std::nullopt;
+}
+
+Placement in_world(const Placement& placement, const std::optional<glm::dmat4>& parent) {
+    Placement world = placement;
+    world.parent.reset();
+    if (!parent) return world;
+    const glm::dmat3 turn(*parent);
+    world.position = glm::dvec3(*parent * glm::dvec4(placement.position, 1.0));
+    if (placement.target) world.target = glm::dvec3(*parent * glm::dvec4(*placement.target, 1.0));
+    world.up = turn * placement.up;
+    world.forward = turn * placement.forward;
+    return world;
+}
+
+CameraValue in_world(CameraValue value) {
+    for_placement(value, [](Placement& placement) {
+        placement = in_world(placement, parent_matrix(placement));
+    });
+    return value;
+}
+
+void set_in_world(Placement& placement, const Placement& world,
+                  const std::optional<glm::dmat4>& parent) {
+    placement.position = world.position;
+    placement.target = world.target;
+    placement.up = world.up;
+    if (!parent) return;
+    const glm::dmat4 from_world = glm::inverse(*parent);
+    placement.position = glm::dvec3(from_world * glm::dvec4(world.position, 1.0));
+    if (world.target) {
+        placement.target = glm::dvec3(from_world * glm::dvec4(*world.target, 1.0));
+    }
+    placement.up = glm::dmat3(from_world) * world.up;
+}
+
+CameraValue relative_to(const CameraValue& model, CameraValue world) {
+    CameraValue copy = model;
+    std::weak_ptr<Node> parent;
+    for_placement(copy, [&](const Placement& placement) { parent = placement.parent; });
+    for_placement(world, [&](Placement& placement) {
+        Placement local;
+        local.parent = parent;
+        set_in_world(local, placement, parent_matrix(local));
+        placement = local;
+    });
+    return world;
 }
 
 void check(const CameraValue& value) {

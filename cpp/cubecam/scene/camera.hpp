@@ -1,21 +1,29 @@
 #pragma once
 
 #include "cubecam/core/versioned.hpp"
+#include "cubecam/scene/weak_nodes.hpp"
 
 #include <glm/glm.hpp>
 
+#include <memory>
 #include <optional>
 #include <variant>
 
 namespace cubecam {
 
-/// The position of a camera, its target and its up direction.
+/// The position of a camera, its target and its up direction: in the world, or in the coordinates
+/// of the parent if there is one.
 struct Placement {
     glm::dvec3 position{0.0, 0.0, 0.0};
-    std::optional<glm::dvec3> target;  ///< none: the camera looks along -Z from any position
+    std::optional<glm::dvec3> target;  ///< none: the camera looks along `forward`
     glm::dvec3 up{0.0, 1.0, 0.0};
+    std::weak_ptr<Node> parent{};
+    glm::dvec3 forward{0.0, 0.0, -1.0};  ///< of another value only where in_world() gives it
 
-    bool operator==(const Placement&) const = default;
+    bool operator==(const Placement& other) const {
+        return position == other.position && target == other.target && up == other.up &&
+               same_node(parent, other.parent) && forward == other.forward;
+    }
 };
 
 struct PerspectiveLens {
@@ -65,8 +73,22 @@ void check(const CameraValue& value);
 /// y and z.
 Matrices matrices(const CameraValue& value, double aspect);
 
-/// The direction in which a camera looks, of any length.
+/// The direction in which a camera looks, of any length, in the coordinates of the placement.
 glm::dvec3 forward_of(const Placement& placement);
+
+/// The world matrix of a camera's parent; none without a parent. Locks the parent's scene, whose
+/// lock the caller must not hold.
+std::optional<glm::dmat4> parent_matrix(const Placement& placement);
+/// The same camera in the coordinates of the world, without a parent. A scale of the parent moves
+/// its points, but changes neither the lens nor the lengths that the camera sees.
+Placement in_world(const Placement& placement, const std::optional<glm::dmat4>& parent);
+CameraValue in_world(CameraValue value);
+/// Moves a placement so that in_world() gives the position, target and up of `world`. The parent of
+/// `placement` stays.
+void set_in_world(Placement& placement, const Placement& world,
+                  const std::optional<glm::dmat4>& parent);
+/// Returns the placed camera `world` in the coordinates of the parent of `model`, as its child.
+CameraValue relative_to(const CameraValue& model, CameraValue world);
 
 class Camera {
 public:
@@ -76,8 +98,11 @@ public:
     Camera(const Camera&) = delete;
     Camera& operator=(const Camera&) = delete;
 
+    /// The camera as it was set: relative to its parent if it has one.
     CameraValue value() const { return value_.value(); }
-    Matrices matrices(double aspect) const { return cubecam::matrices(value(), aspect); }
+    /// The camera in the world, as pictures see it at this moment.
+    CameraValue world_value() const { return in_world(value()); }
+    Matrices matrices(double aspect) const { return cubecam::matrices(world_value(), aspect); }
 
     template <class Change>
     void edit(Change&& change) {
@@ -104,10 +129,24 @@ public:
         edit([&](CameraValue& value) { change(std::get<Placed<Lens>>(value)); });
     }
 
-    /// Turns the camera towards a point of the world. No `up`: the camera keeps its own.
+    /// Like edit_placed, for the camera in the coordinates of the world.
+    template <class Change>
+    void edit_in_world(Change&& change) {
+        // The parent's scene is locked before the camera, never while the camera is.
+        const std::optional<glm::dmat4> parent = parent_matrix(placed().placement);
+        edit_placed([&](Placed<Lens>& placed) {
+            Placed<Lens> world{in_world(placed.placement, parent), placed.lens};
+            change(world);
+            placed.lens = world.lens;
+            set_in_world(placed.placement, world.placement, parent);
+        });
+    }
+
+    /// Turns the camera towards a point of the world; `up` is a direction of the world. No `up`:
+    /// the camera keeps its own.
     /// @throws std::invalid_argument for a target at the position or an up along the line of sight.
     void look_at(const glm::dvec3& target, const std::optional<glm::dvec3>& up = std::nullopt) {
-        edit_placed([&](Placed<Lens>& placed) {
+        edit_in_world([&](Placed<Lens>& placed) {
             placed.placement.target = target;
             if (up) placed.placement.up = *up;
         });

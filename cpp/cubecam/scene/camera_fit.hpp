@@ -5,8 +5,8 @@
 
 namespace cubecam {
 
-/// Moves a camera, without turning it, so that the corners of `bounds` fill a picture of `aspect` =
-/// width / height and none is outside.
+/// Moves a camera of the world, without turning it, so that the corners of `bounds` fill a picture
+/// of `aspect` = width / height and none is outside.
 ///
 /// `margin` is the share of the picture's width and height that stays free at each border. The
 /// target becomes the point on the camera's axis nearest to the middle of the bounds. An

@@ -57,6 +57,16 @@ std::vector<std::shared_ptr<RenderTexture>> textures_of(const Material& material
     return textures;
 }
 
+/// The materials that a node holds, each as often as the node holds it.
+std::vector<std::shared_ptr<Material>> materials_of(const Node& node) {
+    const NodeValue value = node.value();
+    std::vector<std::shared_ptr<Material>> materials{value.material};
+    for (const auto& [name, material] : value.variants) materials.push_back(material);
+    if (value.own_material) materials.push_back(*value.own_material);
+    std::erase(materials, nullptr);
+    return materials;
+}
+
 /// An object with more references than those from the other objects of the search is held from
 /// outside. Everything that it leads to is held, too; the rest is not (T. W. Christopher,
 /// "Reference Count Garbage Collection", Software: Practice and Experience 14(6), 1984).
@@ -70,7 +80,7 @@ public:
         for (const auto& [scene, entry] : scenes_.entries) {
             for (const auto& node : scene->nodes()) {
                 nodes_.add(node);
-                if (const auto material = node->value().material) materials_.add(material);
+                for (const auto& material : materials_of(*node)) materials_.add(material);
             }
         }
         for (const auto& [texture, entry] : textures_.entries) {
@@ -79,7 +89,7 @@ public:
         for (const auto& [node, entry] : nodes_.entries) {
             nodes_.count(node);  // the reference of its scene
             nodes_.count(node->parent().get());
-            materials_.count(node->value().material.get());
+            for (const auto& material : materials_of(*node)) materials_.count(material.get());
         }
         for (const auto& [material, entry] : materials_.entries) {
             for (const auto& texture : textures_of(*material)) textures_.count(texture.get());
@@ -122,7 +132,7 @@ private:
     }
     void follow(const Node* node) {
         reach(node->parent().get());
-        reach(node->value().material.get());
+        for (const auto& material : materials_of(*node)) reach(material.get());
     }
     void follow(const Material* material) {
         for (const auto& texture : textures_of(*material)) reach(texture.get());

@@ -1,6 +1,7 @@
 #include "cubecam/scene/light.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/scene/node.hpp"
 
 #include <cmath>
 #include <utility>
@@ -9,9 +10,16 @@ namespace cubecam {
 
 namespace {
 
+void check_range(double range) {
+    if (!(range > 0.0 && (fits_float(range) || range == no_range))) {
+        expect(false, "a range above 0, or infinity for none", describe(range));
+    }
+}
+
 void check_parameters(PointParameters& p) {
     expect_finite(p.position, "position");
     expect_not_negative(p.decay, "decay");
+    check_range(p.range);
 }
 
 void make_unit_length(glm::dvec3& direction) {
@@ -32,6 +40,7 @@ void check_parameters(SpotParameters& p) {
            describe(p.angle));
     expect(p.penumbra >= 0.0 && p.penumbra <= 1.0, "a penumbra from 0 to 1", describe(p.penumbra));
     expect_not_negative(p.decay, "decay");
+    check_range(p.range);
 }
 
 void check_parameters(AmbientParameters&) {}
@@ -42,6 +51,20 @@ LightValue checked(LightValue value) {
 }
 
 }  // namespace
+
+LightParameters transformed(LightParameters parameters, const glm::dmat4& world) {
+    std::visit(
+        [&](auto& p) {
+            if constexpr (requires { p.position; }) {
+                p.position = glm::dvec3(world * glm::dvec4(p.position, 1.0));
+            }
+            if constexpr (requires { p.direction; }) {
+                p.direction = glm::normalize(glm::dmat3(world) * p.direction);
+            }
+        },
+        parameters);
+    return parameters;
+}
 
 void check(LightValue& value) {
     const glm::vec3& color = value.color;
@@ -56,5 +79,11 @@ void check(LightValue& value) {
 }
 
 Light::Light(LightValue value) : value_(checked(std::move(value))) {}
+
+LightParameters Light::world_parameters() const {
+    LightValue value = this->value();
+    const auto parent = value.parent.lock();
+    return parent ? transformed(value.parameters, parent->world_matrix()) : value.parameters;
+}
 
 }  // namespace cubecam

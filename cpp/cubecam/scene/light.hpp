@@ -2,18 +2,24 @@
 
 #include "cubecam/core/versioned.hpp"
 #include "cubecam/scene/shadow.hpp"
+#include "cubecam/scene/weak_nodes.hpp"
 
 #include <glm/glm.hpp>
 
+#include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
 
 namespace cubecam {
 
+inline constexpr double no_range = std::numeric_limits<double>::infinity();
+
 struct PointParameters {
     glm::dvec3 position{0.0};
-    double decay = 0.0;  ///< light falls with distance^-decay; 0: constant, 2: as in physics
+    double decay = 0.0;       ///< light falls with distance^-decay; 0: constant, 2: as in physics
+    double range = no_range;  ///< no light reaches farther, world units
 
     bool operator==(const PointParameters&) const = default;
 };
@@ -34,8 +40,9 @@ struct SpotParameters {
     glm::dvec3 position{0.0};
     glm::dvec3 direction{0.0, -1.0, 0.0};  ///< of the cone's axis, in which light travels
     double angle = 30.0;                   ///< from the axis to the cone's edge, degrees
-    double penumbra = 0.0;  ///< share of the angle, from the edge inwards, over which light fades
-    double decay = 0.0;     ///< see PointParameters::decay
+    double penumbra = 0.0;    ///< share of the angle, from the edge inwards, over which light fades
+    double decay = 0.0;       ///< see PointParameters::decay
+    double range = no_range;  ///< see PointParameters::range
 
     bool operator==(const SpotParameters&) const = default;
 };
@@ -48,9 +55,19 @@ struct LightValue {
     glm::vec3 color{1.0F};  ///< linear RGB
     float intensity = 1.0F;
     std::optional<Shadow> shadow;  ///< none: the light shines through everything
+    /// Position and direction are in the parent's coordinates; none: in the world's.
+    std::weak_ptr<Node> parent{};
 
-    bool operator==(const LightValue&) const = default;
+    bool operator==(const LightValue& other) const {
+        return parameters == other.parameters && color == other.color &&
+               intensity == other.intensity && shadow == other.shadow &&
+               same_node(parent, other.parent);
+    }
 };
+
+/// Moves position and direction from the coordinates of a node to the world's. A scale changes
+/// neither the light's strength nor its range.
+LightParameters transformed(LightParameters parameters, const glm::dmat4& world);
 
 /// Normalises the direction. Throws std::invalid_argument for a value that is not finite or out of
 /// its range, for negative light, a direction of length 0 or an ambient light with a shadow.
@@ -66,7 +83,10 @@ public:
     using State = Versioned<LightValue>::State;
 
     State state() const { return value_.state(); }
+    /// The light as it was set: relative to its parent if it has one.
     LightValue value() const { return value_.value(); }
+    /// The parameters in the world at this moment. Locks the parent's scene.
+    LightParameters world_parameters() const;
     const Revision& revision() const { return value_.revision(); }
 
     template <class Change>
@@ -87,7 +107,7 @@ class LightOf : public Light {
 public:
     explicit LightOf(Parameters parameters = {}, glm::vec3 color = glm::vec3(1.0F),
                      float intensity = 1.0F, std::optional<Shadow> shadow = std::nullopt)
-        : Light({parameters, color, intensity, std::move(shadow)}) {}
+        : Light({parameters, color, intensity, std::move(shadow), {}}) {}
 
     Parameters parameters() const { return std::get<Parameters>(value().parameters); }
 

@@ -98,6 +98,20 @@ Transform transform_of(const Placing& placing) {
     return {glm::dvec3(matrix[3]), glm::normalize(glm::quat_cast(axes)), scale};
 }
 
+void show_material(NodeValue& value, const std::optional<std::string>& variant) {
+    if (value.variants.empty() && !value.own_material) return;
+    const auto own = value.own_material.value_or(value.material);
+    const auto shown = std::ranges::find_if(
+        value.variants, [&](const auto& named) { return variant && named.first == *variant; });
+    if (shown == value.variants.end()) {
+        value.material = own;
+        value.own_material.reset();
+    } else {
+        value.material = shown->second;
+        value.own_material = own;
+    }
+}
+
 Node::Node(std::int32_t id, NodeValue value)
     : id_(id), value_(std::move(value)), graph_(std::make_shared<NodeGraph>(false)) {
     check(value_.placing);
@@ -166,6 +180,7 @@ std::shared_ptr<NodeGraph> Node::graph() const {
 }
 
 void Node::set_graph(std::shared_ptr<NodeGraph> graph) {
+    deformation_.reset();  // nodes of the old graph may share it
     const std::lock_guard guard(graph_guard_);
     graph_.swap(graph);
 }
@@ -181,6 +196,18 @@ Node::Lock Node::lock() const {
 NodeValue Node::value() const {
     const Lock lock = this->lock();
     return value_;
+}
+
+void Node::set_variants(std::vector<std::pair<std::string, std::shared_ptr<Material>>> variants) {
+    NodeValue old;  // these two are destroyed after the lock is released
+    std::shared_ptr<SceneSnapshot> outdated;
+    const Lock lock = this->lock();
+    NodeValue next = value_;
+    next.variants = std::move(variants);
+    show_material(next, lock.graph->variant);
+    if (next.contents() == value_.contents()) return;
+    outdated = lock.graph->changed();
+    old = std::exchange(value_, std::move(next));
 }
 
 std::shared_ptr<Node> Node::parent() const {

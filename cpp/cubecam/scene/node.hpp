@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
@@ -24,6 +25,8 @@ namespace cubecam {
 
 class Node;
 class Scene;
+class Deformer;
+struct Deformation;
 struct SceneSnapshot;
 
 /// A scale, then a rotation, then a translation.
@@ -51,19 +54,27 @@ struct NodeValue {
     bool cast_shadow = true;        ///< false: nodes below it cast none either
     bool receive_shadow = true;     ///< whether its own surface shows shadows
     std::int32_t label = 0;         ///< a user's number, which the output "label" shows
-    std::shared_ptr<Skin> skin;     ///< null: none
+    std::shared_ptr<Skin> skin{};   ///< null: none
     /// Of the mesh's morph targets. If there are fewer weights than targets, the others are 0.
-    std::vector<float> weights;
+    std::vector<float> weights{};
+    /// Materials that `material` becomes while the scene shows the variant of their name.
+    std::vector<std::pair<std::string, std::shared_ptr<Material>>> variants{};
+    /// The node's own material while `material` is that of a variant.
+    std::optional<std::shared_ptr<Material>> own_material{};
 
     /// All members except `placing` and `weights`, which often change alone.
     auto contents() const {
         return std::tie(mesh, material, environment, visible, in_captures, name, render_order,
-                        cast_shadow, receive_shadow, label, skin);
+                        cast_shadow, receive_shadow, label, skin, variants, own_material);
     }
 };
 
 /// @throws std::invalid_argument for a rotation that is not finite or has length 0.
 glm::dquat unit_rotation(const glm::dquat& rotation);
+
+/// Makes `material` what a node shows in a variant of its scene: the material of that name, or the
+/// node's own one.
+void show_material(NodeValue& value, const std::optional<std::string>& variant);
 
 /// Normalises the rotation. Throws std::invalid_argument for a transform that is not finite or is
 /// singular.
@@ -106,7 +117,8 @@ struct NodeGraph {
         if (snapshot) moved.push_back(&node);
     }
 
-    std::uint64_t changes = 0;  ///< the number of changes so far
+    std::optional<std::string> variant;  ///< that the scene shows
+    std::uint64_t changes = 0;           ///< the number of changes so far
     /// The last snapshot, while it can be used again; see Scene::snapshot.
     std::shared_ptr<SceneSnapshot> snapshot;
     std::vector<Node*> moved;       ///< since `snapshot` was valid; a node may occur several times
@@ -116,6 +128,7 @@ struct NodeGraph {
 /// A mesh at a place in the world.
 struct PlacedMesh {
     std::shared_ptr<Mesh> mesh;
+    std::shared_ptr<const MeshData> deformed;  ///< null: the vertices of the mesh itself
     glm::dmat4 world;
 };
 
@@ -172,6 +185,9 @@ public:
         old = std::exchange(value_, std::move(next));
     }
 
+    /// Sets NodeValue::variants, and shows that of the scene's present variant.
+    void set_variants(std::vector<std::pair<std::string, std::shared_ptr<Material>>> variants);
+
     /// Like edit, for the placing alone: `change` gets a Placing.
     template <class Change>
     void edit_placing(Change&& change) {
@@ -190,8 +206,10 @@ public:
     void set_parent(const std::shared_ptr<Node>& parent);
 
 private:
+    friend class Deformer;
     friend class Scene;
     friend class SnapshotBuilder;
+    friend class WorldMatrices;
 
     struct Lock {
         std::shared_ptr<NodeGraph> graph;
@@ -214,12 +232,13 @@ private:
     void detach();
     glm::dmat4 locked_world_matrix() const;
     /// Finds the meshes of the node and of all visible nodes below it.
-    void find_meshes(std::vector<PlacedMesh>& to) const;
+    void find_meshes(Deformer& deformer, std::vector<PlacedMesh>& to) const;
     /// This node and all below it.
     std::vector<std::shared_ptr<Node>> subtree();
 
     const std::int32_t id_;
     NodeValue value_;
+    mutable std::shared_ptr<Deformation> deformation_;  ///< of the value; null: none yet
     std::shared_ptr<Node> parent_;
     std::set<std::weak_ptr<Node>, std::owner_less<>> children_;  ///< some may be destroyed
     std::size_t children_swept_at_ = 16;  ///< at this size the destroyed children are removed

@@ -128,6 +128,34 @@ void Scene::add(std::shared_ptr<Light> light) {
     lights_.push_back(std::move(light));
 }
 
+void Scene::add(std::shared_ptr<Camera> camera) {
+    if (!camera) throw std::invalid_argument("expected a camera, got none");
+    const std::lock_guard lock(graph_->mutex);
+    if (std::ranges::find(cameras_, camera) != cameras_.end()) {
+        throw std::invalid_argument("expected a camera that is not in the scene, got one that is");
+    }
+    cameras_.push_back(std::move(camera));
+    next_revision();
+}
+
+void Scene::add(std::shared_ptr<Animation> animation) {
+    if (!animation) throw std::invalid_argument("expected an animation, got none");
+    for (const auto& channel : animation->channels()) {
+        const auto node = channel->node();
+        if (!node || contains(*node)) continue;
+        throw std::invalid_argument("expected an animation of nodes of this scene, got node " +
+                                    std::to_string(node->id()) +
+                                    ", which is in another scene or in none");
+    }
+    const std::lock_guard lock(graph_->mutex);
+    if (std::ranges::find(animations_, animation) != animations_.end()) {
+        throw std::invalid_argument(
+            "expected an animation that is not in the scene, got one that is");
+    }
+    animations_.push_back(std::move(animation));
+    next_revision();
+}
+
 void Scene::remove(const std::shared_ptr<Node>& node) {
     std::vector<std::shared_ptr<Node>> removed;  // these two are released after the lock
     std::shared_ptr<SceneSnapshot> outdated;
@@ -165,9 +193,32 @@ void Scene::remove(const std::shared_ptr<Light>& light) {
     lights_.erase(found);
 }
 
+void Scene::remove(const std::shared_ptr<Camera>& camera) {
+    const std::lock_guard lock(graph_->mutex);
+    const auto found = std::ranges::find(cameras_, camera);
+    if (found == cameras_.end()) {
+        throw std::invalid_argument("expected a camera of this scene, got one that is not in it");
+    }
+    cameras_.erase(found);
+    next_revision();
+}
+
+void Scene::remove(const std::shared_ptr<Animation>& animation) {
+    const std::lock_guard lock(graph_->mutex);
+    const auto found = std::ranges::find(animations_, animation);
+    if (found == animations_.end()) {
+        throw std::invalid_argument(
+            "expected an animation of this scene, got one that is not in it");
+    }
+    animations_.erase(found);
+    next_revision();
+}
+
 void Scene::clear() {
     std::vector<std::shared_ptr<Node>> nodes;  // these are released after the lock
     std::vector<std::shared_ptr<Light>> lights;
+    std::vector<std::shared_ptr<Camera>> cameras;
+    std::vector<std::shared_ptr<Animation>> animations;
     std::shared_ptr<SceneSnapshot> outdated;
     const std::lock_guard lock(graph_->mutex);
     outdated = graph_->changed();
@@ -179,6 +230,10 @@ void Scene::clear() {
     ids_.clear();
     removed_ = 0;
     lights.swap(lights_);
+    cameras.swap(cameras_);
+    animations.swap(animations_);
+    variants_.clear();
+    graph_->variant.reset();
 }
 
 void Scene::place(std::span<const std::shared_ptr<Node>> nodes,
@@ -211,6 +266,17 @@ bool Scene::contains(const Light& light) const {
                        [&](const auto& other) { return other.get() == &light; });
 }
 
+bool Scene::contains(const Camera& camera) const {
+    const std::lock_guard lock(graph_->mutex);
+    return std::ranges::any_of(cameras_, [&](const auto& other) { return other.get() == &camera; });
+}
+
+bool Scene::contains(const Animation& animation) const {
+    const std::lock_guard lock(graph_->mutex);
+    return std::ranges::any_of(animations_,
+                               [&](const auto& other) { return other.get() == &animation; });
+}
+
 std::vector<std::shared_ptr<Node>> Scene::nodes() const {
     const std::lock_guard lock(graph_->mutex);
     std::vector<std::shared_ptr<Node>> nodes = nodes_;
@@ -231,6 +297,16 @@ Scene::find(const std::function<bool(std::int32_t, const NodeValue&)>& fits) con
 std::vector<std::shared_ptr<Light>> Scene::lights() const {
     const std::lock_guard lock(graph_->mutex);
     return lights_;
+}
+
+std::vector<std::shared_ptr<Camera>> Scene::cameras() const {
+    const std::lock_guard lock(graph_->mutex);
+    return cameras_;
+}
+
+std::vector<std::shared_ptr<Animation>> Scene::animations() const {
+    const std::lock_guard lock(graph_->mutex);
+    return animations_;
 }
 
 std::int32_t Scene::next_id() const {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "cubecam/materials/texture_source.hpp"
+#include "cubecam/scene/animation.hpp"
+#include "cubecam/scene/camera.hpp"
 #include "cubecam/scene/environment_placing.hpp"
 #include "cubecam/scene/light.hpp"
 #include "cubecam/scene/node.hpp"
@@ -12,7 +14,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -50,12 +54,18 @@ public:
     std::shared_ptr<Node> add(NodeValue value, const std::shared_ptr<Node>& parent = nullptr);
     /// A light may be in several scenes, but only once in each.
     void add(std::shared_ptr<Light> light);
+    /// A camera may be in several scenes. No picture depends on the cameras of a scene.
+    void add(std::shared_ptr<Camera> camera);
+    /// @throws std::invalid_argument also for a channel of a node that is not in this scene.
+    void add(std::shared_ptr<Animation> animation);
 
     /// Removes a node and all nodes below it; they keep their values and their tree.
-    /// @throws std::invalid_argument if the node or light is not in this scene.
+    /// @throws std::invalid_argument if the object is not in this scene.
     void remove(const std::shared_ptr<Node>& node);
     void remove(const std::shared_ptr<Light>& light);
-    /// Removes all nodes and lights.
+    void remove(const std::shared_ptr<Camera>& camera);
+    void remove(const std::shared_ptr<Animation>& animation);
+    /// Removes all nodes, lights, cameras, animations and variants.
     void clear();
 
     /// Places many nodes at once, node i by `change(i, Placing&)`. Either all nodes are moved or
@@ -67,8 +77,29 @@ public:
 
     bool contains(const Node& node) const;
     bool contains(const Light& light) const;
+    bool contains(const Camera& camera) const;
+    bool contains(const Animation& animation) const;
     std::vector<std::shared_ptr<Node>> nodes() const;  ///< in the order of add and of ids
     std::vector<std::shared_ptr<Light>> lights() const;
+    std::vector<std::shared_ptr<Camera>> cameras() const;  ///< in the order of add
+    std::vector<std::shared_ptr<Animation>> animations() const;
+
+    /// Gives the nodes of this scene that an animation moves their places and weights at a time, as
+    /// `place` does. Either all nodes are changed or none. Channels whose node is gone, or not in
+    /// this scene, are skipped. A scale nearer to 0 than 1e-6 becomes 1e-6.
+    /// @throws std::invalid_argument for seconds that are not finite, a node whose matrix has a
+    /// shear, or another number of weights than its mesh has morph targets.
+    void set_time(double seconds, const Animation& animation);
+
+    /// The names of the sets of materials that the scene can show.
+    std::vector<std::string> variants() const;
+    std::optional<std::string> variant() const;  ///< none: each node shows its own material
+    /// If the present variant is not among the names, none is shown any more.
+    /// @throws std::invalid_argument for a name that occurs twice.
+    void set_variants(std::vector<std::string> names);
+    /// @throws std::invalid_argument for a name that is none of `variants`.
+    void set_variant(const std::optional<std::string>& name);
+
     /// The nodes that `fits` accepts, in the order of ids. `fits` gets each node's id and value.
     std::vector<std::shared_ptr<Node>>
     find(const std::function<bool(std::int32_t, const NodeValue&)>& fits) const;
@@ -93,13 +124,18 @@ public:
 
 private:
     std::shared_ptr<const SceneSnapshot> kept_snapshot() const;
-    /// Updates the nodes that were moved since the snapshot was valid.
-    void follow_moves(SceneSnapshot& snapshot) const;
+    /// Updates the nodes that were moved, or got other weights, since the snapshot was valid.
+    /// Returns false if the snapshot must be made anew, since a mesh became translucent or opaque.
+    bool follow_moves(SceneSnapshot& snapshot) const;
+    /// Deforms meshes again after joints moved or weights changed; returns as follow_moves.
+    bool follow_deformations(SceneSnapshot& snapshot) const;
     /// `changes`, if not null, gets the NodeGraph::changes of the snapshot's moment.
     SceneSnapshot snapshot_alone(SharedReads& shared, std::uint64_t* changes = nullptr) const;
     std::shared_ptr<Node> insert(std::size_t place, std::int32_t id, NodeValue value);
     /// The index of the first id that is not below `id`.
     std::size_t place_of(std::int32_t id) const;
+    /// Returns the kept snapshot, which the caller releases after the lock.
+    std::shared_ptr<SceneSnapshot> show_variant(std::optional<std::string> name);
 
     const std::shared_ptr<NodeGraph> graph_;
     std::shared_ptr<CubeMap> environment_;
@@ -111,6 +147,9 @@ private:
     std::vector<std::int32_t> ids_;  ///< of nodes_, including the removed ones
     std::size_t removed_ = 0;        ///< nulls in nodes_
     std::vector<std::shared_ptr<Light>> lights_;
+    std::vector<std::shared_ptr<Camera>> cameras_;
+    std::vector<std::shared_ptr<Animation>> animations_;
+    std::vector<std::string> variants_;
     std::int32_t next_id_ = 1;
 };
 

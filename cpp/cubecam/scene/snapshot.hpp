@@ -72,6 +72,8 @@ struct NodeSnapshot {
     /// are drawn together.
     std::uint32_t crowd = 0;
     bool turned = false;  ///< its matrix turns the winding of its triangles
+    /// Whether weights or joints may change its mesh; it joins no crowd then.
+    bool deforms = false;
 
     /// Whether the node is drawn after the opaque nodes and the background, from far to near. This
     /// includes opaque nodes that write no depth, since the background and farther nodes would be
@@ -85,7 +87,8 @@ struct NodeSnapshot {
 /// A light at the moment of the snapshot; `object` identifies its shadow map.
 struct LightSnapshot {
     std::shared_ptr<Light> object;
-    LightValue value;
+    LightValue value;       ///< with position and direction in the world
+    LightParameters own{};  ///< as they were set: relative to the parent if there is one
 };
 
 /// An image effect as a call sees it.
@@ -124,6 +127,8 @@ struct SceneSnapshot {
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
 
+    std::vector<std::int32_t> joints;  ///< ids of the nodes that move skins of `nodes`, sorted
+
     // Only the first scene has the following members; in `others` they are empty.
 
     std::vector<EffectSnapshot> effects;  ///< of the frame
@@ -135,7 +140,8 @@ struct SceneSnapshot {
 
     /// The objects from which the snapshot was read, except nodes, with their revisions.
     std::vector<SeenRevision> seen;
-    /// Whether a probe follows a node of another scene, whose changes `seen` does not contain.
+    /// Whether a probe or a light follows a node of another scene, whose changes `seen` does not
+    /// contain.
     bool follows_others = false;
 
     /// Returns a scene by its number: 0 is this one, then the others follow.

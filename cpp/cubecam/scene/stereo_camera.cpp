@@ -15,12 +15,10 @@ namespace cubecam {
 
 namespace {
 
-// The names are in the order of the enum.
 /// A camera's own axes in the world: right, up and back.
 glm::dmat3 axes_of(const Placement& placement) {
-    const glm::dvec3 forward =
-        placement.target ? *placement.target - placement.position : glm::dvec3(0.0, 0.0, -1.0);
-    return glm::transpose(glm::dmat3(look_along(placement.position, forward, placement.up)));
+    return glm::transpose(
+        glm::dmat3(look_along(placement.position, forward_of(placement), placement.up)));
 }
 
 std::shared_ptr<Camera> checked_eye(std::shared_ptr<Camera> camera) {
@@ -113,8 +111,11 @@ Eyes off_axis_eyes(const CameraValue& camera, double separation,
                    std::optional<double> convergence) {
     expect_not_negative(separation, "separation");
     if (convergence) expect_positive(*convergence, "convergence");
+    const CameraValue world = in_world(camera);
     const auto eye = [&](double x) {
-        return std::visit([&](const auto& kind) { return shifted(kind, x, convergence); }, camera);
+        return relative_to(
+            camera,
+            std::visit([&](const auto& kind) { return shifted(kind, x, convergence); }, world));
     };
     return {eye(-0.5 * separation), eye(0.5 * separation)};
 }
@@ -123,8 +124,10 @@ Eyes toe_in_eyes(const CameraValue& camera, double degrees) {
     if (!(degrees >= 0.0 && degrees < 180.0)) {
         expect(false, "degrees from 0 to below 180", describe(degrees));
     }
+    const CameraValue world = in_world(camera);
     const auto eye = [&](double angle) {
-        return std::visit([&](const auto& kind) { return turned(kind, angle); }, camera);
+        return relative_to(
+            camera, std::visit([&](const auto& kind) { return turned(kind, angle); }, world));
     };
     return {eye(-0.5 * degrees), eye(0.5 * degrees)};
 }
@@ -167,7 +170,7 @@ void StereoCamera::set_layout(StereoLayout layout) {
 
 StereoValue StereoCamera::value() const {
     const std::lock_guard lock(mutex_);
-    return {{left_->value(), right_->value()}, layout_};
+    return {{left_->world_value(), right_->world_value()}, layout_};
 }
 
 }  // namespace cubecam

@@ -35,7 +35,7 @@ struct Eyes {
 /// Returns eyes at both sides of a camera, each half of `separation` away along the camera's right
 /// axis, with parallel axes. With `convergence` their frusta are sheared: a point at that distance
 /// from the camera, along its axis, has the same place in both pictures (P. Bourke, "Calculating
-/// Stereo Pairs", 1999). Lengths are in world units.
+/// Stereo Pairs", 1999). Lengths are in world units. The eyes have the camera's parent.
 /// @throws std::invalid_argument for numbers out of their range, or for a convergence of parallel
 /// rays, which have no frustum.
 Eyes off_axis_eyes(const CameraValue& camera, double separation, std::optional<double> convergence);
@@ -65,6 +65,7 @@ public:
     void set_right(std::shared_ptr<Camera> camera);
     void set_layout(StereoLayout layout);
 
+    /// The eyes in the world.
     StereoValue value() const;
 
 private:

@@ -298,5 +298,6 @@ def _scale(camera: AnyCamera, factor: float) -> bool:
         return False
     standing = navigation.Standing(camera)
     nearest = min(1.01 * float(camera.near), standing.distance)
-    camera.position = camera.target - standing.direction * max(standing.distance * factor, nearest)
+    distance = max(standing.distance * factor, nearest)
+    standing.place(standing.target - standing.direction * distance, standing.target)
     return True

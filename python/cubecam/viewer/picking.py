@@ -176,7 +176,7 @@ def _seen(node: Node, position: Any, normal: Any, viewer: Viewer) -> Seen | None
         return None
     camera = viewer.camera
     parallel = isinstance(camera, OrthographicCamera)
-    incident = Standing(camera).direction if parallel else position - camera.position
+    incident = Standing(camera).direction if parallel else position - camera.world_position
     incident = incident / np.linalg.norm(incident)
     length = np.linalg.norm(normal)
     if length == 0:

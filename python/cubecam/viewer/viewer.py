@@ -17,6 +17,7 @@ from .._core import (
     Scene,
     _newest_revision,
 )
+from ..navigation import Standing
 from ..typing import ControlsName, Encode, Output, Place, Tonemap
 from .controls import Controls, FirstPerson, Orbit, make_controls
 from .live import LiveView, shown_at
@@ -383,8 +384,9 @@ class Viewer(LiveView):
         if isinstance(self.controls, FirstPerson):
             return
         found = self.pick(event["x"], event["y"], size=size)
-        if found is not None and (found.position != self.camera.position).any():
-            self.camera.target = found.position
+        if found is not None and (found.position != self.camera.world_position).any():
+            standing = Standing(self.camera)
+            standing.place(standing.position, found.position)
             self.changed()
 
     def _tick(self, now: float) -> None:
@@ -484,12 +486,13 @@ def _expect(value: object, kinds: type | tuple[type, ...], name: str) -> None:
 
 
 def _give_target(camera: PerspectiveCamera | OrthographicCamera, bounds: Any) -> None:
-    """Give a camera that looks along -Z a target in the depth of the scene's middle."""
+    """Give a camera without a target one, along its view in the depth of the scene's middle."""
+    standing = Standing(camera)
     ahead = 1.0
     if bounds is not None:
         middle = (np.asarray(bounds[0]) + np.asarray(bounds[1])) / 2
-        ahead = max(float(camera.position[2] - middle[2]), 1.0)
-    camera.target = camera.position + np.array([0.0, 0.0, -ahead])
+        ahead = max(float((middle - standing.position) @ standing.direction), 1.0)
+    standing.place(standing.position, standing.position + ahead * standing.direction)
 
 
 def _pose(camera: PerspectiveCamera | OrthographicCamera) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 // others if their decay is 2. Light that facets scatter more than once is left out.
 #if !defined(LIGHT_COUNT) || LIGHT_COUNT > 0
 void add_light(Point point, int index, Light source, inout vec3 base, inout vec3 coat) {
-    vec3 to_light = source.position.xyz - point.from_origin * source.position.w;
+    vec3 to_light = source.position.xyz - point.from_origin * is_at_place(source.position);
     float distance_squared = dot(to_light, to_light);
     to_light *= inversesqrt(max(distance_squared, 1e-36));  // a light on the surface must not give NaN
     vec3 half_way = to_light + point.view;
@@ -13,6 +13,9 @@ void add_light(Point point, int index, Light source, inout vec3 base, inout vec3
     vec3 light = source.color.rgb;
 #ifdef LIGHT_DECAY
     light *= source.position.w == 0.0 ? 1.0 : pow(distance_squared, -0.5 * source.color.a);
+#endif
+#ifdef LIGHT_RANGE
+    light *= range_share(source.position, distance_squared);
 #endif
 #ifdef LIGHT_CONE
     light *= cone_share(source.cone, -to_light);

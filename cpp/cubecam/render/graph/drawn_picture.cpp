@@ -14,6 +14,7 @@ void add_light(Key& key, const LightValue& light) {
     if (const auto* point = std::get_if<PointParameters>(&light.parameters)) {
         key.add(point->position);
         key.add(point->decay);
+        key.add(point->range);
     } else if (const auto* sun = std::get_if<DirectionalParameters>(&light.parameters)) {
         key.add(sun->direction);
     } else if (const auto* spot = std::get_if<SpotParameters>(&light.parameters)) {
@@ -22,6 +23,7 @@ void add_light(Key& key, const LightValue& light) {
         key.add(spot->angle);
         key.add(spot->penumbra);
         key.add(spot->decay);
+        key.add(spot->range);
     }
     key.add(light.shadow.has_value());
 }

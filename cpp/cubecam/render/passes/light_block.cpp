@@ -20,6 +20,13 @@ glm::vec4 cone_of(const SpotParameters& spot) {
     return {spot.direction * steepness, -edge * steepness};
 }
 
+/// Place and range of a light: w is 1 without a range, otherwise -1 / range.
+glm::vec4 place_of(ShaderLights& to, const glm::dvec3& place, double range) {
+    if (range == no_range) return glm::vec4(place, 1.0F);
+    to.range = true;
+    return glm::vec4(place, -1.0 / range);
+}
+
 void add(ShaderLights& to, const LightValue& light, const glm::dvec3& origin) {
     const glm::vec3 color = light.color * light.intensity;
     if (std::holds_alternative<AmbientParameters>(light.parameters)) {
@@ -32,11 +39,11 @@ void add(ShaderLights& to, const LightValue& light, const glm::dvec3& origin) {
     }
     LightsBlock::Light& block = to.block.lights[to.count++];
     if (const auto* point = std::get_if<PointParameters>(&light.parameters)) {
-        block.position = glm::vec4(point->position - origin, 1.0F);
+        block.position = place_of(to, point->position - origin, point->range);
         block.color = glm::vec4(color, point->decay);
         to.decay = to.decay || point->decay != 0.0;
     } else if (const auto* spot = std::get_if<SpotParameters>(&light.parameters)) {
-        block.position = glm::vec4(spot->position - origin, 1.0F);
+        block.position = place_of(to, spot->position - origin, spot->range);
         block.color = glm::vec4(color, spot->decay);
         block.cone = cone_of(*spot);
         to.decay = to.decay || spot->decay != 0.0;

@@ -33,6 +33,7 @@ struct ShaderLights {
     std::size_t shadow_count = 0;  ///< how many of these have a shadow; they come first
     bool decay = false;            ///< some light falls off
     bool cone = false;             ///< some light is a spot light
+    bool range = false;            ///< some light has a range
 };
 
 /// `origin` is the origin of the shaders' positions.

@@ -176,6 +176,7 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.blend == Blend::premultiplied, "BLEND_PREMULTIPLIED");
     define(variant.decay, "LIGHT_DECAY");
     define(variant.cone, "LIGHT_CONE");
+    define(variant.range, "LIGHT_RANGE");
     define(variant.dense, "DENSE");
     define(variant.moved, "HAS_USER_VERTEX");
     define(variant.instanced, "INSTANCED");

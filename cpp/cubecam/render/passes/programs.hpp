@@ -54,6 +54,7 @@ struct SurfaceVariant {
     bool decay = false;
     bool moved = false;              ///< whether a user's own function moves the vertices
     bool cone = false;               ///< some light is a spot light
+    bool range = false;              ///< some light has a range
     int shadows = 0;                 ///< how many lights, the first ones, have a shadow on it
     std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each: two bits, from the lowest on
     EnvironmentVariant environment;

@@ -252,6 +252,7 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
                 lights_.count <= unrolled_lights ? static_cast<int>(lights_.count) : -1;
             variant.decay = lights_.decay;
             variant.cone = lights_.cone;
+            variant.range = lights_.range;
         }
     }
     variant.environment = EnvironmentVariant::of(item.textures->environment, traits);

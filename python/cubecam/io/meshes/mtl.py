@@ -117,10 +117,9 @@ def _map(rest: str) -> MapLine | None:
     while place < len(words) and words[place] in _FLAGS | _VECTORS | _PAIRS:
         option = words[place]
         place += 1
+        count = 2 if option in _PAIRS else 1
         if option in _VECTORS:
-            count = min(len(_numbers(words[place : place + 3])), 3)
-        else:
-            count = 2 if option in _PAIRS else 1
+            count = len(_numbers(words[place : place + 3]))
         options[option] = words[place : place + count]
         place += count
     # The name goes on to the end of the line; `split` would lose doubled blanks in it.

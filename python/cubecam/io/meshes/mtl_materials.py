@@ -221,7 +221,8 @@ class MtlMaterials:
             return None
         channel = 3 if of_alpha and pixels.shape[2] == 4 else 0
         full = 255 if pixels.dtype == np.uint8 else 1
-        return pixels[..., channel].astype(np.float32) / np.float32(full)
+        values: Array = pixels[..., channel].astype(np.float32) / np.float32(full)
+        return values
 
 
 def _made(pixels: Array, line: MapLine, encoding: Any) -> Image:

@@ -34,7 +34,7 @@ class Parts(Protocol):
     lights: dict[int, Any]
     cameras: dict[int, Any]
     animations: list[Any]
-    texture: Callable[[int], Image]
+    texture: Callable[[int], Image | None]
 
 
 class Reader:
@@ -93,7 +93,10 @@ class Reader:
     def _texture(self, entry: Entry, content: Any, depth: int) -> Image:
         index = entry.index("texture", self._document.count("textures"))
         assert index is not None
-        return self._parts(entry).texture(index)
+        image = self._parts(entry).texture(index)
+        if image is None:
+            raise entry.error("texture", "a texture whose picture can be read")
+        return image
 
     def _scene(self, entry: Entry, content: Any, depth: int) -> Scene:
         entry.index("scene", 1)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -46,7 +45,7 @@ class Parts:
     """The objects that were made of the entries of a document, by their indices there."""
 
     #: The image of a texture.
-    texture: Callable[[int], Any]
+    texture: Any
     nodes: dict[int, Node] = field(default_factory=dict)
     #: The nodes that show a glTF node's mesh: itself, or those below it.
     shown: dict[int, list[Node]] = field(default_factory=dict)
@@ -102,6 +101,9 @@ class _Builder:
             index: [primitive.mesh for primitive in found]
             for index, found in self.meshes.primitives.items()
         }
+        if self.extras:  # they may name any material
+            for index in range(document.count("materials")):
+                self.materials.get(index)
         self.parts.materials = {
             index: material for index, material in self.materials.made.items() if index is not None
         }

@@ -66,4 +66,5 @@ def _radiance(pixels: npt.NDArray[Any]) -> npt.NDArray[np.float16]:
         color = values[..., :3] ** _GAMMA / np.maximum(values[..., 3:], np.float32(1 / 255))
     else:
         color = srgb_decode(values) if pixels.dtype.kind == "u" else values
-    return np.minimum(color, np.float32(65504)).astype(np.float16)
+    result: npt.NDArray[np.float16] = np.minimum(color, np.float32(65504)).astype(np.float16)
+    return result

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from ...._core import DirectionalLight, Light, Node, PointLight, SpotLight
 from ...left_out import LeftOut
@@ -26,7 +27,7 @@ def light_of(document: Gltf, entry: Entry, node: Node, left_out: LeftOut) -> Lig
         raise reference.error("light", "the index of a light")
     light = root.member("lights", number)
     values = Values(light, left_out)
-    options = {
+    options: dict[str, Any] = {
         "color": values.numbers("color", (1.0,) * 3, 0),
         "intensity": values.number("intensity", 1.0, 0),
         "parent": node,

@@ -60,7 +60,8 @@ def joints_of(document: Gltf, entry: Entry) -> list[int]:
 
 def influences(surface: Surface) -> tuple[Any, Floats | None]:
     """Read all JOINTS_n and WEIGHTS_n of a primitive: (V, 4k) each, or None without any."""
-    which, weights = [], []
+    which: list[Any] = []
+    weights: list[Floats] = []
     while f"JOINTS_{len(which)}" in surface.attributes:
         key = f"JOINTS_{len(which)}"
         joints = surface.attributes.read(key, "VEC4")

@@ -121,17 +121,15 @@ class Meshes:
                 found["TANGENT"] = mesh.tangents
             else:
                 exact["tangents"] = self._values.array(mesh.tangents)
-        for number, (name, uvs) in enumerate((("uvs", mesh.uvs), ("uvs1", mesh.uvs1))):
-            if uvs is None and number in uv_sets:
-                # A material that looks them up needs them, and sees (0, 0) everywhere in a mesh without.
-                exact[name] = None
+        sets = [mesh.uvs, mesh.uvs1]
+        # A material that looks up uvs sees (0, 0) everywhere in a mesh without, and the sets have no gaps.
+        most = max([-1, *uv_sets, *(n for n, uvs in enumerate(sets) if uvs is not None)])
+        for number in range(most + 1):
+            uvs = sets[number]
+            if uvs is None:
+                exact["uvs1" if number else "uvs"] = None
                 uvs = np.zeros((len(positions), 2), np.float32)
-            if uvs is not None and (number == 0 or mesh.uvs is not None or 0 in uv_sets):
-                found[f"TEXCOORD_{number}"] = _from_top(uvs)
-            elif uvs is not None:  # the sets have no gaps (section 3.7.2.1)
-                exact["uvs"] = None
-                found["TEXCOORD_0"] = np.zeros((len(positions), 2), np.float32)
-                found["TEXCOORD_1"] = _from_top(uvs)
+            found[f"TEXCOORD_{number}"] = _from_top(uvs)
         if mesh.colors is not None:
             clipped = np.clip(mesh.colors, 0, 1)
             if colors:

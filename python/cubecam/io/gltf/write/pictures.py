@@ -12,7 +12,7 @@ from ...._core import Image
 from ... import formats
 from ...pixels import on_color, srgb_encode, to_float32, to_integers
 from ..extras.classes import KEY, PLANS
-from .document import Array, Document
+from .document import Array, Document, Json
 
 if TYPE_CHECKING:
     from .values import Values
@@ -62,16 +62,25 @@ class Pictures:
 
     def finish(self, values: Values) -> None:
         """Write the picture of each texture; what PNG or glTF cannot say of it stands in its extras."""
+        shown_as: dict[tuple[int, int], set[bool]] = {}
+        for written in self._written.values():
+            entry = self._document.lists["textures"][written.texture]
+            pixels = approximation(written.image, True in written.shown_as)
+            entry["source"] = self._document.picture(png(pixels))
+            # Readers may take equal pictures for one.
+            shown_as.setdefault(_place(entry), set()).update(written.shown_as)
         for written in list(self._written.values()):
             image, entry = written.image, self._document.lists["textures"][written.texture]
-            colors = True in written.shown_as
-            entry["source"] = self._document.picture(png(approximation(image, colors)))
-            if _says_all(image, written.shown_as):
+            if _says_all(image, shown_as[_place(entry)]):
                 continue
             exact = {"class": "Image", **values.properties(image, _SETTINGS)}
-            if not _holds(image, colors):
+            if not _holds(image, True in written.shown_as):
                 exact["pixels"] = values.array(image.pixels)
             entry["extras"] = {KEY: exact}
+
+
+def _place(entry: Json) -> tuple[int, int]:
+    return entry["source"], entry["sampler"]
 
 
 _SETTINGS = tuple(name for name in PLANS["Image"].made if name != "pixels")

@@ -193,6 +193,8 @@ def plain(
         source = value.source if isinstance(value, Texture) else value
         if source is not None and not isinstance(source, Image):
             setattr(made, name, None)  # a picture that is drawn
+        elif isinstance(value, Texture) and not value.uv_set and not transform(value):
+            setattr(made, name, source)  # glTF has no place that changes nothing
     if made.alpha_mode is None:
         made.alpha_mode = "blend" if translucent(material) else "opaque"
     made.color = (*np.asarray(made.color)[:3], float(made.color[3]) * made.opacity)
