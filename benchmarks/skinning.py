@@ -16,7 +16,7 @@ import cubecam as cc
 
 JOINTS, ROUND, RINGS = 100, 100, 500
 SIZE = (512, 512)
-ROUNDS = 15
+ROUNDS = 45
 
 
 def tube(smooth: bool = False, targets: int = 0) -> cc.Mesh:
@@ -80,13 +80,15 @@ class Stage:
         assert self.renderer.stats.views_drawn == 1
 
 
-def ratio(smooth: bool = False, targets: int = 0) -> tuple[float, float, float]:
+def ratio(
+    smooth: bool = False, targets: int = 0, rounds: int = ROUNDS
+) -> tuple[float, float, float]:
     """The median milliseconds of both frames, and the median of their ratios."""
     mesh = tube(smooth, targets)
     stages = [Stage(mesh, True), Stage(mesh, False)]
     times: list[list[float]] = [[], []]
     rng = np.random.default_rng(1)
-    for frame in range(3 * ROUNDS):
+    for frame in range(rounds + 3):
         for stage, found in zip(stages, times, strict=True):
             weights = rng.random(targets) if targets and stage.joints else None
             begin = time.process_time()
