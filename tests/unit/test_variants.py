@@ -151,8 +151,8 @@ def test_circles_by_way_of_variants_are_freed():
 
 
 def test_names_of_materials():
-    gold = cc.StandardMaterial(metallic=1, name="gold")
-    assert (gold.name, repr(gold)) == ("gold", "StandardMaterial(name='gold', metallic=1.0)")
+    gold = cc.StandardMaterial(metallic=0.5, name="gold")
+    assert (gold.name, repr(gold)) == ("gold", "StandardMaterial(name='gold', metallic=0.5)")
     assert cc.MirrorMaterial().name == ""
     gold.name = "brass"
     assert pickle.loads(pickle.dumps(gold)).name == "brass"
