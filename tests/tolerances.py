@@ -20,6 +20,15 @@ TOLERANCES = {
     "float32_maths": Tolerance(
         2e-6, "a handful of float32 operations on numbers of the size of 1", relative=2e-6
     ),
+    "deformed": Tolerance(
+        2e-5,
+        "float32 sums of up to 12 joints and of displacements; a rasteriser rounds vertices to 1/256 pixel, which "
+        "moves what is interpolated by 1e-4 of its slope for each pixel",
+        mean=5e-6,
+    ),
+    "deformed_light": Tolerance(
+        2e-3, "errors of 1e-5 in a normal, times the slope of a highlight", relative=2e-3, mean=1e-4
+    ),
     "lookup": Tolerance(
         1e-5,
         "float32 bilinear weights: s * N of a 64-texel face keeps 17 bits below the point",

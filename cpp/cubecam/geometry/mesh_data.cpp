@@ -368,6 +368,96 @@ MeshData MeshData::of_new_mesh() && {
     return std::move(*this);
 }
 
+void MeshData::set_deformed_positions(std::vector<glm::vec3> positions) {
+    bounds_ = bounds_of(positions);
+    positions_ = stream_of(std::move(positions), revision_);
+}
+
+void MeshData::set_deformed_normals(std::vector<glm::vec3> normals, bool lost) {
+    if (lost) normalize_all(normals, *positions(), *triangles());
+    normals_ = stream_of(std::move(normals), revision_);
+}
+
+void MeshData::set_deformed_tangents(std::vector<glm::vec4> tangents, bool lost) {
+    if (lost) normalize_all(tangents, *normals());
+    tangents_ = stream_of(std::move(tangents), revision_);
+}
+
+MeshData MeshData::morphed(std::span<const float> weights, const MeshData* before) const {
+    MeshData next = *this;
+    next.revision_ = next_revision();
+    next.targets_ = nullptr;
+    next.identity_ = before != nullptr ? before->identity_ : std::make_shared<const MeshIdentity>();
+    const auto changes = [&]<class Vector>(MorphTarget::Array<Vector> const& (MorphTarget::*of)()
+                                               const) {
+        std::vector<Displacement<Vector>> found;
+        for (std::size_t i = 0; i < std::min(weights.size(), target_count()); ++i) {
+            const auto& values = ((*targets_)[i].get()->*of)();
+            if (weights[i] != 0.0F && values) found.push_back({values.get(), weights[i]});
+        }
+        return found;
+    };
+    const auto moves = changes(&MorphTarget::positions);
+    if (!moves.empty()) next.set_deformed_positions(displaced(*positions(), moves));
+    if (smooth_) {
+        if (!moves.empty()) next.set_normals({});
+    } else if (const auto turns = changes(&MorphTarget::normals); !turns.empty()) {
+        auto normals = displaced(*this->normals(), turns);
+        const bool lost = normalize_each(normals);
+        next.set_deformed_normals(std::move(normals), lost);
+    }
+    if (const auto turns = changes(&MorphTarget::tangents); tangents() && !turns.empty()) {
+        std::vector<glm::vec3> directions(tangents()->begin(), tangents()->end());
+        directions = displaced(directions, turns);
+        const bool lost = normalize_each(directions);
+        std::vector<glm::vec4> signed_ones;
+        signed_ones.reserve(directions.size());
+        for (std::size_t i = 0; i < directions.size(); ++i) {
+            signed_ones.emplace_back(directions[i], (*tangents())[i].w);
+        }
+        next.set_deformed_tangents(std::move(signed_ones), lost);
+    }
+    if (const auto shifts = changes(&MorphTarget::uvs); uvs() && !shifts.empty()) {
+        next.uvs_ = stream_of(displaced(*uvs(), shifts), next.revision_);
+    }
+    if (const auto shifts = changes(&MorphTarget::uvs1); uvs1() && !shifts.empty()) {
+        next.uvs1_ = stream_of(displaced(*uvs1(), shifts), next.revision_);
+    }
+    if (const auto shifts = changes(&MorphTarget::colors); colors() && !shifts.empty()) {
+        auto mixed = displaced(*colors(), shifts);
+        for (glm::vec4& color : mixed) color = glm::clamp(color, 0.0F, 1.0F);
+        next.set_colors(std::move(mixed));
+    }
+    return next;
+}
+
+MeshData MeshData::skinned(std::span<const JointMatrix> joints, const MeshData* before) const {
+    MeshData next = *this;
+    next.revision_ = next_revision();
+    SkinnedVertices made =
+        skin({positions().get(), smooth_ ? nullptr : normals().get(), tangents().get()},
+             *influences_, joints);
+    if (made.mirrors) {
+        next.triangles_ = std::make_shared<const std::vector<glm::uvec3>>(
+            turned_triangles(*triangles(), made.sides));
+    }
+    if (before != nullptr && before->positions()->size() == positions()->size() &&
+        (before->triangles_ == next.triangles_ || *before->triangles_ == *next.triangles_)) {
+        next.identity_ = before->identity_;
+        next.triangles_ = before->triangles_;
+    } else {
+        next.identity_ = std::make_shared<const MeshIdentity>();
+    }
+    next.set_deformed_positions(std::move(made.positions));
+    if (smooth_) {
+        next.set_normals({});
+    } else {
+        next.set_deformed_normals(std::move(made.normals), made.lost);
+    }
+    if (tangents()) next.set_deformed_tangents(std::move(made.tangents), made.lost);
+    return next;
+}
+
 MeshData MeshData::with_targets_of(const MeshData& base) && {
     if (!base.targets_) return std::move(*this);
     MorphTargets targets = *base.targets_;

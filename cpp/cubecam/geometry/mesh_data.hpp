@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/geometry/deformation.hpp"
 #include "cubecam/geometry/influences.hpp"
 #include "cubecam/geometry/morph_target.hpp"
 
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace cubecam {
@@ -147,6 +149,19 @@ public:
     /// The same data as a new mesh, with an identity of its own.
     MeshData of_new_mesh() &&;
 
+    /// This mesh with weights of its morph targets; targets without a weight are not added. The
+    /// result has no morph targets.
+    /// @param before the result for other weights or an earlier moment of this mesh, as for
+    /// flat_shaded().
+    MeshData morphed(std::span<const float> weights, const MeshData* before = nullptr) const;
+
+    /// This mesh, which has joints, as these matrices place it. Smooth normals are those of the new
+    /// shape.
+    /// @param joints a matrix for each joint that the mesh names.
+    /// @param before the result for other matrices or another form of the mesh: if the triangles
+    /// are the same, the new one is the same mesh after an update. Null: none.
+    MeshData skinned(std::span<const JointMatrix> joints, const MeshData* before = nullptr) const;
+
     /// This mesh, which flat_shaded() or with_tangents() made of `base`, with its morph targets.
     MeshData with_targets_of(const MeshData& base) &&;
 
@@ -163,6 +178,10 @@ private:
     void set_colors(std::vector<glm::vec4> colors);
     void set_influences(std::shared_ptr<const Influences> influences);
     void set_targets(MorphTargets targets);
+    /// Sets positions or normals that a deformation made, which need no checks.
+    void set_deformed_positions(std::vector<glm::vec3> positions);
+    void set_deformed_normals(std::vector<glm::vec3> normals, bool lost);
+    void set_deformed_tangents(std::vector<glm::vec4> tangents, bool lost);
 
     std::shared_ptr<const MeshIdentity> identity_;
     Array<glm::uvec3> triangles_;

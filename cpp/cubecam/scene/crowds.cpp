@@ -44,7 +44,7 @@ void add_source(const MapSnapshot& source, Look& look) {
 /// write depth and write all channels, without stencil.
 bool may_join_crowd(const NodeSnapshot& node) {
     const SurfaceOptions& surface = node.material.value.surface;
-    return node.blend == Blend::opaque && node.depth_write && surface.depth_test &&
+    return !node.deforms && node.blend == Blend::opaque && node.depth_write && surface.depth_test &&
            !surface.stencil && glm::all(surface.color_write) &&
            !node.material.value.traits().user_code;
 }

@@ -180,6 +180,7 @@ std::shared_ptr<NodeGraph> Node::graph() const {
 }
 
 void Node::set_graph(std::shared_ptr<NodeGraph> graph) {
+    deformation_.reset();  // nodes of the old graph may share it
     const std::lock_guard guard(graph_guard_);
     graph_.swap(graph);
 }

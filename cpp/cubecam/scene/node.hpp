@@ -25,6 +25,8 @@ namespace cubecam {
 
 class Node;
 class Scene;
+class Deformer;
+struct Deformation;
 struct SceneSnapshot;
 
 /// A scale, then a rotation, then a translation.
@@ -126,6 +128,7 @@ struct NodeGraph {
 /// A mesh at a place in the world.
 struct PlacedMesh {
     std::shared_ptr<Mesh> mesh;
+    std::shared_ptr<const MeshData> deformed;  ///< null: the vertices of the mesh itself
     glm::dmat4 world;
 };
 
@@ -203,8 +206,10 @@ public:
     void set_parent(const std::shared_ptr<Node>& parent);
 
 private:
+    friend class Deformer;
     friend class Scene;
     friend class SnapshotBuilder;
+    friend class WorldMatrices;
 
     struct Lock {
         std::shared_ptr<NodeGraph> graph;
@@ -227,12 +232,13 @@ private:
     void detach();
     glm::dmat4 locked_world_matrix() const;
     /// Finds the meshes of the node and of all visible nodes below it.
-    void find_meshes(std::vector<PlacedMesh>& to) const;
+    void find_meshes(Deformer& deformer, std::vector<PlacedMesh>& to) const;
     /// This node and all below it.
     std::vector<std::shared_ptr<Node>> subtree();
 
     const std::int32_t id_;
     NodeValue value_;
+    mutable std::shared_ptr<Deformation> deformation_;  ///< of the value; null: none yet
     std::shared_ptr<Node> parent_;
     std::set<std::weak_ptr<Node>, std::owner_less<>> children_;  ///< some may be destroyed
     std::size_t children_swept_at_ = 16;  ///< at this size the destroyed children are removed

@@ -124,8 +124,11 @@ public:
 
 private:
     std::shared_ptr<const SceneSnapshot> kept_snapshot() const;
-    /// Updates the nodes that were moved since the snapshot was valid.
-    void follow_moves(SceneSnapshot& snapshot) const;
+    /// Updates the nodes that were moved, or got other weights, since the snapshot was valid.
+    /// Returns false if the snapshot must be made anew, since a mesh became translucent or opaque.
+    bool follow_moves(SceneSnapshot& snapshot) const;
+    /// Deforms meshes again after joints moved or weights changed; returns as follow_moves.
+    bool follow_deformations(SceneSnapshot& snapshot) const;
     /// `changes`, if not null, gets the NodeGraph::changes of the snapshot's moment.
     SceneSnapshot snapshot_alone(SharedReads& shared, std::uint64_t* changes = nullptr) const;
     std::shared_ptr<Node> insert(std::size_t place, std::int32_t id, NodeValue value);

@@ -1,6 +1,7 @@
 #include "cubecam/scene/snapshot.hpp"
 
 #include "cubecam/scene/crowds.hpp"
+#include "cubecam/scene/deformer.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <algorithm>
@@ -35,6 +36,17 @@ bool shows_through(const MaterialValue& material, const MeshData& mesh) {
                            const auto* map = std::get_if<const MapSource*>(&texture.source);
                            return texture.alpha_counts && map != nullptr && shows_through(**map);
                        });
+}
+
+/// The bounds of all possible positions of a mesh's vertices.
+Bounds bounds_for(const MeshData& mesh, const MaterialTraits& traits) {
+    Bounds bounds = mesh.bounds();
+    if (traits.moves_vertices()) {
+        const double reach = traits.user_code->displacement.value_or(0.0F);
+        bounds.low -= reach;
+        bounds.high += reach;
+    }
+    return bounds;
 }
 
 /// Places a node in the world.
@@ -98,14 +110,12 @@ public:
     /// material needs them and the mesh has only the uvs from which they are made.
     std::shared_ptr<const MeshData> form_of(const std::shared_ptr<Mesh>& mesh,
                                             const MaterialValue& material) {
-        const bool flat = material.surface.flat_shading;
-        const std::shared_ptr<const MeshData>& plain = flat ? flat_data_of(mesh) : data_of(mesh);
-        const MaterialTraits& traits = material.traits();
-        if (!traits.uses_tangents || plain->tangents() || !plain->uvs(traits.tangent_uv_set)) {
-            return plain;
-        }
-        auto& data = tangent_meshes_[{mesh, traits.tangent_uv_set + (flat ? 2 : 0)}];
-        if (!data) data = mesh->with_tangents(plain, traits.tangent_uv_set, flat);
+        const MeshForm form = form_for(*data_of(mesh), material);
+        const std::shared_ptr<const MeshData>& plain =
+            form.flat ? flat_data_of(mesh) : data_of(mesh);
+        if (form.tangents < 0) return plain;
+        auto& data = tangent_meshes_[{mesh, form.tangents + (form.flat ? 2 : 0)}];
+        if (!data) data = mesh->with_tangents(plain, form.tangents, form.flat);
         return data;
     }
 
@@ -199,7 +209,8 @@ class SnapshotBuilder {
 public:
     SnapshotBuilder(const std::vector<std::shared_ptr<Node>>& nodes, const NodeGraph* graph,
                     SharedReads& shared, SceneSnapshot& to)
-        : graph_(graph), shared_(shared), to_(to) {
+        : graph_(graph), shared_(shared), to_(to),
+          deformer_(*graph, [this](const Node& node) { return resolve(index_of(node)).world; }) {
         nodes_.reserve(nodes.size());
         for (const auto& node : nodes) {
             if (node) nodes_.push_back(node.get());
@@ -214,6 +225,8 @@ public:
             if (place.visible && nodes_[i]->value_.mesh) add(*nodes_[i], place);
         }
         for (std::size_t i = 0; i < to_.probes.size(); ++i) place_probe(i);
+        std::sort(to_.joints.begin(), to_.joints.end());
+        to_.joints.erase(std::unique(to_.joints.begin(), to_.joints.end()), to_.joints.end());
         find_crowds(to_.nodes);
     }
 
@@ -273,21 +286,27 @@ private:
         const Material::State& material = shared_.state_of(value.material);
         const MaterialTraits& traits = material.value.traits();
         const SurfaceOptions& surface = material.value.surface;
-        const std::shared_ptr<const MeshData> mesh = shared_.form_of(value.mesh, material.value);
+        const auto& base = shared_.data_of(value.mesh);
+        const bool deforms = may_deform(value, *base);
+        std::shared_ptr<const MeshData> mesh;
+        glm::dmat4 world = place.world;
+        if (deforms) {
+            DeformedMesh made = deformer_.deform(node, base, material.value);
+            mesh = std::move(made.mesh);
+            world = made.world;
+            add_joints(node);
+        } else {
+            node.deformation_.reset();
+            mesh = shared_.form_of(value.mesh, material.value);
+        }
         const Blend blend = surface.blend.value_or(
             shows_through(material.value, *mesh) ? Blend::alpha : Blend::opaque);
         const bool moved = traits.moves_vertices();
-        Bounds bounds = mesh->bounds();
-        if (moved) {
-            const double reach = traits.user_code->displacement.value_or(0.0F);
-            bounds.low -= reach;
-            bounds.high += reach;
-        }
         NodeSnapshot snapshot{
             node.id(),
             next_revision(),
-            place.world,
-            bounds,
+            world,
+            bounds_for(*mesh, traits),
             {},
             {},
             mesh,
@@ -304,13 +323,21 @@ private:
             place.cast_shadow && blend == Blend::opaque,
             value.receive_shadow,
         };
-        put(snapshot, place.world);
+        put(snapshot, world);
+        snapshot.deforms = deforms;
         for (const Node* above = node.parent_.get(); above; above = above->parent_.get()) {
             snapshot.ancestors.push_back(above->id());
         }
         snapshot.render_order = value.render_order;
         snapshot.label = value.label;
         to_.nodes.push_back(std::move(snapshot));
+    }
+
+    void add_joints(const Node& node) {
+        if (!node.value_.skin) return;
+        for (const auto& weak : node.value_.skin->joints()) {
+            if (const auto joint = weak.lock()) to_.joints.push_back(joint->id());
+        }
     }
 
     CubeSourceSnapshot snapshot_of(const CubeSource& source) {
@@ -364,6 +391,7 @@ private:
     const NodeGraph* graph_;
     SharedReads& shared_;
     SceneSnapshot& to_;
+    Deformer deformer_;
     std::vector<Place> places_;
     std::vector<std::size_t> waiting_;
     std::unordered_map<const Probe*, std::size_t> probes_;
@@ -422,16 +450,26 @@ std::shared_ptr<const SceneSnapshot> Scene::kept_snapshot() const {
             outdated =
                 std::exchange(graph_->snapshot, std::make_shared<SceneSnapshot>(*graph_->snapshot));
         }
-        follow_moves(*graph_->snapshot);
+        if (!follow_moves(*graph_->snapshot)) {
+            outdated = graph_->changed();
+            return nullptr;
+        }
     }
     graph_->newest_seen = newest;
     return graph_->snapshot;
 }
 
-void Scene::follow_moves(SceneSnapshot& snapshot) const {
-    const auto follow = [&snapshot](const Node& node) {
+bool Scene::follow_moves(SceneSnapshot& snapshot) const {
+    bool deformed = false;
+    const auto follow = [&](const Node& node) {
+        deformed = deformed ||
+                   std::binary_search(snapshot.joints.begin(), snapshot.joints.end(), node.id());
         NodeSnapshot* moved = find_node(snapshot.nodes, node.id());
         if (moved == nullptr) return;  // a group or an invisible node
+        if (moved->deforms) {
+            deformed = true;
+            return;
+        }
         put(*moved, node.locked_world_matrix());
         moved->revision = next_revision();
     };
@@ -441,6 +479,7 @@ void Scene::follow_moves(SceneSnapshot& snapshot) const {
         for (const auto& below : moved->subtree()) follow(*below);
     }
     graph_->moved.clear();
+    if (deformed && !follow_deformations(snapshot)) return false;
     for (ProbeSnapshot& probe : snapshot.probes) {
         probe.position = probe.value.position;
         if (const auto parent = probe.value.parent.lock()) {
@@ -453,6 +492,26 @@ void Scene::follow_moves(SceneSnapshot& snapshot) const {
         }
     }
     snapshot.revision = next_revision();
+    return true;
+}
+
+bool Scene::follow_deformations(SceneSnapshot& snapshot) const {
+    WorldMatrices worlds;
+    Deformer deformer(*graph_, [&worlds](const Node& node) { return worlds.of(node); });
+    for (NodeSnapshot& node : snapshot.nodes) {
+        if (!node.deforms) continue;
+        const Node& source = *nodes_[place_of(node.id)];
+        // The vertices of the snapshot's moment: the mesh may have been updated since.
+        const auto base = source.deformation_->base;
+        DeformedMesh made = deformer.deform(source, base, node.material.value);
+        if (made.mesh == node.mesh && made.world == node.world) continue;
+        if (made.mesh->translucent_colors() != node.mesh->translucent_colors()) return false;
+        node.mesh = std::move(made.mesh);
+        node.bounds = bounds_for(*node.mesh, node.material.value.traits());
+        put(node, made.world);
+        node.revision = next_revision();
+    }
+    return true;
 }
 
 SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes) const {

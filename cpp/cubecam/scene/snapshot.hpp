@@ -72,6 +72,8 @@ struct NodeSnapshot {
     /// are drawn together.
     std::uint32_t crowd = 0;
     bool turned = false;  ///< its matrix turns the winding of its triangles
+    /// Whether weights or joints may change its mesh; it joins no crowd then.
+    bool deforms = false;
 
     /// Whether the node is drawn after the opaque nodes and the background, from far to near. This
     /// includes opaque nodes that write no depth, since the background and farther nodes would be
@@ -124,6 +126,8 @@ struct SceneSnapshot {
     std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
+
+    std::vector<std::int32_t> joints;  ///< ids of the nodes that move skins of `nodes`, sorted
 
     // Only the first scene has the following members; in `others` they are empty.
 

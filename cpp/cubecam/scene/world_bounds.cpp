@@ -1,5 +1,6 @@
 // The bounds of scenes and nodes in the world.
 #include "cubecam/geometry/mesh_bounds.hpp"
+#include "cubecam/scene/deformer.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <utility>
@@ -10,22 +11,30 @@ namespace {
 
 Bounds bounds_of(const std::vector<PlacedMesh>& meshes) {
     Bounds all = no_bounds();
-    for (const auto& [mesh, world] : meshes) {
-        all = united(all, bounds_in_world(*mesh->data(), world));
+    for (const auto& [mesh, deformed, world] : meshes) {
+        all = united(all, bounds_in_world(deformed ? *deformed : *mesh->data(), world));
     }
     return all;
 }
 
 }  // namespace
 
-void Node::find_meshes(std::vector<PlacedMesh>& to) const {
+void Node::find_meshes(Deformer& deformer, std::vector<PlacedMesh>& to) const {
     // A loop and not a recursion: a long chain of parents would overflow the stack.
     std::vector<std::pair<std::shared_ptr<const Node>, glm::dmat4>> waiting;
     waiting.emplace_back(shared_from_this(), locked_world_matrix());
     while (!waiting.empty()) {
         const auto [node, world] = std::move(waiting.back());
         waiting.pop_back();
-        if (node->value_.mesh) to.push_back({node->value_.mesh, world});
+        if (const auto& mesh = node->value_.mesh) {
+            const auto data = mesh->data();
+            if (may_deform(node->value_, *data)) {
+                const auto made = deformer.deform(*node, data, node->value_.material->value());
+                to.push_back({mesh, made.mesh, made.world});
+            } else {
+                to.push_back({mesh, nullptr, world});
+            }
+        }
         for (const auto& child : node->children_) {
             auto below = child.lock();
             if (!below || !below->value_.visible) continue;
@@ -39,7 +48,9 @@ Bounds Node::world_bounds() const {
     std::vector<PlacedMesh> meshes;
     {
         const Lock lock = this->lock();
-        find_meshes(meshes);
+        WorldMatrices worlds;
+        Deformer deformer(*lock.graph, [&worlds](const Node& node) { return worlds.of(node); });
+        find_meshes(deformer, meshes);
     }
     return bounds_of(meshes);
 }
@@ -48,8 +59,10 @@ Bounds Scene::bounds() const {
     std::vector<PlacedMesh> meshes;
     {
         const std::lock_guard lock(graph_->mutex);
+        WorldMatrices worlds;
+        Deformer deformer(*graph_, [&worlds](const Node& node) { return worlds.of(node); });
         for (const auto& node : nodes_) {
-            if (node && !node->parent_ && node->value_.visible) node->find_meshes(meshes);
+            if (node && !node->parent_ && node->value_.visible) node->find_meshes(deformer, meshes);
         }
     }
     return bounds_of(meshes);
