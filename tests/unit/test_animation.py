@@ -48,9 +48,7 @@ def test_rotations_go_the_shorter_way():
 def test_a_spline_through_zero_keeps_the_rotation_of_its_key():
     rows = np.zeros((6, 4))
     rows[1, 0], rows[4, 0] = 1, -1
-    channel = cc.AnimationChannel(
-        cc.Scene().add(), "rotation", [0, 2], rows, interpolation="cubic"
-    )
+    channel = cc.AnimationChannel(cc.Scene().add(), "rotation", [0, 2], rows, interpolation="cubic")
     assert channel.sample(1.0).tolist() == [1, 0, 0, 0]
 
 
@@ -171,9 +169,7 @@ def test_set_time_moves_children_and_bounds():
 def test_weights_are_set():
     target = cc.MorphTarget(positions=np.ones((24, 3)))
     box = cc.Mesh.box()
-    mesh = cc.Mesh(
-        box.positions, box.indices, normals=box.normals, morph_targets=[target, target]
-    )
+    mesh = cc.Mesh(box.positions, box.indices, normals=box.normals, morph_targets=[target, target])
     scene = cc.Scene()
     node = scene.add(mesh)
     channel = cc.AnimationChannel(node, "weights", [0, 2], [(0, 1), (1, 0)])

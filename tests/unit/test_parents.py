@@ -63,9 +63,7 @@ def test_methods_work_in_the_world(kind):
     scene, node, matrix = holder((2, 0.7, -1.5))
     position, target, up = (0.2, 0.3, -0.4), (1, -1, 2), (0, 1, 0.2)
     child = kind(position=position, target=target, up=up, parent=node)
-    free = kind(
-        position=at(matrix, position), target=at(matrix, target), up=matrix[:3, :3] @ up
-    )
+    free = kind(position=at(matrix, position), target=at(matrix, target), up=matrix[:3, :3] @ up)
     steps = [
         lambda c: c.orbit(yaw=30, pitch=-10),
         lambda c: c.walk(0.7),
@@ -107,9 +105,7 @@ def test_eyes_have_the_parent(make, target):
     _, node, matrix = holder()
     child = cc.PerspectiveCamera(target=target, parent=node)
     ahead = at(matrix, (0, 0, -1) if target is None else target)
-    free = cc.PerspectiveCamera(
-        position=at(matrix, (0, 0, 0)), target=ahead, up=matrix[:3, 1]
-    )
+    free = cc.PerspectiveCamera(position=at(matrix, (0, 0, 0)), target=ahead, up=matrix[:3, 1])
     ours, theirs = make(child), make(free)
     for ours, theirs in ((ours.left, theirs.left), (ours.right, theirs.right)):
         assert ours.parent is node
