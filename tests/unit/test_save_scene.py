@@ -431,7 +431,9 @@ def _probe(scene, node):
 
 def _skin(scene, node):
     shape = cc.Mesh(np.eye(3), [[0, 1, 2]], joints=[[0] * 4] * 3, joint_weights=[[1, 0, 0, 0]] * 3)
-    scene.add(shape, skin=cc.Skin([node]))
+    joint = scene.add()
+    scene.add(shape, skin=cc.Skin([joint]))
+    scene.remove(joint)
 
 
 @pytest.mark.parametrize("belong", [_light, _camera, _probe, _skin])
@@ -488,17 +490,20 @@ def test_animations(tmp_path):
 def test_joints_without_a_common_root_get_one(tmp_path):
     scene = cc.Scene()
     joints = [scene.add(), scene.add()]
-    weights = np.array([[0.5, 0.5, 0, 0], [1, 0, 0, 0], [3, 1, 0, 0]])
+    weights = np.array([[0.5, 0.5, 0, 0], [0.5, 0, 0.5, 0], [3, 1, 0, 0]])
     shape = cc.Mesh(np.eye(3), [[0, 1, 2]], joints=[[1, 0, 1, 1]] * 3, joint_weights=weights)
-    scene.add(shape, skin=cc.Skin(joints))
+    scene.add(shape, skin=cc.Skin(joints, skeleton=joints[0]))
     document = tree_of(scene, tmp_path)
     raw = document.tree.raw
     assert raw["scenes"][0]["nodes"] == [2, 3]
     assert raw["nodes"][3] == {"children": [0, 1], "extras": {"cubecam": {"carrier": True}}}
     attributes = raw["meshes"][0]["primitives"][0]["attributes"]
-    # Weights have a sum of 1, and a joint without weight is 0 (section 3.7.3.3).
-    np.testing.assert_allclose(document.accessor(attributes["WEIGHTS_0"]).sum(axis=1), 1, atol=1e-7)
+    # Weights have a sum of 1, no joint counts twice, and one without weight is 0 (section 3.7.3.3).
+    want = [[0.5, 0.5, 0, 0], [1, 0, 0, 0], [0.75, 0.25, 0, 0]]
+    np.testing.assert_allclose(document.accessor(attributes["WEIGHTS_0"]), want, atol=1e-7)
     assert document.accessor(attributes["JOINTS_0"]).tolist() == [[1, 0, 0, 0]] * 3
+    # The skeleton is a root of all joints, or is not named.
+    assert "skeleton" not in raw["skins"][0]
     assert document.stored(attributes["JOINTS_0"]).dtype == np.uint8
 
 
