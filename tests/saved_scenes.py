@@ -141,18 +141,19 @@ def _textures(scene):
         "uniform float k; vec3 effect(vec2 uv) { return k * frame(uv).rgb; }",
         uniforms={"k": np.float32(2)},
     )
-    node = scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial())
+    scene.add(cc.Mesh.box(), cc.BasicMaterial(color="red"))
     camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0), shift=(0, 0.5))
-    shown = cc.RenderTexture(
-        scene, camera, size=(8, 4), exclude=[node], effects=[effect, effect], name="tv"
-    )
-    node.material.map = shown
-    scene.add(
-        mesh(uvs=RNG.random((5, 2))),
-        cc.StandardMaterial(map=shown, emissive_map=cc.Texture(shown, scale=(2, 2))),
-    )
+    options = {"size": (8, 4), "effects": [effect, effect], "name": "tv"}
+    shown = cc.RenderTexture(scene, camera, **options)
     matrices = cc.Camera(view=camera.view, projection=camera.projection(2))
-    scene.add(mesh(), cc.StandardMaterial(map=cc.RenderTexture(scene, matrices)))
+    other = cc.RenderTexture(scene, matrices)
+    for material in (
+        cc.BasicMaterial(map=shown),
+        cc.StandardMaterial(map=shown, emissive_map=cc.Texture(shown, scale=(2, 2))),
+        cc.StandardMaterial(map=other),
+    ):
+        scene.add(mesh(uvs=RNG.random((5, 2))), material)
+    shown.exclude = other.exclude = scene.nodes[1:]
 
 
 def _held(scene):
@@ -187,7 +188,7 @@ def _cameras(scene):
     scene.add(cc.Camera(view=view, projection=scene.cameras[1].projection(2)))
     scene.add(cc.OrthographicCamera(height=0.25))
     shown = cc.RenderTexture(scene, scene.cameras[2], size=(4, 4))
-    scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))
+    shown.exclude = [scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))]
 
 
 def _variants(scene):

@@ -16,13 +16,14 @@ from ...._core import (
     Node,
     Scene,
     ShaderMaterial,
+    Skin,
 )
 from ..document import Gltf
 from ..entries import Entry
 from .classes import MESH, NODE, PLANS, SCENE, material_names
 from .values import Parts, Reader, made_of
 
-_MESH_WORDS = ("same", *MESH, "joint_weights", "morph_targets")
+_MESH_WORDS = ("same", *MESH, "joints", "joint_weights", "morph_targets")
 
 
 class Application:
@@ -50,6 +51,7 @@ class Application:
             self._material(index, material)
         for index, node in self._parts.nodes.items():
             self._node(index, node)
+        self._skins()
         for index, animation in enumerate(self._parts.animations):
             if animation is not None:
                 self._animation(index, animation)
@@ -78,13 +80,16 @@ class Application:
             self._replace(meshes, self._parts.meshes[other][0])
             return
         self._set(meshes[0], entry, (*MESH, "morph_targets"))
-        if "joint_weights" in entry:
-            where = entry.path("joint_weights")
-            weights = self._reader.value(entry.raw["joint_weights"], where)
+        bones = {
+            name: self._reader.value(entry.raw[name], entry.path(name))
+            for name in ("joints", "joint_weights")
+            if name in entry
+        }
+        if bones:
             try:
-                meshes[0].update(joint_weights=weights)
-            except (TypeError, ValueError) as error:
-                raise MeshError(f"{where}: {error}") from None
+                meshes[0].update(**bones)
+            except (TypeError, ValueError, IndexError, OverflowError) as error:
+                raise MeshError(f"{entry.path('joints')}: {error}") from None
 
     def _replace(self, meshes: list[Any], mesh: Any) -> None:
         """Show a mesh where the loader's own one is."""
@@ -97,6 +102,30 @@ class Application:
                 node.mesh = mesh
                 if len(weights):
                     node.weights = weights
+
+    def _skins(self) -> None:
+        """Give skins a skeleton that is no root of all their joints."""
+        made: dict[int, Skin] = {}
+        for index, node in self._parts.nodes.items():
+            number = self._document.entry("nodes", index).index(
+                "skin", self._document.count("skins")
+            )
+            entry = None if number is None else self._entry("skins", number)
+            if number is None or entry is None or node.skin is None:
+                continue
+            self._reader.check_names(entry, ("skeleton",))
+            if number not in made:
+                skeleton = self._reader.value(entry.raw.get("skeleton"), entry.path("skeleton"))
+                made[number] = made_of(
+                    Skin,
+                    {
+                        "joints": node.skin.joints,
+                        "inverse_bind_matrices": node.skin.inverse_bind_matrices,
+                        "skeleton": skeleton,
+                    },
+                    entry.where,
+                )
+            self._reader.set(node, "skin", made[number], entry.where)
 
     def _material(self, index: int, material: Material) -> None:
         entry = self._entry("materials", index)

@@ -38,10 +38,21 @@ class Skins:
             matrices = np.asarray(skin.inverse_bind_matrices, np.float32)
             if (matrices != np.eye(4, dtype=np.float32)).any():
                 entry["inverseBindMatrices"] = self._document.accessor(matrices)
-            if skin.skeleton is not None and skin.skeleton in self._nodes:
-                entry["skeleton"] = self._nodes[skin.skeleton]
+            skeleton = skin.skeleton
+            if skeleton is not None and skeleton in self._nodes:
+                if all(_is_below(joint, skeleton) for joint in skin.joints):
+                    entry["skeleton"] = self._nodes[skeleton]
+                else:  # the skeleton of glTF is a root of all joints
+                    entry["extras"] = {KEY: {"skeleton": {"node": self._nodes[skeleton]}}}
             self._known[id(skin)] = (skin, self._document.add("skins", entry))
         return self._known[id(skin)][1]
+
+
+def _is_below(node: Node | None, root: Node) -> bool:
+    """Say whether a node is another one or lies below it."""
+    while node is not None and node is not root:
+        node = node.parent
+    return node is root
 
 
 def add_animation(

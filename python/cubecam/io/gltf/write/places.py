@@ -47,6 +47,10 @@ class Places:
         """Find a node for a light or a camera: its parent if it lies there as glTF has it, else a carrier."""
         parent = _parent_of(thing)
         above = None if parent is None else self._nodes.get(parent)
+        if parent is not None and above is None:
+            raise ValueError(
+                f"{word}: expected a parent that is a node of the scene, got {parent!r}, which is not"
+            )
         if above is not None and _is_plain(thing) and not self._holds(above, word):
             index = above
         else:
@@ -100,11 +104,7 @@ class Places:
 
     def roots(self) -> list[int]:
         """Return the carriers that have no node above them."""
-        return [
-            index
-            for thing, index in self._carried
-            if _parent_of(thing) is None or _parent_of(thing) not in self._nodes
-        ]
+        return [index for thing, index in self._carried if _parent_of(thing) is None]
 
 
 def is_placed(camera: Camera) -> bool:
