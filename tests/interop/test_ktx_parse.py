@@ -15,7 +15,8 @@ const file = read(readFileSync(process.argv[2]));
 const levels = file.levels.map((level) => Buffer.from(level.levelData).toString("base64"));
 writeFileSync(process.argv[3], write(file)); // and back
 const { levels: _, ...rest } = file;
-console.log(JSON.stringify({ ...rest, data: levels }, (key, value) => (ArrayBuffer.isView(value) ? [...value] : value)));
+const plain = (key, value) => (ArrayBuffer.isView(value) ? [...value] : value);
+console.log(JSON.stringify({ ...rest, data: levels }, plain));
 """
 
 

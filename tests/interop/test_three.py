@@ -7,7 +7,7 @@ from cubecam.io import ktx2
 from tests.interop.directions import DIRECTIONS, sky, sky_cube
 
 pytestmark = pytest.mark.interop
-#: SwiftShader clips the box of three.js' background wrongly near its corners, so that these directions are left out there.
+#: SwiftShader clips the box of three.js' background wrongly near its corners: these directions are left out there.
 CORNERS = [6, 9, 10]
 SIX = [f"/{face}.hdr" for face in ("px", "nx", "py", "ny", "pz", "nz")]
 
@@ -33,7 +33,9 @@ def test_a_radiance_panorama(tmp_path, page):
 
 def test_a_ktx2_panorama(tmp_path, page):
     """three.js reads uncompressed KTX2 of one face; of a cubemap it takes the first face alone."""
-    panorama = sky_cube().to_equirect(width=256, center="+x")[::-1]  # DataTexture has row 0 at the bottom
+    panorama = sky_cube().to_equirect(width=256, center="+x")[
+        ::-1
+    ]  # DataTexture has row 0 at the bottom
     data = ktx2.write([np.ascontiguousarray(panorama)], encoding="linear", compression="zstd")
     (tmp_path / "sky.ktx2").write_bytes(data)
     argument = {"kind": "ktx2", "url": "/sky.ktx2", "mode": "mirror"}
