@@ -197,9 +197,7 @@ def test_broken_files(data, told):
 
 
 def test_a_missing_package_is_named(monkeypatch, rng):
-    data = ktx2.write(
-        [rng.random((4, 4, 4)).astype("f4")], encoding="linear", compression="zstd"
-    )
+    data = ktx2.write([rng.random((4, 4, 4)).astype("f4")], encoding="linear", compression="zstd")
     basis = bytearray(44)
     basis[:4] = struct.pack("<I", 44)
     basis[12:15] = bytes([166, 1, 2])
@@ -210,7 +208,9 @@ def test_a_missing_package_is_named(monkeypatch, rng):
     assert real is builtins.__import__
     with pytest.raises(cc.ImageError, match=r"backports\.zstd.*pip install 'cubecam\[ktx2\]'"):
         ktx2.read(data)
-    with pytest.raises(cc.ImageError, match=r"opengl-basisu, which reads Basis Universal \(UASTC\)"):
+    with pytest.raises(
+        cc.ImageError, match=r"opengl-basisu, which reads Basis Universal \(UASTC\)"
+    ):
         ktx2.read(universal)
 
 
