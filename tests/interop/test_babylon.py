@@ -14,9 +14,11 @@ def shown(page, url, **options):
     return np.array(page("babylon.html", {**argument, **options}))
 
 
-def test_a_mirror(tmp_path, page):
+@pytest.mark.parametrize("right", [False, True])
+def test_a_mirror(right, tmp_path, page):
     sky_cube().save_for("babylon", tmp_path)
-    assert np.abs(shown(page, "/environment.env") - sky(DIRECTIONS)).max() < 0.03
+    found = shown(page, "/environment.env", rightHanded=right)
+    assert np.abs(found - sky(DIRECTIONS)).max() < 0.03
 
 
 @pytest.mark.parametrize("roughness", [0.4, 0.7])
