@@ -41,6 +41,7 @@ BY_POSITION = {
     "Mesh.torus": ["radius", "tube", "segments", "sides"],
     "Mesh.arrow": ["length"],
     "Mesh.from_trimesh": ["mesh"],
+    "Skin": ["joints", "inverse_bind_matrices"],
     "Scene.find": ["name"],
     "Node.look_at": ["target"],
     "Camera.intrinsics": ["size"],
