@@ -18,6 +18,7 @@ _FILES = (
     "sunrise.exr",
     "sunset.exr",
     "bunny.obj",
+    "gallery.glb",
     "suzanne.glb",
     "teapot.obj",
 )
