@@ -76,7 +76,7 @@ def build():
         gold,
         name="head",
         parent=room,
-        position=(1, 1.3, -0.5),
+        position=(1, 1.15, -0.5),
     )
     silver = cc.StandardMaterial(color=(0.95, 0.95, 0.95), roughness=0.03)
     scene.add(
