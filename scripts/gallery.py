@@ -72,20 +72,20 @@ def build():
     )
     gold = cc.StandardMaterial(color=(1, 0.77, 0.34), roughness=0.25)
     head = scene.add(
-        cc.load_mesh(cc.sample_data("suzanne.glb"), size=0.85),
+        cc.load_mesh(cc.sample_data("suzanne.glb"), size=1),
         gold,
         name="head",
         parent=room,
-        position=(1, 1.22, -0.5),
+        position=(1, 1.15, -0.5),
     )
     silver = cc.StandardMaterial(color=(0.95, 0.95, 0.95), roughness=0.03)
     scene.add(
         cc.Mesh.sphere(0.6, 48, 24), silver, name="ball", parent=room, position=(-0.7, 0.6, 0.1)
     )
     bulb = scene.add(name="bulb", parent=room, position=(0, 2.6, 0))
-    scene.add(cc.PointLight((0, 0, 0), color=(1, 0.86, 0.66), intensity=14, parent=bulb))
-    eye = scene.add(name="view", position=(0, 1.5, 6.2), rotation=cc.axis_angle((1, 0, 0), -4))
-    scene.add(cc.PerspectiveCamera(fov=36, near=0.1, far=50, parent=eye))
+    scene.add(cc.PointLight((0, 0, 0), color=(1, 0.86, 0.66), intensity=14, decay=2, parent=bulb))
+    eye = scene.add(name="view", position=(0, 1.4, 5.1), rotation=cc.axis_angle((1, 0, 0), -2))
+    scene.add(cc.PerspectiveCamera(fov=35, near=0.1, far=50, parent=eye))
     quarter = np.array([cc.axis_angle((0, 1, 0), angle) for angle in (0, 90, 180, 270, 360)])
     turn = cc.AnimationChannel(head, "rotation", np.arange(5) * 2.0, quarter)
     scene.add(cc.Animation([turn], name="turn"))

@@ -11,6 +11,7 @@ from ..io.screen import CURVES
 from .control import Control, Section
 from .environment import EnvironmentTurn
 from .material_panel import groups, maps_shown, material_controls
+from .morph_panel import morph_names, weight_controls
 from .panel import Memory, properties
 from .scene_camera import camera_names
 
@@ -281,7 +282,12 @@ def _lens(memory: Memory, camera: Any) -> tuple[Control, ...]:
 
 def _nodes(memory: Memory, nodes: tuple[Node, ...]) -> Iterator[Section]:
     for node in nodes:
-        controls = memory.controls(node, lambda node=node: properties(node))  # type: ignore[misc]
+        names = morph_names(node)
+        controls = memory.controls(
+            node,
+            lambda node=node, names=names: (*weight_controls(node, names), *properties(node)),  # type: ignore[misc]
+            shape=names,
+        )
         yield Section(f"{_name(node)}: node", controls, open=False)
 
 
