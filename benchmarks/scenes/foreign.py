@@ -73,10 +73,11 @@ SOURCES = (
     Source(f"{GENESIS}/tower/ball_coll.glb", "66 nodes, no material"),
     # PyPI filly 0.2.1
     Source("suzanne.glb", "no texture"),
-    # Soldier.glb again, written by npm gltfpack 1.3.0 (-cc -tc; -c -tu), gltf-pipeline 4.3.1 (-d), @gltf-transform/cli
-    # 4.5.1 (webp)
+    # Soldier.glb again, encoded by npm gltfpack 1.3.0 (-cc), ktx2-encoder 0.6.0 (with @gltf-transform), gltf-pipeline
+    # 4.3.1 (-d) and @gltf-transform/cli 4.5.1 (webp)
     Source("made/Soldier-meshopt.glb", "meshopt, quantized", (0.4,), 1),
-    Source("made/Soldier-ktx2.glb", "KTX2 of Basis", (0.4,), 1),
+    Source("made/Soldier-ktx2.glb", "KTX2 of ETC1S", (0.4,), 1),
+    Source("made/Soldier-uastc.glb", "KTX2 of UASTC", (0.4,), 1),
     Source("made/Soldier-draco.glb", "Draco", (0.4,), 1),
     Source("made/Soldier-webp.glb", "WebP", (0.4,), 1),
 )
