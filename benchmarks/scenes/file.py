@@ -231,15 +231,15 @@ def materials(texture: dict[str, int]) -> list[dict[str, Any]]:
             },
         ),
         extended(
-            plain((0.9, 0.85, 0.8), 1, 0.4),
-            anisotropy={"anisotropyStrength": 0.7, "anisotropyRotation": 0.5},
+            plain((0.9, 0.85, 0.8), 1, 0.5),
+            anisotropy={"anisotropyStrength": 0.3, "anisotropyRotation": 0.5},
         ),
         extended(
-            plain((1, 1, 1), 0, 0.1),
+            plain((1, 1, 1), 0, 0.0),
             transmission={"transmissionFactor": 1.0},
             volume={
-                "thicknessFactor": 0.4,
-                "attenuationDistance": 0.8,
+                "thicknessFactor": 0.15,
+                "attenuationDistance": 0.3,
                 "attenuationColor": (0.4, 0.9, 0.6),
             },
             ior={"ior": 1.45},
