@@ -72,7 +72,7 @@ def test_a_channel_keeps_what_it_was_given():
 
 def bad_channels():
     node = cc.Scene().add()
-    good = dict(node=node, path="translation", times=[0, 1], values=np.zeros((2, 3)))
+    good = {"node": node, "path": "translation", "times": [0, 1], "values": np.zeros((2, 3))}
     return {
         "no times": ({**good, "times": []}, "times of at least 1 key"),
         "equal times": ({**good, "times": [1, 1]}, "times that increase strictly, got 1, then 1"),

@@ -106,8 +106,8 @@ def test_eyes_have_the_parent(make, target):
     child = cc.PerspectiveCamera(target=target, parent=node)
     ahead = at(matrix, (0, 0, -1) if target is None else target)
     free = cc.PerspectiveCamera(position=at(matrix, (0, 0, 0)), target=ahead, up=matrix[:3, 1])
-    ours, theirs = make(child), make(free)
-    for ours, theirs in ((ours.left, theirs.left), (ours.right, theirs.right)):
+    pair, free_pair = make(child), make(free)
+    for ours, theirs in ((pair.left, free_pair.left), (pair.right, free_pair.right)):
         assert ours.parent is node
         np.testing.assert_allclose(ours.view, theirs.view, atol=1e-12)
 
@@ -141,7 +141,7 @@ def test_where_lights_are():
 LIGHTS = (cc.PointLight, cc.SpotLight, cc.DirectionalLight)
 
 
-@pytest.mark.parametrize("kind", (*LIGHTS, *PLACED))
+@pytest.mark.parametrize("kind", [*LIGHTS, *PLACED])
 def test_parents_are_not_kept(kind):
     scene = cc.Scene()
     node = scene.add(position=(1, 2, 3))
@@ -157,7 +157,7 @@ def test_parents_are_not_kept(kind):
 
 
 @pytest.mark.parametrize("bad", [3, "node", cc.Scene()])
-@pytest.mark.parametrize("kind", (*LIGHTS, *PLACED))
+@pytest.mark.parametrize("kind", [*LIGHTS, *PLACED])
 def test_bad_parents(kind, bad):
     with pytest.raises(TypeError, match="parent: expected a Node or None"):
         kind(parent=bad)

@@ -52,7 +52,7 @@ def test_a_material_that_is_set_by_hand_becomes_the_own_one():
 
 
 def test_materials_of_the_present_variant_show_at_once():
-    scene, (shoe, sole, box) = shop()
+    scene, (shoe, _, box) = shop()
     scene.variant = "blue"
     green = cc.PhongMaterial(name="green")
     box.variants = {"blue": green}
