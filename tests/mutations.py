@@ -1251,7 +1251,7 @@ MUTATIONS = [
     ),
     Mutation(
         "files: light goes into 8 bits without a curve",
-        "formats.py",
+        "io/formats.py",
         "screen_pixels(pixels, encoding, exposure, curve, True)",
         "screen_pixels(pixels, encoding, exposure, None, True)",
         ("tests/unit/test_screen.py", "tests/gl/test_encoding.py"),
