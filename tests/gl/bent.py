@@ -57,7 +57,7 @@ class Bent:
                 normals=rng.uniform(-0.2, 0.2, (count, 3)) if normals else None,
                 tangents=rng.uniform(-0.2, 0.2, (count, 3)) if normals else None,
                 uvs=rng.uniform(-0.1, 0.1, (count, 2)) if index else None,
-                colors=rng.uniform(-0.3, 0.3, (count, 3)) if index else None,
+                colors=rng.uniform(-1.5, 1.5, (count, 3)) if index else None,
                 name=f"target {index}",
             )
             for index in range(targets)
