@@ -5666,7 +5666,7 @@ class PointLight(Light):
     Parameters
     ----------
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5674,8 +5674,15 @@ class PointLight(Light):
         A factor of `color`, not negative.
     decay : float
         The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
+    range : float
+        The light ends at this distance, world units, above 0: it is multiplied by max(min(1 - (distance /
+        range)**4, 1), 0), the window of KHR_lights_punctual. Infinity: no end.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -5752,20 +5759,21 @@ class PointLight(Light):
 
 class SpotLight(Light):
     """
-    Light from one point into a cone, by the formulas of three.js and glTF.
+    Light from one point into a cone, by the formulas of glTF's KHR_lights_punctual.
 
     Parameters
     ----------
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates.
     direction : array_like (3,)
-        The way the light travels along the cone's axis, in world space, of any length except 0; it is kept
-        normalised. Straight down by default.
+        The way the light travels along the cone's axis, in world space or with a parent in its
+        coordinates, of any length except 0; it is kept normalised. Straight down by default.
     angle : float
         Angle from the axis to the cone's edge, degrees: above 0, below 90. There is no light outside the cone.
     penumbra : float
         Share of the angle, from the edge inwards, over which the light fades: with 0 the edge is sharp, with
-        1 the light fades from the axis on. The fade is GLSL's smoothstep between the cosines of the two angles.
+        1 the light fades from the axis on. The fade is the square of the share between the cosines of the two
+        angles, as KHR_lights_punctual recommends; three.js has GLSL's smoothstep there.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5773,8 +5781,15 @@ class SpotLight(Light):
         A factor of `color`, not negative.
     decay : float
         The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
+    range : float
+        The light ends at this distance, world units, above 0: it is multiplied by max(min(1 - (distance /
+        range)**4, 1), 0), the window of KHR_lights_punctual. Infinity: no end.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -5887,8 +5902,8 @@ class DirectionalLight(Light):
     Parameters
     ----------
     direction : array_like (3,)
-        The way the light travels, in world space, of any length except 0; it is kept normalised. Straight
-        down by default.
+        The way the light travels, in world space or with a parent in its coordinates, of any length except 0; it
+        is kept normalised. Straight down by default.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5896,6 +5911,10 @@ class DirectionalLight(Light):
         A factor of `color`, not negative.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -6113,9 +6132,10 @@ class PerspectiveCamera(Camera):
     fov : float
         Vertical field of view in degrees, above 0 and below 180.
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates, as target and up.
     target : array_like (3,), optional
-        The point that the camera looks at. None: the camera looks along -Z from any position.
+        The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+        along the parent's -Z.
     up : array_like (3,)
         The direction that is up in the picture; not along the line of sight.
     near, far : float
@@ -6127,6 +6147,11 @@ class PerspectiveCamera(Camera):
     pixel_aspect : float
         The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
         of calibrated cameras; see `from_intrinsics`.
+    parent : Node, optional
+        A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+        changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+        that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+        is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
     Raises
     ------
@@ -6229,7 +6254,7 @@ class PerspectiveCamera(Camera):
         self: PerspectiveCamera,
     ) -> tuple[
         np.typing.NDArray[np.float64],
-        object,
+        np.typing.NDArray[np.float64] | None,
         np.typing.NDArray[np.float64],
         np.typing.NDArray[np.float64],
     ]:
@@ -6326,7 +6351,7 @@ class PerspectiveCamera(Camera):
         Parameters
         ----------
         target : array_like (3,) or Node
-            World space, of a node its origin; it becomes the camera's `target`.
+            World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -6585,13 +6610,19 @@ class OrthographicCamera(Camera):
     height : float
         World units from the bottom to the top of the picture, above 0.
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates, as target and up.
     target : array_like (3,), optional
-        The point that the camera looks at. None: the camera looks along -Z from any position.
+        The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+        along the parent's -Z.
     up : array_like (3,)
         The direction that is up in the picture; not along the line of sight.
     near, far : float
         Depths in world units between which surfaces are drawn: near < far.
+    parent : Node, optional
+        A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+        changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+        that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+        is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
     Raises
     ------
@@ -6639,7 +6670,7 @@ class OrthographicCamera(Camera):
         self: OrthographicCamera,
     ) -> tuple[
         np.typing.NDArray[np.float64],
-        object,
+        np.typing.NDArray[np.float64] | None,
         np.typing.NDArray[np.float64],
         np.typing.NDArray[np.float64],
     ]:
@@ -6736,7 +6767,7 @@ class OrthographicCamera(Camera):
         Parameters
         ----------
         target : array_like (3,) or Node
-            World space, of a node its origin; it becomes the camera's `target`.
+            World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -7016,6 +7047,7 @@ class AnimationChannel:
 
     @staticmethod
     def _remake(
+        format: typing.SupportsIndex,
         path: AnimationPath,
         times: np.typing.ArrayLike,
         values: np.typing.ArrayLike,
@@ -7132,6 +7164,16 @@ class Animation:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Animation) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def channels(self) -> tuple[AnimationChannel, ...]:
         """

@@ -38,7 +38,7 @@ def test_lights(renderer, fresh_renderer, kind, elsewhere, shadow):
     other = cc.Scene() if elsewhere else scene
     crane = other.add(position=(0, 2, 0))
     hook = other.add(position=(0.5, 0, 0.5), parent=crane)
-    light = scene.add(KINDS[kind](PLACE, WAY, intensity=2, shadow=shadow, parent=hook))
+    scene.add(KINDS[kind](PLACE, WAY, intensity=2, shadow=shadow, parent=hook))
     for turn in (0, 35, 90):
         crane.rotation = cc.axis_angle((0.2, 1, 0.4), turn)
         hook.scale = 1 + turn / 50
@@ -52,7 +52,6 @@ def test_lights(renderer, fresh_renderer, kind, elsewhere, shadow):
         assert drawn == 1
         assert_identical(shot(renderer, scene), got)
         assert renderer.stats.views_drawn == 0
-    assert light.position.tolist() == list(PLACE)
 
 
 @pytest.mark.parametrize("elsewhere", [False, True])
@@ -74,7 +73,8 @@ def test_cameras(renderer, fresh_renderer, elsewhere):
         assert_identical(shot(renderer, scene, camera), shot(fresh_renderer, scene, free))
     eyes = cc.StereoCamera.off_axis(camera, separation=0.1)
     cart.position = (0.5, 0, 0)
-    free.position, free.target = free.position + (0.5, 0, 0), free.target + (0.5, 0, 0)
+    step = np.array((0.5, 0, 0))
+    free.position, free.target = free.position + step, free.target + step
     same = cc.StereoCamera.off_axis(free, separation=0.1)
     assert_close(shot(renderer, scene, eyes), shot(fresh_renderer, scene, same), "lookup")
 
@@ -112,7 +112,7 @@ def test_ranges(renderer, material, count):
     """The share of light that a range leaves, among lights with and without one."""
     made = {
         "phong": cc.PhongMaterial(color=(1, 1, 1), ka=0, kd=1, ks=0),
-        "standard": cc.StandardMaterial(specular_weight=0, roughness=1),
+        "standard": cc.StandardMaterial(metallic=0, specular_weight=0, roughness=1),
         "shader": cc.ShaderMaterial(RANGED),
     }[material]
     world = World()

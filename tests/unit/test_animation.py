@@ -48,9 +48,7 @@ def test_rotations_go_the_shorter_way():
 def test_a_spline_through_zero_keeps_the_rotation_of_its_key():
     rows = np.zeros((6, 4))
     rows[1, 0], rows[4, 0] = 1, -1
-    channel = cc.AnimationChannel(
-        cc.Scene().add(), "rotation", [0, 2], rows, interpolation="cubic"
-    )
+    channel = cc.AnimationChannel(cc.Scene().add(), "rotation", [0, 2], rows, interpolation="cubic")
     assert channel.sample(1.0).tolist() == [1, 0, 0, 0]
 
 
@@ -74,7 +72,7 @@ def test_a_channel_keeps_what_it_was_given():
 
 def bad_channels():
     node = cc.Scene().add()
-    good = dict(node=node, path="translation", times=[0, 1], values=np.zeros((2, 3)))
+    good = {"node": node, "path": "translation", "times": [0, 1], "values": np.zeros((2, 3))}
     return {
         "no times": ({**good, "times": []}, "times of at least 1 key"),
         "equal times": ({**good, "times": [1, 1]}, "times that increase strictly, got 1, then 1"),
@@ -123,7 +121,7 @@ def test_bad_animations_are_refused():
     cc.Animation([same[0], random_channel(rng, "scale", "linear", 2, other)])
     for bad in (same[0], 5, [node]):
         with pytest.raises(TypeError, match="channels: expected"):
-            cc.Animation(bad)
+            cc.Animation(bad)  # type: ignore[arg-type]
 
 
 def moving_scene(rng):
@@ -171,9 +169,7 @@ def test_set_time_moves_children_and_bounds():
 def test_weights_are_set():
     target = cc.MorphTarget(positions=np.ones((24, 3)))
     box = cc.Mesh.box()
-    mesh = cc.Mesh(
-        box.positions, box.indices, normals=box.normals, morph_targets=[target, target]
-    )
+    mesh = cc.Mesh(box.positions, box.indices, normals=box.normals, morph_targets=[target, target])
     scene = cc.Scene()
     node = scene.add(mesh)
     channel = cc.AnimationChannel(node, "weights", [0, 2], [(0, 1), (1, 0)])
@@ -203,7 +199,7 @@ def test_which_animation():
         scene.set_time(0, "")
     for bad in (True, None, 1.5):
         with pytest.raises(TypeError, match="animation: expected an index, a name or an Animation"):
-            scene.set_time(0, bad)
+            scene.set_time(0, bad)  # type: ignore[arg-type]
     for bad in (np.nan, np.inf):
         with pytest.raises(ValueError, match="seconds"):
             scene.set_time(bad)
@@ -287,7 +283,7 @@ def test_add_and_remove():
         scene.remove(walk)
     scene.add(walk)
     scene.clear()
-    assert scene.animations == ()
+    assert not scene.animations
 
 
 @pytest.mark.parametrize("make", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy])
@@ -325,7 +321,7 @@ def test_nothing_leaks():
     dead = [weakref.ref(thing) for thing in (scene, *nodes, *scene.animations)]
     del scene, nodes
     gc.collect()
-    assert [ref() for ref in dead] == [None] * len(dead)
+    assert not any(ref() for ref in dead)
 
 
 def test_texts():

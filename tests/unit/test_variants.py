@@ -52,7 +52,7 @@ def test_a_material_that_is_set_by_hand_becomes_the_own_one():
 
 
 def test_materials_of_the_present_variant_show_at_once():
-    scene, (shoe, sole, box) = shop()
+    scene, (shoe, _, box) = shop()
     scene.variant = "blue"
     green = cc.PhongMaterial(name="green")
     box.variants = {"blue": green}
@@ -160,4 +160,4 @@ def test_names_of_materials():
         assert kind(name="n").name == "n"
     assert cc.ShaderMaterial("vec4 shade(Surface s) { return vec4(1); }", name="n").name == "n"
     with pytest.raises(TypeError):
-        gold.name = 3
+        gold.name = 3  # type: ignore[assignment]
