@@ -72,6 +72,9 @@ POLYGONS = ("tests/unit/test_polygons.py",)
 GLTF = ("tests/unit/test_gltf_geometry.py",)
 GLTF_FILES = ("tests/unit/test_gltf.py",)
 GLTF_COMPRESSION = ("tests/unit/test_gltf_compression.py",)
+GLTF_MATERIALS = ("tests/unit/test_gltf_materials.py",)
+GLTF_SCENE = ("tests/unit/test_gltf_scene.py",)
+OBJ_SCENE = ("tests/unit/test_obj_scene.py",)
 
 STL = ("tests/unit/test_stl.py",)
 OFF = ("tests/unit/test_off.py",)
@@ -1648,6 +1651,62 @@ MUTATIONS = [
         "if vertices + triangles > limits.left:",
         "if False:",
         GLTF_COMPRESSION,
+    ),
+    Mutation(
+        "load_scene: texture transforms turn the other way",
+        "scene/textures.py",
+        "1 - y - math.cos(turn) * sy",
+        "1 - y + math.cos(turn) * sy",
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: data maps are sRGB, too",
+        "scene/textures.py",
+        'encoding="srgb" if color and pixels.dtype == "uint8" else "linear"',
+        'encoding="srgb" if pixels.dtype == "uint8" else "linear"',
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: glossiness is roughness",
+        "scene/materials.py",
+        "np.rint(full - gloss * alpha)",
+        "np.rint(gloss * alpha)",
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: quaternions of animations stay x, y, z, w",
+        "scene/animations.py",
+        "values = values[:, [3, 0, 1, 2]]",
+        "values = values[:, [0, 1, 2, 3]]",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: the penumbra is the inner share of a cone",
+        "scene/lights.py",
+        "penumbra=1 - min(inner / outer, 1.0)",
+        "penumbra=min(inner / outer, 1.0)",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: an environment as it lies in the file",
+        "scene/environment.py",
+        'convention="three"',
+        'convention="gl"',
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: ids by the tree, not by the file",
+        "scene/build.py",
+        "found = sorted(tree.below(roots))",
+        "found = tree.below(roots)",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "MTL: half of the highlight",
+        "mtl_materials.py",
+        "level = 2 * max(sum(highlight) / 3, 0.0)",
+        "level = max(sum(highlight) / 3, 0.0)",
+        OBJ_SCENE,
     ),
     Mutation(
         "STL: text wherever a file begins with solid",

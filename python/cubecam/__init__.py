@@ -24,11 +24,12 @@ from ._late import late_names
 
 if TYPE_CHECKING:
     from . import explore, plot
-    from ._warnings import ConventionWarning
+    from ._warnings import ConventionWarning, SceneWarning
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
     from .io.meshes.load import load_mesh
+    from .io.scenes import load_scene
     from .io.screen import ClippingWarning, to_screen
     from .optics import brdf, fresnel, reflect, refract, schlick
     from .viewer.viewer import Viewer
@@ -36,11 +37,12 @@ else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
     __getattr__, __dir__ = late_names(
         {
-            "_warnings": ["ConventionWarning"],
+            "_warnings": ["ConventionWarning", "SceneWarning"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
             "io.meshes.load": ["load_mesh"],
+            "io.scenes": ["load_scene"],
             "io.screen": ["ClippingWarning", "to_screen"],
             "optics": ["brdf", "fresnel", "reflect", "refract", "schlick"],
             "viewer.viewer": ["Viewer"],
@@ -61,6 +63,7 @@ else:
 __all__ = [
     "ClippingWarning",
     "ConventionWarning",
+    "SceneWarning",
     "Viewer",
     "__version__",
     "brdf",
@@ -70,6 +73,7 @@ __all__ = [
     "load_environment",
     "load_image",
     "load_mesh",
+    "load_scene",
     "plot",
     "reflect",
     "refract",

@@ -80,6 +80,7 @@ def _attach(target: type, name: str, method: Callable[..., Any] | property | Lat
 def attach() -> None:
     """Attach every method; called once, by `cubecam/__init__.py`."""
     _attach(CubeMap, "save", LateMethod("io.cubemap_save", "save_cubemap"))
+    _attach(CubeMap, "save_for", LateMethod("io.engines", "save_for"))
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
     _attach(CubeMap, "numpy", LateMethod("_array_protocol", "cube_numpy"))
     _attach(Frame, "save", LateMethod("io.images", "save_frame"))
@@ -89,6 +90,7 @@ def attach() -> None:
         _attach(picture, "__array__", LateMethod("_array_protocol", "as_array"))
         _attach(picture, "__dlpack__", LateMethod("_array_protocol", "dlpack"))
         _attach(picture, "__dlpack_device__", LateMethod("_array_protocol", "dlpack_device"))
+    _attach(Scene, "save", LateMethod("io.gltf.write.save", "save_scene"))
     _attach(Scene, "show", LateMethod("viewer.viewer", "show_scene"))
     _attach(CubeMap, "show", LateMethod("viewer.cube_view", "show_cube"))
     for described in _DESCRIBED:

@@ -6,13 +6,19 @@ import sys
 import warnings
 from pathlib import Path
 
-__all__ = ["ConventionWarning", "warn_user"]
+__all__ = ["ConventionWarning", "SceneWarning", "warn_user"]
 
 _PACKAGE = str(Path(__file__).resolve().parent)
 
 
 class ConventionWarning(UserWarning):
     """A file that cubecam wrote in one convention is read as if it were in another one."""
+
+    __module__ = "cubecam"
+
+
+class SceneWarning(UserWarning):
+    """A part of a scene's file is left out, since cubecam cannot read it and the rest makes sense without it."""
 
     __module__ = "cubecam"
 

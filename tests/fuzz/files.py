@@ -29,21 +29,35 @@ from tests.fuzz.seeds import seeds
 
 SECONDS = 5.0
 MEMORY = 300 << 20  # bytes
-PICTURES = ["hdr", "pic", "exr", "png", "jpg", "tif", "webp", "bmp", "tga", "gif", "dds"]
+PICTURES = ["hdr", "pic", "exr", "png", "jpg", "tif", "webp", "bmp", "tga", "gif", "dds", "ktx2"]
 #: What the readers raise for files that are broken; a wrong shape of a cubemap is a ValueError.
 EXPECTED = (cc.MeshError, cc.ImageError)
+
+#: Shows a library of materials.
+OBJ_OF_MTL = b"mtllib %s\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b c\nf 3 2 1\n"
 
 
 def read(path: Path) -> None:
     """Read a file in every way that the package has for its kind."""
+    if path.suffix == ".mtl":
+        shape = path.with_suffix(".obj")
+        shape.write_bytes(OBJ_OF_MTL % path.name.encode())
+        with contextlib.suppress(*EXPECTED):
+            cc.load_scene(shape)
+        shape.unlink()
+        return
     if path.suffix[1:] not in PICTURES:
         with contextlib.suppress(*EXPECTED):
             cc.load_mesh(path)
+        with contextlib.suppress(*EXPECTED):
+            cc.load_scene(path)
         return
     with contextlib.suppress(*EXPECTED):
         cc.load_image(path)
     with contextlib.suppress(*EXPECTED, ValueError):
         cc.load_cubemap(path, size=8)
+    with contextlib.suppress(*EXPECTED, ValueError):
+        cc.load_cubemap(path, levels=True)
 
 
 def broken(kind: str, number: int) -> bytes:
@@ -69,6 +83,7 @@ def faults_in_process(
             with warnings.catch_warnings():
                 warnings.simplefilter("error")
                 warnings.simplefilter("ignore", cc.ConventionWarning)
+                warnings.simplefilter("ignore", cc.SceneWarning)
                 _FAULTS[planted]() if planted and number == 1 else read(path)
         except Exception as error:
             place = traceback.extract_tb(error.__traceback__)[-1]

@@ -11,7 +11,9 @@ import numpy as np
 import OpenImageIO as oiio
 
 import cubecam as cc
+from cubecam.io import ktx2
 from tests.gltf_files import GltfFile
+from tests.scene_files import SceneFile, noise
 
 SQUARE = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
 
@@ -24,7 +26,7 @@ def seeds() -> dict[str, list[bytes]]:
 
 
 def _meshes() -> dict[str, list[bytes]]:
-    return {"obj": _obj(), "ply": _ply(), "stl": _stl(), "off": _off(), **_gltf()}
+    return {"obj": _obj(), "mtl": _mtl(), "ply": _ply(), "stl": _stl(), "off": _off(), **_gltf()}
 
 
 def _obj() -> list[bytes]:
@@ -44,6 +46,15 @@ def _obj() -> list[bytes]:
         + "f 1 2 3 4 5 6\n",
     ]
     return [text.encode() for text in texts] + [texts[1].encode("utf-16")]
+
+
+def _mtl() -> list[bytes]:
+    texts = [
+        "newmtl a\nKd .1 .2 .3\nKs 1 1 1\nNs 90\nNi 1.5\nd .5\nillum 3\nnewmtl b c\nPr .5\nPm 1\nKe 1 1 1\n",
+        "newmtl a\nmap_Kd -s 2 2 1 -o .5 0 -clamp on missing.png\nTr .5\nnewmtl b c\nmap_Bump -bm 2 x.png\n",
+        "# by hand\nnewmtl a\nPc 1\nPcr .5\nPs .5\naniso .5\nanisor .25\nnewmtl b c\nmap_d -mm 0 1 d.png\n",
+    ]
+    return [text.encode() for text in texts]
 
 
 def _ply() -> list[bytes]:
@@ -161,10 +172,65 @@ def _gltf() -> dict[str, list[bytes]]:
         "values": {"bufferView": file.view(points[2:].tobytes())},
     }
     file.node(mesh=file.mesh(file.primitive(sparse, np.array([0, 1, 2, 3], np.uint16), mode=5)))
+    made.append(_whole_scene())
     return {
         "glb": [*(item.glb() for item in made), *_compressed()],
         "gltf": [item.gltf() for item in made],
     }
+
+
+def _whole_scene() -> GltfFile:
+    """Make a file with all that load_scene reads and load_mesh does not."""
+    file = SceneFile()
+    deep = noise(2, 2, 4)
+    names = ("baseColorTexture", "metallicRoughnessTexture")
+    plain = {"index": file.texture(noise(3, 2), {"wrapS": 33071, "minFilter": 9987})}
+    moved = {
+        "index": file.texture(file.image(noise(4, 4), "JPEG")),
+        "texCoord": 1,
+        "extensions": {
+            "KHR_texture_transform": {"offset": [0.5, 0], "rotation": 1, "scale": [2, 1]}
+        },
+    }
+    web = file.add(
+        "textures",
+        {"extensions": {"EXT_texture_webp": {"source": file.image(noise(2, 2), "WEBP")}}},
+    )
+    material = {
+        "name": "all",
+        "pbrMetallicRoughness": dict(zip(names, (plain, moved), strict=True)),
+        "normalTexture": {"index": web, "scale": 0.5},
+        "occlusionTexture": {**plain, "strength": 0.5},
+        "emissiveFactor": [1, 0.5, 0],
+        "alphaMode": "MASK",
+        "extensions": {
+            "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatTexture": plain},
+            "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 2},
+        },
+    }
+    glossy = {"specularGlossinessTexture": {"index": file.texture(deep)}, "glossinessFactor": 0.5}
+    number = file.add("materials", material)
+    other = file.add("materials", {"extensions": {"KHR_materials_pbrSpecularGlossiness": glossy}})
+    square = file.square(number)
+    mapping = {"mappings": [{"material": other, "variants": [0]}]}
+    square["extensions"] = {"KHR_materials_variants": mapping}
+    file.use("KHR_materials_variants", {"variants": [{"name": "b"}]})
+    lamp = {"type": "spot", "intensity": 2, "range": 9, "spot": {"outerConeAngle": 0.5}}
+    file.use("KHR_lights_punctual", {"lights": [lamp, {"type": "directional"}]})
+    lens = {"yfov": 1, "znear": 0.1}
+    file.add("cameras", {"type": "perspective", "perspective": lens})
+    shape = {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}
+    file.add("cameras", {"type": "orthographic", "orthographic": shape})
+    node = file.node(mesh=file.mesh(square, square), name="a", camera=0)
+    file.node(camera=1, extensions={"KHR_lights_punctual": {"light": 0}})
+    times = file.accessor(np.float32([0, 1]))
+    rows = file.accessor(np.float32([[0, 0, 0, 1], [0, 1, 0, 0]]))
+    channel = {"sampler": 0, "target": {"node": node, "path": "rotation"}}
+    file.add("animations", {"channels": [channel], "samplers": [{"input": times, "output": rows}]})
+    light = {"specularImages": [[file.image(deep)] * 6], "intensity": 2, "rotation": [0, 0, 0, 1]}
+    file.use("EXT_lights_image_based", {"lights": [light]})
+    file.tree["scenes"][0]["extensions"] = {"EXT_lights_image_based": {"light": 0}}
+    return file
 
 
 def _compressed() -> list[bytes]:
@@ -255,7 +321,23 @@ def _pictures(folder: Path) -> dict[str, list[bytes]]:
     files["hdr"] += _radiance(rng)
     files["pic"] = _radiance(rng)[:2]
     files["dds"] = _dds(rng)
+    filtered = cc.CubeMap.from_levels([cube, cc.CubeMap(rng.random((6, 4, 4, 3), "f4"))])
+    filtered.save(folder / "a.dds")
+    keep("dds", folder / "a.dds")
+    for compression in (None, "zlib", "zstd"):
+        filtered.save(folder / "a.ktx2", compression=compression)
+        keep("ktx2", folder / "a.ktx2")
+    files["ktx2"] += _ktx2(rng)
     return files
+
+
+def _ktx2(rng: np.random.Generator) -> list[bytes]:
+    """Make pictures: 8 bits, blocks of BC1, and a header of Basis Universal without what it tells of."""
+    plain = ktx2.write([rng.integers(0, 255, (4, 4, 4)).astype("u1")], encoding="srgb")
+    blocks = bytearray(plain[: -64 + 8])
+    blocks[12:16] = struct.pack("<I", 133)
+    blocks[88:104] = struct.pack("<2Q", 8, 8)
+    return [plain, bytes(blocks)]
 
 
 def _exr_parts(path: Path, light: np.ndarray) -> None:

@@ -93,6 +93,7 @@ def instances(world, renderer):
         *world.cameras,
         world.stereo,
         camera,
+        cc.Animation([]),
         cc.Shadow(),
         cc.Blend("one", "zero"),
         cc.Stencil(),

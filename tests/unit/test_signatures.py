@@ -54,6 +54,7 @@ BY_POSITION = {
     "CubeMap.from_equirect": ["image"],
     "load_image": ["path"],
     "load_mesh": ["path"],
+    "load_scene": ["path"],
     "load_cubemap": ["path"],
     "load_environment": ["path"],
     "save_image": ["path", "pixels"],

@@ -1,14 +1,14 @@
 """Read DDS files: cubemaps, and pictures of the kinds of numbers that OpenImageIO does not read.
 
 Microsoft, "Programming guide for DDS": the headers, and the order of faces and levels. Each face is stored with all its
-levels before the next face; only the first level is read. Compressed blocks (BC1 to BC7) are decoded by OpenImageIO.
+levels before the next face. Compressed blocks (BC1 to BC7) are decoded by OpenImageIO.
 """
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,9 +16,12 @@ import numpy as np
 from .._core import ImageError
 
 if TYPE_CHECKING:
+    from ..typing import Encoding
     from .pixels import Array
 
 MAGIC = b"DDS "
+#: How the remark begins that cubecam leaves in the reserved bytes of a file.
+OWN = "cubecam"
 FACES = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 _HEADER = struct.Struct("<4s7I44x2I4s5I5I")
 _DX10 = struct.Struct("<5I")
@@ -64,14 +67,14 @@ def _plain(name: str, dtype: str, channels: int, order: tuple[int, ...] | None =
     return _Format(name, kind.itemsize * channels, decode)
 
 
-def _small_floats(data: bytes, count: int) -> Array:
+def small_floats(data: bytes, count: int) -> Array:
     """R11G11B10: floats without a sign, 5 bits of exponent as in half floats, 6, 6 and 5 bits of fraction."""
     words = np.frombuffer(data, "<u4", count)
     halves = np.stack([(words & 0x7FF) << 4, (words >> 11 & 0x7FF) << 4, (words >> 22) << 5], -1)
     return halves.astype(np.uint16).view(np.float16)
 
 
-def _shared_exponent(data: bytes, count: int) -> Array:
+def shared_exponent(data: bytes, count: int) -> Array:
     """R9G9B9E5: fraction / 512 * 2**(exponent - 15)."""
     words = np.frombuffer(data, "<u4", count)
     fractions = np.stack([words & 0x1FF, words >> 9 & 0x1FF, words >> 18 & 0x1FF], -1)
@@ -116,7 +119,7 @@ _DXGI = {
     10: _plain("R16G16B16A16_FLOAT", "<f2", 4),
     11: _plain("R16G16B16A16_UNORM", "<u2", 4),
     24: _masked(32, (0x3FF, 0xFFC00, 0x3FF00000, 0xC0000000)),
-    26: _Format("R11G11B10_FLOAT", 4, _small_floats),
+    26: _Format("R11G11B10_FLOAT", 4, small_floats),
     27: _plain("R8G8B8A8_TYPELESS", "u1", 4),
     28: _plain("R8G8B8A8_UNORM", "u1", 4),
     29: _plain("R8G8B8A8_UNORM_SRGB", "u1", 4),
@@ -124,7 +127,7 @@ _DXGI = {
     54: _plain("R16_FLOAT", "<f2", 1),
     56: _plain("R16_UNORM", "<u2", 1),
     61: _plain("R8_UNORM", "u1", 1),
-    67: _Format("R9G9B9E5_SHAREDEXP", 4, _shared_exponent),
+    67: _Format("R9G9B9E5_SHAREDEXP", 4, shared_exponent),
     71: _Format("BC1_UNORM", 8),
     72: _Format("BC1_UNORM_SRGB", 8),
     74: _Format("BC2_UNORM", 16),
@@ -196,6 +199,7 @@ class Dds:
     start: int  # of the pixels
     format: _Format | None
     told: str  # the name of a format, also of one that is not read
+    text: str  # what the writing program left in the reserved bytes
     fields: tuple[Any, ...]  # of the header
     fields10: tuple[int, ...] | None
 
@@ -241,12 +245,13 @@ def read_header(data: bytes) -> Dds:
     if levels > max(width, height).bit_length():
         raise ImageError(f"expected at most {max(width, height).bit_length()} levels, got {levels}")
     images = max(images, 1) * (6 if cube else 1)
-    found = Dds(width, height, levels, images, cube, start, form, told, fields, fields10)
+    text = data[32:76].split(b"\0")[0].decode("ascii", "replace")
+    found = Dds(width, height, levels, images, cube, start, form, told, text, fields, fields10)
     if form is not None:
         _check_length(found, len(data))
         # Some programs count the faces of one cubemap in the header that follows "DX10", some the cubemaps.
         if cube and images == 36 and len(data) < start + 36 * stride(found):
-            found = Dds(width, height, levels, 6, cube, start, form, told, fields, fields10)
+            found = replace(found, images=6)
     return found
 
 
@@ -290,34 +295,75 @@ def _check_faces(caps2: int) -> None:
 
 
 def decode(
-    dds: Dds, data: bytes, first: int, count: int, blocks: Callable[[bytes], Array]
+    dds: Dds,
+    data: bytes,
+    first: int,
+    count: int,
+    blocks: Callable[[bytes], Array],
+    level: int = 0,
 ) -> Array:
-    """Give the first levels of `count` pictures from `first` on, (count, H, W, C).
+    """Give a level of `count` pictures from `first` on, (count, H, W, C).
 
     `blocks` reads the bytes of a DDS file of one picture, for the kinds that are stored in blocks.
     """
     if dds.format is None:
         raise ImageError(f"expected a DDS file of one, three or four channels, got {dds.told}")
-    step, size = stride(dds), dds.format.size(dds.width, dds.height)
-    starts = [dds.start + i * step for i in range(first, first + count)]
+    step = stride(dds)
+    width, height = max(1, dds.width >> level), max(1, dds.height >> level)
+    size, before = dds.format.size(width, height), stride(replace(dds, levels=level))
+    starts = [dds.start + i * step + before for i in range(first, first + count)]
     if starts[-1] + size > len(data):
         raise ImageError(f"expected {dds.images} pictures in the DDS file, got {len(data)} bytes")
-    levels = b"".join(data[at : at + size] for at in starts)
+    texels = b"".join(data[at : at + size] for at in starts)
     if dds.format.decode is not None:
-        pixels = dds.format.decode(levels, count * dds.width * dds.height)
-        return pixels.reshape(count, dds.height, dds.width, -1)
-    rows = (dds.height + 3) // 4 * 4
-    pixels = blocks(_one_picture(dds, rows * count) + levels)
-    shape = (count, rows, dds.width, pixels.shape[-1])
+        pixels = dds.format.decode(texels, count * width * height)
+        return pixels.reshape(count, height, width, -1)
+    rows = (height + 3) // 4 * 4
+    pixels = blocks(_one_picture(dds, width, rows * count) + texels)
+    shape = (count, rows, width, pixels.shape[-1])
     if pixels.size != np.prod(shape):
         raise ImageError(f"expected {shape} pixels of {dds.told}, got {pixels.shape}")
-    return pixels.reshape(shape)[:, : dds.height]
+    return pixels.reshape(shape)[:, :height]
 
 
-def _one_picture(dds: Dds, height: int) -> bytes:
+def encoding(dds: Dds) -> Encoding | None:
+    """Say what whole numbers are, where cubecam wrote the file, or DXGI's format says it; None: the file does not."""
+    if dds.format is None or dds.fields10 is None:
+        return None
+    if dds.format.name.endswith("_SRGB"):
+        return "srgb"
+    return "linear" if dds.text.startswith(OWN) else None
+
+
+def header(
+    width: int,
+    height: int,
+    number: int,
+    *,
+    levels: int = 1,
+    cube: bool = False,
+    row: int = 0,
+    remark: bytes = b"",
+) -> bytes:
+    """Make the headers of a file, with the one that follows "DX10".
+
+    `number` is DXGI's of the format, `row` the bytes of a row of the first level (0: not said), `remark` up to 44 bytes
+    in the place that is reserved for programs' own use.
+    """
+    flags = 0x1007 | (0x20000 if levels > 1 else 0) | (0x8 if row else 0)
+    caps = 0x1000 | (0x8 if levels > 1 or cube else 0) | (0x400000 if levels > 1 else 0)
+    caps2 = _CAPS2_CUBE | 0xFC00 if cube else 0
+    top = struct.pack("<4s7I", MAGIC, 124, flags, height, width, row, 0, levels)
+    form = struct.pack("<2I4s5I", 32, _FLAG_FOUR_CC, b"DX10", 0, 0, 0, 0, 0)
+    rest = struct.pack("<5I", caps, caps2, 0, 0, 0)
+    more = _DX10.pack(number, 3, _MISC_CUBE if cube else 0, 1, 0)
+    return top + remark.ljust(44, b"\0") + form + rest + more
+
+
+def _one_picture(dds: Dds, width: int, height: int) -> bytes:
     """Make the header of a file that holds the blocks of all pictures, one below another, without levels."""
     fields = list(dds.fields)
-    fields[3], fields[5], fields[6], fields[7] = height, 0, 0, 1
+    fields[3:8] = [height, width, 0, 0, 1]
     fields[2] = 0x1007  # caps, height, width, pixel format
     fields[-5:] = [0x1000, 0, 0, 0, 0]  # a texture without faces and levels
     header = _HEADER.pack(*fields)

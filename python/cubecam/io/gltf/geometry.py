@@ -38,9 +38,9 @@ class Shape:
 class Geometry:
     """The triangles of a document."""
 
-    def __init__(self, document: Gltf) -> None:
+    def __init__(self, document: Gltf, limits: Limits | None = None) -> None:
         self.document = document
-        self._limits = Limits(document)
+        self._limits = Limits(document) if limits is None else limits
         self._draco: dict[int, Draco] = {}
         self._skipped: set[str] = set()
 
@@ -86,33 +86,10 @@ class Geometry:
             # The joints alone place a skinned mesh (section 3.7.3.1), so that instances have no meaning.
             matrices = np.eye(4)[None]
             if bones is None:
-                matrices = document.nodes.worlds[index] @ self._instances(node)
+                matrices = document.nodes.worlds[index] @ instances(document, node, self._limits)
             shape = Shape(mesh, bones, None if weights is None else tuple(weights))
             found.setdefault(shape, []).append(matrices)
         return found
-
-    def _instances(self, node: Entry) -> Matrices:
-        """Read the matrices of EXT_mesh_gpu_instancing, (N, 4, 4); without it, one that changes nothing."""
-        extension = node.extension(INSTANCING)
-        entry = None if extension is None else extension.needed("attributes")
-        if entry is None or not entry.raw:
-            return np.eye(4)[None]
-        count = self.document.layout(
-            accessor_index(self.document, entry, next(iter(entry.raw)))
-        ).count
-        self._limits.instances(count, entry)
-        attributes = Attributes(self.document, entry, count)
-        place = attributes.floats("TRANSLATION", "VEC3")
-        scale = attributes.floats("SCALE", "VEC3")
-        quaternions = attributes.floats("ROTATION", "VEC4")
-        turn = np.broadcast_to(np.eye(3), (count, 3, 3))
-        if quaternions is not None:
-            turn = rotations(quaternions, lambda index: f"{entry.path('ROTATION')}: {index}")
-        return composed(
-            np.zeros((count, 3)) if place is None else place,
-            turn,
-            np.ones((count, 3)) if scale is None else scale,
-        )
 
     def surfaces(self, shape: Shape) -> list[Surface]:
         """Return the primitives of a mesh that have triangles, in the space of the mesh; with a skin, in the world."""
@@ -120,7 +97,7 @@ class Geometry:
         weights = mesh.numbers("weights") if shape.weights is None else list(shape.weights)
         found = []
         for index in range(len(mesh.entries("primitives"))):
-            result = self._surface(mesh.member("primitives", index))
+            result = self.surface(mesh.member("primitives", index))
             if result is None:
                 continue
             morph(self.document, result, weights, self._limits)
@@ -129,7 +106,8 @@ class Geometry:
             found.append(result)
         return found
 
-    def _surface(self, primitive: Entry) -> Surface | None:
+    def surface(self, primitive: Entry) -> Surface | None:
+        """Read a primitive, in the space of its mesh; None if it has no triangles."""
         mode = primitive.integer("mode", 4)
         if mode >= len(MODES):
             raise primitive.error("mode", "an integer from 0 to 6")
@@ -181,6 +159,28 @@ class Geometry:
             return placed(part, matrices)
         except ValueError as error:
             raise MeshError(f"{shape.entry.where}: {error}") from None
+
+
+def instances(document: Gltf, node: Entry, limits: Limits) -> Matrices:
+    """Read the matrices of EXT_mesh_gpu_instancing, (N, 4, 4); without it, one that changes nothing."""
+    extension = node.extension(INSTANCING)
+    entry = None if extension is None else extension.needed("attributes")
+    if entry is None or not entry.raw:
+        return np.eye(4)[None]
+    count = document.layout(accessor_index(document, entry, next(iter(entry.raw)))).count
+    limits.instances(count, entry)
+    attributes = Attributes(document, entry, count)
+    place = attributes.floats("TRANSLATION", "VEC3")
+    scale = attributes.floats("SCALE", "VEC3")
+    quaternions = attributes.floats("ROTATION", "VEC4")
+    turn = np.broadcast_to(np.eye(3), (count, 3, 3))
+    if quaternions is not None:
+        turn = rotations(quaternions, lambda index: f"{entry.path('ROTATION')}: {index}")
+    return composed(
+        np.zeros((count, 3)) if place is None else place,
+        turn,
+        np.ones((count, 3)) if scale is None else scale,
+    )
 
 
 def _from_bottom(uvs: Floats) -> Floats:

@@ -20,6 +20,9 @@ _FREE_MORPHS = 64 << 20
 #: An instance counts as this many vertices: its matrix takes their memory.
 _OF_INSTANCE = 4
 
+#: Nodes of a scene: this many for any file, and one for each of its bytes.
+_FREE_NODES = 1 << 16
+
 
 class Limits:
     """Counts what a document becomes, before it is made, and raises `MeshError` where it is too much."""
@@ -28,6 +31,8 @@ class Limits:
         self._document = document
         self._output = 0
         self._morphs = 0
+        self._nodes = 0
+        self._motion = 0
 
     @property
     def left(self) -> int:
@@ -46,6 +51,26 @@ class Limits:
 
     def instances(self, count: int, entry: Entry) -> None:
         self.output(_OF_INSTANCE * count, entry)
+
+    def nodes(self, count: int, entry: Entry) -> None:
+        """Count nodes of a scene, which take a thousand bytes each."""
+        self._nodes += count
+        most = _FREE_NODES + self._document.size
+        if self._nodes > most:
+            raise MeshError(
+                f"{entry.where or 'nodes'}: expected at most {most} nodes in a file of "
+                f"{self._document.size} bytes, got {self._nodes} or more"
+            )
+
+    def motion(self, count: int, entry: Entry) -> None:
+        """Count numbers of animations, since many channels may share an accessor."""
+        self._motion += count
+        most = _FREE_OUTPUT + 8 * self._document.size
+        if self._motion > most:
+            raise MeshError(
+                f"{entry.where}: expected at most {most} numbers of animations in a file of "
+                f"{self._document.size} bytes, got more"
+            )
 
     def morphs(self, count: int, entry: Entry) -> None:
         """Count numbers of morph targets."""

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["load_mesh"]
 
 # The module that reads each kind of file with its function `read(path, data)`.
-_READERS = {
+READERS = {
     ".obj": ".obj",
     ".ply": ".ply",
     ".stl": ".stl",
@@ -92,11 +92,11 @@ def load_mesh(path: PathLike, *, size: float | None = None) -> Mesh:
     found = as_path(path)
     extension = found.suffix.lower()
     data = read_file(found, MeshError)
-    if extension not in _READERS:
+    if extension not in READERS:
         raise MeshError(
-            f"{found}: expected a mesh file that ends in {', '.join(_READERS)}; got {extension or 'none'}"
+            f"{found}: expected a mesh file that ends in {', '.join(READERS)}; got {extension or 'none'}"
         )
-    reader = import_module(_READERS[extension], __package__)
+    reader = import_module(READERS[extension], __package__)
     try:
         # Numbers of any size stand in files: what is not finite in the end is an error, or a normal to be computed.
         with np.errstate(all="ignore"):
