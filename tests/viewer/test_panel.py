@@ -72,10 +72,6 @@ WITHOUT = {
     "view": "position and target have controls",
     "fragment": "GLSL, which has lines",
     "vertex": "GLSL, which has lines",
-    "skin": "an object",
-    "weights": "as many numbers as the mesh has morph targets",
-    "variants": "names and materials",
-    "variant": "a name that must be one of the scene's own",
 }
 
 
