@@ -6402,7 +6402,7 @@ class PerspectiveCamera(Camera):
         self: PerspectiveCamera,
     ) -> tuple[
         np.typing.NDArray[np.float64],
-        object,
+        np.typing.NDArray[np.float64] | None,
         np.typing.NDArray[np.float64],
         np.typing.NDArray[np.float64],
     ]:
@@ -6818,7 +6818,7 @@ class OrthographicCamera(Camera):
         self: OrthographicCamera,
     ) -> tuple[
         np.typing.NDArray[np.float64],
-        object,
+        np.typing.NDArray[np.float64] | None,
         np.typing.NDArray[np.float64],
         np.typing.NDArray[np.float64],
     ]:
@@ -7195,6 +7195,7 @@ class AnimationChannel:
 
     @staticmethod
     def _remake(
+        format: typing.SupportsIndex,
         path: AnimationPath,
         times: np.typing.ArrayLike,
         values: np.typing.ArrayLike,
@@ -7311,6 +7312,16 @@ class Animation:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Animation) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def channels(self) -> tuple[AnimationChannel, ...]:
         """

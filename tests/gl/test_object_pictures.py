@@ -93,6 +93,7 @@ def instances(world, renderer):
         *world.cameras,
         world.stereo,
         camera,
+        cc.Animation([]),
         cc.Shadow(),
         cc.Blend("one", "zero"),
         cc.Stencil(),
@@ -550,10 +551,12 @@ def test_units():
 
 
 def test_every_property_of_a_light_and_a_probe_is_shown():
+    scene = cc.Scene()
+    node = scene.add()
     for thing in (
-        cc.SpotLight(),
-        cc.PointLight(),
-        cc.DirectionalLight(),
+        cc.SpotLight(parent=node, range=2),
+        cc.PointLight(parent=node, range=2),
+        cc.DirectionalLight(parent=node),
         cc.AmbientLight(),
         cc.Probe(),
     ):
@@ -571,10 +574,10 @@ def test_a_scene_of_cameras_animations_and_variants():
     scene.add(cc.Animation([roll], name="roll"))
     scene.variants = ["red", "blue"]
     scene.variant = "red"
-    text = scene._repr_html_()
-    for words in (
+    text = words(scene)
+    for part in (
         "2 cameras",
-        "fov 40°, position 0, 0, 0, on node #1 cart",
+        "fov 40°, position (0, 0, 0), on node #1 cart",
         "given by its matrices",
         "range 3, on node #1 cart",
         "1 animation",
@@ -582,7 +585,7 @@ def test_a_scene_of_cameras_animations_and_variants():
         "red, blue; shown: red",
         "M1 oak",
     ):
-        assert words in text, words
-    assert "translation, 2 keys, step" in scene.animations[0]._repr_html_()
-    assert "world position" not in cc.PointLight()._repr_html_()
-    assert "world position" in scene.lights[0]._repr_html_()
+        assert part in text, part
+    assert "translation, 2 keys, step" in words(scene.animations[0])
+    assert "world position" not in words(cc.PointLight())
+    assert "world position" in words(scene.lights[0])

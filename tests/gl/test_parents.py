@@ -73,7 +73,7 @@ def test_cameras(renderer, fresh_renderer, elsewhere):
         assert_identical(shot(renderer, scene, camera), shot(fresh_renderer, scene, free))
     eyes = cc.StereoCamera.off_axis(camera, separation=0.1)
     cart.position = (0.5, 0, 0)
-    step = np.array([0.5, 0, 0])
+    step = np.array((0.5, 0, 0))
     free.position, free.target = free.position + step, free.target + step
     same = cc.StereoCamera.off_axis(free, separation=0.1)
     assert_close(shot(renderer, scene, eyes), shot(fresh_renderer, scene, same), "lookup")

@@ -160,4 +160,4 @@ def test_names_of_materials():
         assert kind(name="n").name == "n"
     assert cc.ShaderMaterial("vec4 shade(Surface s) { return vec4(1); }", name="n").name == "n"
     with pytest.raises(TypeError):
-        gold.name = 3
+        gold.name = 3  # type: ignore[assignment]

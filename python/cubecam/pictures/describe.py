@@ -227,6 +227,10 @@ def animation_text(animation: Animation) -> str:
     return f"{number(animation.duration)} s, {channels} of {count(len(nodes), 'node')}"
 
 
+def _keys(number_of_keys: int) -> str:
+    return "1 key" if number_of_keys == 1 else f"{number_of_keys:,} keys"
+
+
 def _on_parent(thing: Any) -> list[str]:
     parent = getattr(thing, "parent", None)
     return [] if parent is None else [f"on node #{parent.id} {shorten(parent.name, 40)}".strip()]
@@ -253,7 +257,7 @@ def _(animation: Animation) -> Card:
             "gone"
             if channel.node is None
             else f"#{channel.node.id} {shorten(channel.node.name, 40)}",
-            f"{channel.path}, {count(len(channel.times), 'key')}, {channel.interpolation}",
+            f"{channel.path}, {_keys(len(channel.times))}, {channel.interpolation}",
         )
         for channel in animation.channels[:MOST_CHANNELS]
     ]

@@ -53,16 +53,16 @@ def _(scene: Scene) -> Card:
             for light in lights[:MOST_LIGHTS]
         ]
         card.lists.append((count(len(lights), "light"), rows + _more(lights, MOST_LIGHTS)))
-    for title, things, text in (
-        ("camera", scene.cameras, camera_text),
-        ("animation", scene.animations, animation_text),
-    ):
+    if cameras := scene.cameras:
+        rows = [Row(type(one).__name__, camera_text(one)) for one in cameras[:MOST_LIGHTS]]
+        card.lists.append((count(len(cameras), "camera"), rows + _more(cameras, MOST_LIGHTS)))
+    if animations := scene.animations:
         rows = [
-            Row(shorten(getattr(thing, "name", "") or type(thing).__name__), text(thing))
-            for thing in things[:MOST_LIGHTS]
+            Row(shorten(one.name or "Animation"), animation_text(one))
+            for one in animations[:MOST_LIGHTS]
         ]
-        if rows:
-            card.lists.append((count(len(things), title), rows + _more(things, MOST_LIGHTS)))
+        more = _more(animations, MOST_LIGHTS)
+        card.lists.append((count(len(animations), "animation"), rows + more))
     probes = _distinct(node.environment for node in nodes if isinstance(node.environment, Probe))
     if probes:
         rows = [Row("Probe", _probe_text(probe)) for probe in probes[:MOST_LIGHTS]]
@@ -117,7 +117,7 @@ def _tree(roots: Iterable[Node], total: int | None, names: dict[int, str]) -> li
         if node.mesh is None:
             parts.insert(0, "group")
         else:
-            kind = f"{names.get(id(node.material), '')} {type(node.material).__name__}".strip()
+            kind = f"{names.get(id(node.material), '')} {_name_of(node.material)}".strip()
             parts[:0] = [mesh_text(node.mesh), kind]
         if isinstance(node.environment, Probe):
             parts.append("Probe")
@@ -153,10 +153,15 @@ def _solid(node: Node, size: int = BALL) -> Callable[[], Shot] | None:
 
 def _tile(material: Material, names: dict[int, str]) -> Card:
     return Card(
-        f"{names[id(material)]} {shorten(material.name, 40) or type(material).__name__}",
+        f"{names[id(material)]} {_name_of(material)}",
         [Fact("", "", color_of(material))],
         picture=lambda: draw_ball(material, _TILE),
     )
+
+
+def _name_of(material: Material | None) -> str:
+    name = "" if material is None else material.name
+    return shorten(name, 40) if name else type(material).__name__
 
 
 def _distinct(things: Iterable[Any]) -> list[Any]:

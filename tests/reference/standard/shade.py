@@ -88,7 +88,7 @@ def lobe_frame(p, surface):
 
 
 def arriving(light, position):
-    """(l, irradiance of a surface that faces the light): lux of a directional light; candela with decay and range."""
+    """(l, the irradiance of a surface that faces the light): lux of a directional light, else candela."""
     l, distance = way_to(light, position)  # noqa: E741
     irradiance = np.asarray(light.color, float) * light.intensity
     if isinstance(light, (Point, Spot)):
