@@ -1,7 +1,7 @@
 """CPU time of `load_scene` over that of `load_image` for the same pictures: `python -m benchmarks.load_scene`.
 
-A GLB of 2 MB holds a ball with two JPEG pictures of 2,048 x 2,048. The aim is a ratio of at most 1.5. Times are the least of
-nine, because the first ones hold imports, and others whatever else the machine does.
+A GLB of 2 MB holds a ball with two JPEG pictures of 2,048 x 2,048. The aim is a ratio of at most 1.5. Times are the
+least of nine, because the first ones hold imports, and others whatever else the machine does.
 """
 
 from __future__ import annotations
