@@ -42,7 +42,9 @@ def full_mesh(count=6):
 
 
 def _nodes(scene):
-    top = scene.add(name="top", position=(1, 2, 3), rotation=cc.axis_angle((1, 2, 3), 40), scale=(1, -2, 0.5))
+    top = scene.add(
+        name="top", position=(1, 2, 3), rotation=cc.axis_angle((1, 2, 3), 40), scale=(1, -2, 0.5)
+    )
     scene.add(name="ä", parent=top, label=7, render_order=-3, in_captures=False, visible=False)
     late = scene.add(mesh(), cc.StandardMaterial(), cast_shadow=False, receive_shadow=False)
     below = scene.add(matrix=np.diag([2.0, 3, 4, 1]), parent=late)
@@ -54,7 +56,11 @@ def _nodes(scene):
 
 def _meshes(scene):
     for shape in (full_mesh(), mesh(300), mesh(colors=RNG.normal(size=(5, 3)))):
-        for material in (cc.StandardMaterial(), cc.BasicMaterial(vertex_colors=True), cc.PhongMaterial()):
+        for material in (
+            cc.StandardMaterial(),
+            cc.BasicMaterial(vertex_colors=True),
+            cc.PhongMaterial(),
+        ):
             scene.add(shape, material)
     scene.add(mesh(), cc.StandardMaterial(map=cc.Texture(image(), uv_set=1)))
     scene.add(mesh(uvs1=RNG.random((5, 2))), cc.StandardMaterial())
@@ -132,15 +138,22 @@ def _background(scene):
 
 def _textures(scene):
     effect = cc.ImageEffect(
-        "uniform float k; vec3 effect(vec2 uv) { return k * frame(uv).rgb; }", uniforms={"k": np.float32(2)}
+        "uniform float k; vec3 effect(vec2 uv) { return k * frame(uv).rgb; }",
+        uniforms={"k": np.float32(2)},
     )
-    node = scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial())
+    scene.add(cc.Mesh.box(), cc.BasicMaterial(color="red"))
     camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0), shift=(0, 0.5))
-    shown = cc.RenderTexture(scene, camera, size=(8, 4), exclude=[node], effects=[effect, effect], name="tv")
-    node.material.map = shown
-    scene.add(mesh(uvs=RNG.random((5, 2))), cc.StandardMaterial(map=shown, emissive_map=cc.Texture(shown, scale=(2, 2))))
+    options = {"size": (8, 4), "effects": [effect, effect], "name": "tv"}
+    shown = cc.RenderTexture(scene, camera, **options)
     matrices = cc.Camera(view=camera.view, projection=camera.projection(2))
-    scene.add(mesh(), cc.StandardMaterial(map=cc.RenderTexture(scene, matrices)))
+    other = cc.RenderTexture(scene, matrices)
+    for material in (
+        cc.BasicMaterial(map=shown),
+        cc.StandardMaterial(map=shown, emissive_map=cc.Texture(shown, scale=(2, 2))),
+        cc.StandardMaterial(map=other),
+    ):
+        scene.add(mesh(uvs=RNG.random((5, 2))), material)
+    shown.exclude = other.exclude = scene.nodes[1:]
 
 
 def _held(scene):
@@ -152,24 +165,38 @@ def _held(scene):
         scene.add(cc.SpotLight((0, 0, 0), (0, 0, -1), parent=parent, penumbra=0.5, range=2))
         scene.add(cc.DirectionalLight((1, 1, 0), parent=parent))
         scene.add(cc.PerspectiveCamera(parent=parent))
-        scene.add(cc.OrthographicCamera(parent=parent, height=3, position=(1, 2, 3), target=(0, 0, 1)))
+        scene.add(
+            cc.OrthographicCamera(parent=parent, height=3, position=(1, 2, 3), target=(0, 0, 1))
+        )
     scene.add(cc.DirectionalLight((0, 0, -1), parent=scene.add()))
 
 
 def _cameras(scene):
     scene.add(cc.OrthographicCamera(height=3, near=-5, far=-1))
-    scene.add(cc.PerspectiveCamera(fov=35, position=(1, 5, 2), target=(1, 0, 2), up=(0, 0, -1), near=3, far=9))
-    scene.add(cc.PerspectiveCamera(position=(1, 2, 3), target=(3, 2, 1), shift=(0.5, 0.25), pixel_aspect=1.5))
+    scene.add(
+        cc.PerspectiveCamera(
+            fov=35, position=(1, 5, 2), target=(1, 0, 2), up=(0, 0, -1), near=3, far=9
+        )
+    )
+    scene.add(
+        cc.PerspectiveCamera(
+            position=(1, 2, 3), target=(3, 2, 1), shift=(0.5, 0.25), pixel_aspect=1.5
+        )
+    )
     view = np.eye(4)
     view[:3, 3] = (1, 2, -3)
     scene.add(cc.Camera(view=view, projection=scene.cameras[1].projection(2)))
     scene.add(cc.OrthographicCamera(height=0.25))
     shown = cc.RenderTexture(scene, scene.cameras[2], size=(4, 4))
-    scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))
+    shown.exclude = [scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))]
 
 
 def _variants(scene):
-    red, blue, mirror = cc.StandardMaterial(color="red"), cc.StandardMaterial(color="blue"), cc.MirrorMaterial()
+    red, blue, mirror = (
+        cc.StandardMaterial(color="red"),
+        cc.StandardMaterial(color="blue"),
+        cc.MirrorMaterial(),
+    )
     scene.variants = ["day", "night", "ä"]
     shape = mesh()
     for materials in ({"day": red, "ä": mirror}, {"night": blue}, {"day": blue, "night": blue}, {}):
@@ -190,9 +217,12 @@ def _motion(scene):
     scene.add(cc.Animation([channel(still, "rotation", [1], [(1, 0, 0, 0)])]))
     # glTF has no times before 0.
     scene.add(cc.Animation([
-        channel(moved, "rotation", [0, 1], turns[:2]),
         channel(still, "translation", [-1, 1], RNG.random((2, 3))),
+        channel(moved, "rotation", [0, 1], turns[:2]),
     ]))  # fmt: skip
+    early = channel(still, "scale", [-2, -1], 1 + RNG.random((2, 3)))
+    scene.add(cc.Animation([early], name="early"))
+    scene.add(cc.Animation([channel(still, "scale", [0, 1], 1 + RNG.random((2, 3)))]))
 
 
 def skinned(count=6, joints=3):
@@ -245,8 +275,22 @@ def _morphs(scene):
 #: One function for each kind of thing; it fills an empty scene.
 KINDS = {
     f.__name__[1:]: f
-    for f in (_nodes, _meshes, _standard, _kinds, _lights, _surroundings, _background, _textures, _held, _cameras, _variants,
-              _motion, _skins, _morphs)
+    for f in (
+        _nodes,
+        _meshes,
+        _standard,
+        _kinds,
+        _lights,
+        _surroundings,
+        _background,
+        _textures,
+        _held,
+        _cameras,
+        _variants,
+        _motion,
+        _skins,
+        _morphs,
+    )
 }
 
 
@@ -310,7 +354,9 @@ def scenes(draw):
     directions = points.filter(lambda d: np.linalg.norm(d) > 1e-3)
     lights = st.one_of(
         st.builds(cc.PointLight, points, intensity=share, decay=st.floats(0, 3)),
-        st.builds(cc.SpotLight, points, directions, angle=st.floats(1, 89), penumbra=st.floats(0, 1)),
+        st.builds(
+            cc.SpotLight, points, directions, angle=st.floats(1, 89), penumbra=st.floats(0, 1)
+        ),
         st.builds(cc.DirectionalLight, directions, color=points.map(np.abs)),
         st.builds(cc.AmbientLight, intensity=share),
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 import collections.abc
 import enum
 import os
+import pathlib
 import typing
 
 import numpy as np
@@ -22,6 +23,7 @@ from cubecam.typing import (
     BlendFactor,
     BlendMode,
     Center,
+    Compression,
     ControlsName,
     Convention,
     CubeMode,
@@ -29,6 +31,7 @@ from cubecam.typing import (
     DepthOrder,
     Encode,
     Encoding,
+    Engine,
     FaceName,
     FileLayout,
     Format,
@@ -1663,6 +1666,42 @@ class CubeMap:
         """
 
     @staticmethod
+    def from_levels(levels: collections.abc.Sequence[CubeMap]) -> CubeMap:
+        """
+        Make a filtered cubemap of its levels, for example those that another program filtered.
+
+        Parameters
+        ----------
+        levels : sequence of CubeMap
+            Level k of L, 2 to 64 of them, holds the light filtered for the roughness ``k / (L - 1)``; level 0 is the cube
+            itself. All have the same dtype and number of channels; their sizes are free.
+
+        Returns
+        -------
+        CubeMap
+            With `levels` and `roughness`, and the `mipmaps` and `encoding` of level 0.
+
+        Raises
+        ------
+        ValueError
+            For another number of levels, or levels of different channels or dtypes.
+        TypeError
+            For levels that are no cubemaps.
+
+        See Also
+        --------
+        prefilter : makes the levels of a cubemap.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> sharp, rough = (cc.CubeMap(np.full((6, n, n, 3), 0.5, np.float32)) for n in (64, 16))
+        >>> cc.CubeMap.from_levels([sharp, rough]).roughness.tolist()
+        [0.0, 1.0]
+        """
+
+    @staticmethod
     def from_sh(coefficients: np.typing.ArrayLike, *, size: typing.SupportsIndex = 32) -> CubeMap:
         """
         Make a cube of the light that coefficients of spherical harmonics describe.
@@ -2018,17 +2057,21 @@ class CubeMap:
         srgb: bool | None = None,
         half: bool = False,
         output: str = "color",
+        compression: Compression | None = None,
     ) -> None:
         """
         Write a cubemap as one picture or six files. The method `CubeMap.save`.
 
         A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-        sRGB-encoded. EXR and HDR hold linear numbers. Filtered levels (`CubeMap.levels` of `prefilter`) are not written.
+        sRGB-encoded. EXR and HDR hold linear numbers; KTX2 and DDS hold the cube's own, with filtered levels
+        (`CubeMap.levels` of `prefilter`), which other kinds leave out.
 
         Parameters
         ----------
         path : path, sequence of six paths, or a name with {face}
-            The extension names the kind of file, as in `save_image`. {face} becomes px nx py ny pz nz.
+            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
+            in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
+            ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
         layout : str, optional
             "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
             "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -2050,6 +2093,8 @@ class CubeMap:
         output : str
             "color", or the name of an output in `outputs`, such as "distance", "normal" and "id". Its numbers are written
             to .exr as they are, as floats or whole numbers of 32 bits, in any layout, and never mixed (`to_equirect`).
+        compression : {"zstd", "zlib"}, optional
+            How the levels of a .ktx2 file are packed. "zstd" needs the package of the extra "ktx2".
 
         Raises
         ------
@@ -2063,6 +2108,12 @@ class CubeMap:
         -----
         Cells of a cross without a face are 0. A cubemap of float16 is written to EXR as half.
 
+        A KTX2 or DDS file holds uint8 as it is, in a format of the cube's `encoding`, and floats as light; three channels
+        become four. Level k has N >> k texels an edge; filtered levels of other sizes are resized. The file says
+        that its levels are filtered (docs/conventions.md), and `load_cubemap` reads them back. A cube with ``mipmaps=True``
+        and without filtered levels gets plain mipmaps, all others one level. Fewer levels than N has powers of two keep the
+        last one from becoming too small: `prefilter` with log2(N) - 3 of them ends at 16 texels.
+
         Examples
         --------
         >>> import cubecam as cc, tempfile, pathlib
@@ -2071,6 +2122,54 @@ class CubeMap:
         >>> cube.save(folder / "probe.exr", layout="cross", convention="inside")
         >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
         True
+        """
+
+    def save_for(self, engine: Engine, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
+        """
+        Write light for an engine: a file that it loads, the right way round, and a README. The method `CubeMap.save_for`.
+
+        Parameters
+        ----------
+        engine : {"three", "babylon", "unity", "godot", "blender", "filament"}
+            three.js, Babylon.js, Unity, Godot 4, Blender or Filament.
+        folder : path
+            Where the files are written; made if it does not exist.
+
+        Returns
+        -------
+        list of Path
+            The files; the last one is README.txt, whose five lines say how the engine loads the others.
+
+        Raises
+        ------
+        ValueError
+            For an unknown engine, or, for Babylon.js, a size that is no power of two.
+        OSError
+            If the folder cannot be made or written.
+
+        Notes
+        -----
+        ===========  ==============================================================================
+        engine       files
+        ===========  ==============================================================================
+        three        environment.exr, a panorama with +X in the middle; px.hdr ... nz.hdr, six faces
+        babylon      environment.env: levels by roughness in Babylon's steps, and the irradiance
+        unity        environment.exr, a panorama with -X in the middle (Unity's +X)
+        godot        environment.exr, a panorama with +Z in the middle
+        blender      environment.exr, a panorama with +X in the middle
+        filament     environment.hdr, a panorama with +Z in the middle, mirrored; sh.json
+        ===========  ==============================================================================
+
+        All engines but Babylon.js filter the light themselves and get level 0 alone. A cube without filtered levels is
+        filtered for Babylon.js. Numbers are light: what is "srgb" is decoded. Panoramas are four times as wide as a face;
+        EXR holds half floats, light above 65504 is clipped.
+
+        Examples
+        --------
+        >>> import cubecam as cc, tempfile
+        >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=32)
+        >>> [path.name for path in cube.save_for("godot", tempfile.mkdtemp())]
+        ['environment.exr', 'README.txt']
         """
 
     def set_face(
@@ -5666,7 +5765,7 @@ class PointLight(Light):
     Parameters
     ----------
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5674,8 +5773,15 @@ class PointLight(Light):
         A factor of `color`, not negative.
     decay : float
         The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
+    range : float
+        The light ends at this distance, world units, above 0: it is multiplied by max(min(1 - (distance /
+        range)**4, 1), 0), the window of KHR_lights_punctual. Infinity: no end.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -5752,20 +5858,21 @@ class PointLight(Light):
 
 class SpotLight(Light):
     """
-    Light from one point into a cone, by the formulas of three.js and glTF.
+    Light from one point into a cone, by the formulas of glTF's KHR_lights_punctual.
 
     Parameters
     ----------
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates.
     direction : array_like (3,)
-        The way the light travels along the cone's axis, in world space, of any length except 0; it is kept
-        normalised. Straight down by default.
+        The way the light travels along the cone's axis, in world space or with a parent in its
+        coordinates, of any length except 0; it is kept normalised. Straight down by default.
     angle : float
         Angle from the axis to the cone's edge, degrees: above 0, below 90. There is no light outside the cone.
     penumbra : float
         Share of the angle, from the edge inwards, over which the light fades: with 0 the edge is sharp, with
-        1 the light fades from the axis on. The fade is GLSL's smoothstep between the cosines of the two angles.
+        1 the light fades from the axis on. The fade is the square of the share between the cosines of the two
+        angles, as KHR_lights_punctual recommends; three.js has GLSL's smoothstep there.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5773,8 +5880,15 @@ class SpotLight(Light):
         A factor of `color`, not negative.
     decay : float
         The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
+    range : float
+        The light ends at this distance, world units, above 0: it is multiplied by max(min(1 - (distance /
+        range)**4, 1), 0), the window of KHR_lights_punctual. Infinity: no end.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -5887,8 +6001,8 @@ class DirectionalLight(Light):
     Parameters
     ----------
     direction : array_like (3,)
-        The way the light travels, in world space, of any length except 0; it is kept normalised. Straight
-        down by default.
+        The way the light travels, in world space or with a parent in its coordinates, of any length except 0; it
+        is kept normalised. Straight down by default.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5896,6 +6010,10 @@ class DirectionalLight(Light):
         A factor of `color`, not negative.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -6113,9 +6231,10 @@ class PerspectiveCamera(Camera):
     fov : float
         Vertical field of view in degrees, above 0 and below 180.
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates, as target and up.
     target : array_like (3,), optional
-        The point that the camera looks at. None: the camera looks along -Z from any position.
+        The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+        along the parent's -Z.
     up : array_like (3,)
         The direction that is up in the picture; not along the line of sight.
     near, far : float
@@ -6127,6 +6246,11 @@ class PerspectiveCamera(Camera):
     pixel_aspect : float
         The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
         of calibrated cameras; see `from_intrinsics`.
+    parent : Node, optional
+        A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+        changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+        that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+        is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
     Raises
     ------
@@ -6326,7 +6450,7 @@ class PerspectiveCamera(Camera):
         Parameters
         ----------
         target : array_like (3,) or Node
-            World space, of a node its origin; it becomes the camera's `target`.
+            World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -6585,13 +6709,19 @@ class OrthographicCamera(Camera):
     height : float
         World units from the bottom to the top of the picture, above 0.
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates, as target and up.
     target : array_like (3,), optional
-        The point that the camera looks at. None: the camera looks along -Z from any position.
+        The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+        along the parent's -Z.
     up : array_like (3,)
         The direction that is up in the picture; not along the line of sight.
     near, far : float
         Depths in world units between which surfaces are drawn: near < far.
+    parent : Node, optional
+        A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+        changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+        that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+        is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
     Raises
     ------
@@ -6736,7 +6866,7 @@ class OrthographicCamera(Camera):
         Parameters
         ----------
         target : array_like (3,) or Node
-            World space, of a node its origin; it becomes the camera's `target`.
+            World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 

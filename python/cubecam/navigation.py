@@ -3,6 +3,7 @@
 The functions take a `PerspectiveCamera` or an `OrthographicCamera`, and these have them as methods, too:
 `camera.yaw(10)` is `yaw(camera, 10)`. They change the camera in place and return None. A function that
 raises an error does not change the camera. Up is the camera's own `up`; the poles are the directions up and down.
+Lengths and directions are those of the world, also for a camera with a `parent`.
 """
 
 from __future__ import annotations

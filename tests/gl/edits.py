@@ -72,6 +72,11 @@ def random_node(world, rng, scene=None):
     return one(rng, *(scene or world.scene).nodes)
 
 
+def some_node(world, rng, thing):
+    """A node to follow, of the main scene or of another one."""
+    return one(rng, None, random_node(world, rng), random_node(world, rng, world.spare))
+
+
 def group_of(world, rng, thing):
     """The first node of the main scene is a group; the group itself has no parent."""
     group = world.scene.nodes[0]
@@ -161,6 +166,46 @@ def uniforms_of_shader(world, rng, thing):
     return {"tone": rng.random(3)} | ({"time": float(rng.random())} if thing.vertex else {})
 
 
+def variants(world, rng, thing):
+    names = world.scene.variants or ("day", "night")
+    return {name: one(rng, *world.things(cc.Material)) for name in names if rng.random() < 0.7}
+
+
+def variant(world, rng, thing):
+    """One of the scene's variants, for which some nodes have a material."""
+    if not thing.variants:
+        thing.variants = ("day", "night")
+    for node in thing.nodes[-3:]:
+        node.variants = {"day": cc.PhongMaterial(color=rng.random(3))}
+    return one(rng, None, *thing.variants)
+
+
+def mesh_of(world, rng, thing):
+    """None or one of the meshes; a node with a skin needs one with joints."""
+    fit = [mesh for mesh in world.meshes if thing.skin is None or mesh.joints is not None]
+    return one(rng, None, *fit)
+
+
+def skin_of(world, rng, thing):
+    joints = [node for node in world.scene.nodes if node.name == "joint"]
+    bends = thing.mesh is not None and thing.mesh.joints is not None and thing in world.scene
+    if not bends or len(joints) < 2:  # an edit may have given a joint another name
+        return None
+    return one(
+        rng, None, cc.Skin(joints), cc.Skin(joints, [matrix(world, rng, thing)] * len(joints))
+    )
+
+
+def targets_of(world, rng, thing):
+    shape = thing.positions.shape
+    made = cc.MorphTarget(
+        positions=rng.uniform(-0.1, 0.1, shape),
+        normals=rng.uniform(-0.5, 0.5, shape),
+        colors=rng.uniform(-0.5, 0.5, shape),
+    )
+    return one(rng, (), (made,), (*thing.morph_targets[:1], made))
+
+
 def view(world, rng, thing):
     return random_camera(rng).view
 
@@ -172,7 +217,7 @@ VALUES = {
     "Node.label": choice(-1, 0, 2**31 - 1),
     "Node.material": new_material,
     "Node.matrix": matrix,
-    "Node.mesh": lambda world, rng, thing: one(rng, None, *world.meshes),
+    "Node.mesh": mesh_of,
     "Node.name": choice("a", "b"),
     "Node.parent": group_of,
     "Node.position": place,
@@ -180,7 +225,10 @@ VALUES = {
     "Node.render_order": choice(-1, 0, 1),
     "Node.rotation": lambda world, rng, thing: rng.normal(size=4),
     "Node.scale": lambda world, rng, thing: rng.choice([-1, 1]) * rng.uniform(0.5, 1.5, 3),
+    "Node.skin": skin_of,
+    "Node.variants": variants,
     "Node.visible": flag,
+    "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
     "Probe.depth_format": choice(*DEPTHS),
     "Probe.exclude": excluded,
     "Probe.faces_per_frame": choice(1, 2, 5),
@@ -188,7 +236,7 @@ VALUES = {
     "Probe.format": choice(*FORMATS),
     "Probe.mipmaps": flag,
     "Probe.near": number(0.01, 0.6),
-    "Probe.parent": lambda world, rng, thing: one(rng, None, random_node(world, rng)),
+    "Probe.parent": some_node,
     "Probe.position": vector(-1, 1),
     "Probe.prefilter": choice(None, True, False),
     "Probe.samples": choice(1, 4),
@@ -211,7 +259,10 @@ VALUES = {
     "Scene.environment": lambda world, rng, thing: one(rng, None, random_cube(rng), *world.cubes),
     "Scene.environment_intensity": number(0, 2),
     "Scene.environment_rotation": lambda world, rng, thing: rng.normal(size=4),
+    "Scene.variant": variant,
+    "Scene.variants": choice((), ("day", "night"), ("night", "dusk")),
     "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
+    "Mesh.morph_targets": targets_of,
     "Mesh.normals": lambda world, rng, thing: one(
         rng, None, rng.normal(size=thing.positions.shape)
     ),
@@ -229,6 +280,7 @@ VALUES = {
     "Material.depth_write": choice(None, False, True),
     "Material.double_sided": flag,
     "Material.flat_shading": flag,
+    "Material.name": choice("a", "b"),
     "Material.opacity": choice(0.3, 0.7, 1),
     "Material.stencil": stencil,
     "BasicMaterial.color": color,
@@ -315,20 +367,26 @@ VALUES = {
     "Light.color": color,
     "Light.intensity": number(0, 1.5),
     "PointLight.decay": choice(0, 1, 2),
+    "PointLight.parent": some_node,
     "PointLight.position": vector(-4, 4),
+    "PointLight.range": choice(3, 6, np.inf),
     "PointLight.shadow": shadow,
     "SpotLight.angle": number(20, 60),
     "SpotLight.decay": choice(0, 1, 2),
     "SpotLight.direction": vector(-3, -1),
+    "SpotLight.parent": some_node,
     "SpotLight.penumbra": number(0, 1),
     "SpotLight.position": vector(1, 4),
+    "SpotLight.range": choice(3, 6, np.inf),
     "SpotLight.shadow": shadow,
     "DirectionalLight.direction": vector(-3, -1),
+    "DirectionalLight.parent": some_node,
     "DirectionalLight.shadow": shadow,
     "Camera.view": view,
     "PerspectiveCamera.far": number(3, 30),
     "PerspectiveCamera.fov": number(40, 90),
     "PerspectiveCamera.near": number(0.05, 1.5),
+    "PerspectiveCamera.parent": some_node,
     "PerspectiveCamera.pixel_aspect": number(0.7, 1.4),
     "PerspectiveCamera.position": vector(1.5, 3),
     "PerspectiveCamera.shift": lambda world, rng, thing: rng.uniform(-0.3, 0.3, 2),
@@ -337,6 +395,7 @@ VALUES = {
     "OrthographicCamera.far": number(3, 30),
     "OrthographicCamera.height": number(3, 6),
     "OrthographicCamera.near": number(0.05, 2),
+    "OrthographicCamera.parent": some_node,
     "OrthographicCamera.position": vector(-4, -2),
     "OrthographicCamera.target": lambda world, rng, thing: rng.uniform(-0.5, 0.5, 3),
     "OrthographicCamera.up": vector(0.1, 1),
@@ -404,6 +463,19 @@ def method_add_and_remove_lights(world, rng, draw):
     world.scene.remove(lamp)
 
 
+def method_set_time(world, rng, draw):
+    node = random_node(world, rng)
+    if not has_value(node, "rotation"):  # its matrix has a shear
+        node.matrix = np.eye(4)
+    turns = cc.AnimationChannel(node, "rotation", [0, 1], rng.normal(size=(2, 4)))
+    sizes = cc.AnimationChannel(node, "scale", [0, 1], rng.uniform(0.5, 1.5, (2, 3)))
+    animation = world.scene.add(cc.Animation([turns, sizes]))
+    for seconds in rng.random(2):
+        world.scene.set_time(seconds, animation)
+        draw()
+    world.scene.remove(animation)
+
+
 def method_one_uniform(world, rng, draw):
     some(world, rng, cc.ShaderMaterial).uniforms["tone"] = rng.random(3)
     one(rng, *world.things(cc.ImageEffect)).uniforms["strength"] = float(rng.random())
@@ -417,6 +489,17 @@ def method_one_texture(world, rng, draw):
 def method_update_a_mesh(world, rng, draw):
     mesh = one(rng, *world.meshes)
     mesh.update(positions=mesh.positions[:, [2, 0, 1]], colors=rng.random(mesh.positions.shape))
+
+
+def method_bend_a_mesh(world, rng, draw):
+    """Weights and joints change, together with what is drawn between the two."""
+    for node in world.scene.nodes:
+        if len(node.weights):
+            node.weights = rng.uniform(-0.5, 1, len(node.weights))
+    draw()
+    for node in world.scene.nodes:
+        if node.name == "joint":
+            node.matrix = matrix(world, rng, node)
 
 
 def method_move_the_camera(world, rng, draw):

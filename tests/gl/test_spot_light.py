@@ -1,4 +1,4 @@
-"""Spot lights against numpy: three.js' cone and penumbra."""
+"""Spot lights against numpy: the cone of KHR_lights_punctual."""
 
 import numpy as np
 import pytest
@@ -16,6 +16,7 @@ CONES = {
     "narrow": {"angle": 5, "penumbra": 0.5},
     "wide": {"angle": 89, "penumbra": 0.1},
     "decaying": {"angle": 40, "penumbra": 0.4, "decay": 2},
+    "with a range": {"angle": 40, "penumbra": 0.4, "range": 3.3},
 }
 PLACE, WAY = (0.5, 3, 1), (-0.5, -2, -0.2)
 
@@ -93,6 +94,7 @@ def test_a_wide_cone_is_a_point_light_within_it(renderer):
         ("direction", (0, -1, 0)),
         ("position", (1, 3, 1)),
         ("decay", 1),
+        ("range", 3),
     ],
 )
 def test_every_change_is_seen(renderer, fresh_renderer, name, value):

@@ -48,6 +48,7 @@ class Point:
     color: tuple = (1, 1, 1)
     intensity: float = 1.0
     decay: float = 0.0
+    range: float = np.inf
 
 
 @dataclass
@@ -61,7 +62,7 @@ class Directional:
 
 @dataclass
 class Spot:
-    """A spot light like three.js' SpotLight.
+    """A spot light of KHR_lights_punctual.
 
     `angle` is half the cone's opening in degrees; `penumbra` is the share of it over which the light fades.
     """
@@ -73,22 +74,30 @@ class Spot:
     color: tuple = (1, 1, 1)
     intensity: float = 1.0
     decay: float = 0.0
+    range: float = np.inf
 
     def share(self, to_light):
-        """The share of light along unit vectors to the lamp: smoothstep between the cosines of edge and inner cone."""
+        """The share of light along unit vectors to the lamp: the square of what lies between the cosines of the edge
+        and of the inner cone."""
         cosine = dot(-to_light, normalised(self.travels))
         edge = np.cos(np.radians(self.angle))
         full = np.cos(np.radians(self.angle * (1 - self.penumbra)))
         if full == edge:
             return np.where(cosine > edge, 1.0, 0.0)
         t = np.clip((cosine - edge) / (full - edge), 0, 1)
-        return t * t * (3 - 2 * t)
+        return t * t
 
 
 @dataclass
 class Ambient:
     color: tuple = (1, 1, 1)
     intensity: float = 1.0
+
+
+def falloff(light, distance):
+    """The share of light at a distance: distance^-decay, and the window of KHR_lights_punctual's range."""
+    window = np.clip(1 - (distance / light.range) ** 4, 0, 1)
+    return window / distance**light.decay
 
 
 def way_to(light, position):
@@ -120,7 +129,7 @@ def phong(
             continue
         to_light, distance = way_to(light, position)
         if isinstance(light, (Point, Spot)):
-            radiance = radiance / distance**light.decay
+            radiance = radiance * falloff(light, distance)
         if isinstance(light, Spot):
             radiance = radiance * light.share(to_light)
         if visibility is not None and visibility[index] is not None:

@@ -32,7 +32,9 @@ def test_a_scene_comes_back(kind, ending, tmp_path):
     assert_scenes_equal(loaded(once, tmp_path / f"b.{ending}"), scene)
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
 @given(scenes())
 def test_any_scene_comes_back(tmp_path, scene):
     assert_scenes_equal(loaded(scene, tmp_path / "a.glb"), scene)

@@ -40,9 +40,10 @@ Parameters
 fov : float
     Vertical field of view in degrees, above 0 and below 180.
 position : array_like (3,)
-    World space.
+    World space, or with a parent its coordinates, as target and up.
 target : array_like (3,), optional
-    The point that the camera looks at. None: the camera looks along -Z from any position.
+    The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+    along the parent's -Z.
 up : array_like (3,)
     The direction that is up in the picture; not along the line of sight.
 near, far : float
@@ -54,6 +55,11 @@ shift : array_like (2,)
 pixel_aspect : float
     The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
     of calibrated cameras; see `from_intrinsics`.
+parent : Node, optional
+    A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+    changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+    that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+    is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
 Raises
 ------
@@ -85,13 +91,19 @@ Parameters
 height : float
     World units from the bottom to the top of the picture, above 0.
 position : array_like (3,)
-    World space.
+    World space, or with a parent its coordinates, as target and up.
 target : array_like (3,), optional
-    The point that the camera looks at. None: the camera looks along -Z from any position.
+    The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+    along the parent's -Z.
 up : array_like (3,)
     The direction that is up in the picture; not along the line of sight.
 near, far : float
     Depths in world units between which surfaces are drawn: near < far.
+parent : Node, optional
+    A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+    changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+    that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+    is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
 Raises
 ------

@@ -9,7 +9,7 @@ inline constexpr const char* camera_look_at =
 Parameters
 ----------
 target : array_like (3,) or Node
-    World space, of a node its origin; it becomes the camera's `target`.
+    World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
 up : array_like (3,), optional
     The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
