@@ -236,6 +236,17 @@ def _mesh(section: Section, stack: ExitStack, quick: bool) -> None:
     section.marks.append(_compared("  setting them alone", moves[0], moves[1], None))
 
 
+def _skin(section: Section, stack: ExitStack, quick: bool) -> None:
+    from . import skinning  # this process draws
+
+    for work, smooth, limit in (
+        ("100 joints, 50,000 vertices, over the mesh moved rigidly", False, 2.0),
+        ("  the same with computed normals", True, None),
+    ):
+        own, other, share = skinning.ratio(smooth, rounds=_rounds(quick, 45))
+        section.marks.append(Mark(work, share, limit, own_ms=own, other_ms=other))
+
+
 _PARTS: dict[str, Callable[..., None]] = {
     "marks-boxes": _boxes,
     "marks-still": _still,
@@ -243,6 +254,7 @@ _PARTS: dict[str, Callable[..., None]] = {
     "marks-lights": _lights,
     "marks-unchanged": _unchanged,
     "marks-mesh": _mesh,
+    "marks-skin": _skin,
 }
 PARTS = tuple(_PARTS)
 

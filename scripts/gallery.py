@@ -1,108 +1,96 @@
-"""Draw the pictures of the README into docs/images:  make gallery
+"""Writes python/cubecam/data/gallery.glb: a room with a lamp, a mirror ball and a golden head that turns.
 
-frame.jpg is what README's first program writes, cross.jpg is the cubemap that it captures, and heads.jpg is the
-scene of `three_heads`. Each file has at most 200 KB.
+    python scripts/gallery.py FILE.glb
+
+The head is data/suzanne.glb (CC0-1.0); everything else is made here.
 """
 
-from __future__ import annotations
-
-import os
-import re
 import sys
-import tempfile
-from pathlib import Path
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 import cubecam as cc
-from cubecam.demo import named_cross
 
-ROOT = Path(__file__).resolve().parent.parent
-IMAGES = ROOT / "docs" / "images"
-LARGEST = 200_000  # bytes
-
-Picture = npt.NDArray[np.uint8]
-
-#: Coloured clay under a glaze: light from all sides and from the lamps, and a reflection of the surroundings.
-GLAZE = """
-uniform vec3 color;
-
-vec3 shade(Surface surface) {
-    vec3 light = environment_lod(surface.normal, environment_levels() - 2.0);
-    for (int i = 0; i < light_count(); ++i) {
-        LightSample lamp = sample_light(i, surface);
-        light += max(dot(surface.normal, lamp.direction), 0.0) * lamp.radiance;
-    }
-    vec3 reflected = environment_lod(reflect(surface.incident, surface.normal), 1.0);
-    return mix(color * light, min(reflected, vec3(8.0)), schlick(surface, 0.05));
-}
-"""
+#: Walls: name, colour, position of the middle, width and height, rotation (axis, degrees).
+WALLS = (
+    ("back wall", (0.75, 0.73, 0.68), (0, 1.5, -2), (5, 3), ((1, 0, 0), 90)),
+    ("red wall", (0.55, 0.06, 0.04), (-2.5, 1.5, 0), (4, 3), None),
+    ("blue wall", (0.05, 0.13, 0.5), (2.5, 1.5, 0), (4, 3), None),
+    ("ceiling", (0.8, 0.8, 0.8), (0, 3, 0), (5, 4), ((1, 0, 0), 180)),
+)
 
 
-def first_program() -> tuple[Picture, cc.CubeMap]:
-    """Run README's first program; return the frame that it writes and its cubemap."""
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
-    code = re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL)[0]
-    scope: dict[str, Any] = {}
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        exec(compile(code, "README.md", "exec"), scope)
-        os.chdir(ROOT)
-        frame: Picture = cc.load_image(Path(folder) / "frame.png").astype(np.uint8)
-    return frame[..., :3], scope["cube"]
+def wall(scene, name, color, position, size, turn):
+    """Add a rectangle whose normal points into the room."""
+    material = cc.StandardMaterial(color=color, metallic=0, roughness=0.9)
+    rotation = None if turn is None else cc.axis_angle(*turn)
+    if turn is None:  # a side wall: it stands, and looks at the middle
+        side = np.sign(position[0])
+        matrix = np.eye(4)
+        matrix[:3, :3] = np.array([[0, -side, 0], [side, 0, 0], [0, 0, 1]])
+        matrix[:3, 3] = position
+        return scene.add(cc.Mesh.plane(size[1], size[0]), material, name=name, matrix=matrix)
+    return scene.add(
+        cc.Mesh.plane(*size), material, name=name, position=position, rotation=rotation
+    )
 
 
-def three_heads() -> Picture:
-    """Suzanne three times, in gold, glazed clay and glass, in the mist of a sunrise."""
-    scene = cc.Scene(environment=cc.load_environment(cc.sample_data("sunrise.exr"), mipmaps=True))
-    sharp, soft = cc.Shadow(size=2048, radius=4), cc.Shadow(size=128, radius=5)
-    sun = cc.DirectionalLight((-0.5, -0.55, 0.6), color="#ffe0b0", intensity=1.4, shadow=sharp)
-    sky = cc.DirectionalLight((-0.2, -1, -0.6), color="#c4d4ff", intensity=0.7, shadow=soft)
-    scene.add(sun)
-    scene.add(sky)
-    stone = cc.PhongMaterial(color="#c0a888", ka=0.12, kd=0.85, ks=0)
-    scene.add(cc.Mesh.cylinder(4.3, 0.4, 128), stone, position=(0, -0.2, 0))
-    head = cc.load_mesh(cc.sample_data("suzanne.glb"), size=1.5)
-    materials = {
-        20: cc.MirrorMaterial(tint=(1, 0.78, 0.42)),
-        -8: cc.ShaderMaterial(GLAZE, uniforms={"color": (0.75, 0.13, 0.09)}),
-        -34: cc.GlassMaterial(ior=1.2),
-    }
-    for index, (degrees, material) in enumerate(materials.items()):
-        place = (1.5 * (index - 1), -head.bounds[0][1] - 0.02, (-0.1, 0.35, -0.1)[index])
-        node = scene.add(head, material, position=place)
-        node.rotation = cc.axis_angle((0, 1, 0), degrees)
-        node.environment = cc.Probe(position=place, size=512, mipmaps=True)
-    camera = cc.PerspectiveCamera(fov=21, position=(-1.3, 0.95, 7.6), target=(0, 0.62, 0))
-    with cc.Renderer() as renderer:
-        frame = renderer.render(scene, camera, (1024, 576), samples=4, format="rgba16f")
-    return cc.to_screen(frame)[..., :3]
+def tiles():
+    """Make a floor of two kinds of stone with joints; uint8 (256, 256, 3), sRGB."""
+    rows, columns = np.indices((256, 256))
+    light = ((rows // 64 + columns // 64) % 2)[..., None]
+    stone = np.where(light, (196, 184, 166), (92, 84, 78)).astype(float)
+    joint = ((rows % 64 < 2) | (columns % 64 < 2))[..., None]
+    return np.where(joint, 60, stone).astype(np.uint8)
 
 
-def on_paper(picture: Picture, paper: tuple[int, int, int] = (255, 255, 255)) -> Picture:
-    """Lay a picture with transparent cells on one colour."""
-    return np.where(picture[..., 3:] == 0, np.array(paper, np.uint8), picture[..., :3])
-
-
-def main() -> int:
-    IMAGES.mkdir(parents=True, exist_ok=True)
-    frame, cube = first_program()
-    pictures = {
-        "frame.jpg": frame,
-        "cross.jpg": on_paper(named_cross(cube.resize(256))),
-        "heads.jpg": three_heads(),
-    }
-    for name, picture in pictures.items():
-        path = IMAGES / name
-        cc.save_image(path, picture)
-        size = path.stat().st_size
-        print(f"{path.relative_to(ROOT)}: {picture.shape[1]} x {picture.shape[0]}, {size:,} bytes")
-        if size > LARGEST:
-            raise SystemExit(f"{name}: expected at most {LARGEST:,} bytes, got {size:,}")
-    return 0
+def build():
+    """Make the scene."""
+    scene = cc.Scene()
+    room = scene.add(name="room")
+    floor = cc.StandardMaterial(
+        map=cc.Texture(cc.Image(tiles(), wrap="repeat"), scale=(2.5, 2)), metallic=0, roughness=0.35
+    )
+    scene.add(cc.Mesh.plane(5, 4), floor, name="floor", parent=room)
+    for row in WALLS:
+        wall(scene, *row).parent = room
+    panel = cc.StandardMaterial(
+        color=(0, 0, 0), metallic=0, emissive=(1, 0.86, 0.66), emissive_strength=12
+    )
+    down = cc.axis_angle((1, 0, 0), 180)
+    scene.add(
+        cc.Mesh.plane(1.6, 0.8),
+        panel,
+        name="lamp",
+        parent=room,
+        position=(0, 2.98, 0),
+        rotation=down,
+    )
+    oak = cc.StandardMaterial(color=(0.36, 0.21, 0.1), metallic=0, roughness=0.6)
+    scene.add(
+        cc.Mesh.cylinder(0.45, 0.8, 48), oak, name="plinth", parent=room, position=(1, 0.4, -0.5)
+    )
+    gold = cc.StandardMaterial(color=(1, 0.77, 0.34), roughness=0.25)
+    head = scene.add(
+        cc.load_mesh(cc.sample_data("suzanne.glb"), size=1),
+        gold,
+        name="head",
+        parent=room,
+        position=(1, 1.15, -0.5),
+    )
+    silver = cc.StandardMaterial(color=(0.95, 0.95, 0.95), roughness=0.03)
+    scene.add(
+        cc.Mesh.sphere(0.6, 48, 24), silver, name="ball", parent=room, position=(-0.7, 0.6, 0.1)
+    )
+    bulb = scene.add(name="bulb", parent=room, position=(0, 2.6, 0))
+    scene.add(cc.PointLight((0, 0, 0), color=(1, 0.86, 0.66), intensity=14, decay=2, parent=bulb))
+    eye = scene.add(name="view", position=(0, 1.4, 5.1), rotation=cc.axis_angle((1, 0, 0), -2))
+    scene.add(cc.PerspectiveCamera(fov=35, near=0.1, far=50, parent=eye))
+    quarter = np.array([cc.axis_angle((0, 1, 0), angle) for angle in (0, 90, 180, 270, 360)])
+    turn = cc.AnimationChannel(head, "rotation", np.arange(5) * 2.0, quarter)
+    scene.add(cc.Animation([turn], name="turn"))
+    return scene
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    build().save(sys.argv[1])

@@ -58,6 +58,8 @@ LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
+BENT = ("tests/gl/test_deformation.py",)
+SKINS = ("tests/unit/test_skins.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
 INFINITIES = ("tests/unit/test_cubemap_infinities.py",)
 MASKED = ("tests/unit/test_masked_arrays.py",)
@@ -70,6 +72,9 @@ POLYGONS = ("tests/unit/test_polygons.py",)
 GLTF = ("tests/unit/test_gltf_geometry.py",)
 GLTF_FILES = ("tests/unit/test_gltf.py",)
 GLTF_COMPRESSION = ("tests/unit/test_gltf_compression.py",)
+GLTF_MATERIALS = ("tests/unit/test_gltf_materials.py",)
+GLTF_SCENE = ("tests/unit/test_gltf_scene.py",)
+OBJ_SCENE = ("tests/unit/test_obj_scene.py",)
 
 STL = ("tests/unit/test_stl.py",)
 OFF = ("tests/unit/test_off.py",)
@@ -1074,6 +1079,98 @@ MUTATIONS = [
         "} else if (moved && !smooth_) {",
         ("tests/unit/test_meshes.py",),
     ),
+    # Skins and morph targets.
+    Mutation(
+        "skin: normals of mirrored vertices point inwards",
+        "deformation.cpp",
+        "const float factor = side[v] * unit_factor(x, y, z);",
+        "const float factor = unit_factor(x, y, z);",
+        BENT,
+    ),
+    Mutation(
+        "skin: tangents keep their sign where joints mirror",
+        "deformation.cpp",
+        "to[v].w = side[v] * from[v].w;",
+        "to[v].w = from[v].w;",
+        BENT,
+    ),
+    Mutation(
+        "skin: weights are not divided by their sum",
+        "deformation.cpp",
+        "means[n][v] = mean[n] / total;",
+        "means[n][v] = mean[n];",
+        BENT,
+    ),
+    Mutation(
+        "skin: mirrored triangles are not turned round",
+        "deformation.cpp",
+        "std::swap(triangle.x, triangle.z);",
+        "",
+        BENT,
+    ),
+    Mutation(
+        "skin: a cofactor has the wrong sign",
+        "deformation.cpp",
+        "c[1][v] = m[6][v] * m[8][v] - m[4][v] * m[10][v];",
+        "c[1][v] = m[4][v] * m[10][v] - m[6][v] * m[8][v];",
+        BENT,
+    ),
+    Mutation(
+        "deformer: two nodes that part stay one mesh",
+        "deformer.cpp",
+        "if (!kept || taken ||",
+        "if (!kept ||",
+        BENT,
+    ),
+    Mutation(
+        "deformer: the mesh's update is not morphed again",
+        "deformer.cpp",
+        "if (kept->base != base) kept->weights.clear();",
+        "",
+        BENT + KEPT,
+    ),
+    Mutation(
+        "deformer: float32 far from the origin",
+        "deformer.cpp",
+        "const glm::dvec3 origin(world_of_(*value.skin->joints().front().lock())[3]);",
+        "const glm::dvec3 origin(0.0);",
+        BENT,
+    ),
+    Mutation(
+        "snapshot: a joint's move goes unseen",
+        "scene/snapshot.cpp",
+        "if (deformed && !follow_deformations(snapshot)) return false;",
+        "",
+        BENT,
+    ),
+    Mutation(
+        "snapshot: a mesh that becomes translucent stays opaque",
+        "scene/snapshot.cpp",
+        "if (made.mesh->translucent_colors() != node.mesh->translucent_colors()) return false;",
+        "",
+        BENT,
+    ),
+    Mutation(
+        "morph: colours leave 0 to 1",
+        "mesh_data.cpp",
+        "for (glm::vec4& color : mixed) color = glm::clamp(color, 0.0F, 1.0F);",
+        "",
+        BENT,
+    ),
+    Mutation(
+        "mesh: a copy with flat faces has the displacements of other vertices",
+        "mesh_data.cpp",
+        "if (sources_ || triangles_ != base.triangles_) {",
+        "if (sources_) {",
+        SKINS,
+    ),
+    Mutation(
+        "node: a skin of another scene is taken",
+        "scene/node.cpp",
+        "if (!joint || joint->graph().get() == &graph) continue;",
+        "continue;",
+        SKINS,
+    ),
     # Many nodes: crowds, kept snapshots, unchanged calls, what is reflected.
     Mutation(
         "crowd: windings are drawn together",
@@ -1556,6 +1653,62 @@ MUTATIONS = [
         GLTF_COMPRESSION,
     ),
     Mutation(
+        "load_scene: texture transforms turn the other way",
+        "scene/textures.py",
+        "1 - y - math.cos(turn) * sy",
+        "1 - y + math.cos(turn) * sy",
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: data maps are sRGB, too",
+        "scene/textures.py",
+        'encoding="srgb" if color and pixels.dtype == "uint8" else "linear"',
+        'encoding="srgb" if pixels.dtype == "uint8" else "linear"',
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: glossiness is roughness",
+        "scene/materials.py",
+        "np.rint(full - gloss * alpha)",
+        "np.rint(gloss * alpha)",
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: quaternions of animations stay x, y, z, w",
+        "scene/animations.py",
+        "values = values[:, [3, 0, 1, 2]]",
+        "values = values[:, [0, 1, 2, 3]]",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: the penumbra is the inner share of a cone",
+        "scene/lights.py",
+        "penumbra=1 - min(inner / outer, 1.0)",
+        "penumbra=min(inner / outer, 1.0)",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: an environment as it lies in the file",
+        "scene/environment.py",
+        'convention="three"',
+        'convention="gl"',
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: ids by the tree, not by the file",
+        "scene/build.py",
+        "found = sorted(tree.below(roots))",
+        "found = tree.below(roots)",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "MTL: half of the highlight",
+        "mtl_materials.py",
+        "level = 2 * max(sum(highlight) / 3, 0.0)",
+        "level = max(sum(highlight) / 3, 0.0)",
+        OBJ_SCENE,
+    ),
+    Mutation(
         "STL: text wherever a file begins with solid",
         "stl.py",
         "if any(byte < 9 or 13 < byte < 32 for byte in head):",
@@ -1997,5 +2150,59 @@ MUTATIONS = [
         "if array.shape != (6, edge, edge, faces.shape[3]) or not 1 <= edge <= size:",
         "if False:",
         ("tests/unit/test_saved_scenes.py",),
+        "animation: tangents without the distance of the keys",
+        "scene/animation.cpp",
+        "distance * (cube - 2.0 * square + share) * leaving[i]",
+        "(cube - 2.0 * square + share) * leaving[i]",
+        ("tests/unit/test_animation.py",),
+    ),
+    Mutation(
+        "animation: rotations the longer way",
+        "scene/animation.cpp",
+        "const double sign = cosine < 0.0 ? -1.0 : 1.0;",
+        "const double sign = 1.0;",
+        ("tests/unit/test_animation.py",),
+    ),
+    Mutation(
+        "parents: a camera's up stays in the node",
+        "scene/camera.cpp",
+        "world.up = turn * placement.up;",
+        "world.up = placement.up;",
+        ("tests/unit/test_parents.py",),
+    ),
+    Mutation(
+        "parents: a snapshot is kept though a light follows a node of another scene",
+        "scene/snapshot.cpp",
+        "!elsewhere.empty() || !lights_elsewhere.empty()",
+        "!elsewhere.empty()",
+        ("tests/gl/test_parents.py",),
+    ),
+    Mutation(
+        "range: the square in place of the fourth power",
+        "include/lights.glsl",
+        "max(1.0 - share * share, 0.0)",
+        "max(1.0 - share, 0.0)",
+        ("tests/gl/test_parents.py",),
+    ),
+    Mutation(
+        "spot: three.js' edge",
+        "include/lights.glsl",
+        "return t * t;",
+        "return t * t * (3.0 - 2.0 * t);",
+        ("tests/gl/test_spot_light.py",),
+    ),
+    Mutation(
+        "variants: the own material is forgotten",
+        "scene/node.cpp",
+        "value.own_material = own;",
+        "value.own_material = shown->second;",
+        ("tests/unit/test_variants.py",),
+    ),
+    Mutation(
+        "variants: circles by way of their materials",
+        "cycle_collector.cpp",
+        "for (const auto& [name, material] : value.variants) materials.push_back(material);",
+        "",
+        ("tests/unit/test_variants.py",),
     ),
 ]

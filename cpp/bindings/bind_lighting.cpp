@@ -28,6 +28,7 @@ namespace {
 
 using Levels = py::typing::Tuple<Pixels, py::ellipsis>;
 using ProgressLike = Shown<"collections.abc.Callable[[float], object] | None">;
+using CubesLike = Shown<"collections.abc.Sequence[CubeMap]">;
 using SizeOrNone = OneOf<WholeNumber, py::none>;
 
 constexpr int most_levels = 64;
@@ -48,6 +49,39 @@ Levels levels_of(const CubeMap& cube) {
         }
     }
     return py::tuple(levels);
+}
+
+/// The pixels are shared, not copied.
+CubePtr cube_from_levels(const CubesLike& cubes) {
+    if (!py::isinstance<py::sequence>(cubes)) refuse(cubes, "levels", "a sequence of CubeMaps");
+    const auto levels = py::reinterpret_borrow<py::sequence>(cubes);
+    const auto count = static_cast<int>(levels.size());
+    if (count < 2 || count > most_levels) {
+        throw py::value_error("levels: expected 2 to " + std::to_string(most_levels) + ", got " +
+                              std::to_string(count));
+    }
+    std::shared_ptr<const CubeMapData> first;
+    auto rest = std::make_shared<CubeLevels>();
+    for (int k = 0; k < count; ++k) {
+        const py::object each = levels[static_cast<std::size_t>(k)];
+        const std::string name = "levels[" + std::to_string(k) + "]";
+        if (!py::isinstance<CubeMap>(each)) refuse(each, name.c_str(), "a CubeMap");
+        const auto level = each.cast<const CubeMap&>().data();
+        if (!first) {
+            first = level;
+            continue;
+        }
+        if (level->channels != first->channels || level->dtype != first->dtype) {
+            throw py::value_error(name + ": expected " + std::to_string(first->channels) +
+                                  " channels of " + dtype_name(first->dtype) + ", got " +
+                                  std::to_string(level->channels) + " of " +
+                                  dtype_name(level->dtype));
+        }
+        rest->push_back({level->size, level_roughness(k, count), level->pixels});
+    }
+    return std::make_shared<CubeMap>(first->size, first->channels, first->dtype,
+                                     std::make_shared<PixelBuffer>(*first->pixels), first->mipmaps,
+                                     OutputList(), first->encoding, std::move(rest));
 }
 
 py::array_t<float> roughness_of(const CubeMap& cube) {
@@ -186,6 +220,7 @@ void bind_lighting(py::module_& module) {
         .def("irradiance", &irradiance_of, py::arg("size") = 32, py::kw_only(),
              py::arg("progress") = py::none(), docs::irradiance)
         .def("sh", &sh_of, py::arg("order") = 2, docs::sh)
+        .def_static("from_levels", &cube_from_levels, py::arg("levels"), docs::from_levels)
         .def_static("from_sh", &cube_from_sh, py::arg("coefficients"), py::kw_only(),
                     py::arg("size") = 32, docs::from_sh);
     module.def("_brdf", &brdf_of, py::arg("n_dot_v"), py::arg("roughness"),

@@ -79,6 +79,7 @@ def _attach(target: type, name: str, method: Callable[..., Any] | property | Lat
 def attach() -> None:
     """Attach every method; called once, by `cubecam/__init__.py`."""
     _attach(CubeMap, "save", LateMethod("io.cubemap_save", "save_cubemap"))
+    _attach(CubeMap, "save_for", LateMethod("io.engines", "save_for"))
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
     _attach(CubeMap, "numpy", LateMethod("_array_protocol", "cube_numpy"))
     _attach(Frame, "save", LateMethod("io.images", "save_frame"))

@@ -7,6 +7,7 @@ from __future__ import annotations
 import collections.abc
 import enum
 import os
+import pathlib
 import typing
 
 import numpy as np
@@ -22,6 +23,7 @@ from cubecam.typing import (
     BlendFactor,
     BlendMode,
     Center,
+    Compression,
     ControlsName,
     Convention,
     CubeMode,
@@ -29,6 +31,7 @@ from cubecam.typing import (
     DepthOrder,
     Encode,
     Encoding,
+    Engine,
     FaceName,
     FileLayout,
     Format,
@@ -1712,6 +1715,42 @@ class CubeMap:
         """
 
     @staticmethod
+    def from_levels(levels: collections.abc.Sequence[CubeMap]) -> CubeMap:
+        """
+        Make a filtered cubemap of its levels, for example those that another program filtered.
+
+        Parameters
+        ----------
+        levels : sequence of CubeMap
+            Level k of L, 2 to 64 of them, holds the light filtered for the roughness ``k / (L - 1)``; level 0 is the cube
+            itself. All have the same dtype and number of channels; their sizes are free.
+
+        Returns
+        -------
+        CubeMap
+            With `levels` and `roughness`, and the `mipmaps` and `encoding` of level 0.
+
+        Raises
+        ------
+        ValueError
+            For another number of levels, or levels of different channels or dtypes.
+        TypeError
+            For levels that are no cubemaps.
+
+        See Also
+        --------
+        prefilter : makes the levels of a cubemap.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> sharp, rough = (cc.CubeMap(np.full((6, n, n, 3), 0.5, np.float32)) for n in (64, 16))
+        >>> cc.CubeMap.from_levels([sharp, rough]).roughness.tolist()
+        [0.0, 1.0]
+        """
+
+    @staticmethod
     def from_sh(coefficients: np.typing.ArrayLike, *, size: typing.SupportsIndex = 32) -> CubeMap:
         """
         Make a cube of the light that coefficients of spherical harmonics describe.
@@ -2067,17 +2106,21 @@ class CubeMap:
         srgb: bool | None = None,
         half: bool = False,
         output: str = "color",
+        compression: Compression | None = None,
     ) -> None:
         """
         Write a cubemap as one picture or six files. The method `CubeMap.save`.
 
         A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-        sRGB-encoded. EXR and HDR hold linear numbers. Filtered levels (`CubeMap.levels` of `prefilter`) are not written.
+        sRGB-encoded. EXR and HDR hold linear numbers; KTX2 and DDS hold the cube's own, with filtered levels
+        (`CubeMap.levels` of `prefilter`), which other kinds leave out.
 
         Parameters
         ----------
         path : path, sequence of six paths, or a name with {face}
-            The extension names the kind of file, as in `save_image`. {face} becomes px nx py ny pz nz.
+            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
+            in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
+            ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
         layout : str, optional
             "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
             "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -2099,6 +2142,8 @@ class CubeMap:
         output : str
             "color", or the name of an output in `outputs`, such as "distance", "normal" and "id". Its numbers are written
             to .exr as they are, as floats or whole numbers of 32 bits, in any layout, and never mixed (`to_equirect`).
+        compression : {"zstd", "zlib"}, optional
+            How the levels of a .ktx2 file are packed. "zstd" needs the package of the extra "ktx2".
 
         Raises
         ------
@@ -2112,6 +2157,12 @@ class CubeMap:
         -----
         Cells of a cross without a face are 0. A cubemap of float16 is written to EXR as half.
 
+        A KTX2 or DDS file holds uint8 as it is, in a format of the cube's `encoding`, and floats as light; three channels
+        become four. Level k has N >> k texels an edge; filtered levels of other sizes are resized. The file says
+        that its levels are filtered (docs/conventions.md), and `load_cubemap` reads them back. A cube with ``mipmaps=True``
+        and without filtered levels gets plain mipmaps, all others one level. Fewer levels than N has powers of two keep the
+        last one from becoming too small: `prefilter` with log2(N) - 3 of them ends at 16 texels.
+
         Examples
         --------
         >>> import cubecam as cc, tempfile, pathlib
@@ -2120,6 +2171,54 @@ class CubeMap:
         >>> cube.save(folder / "probe.exr", layout="cross", convention="inside")
         >>> cc.load_cubemap(folder / "probe.exr", convention="inside") == cube
         True
+        """
+
+    def save_for(self, engine: Engine, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
+        """
+        Write light for an engine: a file that it loads, the right way round, and a README. The method `CubeMap.save_for`.
+
+        Parameters
+        ----------
+        engine : {"three", "babylon", "unity", "godot", "blender", "filament"}
+            three.js, Babylon.js, Unity, Godot 4, Blender or Filament.
+        folder : path
+            Where the files are written; made if it does not exist.
+
+        Returns
+        -------
+        list of Path
+            The files; the last one is README.txt, whose five lines say how the engine loads the others.
+
+        Raises
+        ------
+        ValueError
+            For an unknown engine, or, for Babylon.js, a size that is no power of two.
+        OSError
+            If the folder cannot be made or written.
+
+        Notes
+        -----
+        ===========  ==============================================================================
+        engine       files
+        ===========  ==============================================================================
+        three        environment.exr, a panorama with +X in the middle; px.hdr ... nz.hdr, six faces
+        babylon      environment.env: levels by roughness in Babylon's steps, and the irradiance
+        unity        environment.exr, a panorama with -X in the middle (Unity's +X)
+        godot        environment.exr, a panorama with +Z in the middle
+        blender      environment.exr, a panorama with +X in the middle
+        filament     environment.hdr, a panorama with +Z in the middle, mirrored; sh.json
+        ===========  ==============================================================================
+
+        All engines but Babylon.js filter the light themselves and get level 0 alone. A cube without filtered levels is
+        filtered for Babylon.js. Numbers are light: what is "srgb" is decoded. Panoramas are four times as wide as a face;
+        EXR holds half floats, light above 65504 is clipped.
+
+        Examples
+        --------
+        >>> import cubecam as cc, tempfile
+        >>> cube = cc.load_environment(cc.sample_data("forest.exr"), size=32)
+        >>> [path.name for path in cube.save_for("godot", tempfile.mkdtemp())]
+        ['environment.exr', 'README.txt']
         """
 
     def set_face(

@@ -39,6 +39,7 @@ __all__ = [
     "BlendMode",
     "Center",
     "Color",
+    "Compression",
     "ControlsName",
     "Convention",
     "CubeMode",
@@ -46,6 +47,7 @@ __all__ = [
     "DepthOrder",
     "Encode",
     "Encoding",
+    "Engine",
     "FaceName",
     "FileLayout",
     "FilePixels",
@@ -87,6 +89,7 @@ BlendFactor: TypeAlias = Literal[
     "one_minus_dst_alpha",
     "src_alpha_saturate",
 ]
+Compression: TypeAlias = Literal["zstd", "zlib"]
 BlendMode: TypeAlias = Literal[
     "opaque", "alpha", "alpha_keep", "additive", "multiply", "premultiplied"
 ]
@@ -104,6 +107,7 @@ DepthFormat: TypeAlias = Literal[
 DepthOrder: TypeAlias = Literal["nearest", "farthest"]
 Encode: TypeAlias = Literal["srgb"]
 Encoding: TypeAlias = Literal["linear", "srgb"]
+Engine: TypeAlias = Literal["three", "babylon", "unity", "godot", "blender", "filament"]
 FaceName: TypeAlias = Literal[
     "+x",
     "-x",

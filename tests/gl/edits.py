@@ -180,6 +180,32 @@ def variant(world, rng, thing):
     return one(rng, None, *thing.variants)
 
 
+def mesh_of(world, rng, thing):
+    """None or one of the meshes; a node with a skin needs one with joints."""
+    fit = [mesh for mesh in world.meshes if thing.skin is None or mesh.joints is not None]
+    return one(rng, None, *fit)
+
+
+def skin_of(world, rng, thing):
+    joints = [node for node in world.scene.nodes if node.name == "joint"]
+    bends = thing.mesh is not None and thing.mesh.joints is not None and thing in world.scene
+    if not bends or len(joints) < 2:  # an edit may have given a joint another name
+        return None
+    return one(
+        rng, None, cc.Skin(joints), cc.Skin(joints, [matrix(world, rng, thing)] * len(joints))
+    )
+
+
+def targets_of(world, rng, thing):
+    shape = thing.positions.shape
+    made = cc.MorphTarget(
+        positions=rng.uniform(-0.1, 0.1, shape),
+        normals=rng.uniform(-0.5, 0.5, shape),
+        colors=rng.uniform(-0.5, 0.5, shape),
+    )
+    return one(rng, (), (made,), (*thing.morph_targets[:1], made))
+
+
 def view(world, rng, thing):
     return random_camera(rng).view
 
@@ -191,7 +217,7 @@ VALUES = {
     "Node.label": choice(-1, 0, 2**31 - 1),
     "Node.material": new_material,
     "Node.matrix": matrix,
-    "Node.mesh": lambda world, rng, thing: one(rng, None, *world.meshes),
+    "Node.mesh": mesh_of,
     "Node.name": choice("a", "b"),
     "Node.parent": group_of,
     "Node.position": place,
@@ -199,8 +225,10 @@ VALUES = {
     "Node.render_order": choice(-1, 0, 1),
     "Node.rotation": lambda world, rng, thing: rng.normal(size=4),
     "Node.scale": lambda world, rng, thing: rng.choice([-1, 1]) * rng.uniform(0.5, 1.5, 3),
+    "Node.skin": skin_of,
     "Node.variants": variants,
     "Node.visible": flag,
+    "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
     "Probe.depth_format": choice(*DEPTHS),
     "Probe.exclude": excluded,
     "Probe.faces_per_frame": choice(1, 2, 5),
@@ -234,6 +262,7 @@ VALUES = {
     "Scene.variant": variant,
     "Scene.variants": choice((), ("day", "night"), ("night", "dusk")),
     "Mesh.colors": lambda world, rng, thing: one(rng, None, rng.random(thing.positions.shape)),
+    "Mesh.morph_targets": targets_of,
     "Mesh.normals": lambda world, rng, thing: one(
         rng, None, rng.normal(size=thing.positions.shape)
     ),
@@ -460,6 +489,17 @@ def method_one_texture(world, rng, draw):
 def method_update_a_mesh(world, rng, draw):
     mesh = one(rng, *world.meshes)
     mesh.update(positions=mesh.positions[:, [2, 0, 1]], colors=rng.random(mesh.positions.shape))
+
+
+def method_bend_a_mesh(world, rng, draw):
+    """Weights and joints change, together with what is drawn between the two."""
+    for node in world.scene.nodes:
+        if len(node.weights):
+            node.weights = rng.uniform(-0.5, 1, len(node.weights))
+    draw()
+    for node in world.scene.nodes:
+        if node.name == "joint":
+            node.matrix = matrix(world, rng, node)
 
 
 def method_move_the_camera(world, rng, draw):

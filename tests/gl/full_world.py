@@ -59,9 +59,21 @@ def random_camera(rng):
 
 
 def colored_box():
+    """A box with colours, two joints and a morph target."""
     box = cc.Mesh.box(0.6)
-    colors = np.random.default_rng(5).random((len(box.positions), 3))
-    return cc.Mesh(box.positions, box.indices, normals=box.normals, uvs=box.uvs, colors=colors)
+    rng = np.random.default_rng(5)
+    shape = box.positions.shape
+    upper = box.positions[:, 1:2] > 0
+    return cc.Mesh(
+        box.positions,
+        box.indices,
+        normals=box.normals,
+        uvs=box.uvs,
+        colors=rng.random(shape),
+        joints=np.tile((0, 1, 0, 0), (len(upper), 1)),
+        joint_weights=np.c_[~upper, upper, 0 * upper, 0 * upper],
+        morph_targets=[cc.MorphTarget(positions=rng.uniform(-0.2, 0.2, shape))],
+    )
 
 
 @dataclass
@@ -144,6 +156,10 @@ def full_world(rng):
         ),
     ]
     group = scene.add(name="group")
+    joints = [
+        scene.add(position=(1.2, 0.4 + y, -0.6), parent=above, name="joint")
+        for y, above in ((0, None), (0.1, group))
+    ]
     ball, box = meshes[1], meshes[2]
     world.probes = [
         cc.Probe(position=(0.3, 0.2, 0.1), size=12, format="rgba32f"),
@@ -151,7 +167,8 @@ def full_world(rng):
         cc.Probe(size=8, format="rgba8"),
     ]
     mirror, glass, shown = world.probes
-    scene.add(meshes[0], cc.BasicMaterial(vertex_colors=True), position=(1.2, 0.4, -0.6))
+    shown_colors = cc.BasicMaterial(vertex_colors=True)
+    scene.add(meshes[0], shown_colors, skin=cc.Skin(joints), weights=[0.5], name="bent")
     scene.add(box, cc.BasicMaterial(map=images[0]), position=(-1.2, -0.4, -0.8), parent=group)
     scene.add(box, cc.PhongMaterial(map=images[1]), position=(0.4, 1.1, 0.3), parent=group)
     scene.add(ball, cc.MirrorMaterial(), position=(0.2, 0, 0.2), environment=mirror, scale=1.3)

@@ -37,6 +37,17 @@ def make_world(rng):
     other = scene.add(
         cc.Mesh.box(1), cc.GlassMaterial(), position=(2, 0, 0), environment=still, name="glass"
     )
+    bone = scene.add(position=(0, 1, 1), parent=arm)
+    tip = scene.add(position=(0, 0.4, 0), parent=bone)
+    stick = cc.Mesh.box((0.3, 1, 0.3))
+    upper = stick.positions[:, 1:2] > 0
+    stick.update(
+        joints=np.tile((0, 1, 0, 0), (len(upper), 1)),
+        joint_weights=np.c_[~upper, upper, 0 * upper, 0 * upper],
+        morph_targets=[cc.MorphTarget(positions=0.3 * stick.normals)],
+    )
+    bent = scene.add(stick, paint, skin=cc.Skin([bone, tip]), weights=[0.2])
+    swollen = scene.add(stick, paint, position=(-1, -1, 2), weights=[0.2])
     return SimpleNamespace(**{key: value for key, value in locals().items() if key != "rng"})
 
 
@@ -82,6 +93,12 @@ EDITS = {
     "hidden": lambda w, rng: setattr(w.hand, "visible", not w.hand.visible),
     "background": lambda w, rng: setattr(w.scene, "background", rng.uniform(0, 1, 3)),
     "environment": lambda w, rng: setattr(w.other, "environment", None),
+    "joint": lambda w, rng: setattr(w.tip, "position", rng.uniform(-0.5, 0.5, 3)),
+    "first joint": lambda w, rng: setattr(w.bone, "rotation", rng.normal(size=4)),
+    "weights": lambda w, rng: setattr(w.swollen, "weights", rng.random(1)),
+    "weights of a skin": lambda w, rng: setattr(w.bent, "weights", rng.random(1)),
+    "bent mesh": lambda w, rng: w.stick.update(positions=w.stick.positions * 1.1),
+    "place of a skin": lambda w, rng: setattr(w.bent, "position", rng.uniform(-1, 1, 3)),
     "nothing": lambda w, rng: None,
 }
 

@@ -74,7 +74,7 @@ def test_a_texture_lies_where_the_specification_says(renderer, load, transform):
     # Rounding decides where a pixel's centre lies on the border of two texels.
     near = np.minimum(np.abs(u * 4 - np.rint(u * 4)), np.abs(v * 4 - np.rint(v * 4))) < 1e-3
     assert near.mean() < 0.5
-    assert_close(got[~near], want[~near], "lookup")
+    assert_close(got[~near], want[~near], "srgb_filter")
 
 
 def test_a_camera_of_a_file(renderer, load):

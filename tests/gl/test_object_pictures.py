@@ -559,3 +559,30 @@ def test_every_property_of_a_light_and_a_probe_is_shown():
     ):
         for name in describe._properties(type(thing)):
             assert name.replace("_", " ") in words(thing)
+
+
+def test_a_scene_of_cameras_animations_and_variants():
+    scene = cc.Scene()
+    cart = scene.add(cc.Mesh.box(), cc.PhongMaterial(name="oak"), name="cart")
+    scene.add(cc.PerspectiveCamera(fov=40, parent=cart))
+    scene.add(cc.Camera(view=np.eye(4), projection=np.eye(4)))
+    scene.add(cc.PointLight(range=3, parent=cart))
+    roll = cc.AnimationChannel(cart, "translation", [0, 2], np.eye(3)[:2], interpolation="step")
+    scene.add(cc.Animation([roll], name="roll"))
+    scene.variants = ["red", "blue"]
+    scene.variant = "red"
+    text = scene._repr_html_()
+    for words in (
+        "2 cameras",
+        "fov 40°, position 0, 0, 0, on node #1 cart",
+        "given by its matrices",
+        "range 3, on node #1 cart",
+        "1 animation",
+        "2 s, 1 channel of 1 node",
+        "red, blue; shown: red",
+        "M1 oak",
+    ):
+        assert words in text, words
+    assert "translation, 2 keys, step" in scene.animations[0]._repr_html_()
+    assert "world position" not in cc.PointLight()._repr_html_()
+    assert "world position" in scene.lights[0]._repr_html_()

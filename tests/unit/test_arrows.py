@@ -44,6 +44,7 @@ PYTHON_ORDER = (
     "plot",
     "navigation",
     "optics",
+    "staging",  # light, ground and camera for a model
     "viewer",
     "explore",
     "_shader_inputs",

@@ -47,6 +47,9 @@ def ffmpeg(tmp_path, monkeypatch):
     )
     script.chmod(script.stat().st_mode | stat.S_IXUSR)
     monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
+    monkeypatch.setenv(
+        "IMAGEIO_FFMPEG_EXE", str(script)
+    )  # preferred where imageio-ffmpeg is installed
     monkeypatch.setenv("FFMPEG_SEEN", str(tmp_path / "arguments"))
     return tmp_path / "arguments"
 
@@ -255,6 +258,7 @@ def test_a_failing_ffmpeg_is_told_and_leaves_the_old_file(ffmpeg, tmp_path, monk
 
 def test_without_ffmpeg_nothing_is_drawn(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     result = example("P14", "-o", tmp_path / "a.mp4", device="no such device")
     assert result.exit_code == 1
     assert "ffmpeg" in result.output

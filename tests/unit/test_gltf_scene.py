@@ -344,6 +344,21 @@ def test_channels_that_cubecam_does_not_know(load):
         assert load(file).animations == ()
 
 
+@pytest.mark.parametrize("cubic", [False, True])
+def test_of_keys_of_equal_times_the_last_counts(load, cubic):
+    times = [0, 1, 1, 2]
+    keys = np.zeros((4, 3), np.float32)
+    keys[:, 0] = 0, 5, 7, 9
+    values = np.stack([keys * 0, keys, keys * 0], 1).reshape(-1, 3) if cubic else keys
+    file = moving("translation", times, lambda file: file.accessor(values))
+    if cubic:
+        file.tree["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE"
+    with pytest.warns(cc.SceneWarning, match=r"equal times .*samplers\[0\]"):
+        scene = load(file)
+    assert scene.animations[0].channels[0].times.tolist() == [0, 1, 2]
+    assert scene.set_time(1).nodes[0].position[0] == 7
+
+
 @pytest.mark.parametrize(
     ("change", "text"),
     [

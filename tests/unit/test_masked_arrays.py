@@ -29,6 +29,12 @@ DIRECTIONS = {"incident": [0, -1, 0], "normal": [0, 1, 0]}
 DECLARED = "vec3 shade() { return vec3(1.0); }"
 EFFECT = "vec4 effect(vec2 uv) { return frame(uv); }"
 
+
+def morphing_mesh():
+    target = cc.MorphTarget(positions=TRIANGLE["positions"])
+    return cc.Mesh(**TRIANGLE, morph_targets=[target])
+
+
 #: A value for each name of an argument or attribute, where its class does not matter.
 VALUES: dict[str, Any] = {
     "position": [1.0, 2.0, 3.0],
@@ -61,6 +67,10 @@ VALUES: dict[str, Any] = {
     "uvs1": [[0.0, 1.0]] * 3,
     "tangents": [[1.0, 0.0, 0.0, -1.0]] * 3,
     "colors": [[0.0, 1.0, 0.5]] * 3,
+    "joints": [[0, 1, 0, 0]] * 3,
+    "joint_weights": [[0.5, 0.5, 0.0, 0.0]] * 3,
+    "weights": [0.5],
+    "inverse_bind_matrices": np.eye(4)[None],
     "image": PICTURE,
     "map": PICTURE,
     "pixels": PICTURE,
@@ -87,16 +97,17 @@ ENDS: dict[str, Any] = {"_map": PICTURE, "_color": [0.25, 0.5, 1.0]}
 OF_FUNCTIONS: dict[tuple[str, str], Any] = {
     ("Scene.set_positions", "positions"): [[1.0, 2.0, 3.0]],
     ("CubeMap.set_face", "pixels"): CUBE[0],
+    ("MorphTarget", "tangents"): [[1.0, 0.0, 0.0]] * 3,
     ("Texture", "scale"): [1.0, 2.0],
 }
 
 #: The object whose method is called or whose attribute is set.
 OBJECTS: dict[str, Any] = {
-    "Node": lambda: cc.Scene().add(),
+    "Node": lambda: cc.Scene().add(morphing_mesh()),
     "Probe": cc.Probe,
     "Scene": cc.Scene,
     "CubeMap": lambda: cc.CubeMap(CUBE),
-    "Mesh": lambda: cc.Mesh(**TRIANGLE),
+    "Mesh": lambda: cc.Mesh(**TRIANGLE, joints=VALUES["joints"], joint_weights=[[1, 1, 0, 0]] * 3),
     "Light": cc.PointLight,
     "Camera": lambda: cc.Camera(view=np.eye(4), projection=np.eye(4)),
     "ShaderMaterial": lambda: cc.ShaderMaterial(DECLARED),
@@ -108,7 +119,8 @@ OBJECTS: dict[str, Any] = {
 NEEDED: dict[str, Any] = {
     "Mesh": lambda: TRIANGLE,
     "Camera": lambda: {"view": np.eye(4), "projection": np.eye(4)},
-    "Scene.add": lambda: {"mesh": cc.Mesh(**TRIANGLE)},
+    "Scene.add": lambda: {"mesh": morphing_mesh()},
+    "Skin": lambda: {"joints": [cc.Scene().add()]},
     "ShaderMaterial": lambda: {"fragment": DECLARED},
     "ImageEffect": lambda: {"fragment": EFFECT},
     "Texture": lambda: {"source": PICTURE},

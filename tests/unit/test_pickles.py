@@ -179,6 +179,28 @@ def in_no_scene():
     return node
 
 
+def channel():
+    """A channel whose node is gone: no scene keeps it."""
+    return cc.AnimationChannel(
+        cc.Scene().add(), "rotation", [0, 2], [(1, 0, 0, 0), (0, 1, 0, 0)], interpolation="step"
+    )
+
+
+def skinned_node():
+    """A node whose scene keeps its joints."""
+    scene = cc.Scene()
+    joints = [scene.add(name="a"), scene.add(name="b")]
+    mesh = cc.Mesh(
+        np.eye(3),
+        [[0, 1, 2]],
+        joints=[[0, 1, 0, 0]] * 3,
+        joint_weights=[[1, 2, 0, 0]] * 3,
+        morph_targets=[MAKE["MorphTarget"]()],
+    )
+    skin = cc.Skin(joints, [np.eye(4), np.diag((1, 2, 3, 1))], skeleton=joints[0])
+    return scene.add(mesh, skin=skin, weights=[0.25])
+
+
 def frame():
     with cc.Renderer(device="software") as renderer:
         return renderer.render(cc.Scene(), lens(), (2, 1))
@@ -188,6 +210,12 @@ MAKE = {
     "CubeMap": lambda: cc.CubeMap(np.arange(6, dtype=np.uint8).reshape(6, 1, 1, 1), mipmaps=True),
     "Image": lambda: cc.Image(np.zeros((1, 2, 3), np.uint8), mipmaps=True, wrap="clamp"),
     "Mesh": lambda: cc.Mesh(np.eye(3), [[0, 1, 2]], uvs=np.ones((3, 2))),
+    "MorphTarget": lambda: cc.MorphTarget(
+        positions=np.eye(3), colors=np.ones((3, 3)), uvs1=np.ones((3, 2)), name="smile"
+    ),
+    "AnimationChannel": channel,
+    "Animation": lambda: cc.Animation([channel()], name="walk"),
+    "Skin": lambda: cc.Skin([None, None], [np.eye(4), np.diag((1, 2, 3, 1))]),
     "Stencil": lambda: cc.Stencil(func="equal", reference=3, depth_pass="incr"),
     "Texture": lambda: cc.Texture(
         np.ones((1, 2, 3), np.uint8), uv_set=1, rotation=30, scale=(2, 0.5)
@@ -219,6 +247,7 @@ MAKE = {
     "Scene": lambda: cc.Scene(background=(1, 0, 0)),
     "Node": lambda: cc.Scene().add(name="n"),
     "Node in no scene": in_no_scene,
+    "Node with a skin": skinned_node,
     "Frame": frame,
 }
 
@@ -243,7 +272,16 @@ def test_both_lists_hold_every_class_that_pickles():
         if isinstance(kind, type) and not issubclass(kind, BaseException)
     }
     assert classes - refused - abstract <= {name.partition(" ")[0] for name in MAKE}
-    new_since_0_1 = {"Blend", "StandardMaterial", "Texture"}
+    new_since_0_1 = {
+        "Blend",
+        "StandardMaterial",
+        "Texture",
+        "MorphTarget",
+        "Skin",
+        "AnimationChannel",
+        "Animation",
+        "Node with a skin",
+    }
     assert set(OLD_PICKLES) == set(MAKE) - new_since_0_1
 
 

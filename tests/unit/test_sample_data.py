@@ -1,15 +1,19 @@
 """The sample files: what there is, what their documents say of them, and how large they are."""
 
+import importlib.util
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import cubecam as cc
 
+ROOT = Path(__file__).resolve().parents[2]
 FOLDER = cc.sample_data("bunny.obj").parent
 PHOTOGRAPHS = [name for name in cc.sample_data() if name.endswith(".exr")]
-MESHES = [name for name in cc.sample_data() if not name.endswith(".exr")]
+SCENE = "gallery.glb"
+MESHES = [name for name in cc.sample_data() if not name.endswith(".exr") and name != SCENE]
 CREDITS = (FOLDER / "CREDITS.md").read_text(encoding="utf-8")
 
 
@@ -49,6 +53,22 @@ def test_photographs_hold_what_the_documents_say(name):
     assert (round(size / 1000), float(highest.replace(",", ""))) == (int(kilobytes), peak)
     *_, stated = cells(cc.sample_data.__doc__, name)
     assert float(stated.replace(",", "")) == pytest.approx(peak, rel=1e-3)
+
+
+def test_the_scene_is_what_its_script_makes():
+    spec = importlib.util.spec_from_file_location("gallery", ROOT / "scripts" / "gallery.py")
+    assert spec is not None
+    assert spec.loader is not None
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    made, read = script.build(), cc.load_scene(cc.sample_data(SCENE))
+    assert [node.name for node in read.nodes] == [node.name for node in made.nodes]
+    for one, other in zip(read.nodes, made.nodes, strict=True):
+        assert np.allclose(one.world_matrix, other.world_matrix, atol=1e-6)
+    assert [animation.duration for animation in read.animations] == [8]
+    assert [camera.parent.name for camera in read.cameras] == ["view"]
+    assert [light.parent.name for light in read.lights] == ["bulb"]
+    assert cc.sample_data(SCENE).stat().st_size < 200_000
 
 
 @pytest.mark.parametrize("name", MESHES)

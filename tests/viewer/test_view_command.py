@@ -43,15 +43,25 @@ def write(path, text):
     os.utime(path, ns=(later, later))
 
 
-def test_a_mesh_is_lit_and_fills_the_picture():
+def test_a_model_is_lit_and_fills_the_picture(renderer):
     shown = read(str(cc.sample_data("suzanne.glb")))
     with shown.as_view("x") as view:
         picture = view.draw((120, 90))[..., :3].astype(int)
-    back = picture[0, 0]
-    seen = (np.abs(picture - back).max(axis=-1) > 12).mean()
-    assert 0.1 < seen < 0.7
-    assert picture.std() > 20
-    assert "vertices" in shown.told
+        frame = renderer.render(shown.scene, view.camera, (120, 90), outputs=("id",), format=None)
+    assert 0.2 < (frame.id > 0).mean() < 0.7
+    assert 50 < picture[frame.id > 0].mean() < 220
+    assert picture.std() > 12
+    assert shown.told == "1 node, 2,012 vertices, 3,936 triangles"
+
+
+def test_a_scene_shows_its_light_and_plays_its_animation():
+    shown = read(str(cc.sample_data("gallery.glb")))
+    assert [type(light) for light in shown.scene.lights] == [cc.PointLight]
+    assert shown.told.endswith("1 animation")
+    with shown.as_view("x") as view:
+        assert view.playing
+        assert view.animation == "turn"
+        assert 40 < view.draw((120, 90))[..., :3].mean() < 200
 
 
 @pytest.mark.parametrize("name", ["panorama.png", "cross.png", "{face}.png"])
@@ -157,7 +167,7 @@ def test_a_broken_file_keeps_the_old_scene_and_is_told(script):
 WRONG = {
     "missing": (["no.glb"], 1, "no.glb"),
     "unknown": ([__file__ + ".xyz"], 1, "No such file"),
-    "kind": (["Makefile"], 1, "expected a mesh (.glb"),
+    "kind": (["Makefile"], 1, "expected a model (.glb"),
     "two": (["a.glb", "--page", "--window"], 2, "expected one of --page, --window and --terminal"),
     "host": (["{script}", "--host", "0.0.0.0"], 1, "or a password for '0.0.0.0'"),
     "port": (["{script}", "--port", "70000"], 2, "expected at most 65535, got 70000"),

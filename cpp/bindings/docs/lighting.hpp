@@ -147,6 +147,40 @@ Examples
 ((9, 1), 3.5449)
 )doc";
 
+inline constexpr const char* from_levels =
+    R"doc(Make a filtered cubemap of its levels, for example those that another program filtered.
+
+Parameters
+----------
+levels : sequence of CubeMap
+    Level k of L, 2 to 64 of them, holds the light filtered for the roughness ``k / (L - 1)``; level 0 is the cube
+    itself. All have the same dtype and number of channels; their sizes are free.
+
+Returns
+-------
+CubeMap
+    With `levels` and `roughness`, and the `mipmaps` and `encoding` of level 0.
+
+Raises
+------
+ValueError
+    For another number of levels, or levels of different channels or dtypes.
+TypeError
+    For levels that are no cubemaps.
+
+See Also
+--------
+prefilter : makes the levels of a cubemap.
+
+Examples
+--------
+>>> import numpy as np
+>>> import cubecam as cc
+>>> sharp, rough = (cc.CubeMap(np.full((6, n, n, 3), 0.5, np.float32)) for n in (64, 16))
+>>> cc.CubeMap.from_levels([sharp, rough]).roughness.tolist()
+[0.0, 1.0]
+)doc";
+
 inline constexpr const char* from_sh =
     R"doc(Make a cube of the light that coefficients of spherical harmonics describe.
 

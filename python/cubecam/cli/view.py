@@ -1,4 +1,4 @@
-"""`cubecam view`: explore a mesh, a cubemap, a panorama or a script's scene, which are read again when written."""
+"""`cubecam view`: explore a model, a cubemap, a panorama or a script's scene, which are read again when written."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _PAGE = "Options for a page"
     "path",
     type=FILE,
     metavar="FILE",
-    help="A mesh (GLB, glTF, OBJ, PLY, STL, OFF), a cubemap (for six files, a name with {face}), a panorama, or a "
+    help="A model (GLB, glTF, OBJ, PLY, STL, OFF), a cubemap (for six files, a name with {face}), a panorama, or a "
     "Python script that makes `scene` and, if it likes, `camera`, or `view`.",
 )
 @place_options()

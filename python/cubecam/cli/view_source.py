@@ -1,4 +1,4 @@
-"""What `cubecam view` shows: a mesh, a cubemap, a panorama, or what a Python script makes."""
+"""What `cubecam view` shows: a model, a cubemap, a panorama, or what a Python script makes."""
 
 from __future__ import annotations
 
@@ -8,33 +8,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .. import (
-    AmbientLight,
-    CubeMap,
-    DirectionalLight,
-    Error,
-    OrthographicCamera,
-    PerspectiveCamera,
-    PhongMaterial,
-    Scene,
-)
+from .. import CubeMap, Error, OrthographicCamera, PerspectiveCamera, Scene
 from ..io.cubemap_names import spellings
+from .common import warnings_reported
 
 if TYPE_CHECKING:
     from ..viewer.live import LiveView
 
 __all__ = ["FAILURES", "Shown", "read", "stamp"]
 
-_MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
+_MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 _PICTURES = (
     ".exr", ".hdr", ".pic", ".rgbe", ".xyze", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga", ".gif",
     ".pfm", ".dds",
 )  # fmt: skip
-_SAMPLE = "studio.exr"  # what a mirror shows beside a mesh
-_BACK = (0.055, 0.06, 0.07)  # the colour behind a mesh, linear
-_GREY = (0.62, 0.62, 0.62)
-#: Light of three lamps that every side of a mesh gets something of: direction and strength.
-_LAMPS = (((-0.5, -1.0, -0.8), 1.0), ((1.0, -0.3, -0.4), 0.45), ((0.2, 0.4, 1.0), 0.35))
+_SAMPLE = "sunset.exr"  # the light of a model without light
 
 
 @dataclass
@@ -47,6 +35,7 @@ class Shown:
     cube: CubeMap | None = None
     view: LiveView | None = None
     placed: str = ""  # where a script puts the camera, before a person moves it
+    playing: bool = False  # whether an animation runs from the beginning
     told: str = ""  # what is shown, for the line below the picture
     files: tuple[Path, ...] = ()  # what is watched besides the file itself
 
@@ -64,6 +53,7 @@ class Shown:
         assert self.scene is not None
         viewer = Viewer(self.scene, self.camera, **self.options)
         viewer.title, viewer.text = title, self.told
+        viewer.playing = self.playing
         return viewer
 
 
@@ -93,38 +83,48 @@ def read(path: str) -> Shown:
     kind = Path(path).suffix.lower()
     if kind == ".py":
         return _script(path)
-    if kind in _MESHES:
-        return _mesh(path)
+    if kind in _MODELS:
+        return _model(path)
     if kind in _PICTURES:
         return _picture(path)
     if not Path(path).exists():
         raise FileNotFoundError(2, "No such file or directory", path)
     raise ValueError(
-        f"expected a mesh ({', '.join(_MESHES)}), a cubemap or panorama (.exr, .hdr, .png, .jpg, ...) "
+        f"expected a model ({', '.join(_MODELS)}), a cubemap or panorama (.exr, .hdr, .png, .jpg, ...) "
         f"or a Python script (.py), got {path}"
     )
 
 
-def _mesh(path: str) -> Shown:
+def _model(path: str) -> Shown:
+    """Show a file's scene in its own light, or else in that of a sample photograph, with what it has of animations."""
+    from .. import Renderer
     from ..data import sample_data
     from ..io.cubemaps import load_environment
-    from ..io.meshes.load import load_mesh
+    from ..io.scenes import load_scene
+    from ..staging.shoot import Shoot
 
-    mesh = load_mesh(path)
-    scene = Scene(environment=load_environment(sample_data(_SAMPLE), size=256), background=_BACK)
-    colored = mesh.colors is not None
-    color = (1, 1, 1) if colored else _GREY
-    material = PhongMaterial(
-        color=color, ka=0.25, ks=0.12, shininess=24, vertex_colors=colored, double_sided=True
-    )
-    scene.add(mesh, material, name=Path(path).stem)
-    scene.add(AmbientLight(intensity=0.35))
-    for direction, strength in _LAMPS:
-        scene.add(DirectionalLight(direction, intensity=strength))
-    camera = PerspectiveCamera(position=(1.0, 0.7, 2.2), target=(0, 0, 0), fov=40)
-    camera.fit(scene, margin=0.06)
-    told = f"{len(mesh.positions):,} vertices, {len(mesh.indices):,} triangles"
-    return Shown(scene, camera, {"tonemap": "neutral"}, told=told)
+    with warnings_reported(path):
+        scene = load_scene(path)
+    shoot = Shoot(scene, None, lambda: load_environment(sample_data(_SAMPLE), size=256))
+    shoot.place_camera((30.0, 15.0), 4 / 3, turns=False, moments=[], animation=0)
+    shoot.set_background(None)
+    if shoot.measures:
+        with Renderer() as renderer:
+            exposure = shoot.exposure(renderer)
+    else:
+        exposure = shoot.exposure(None)
+    meshes = [node.mesh for node in shoot.nodes if node.mesh is not None]
+    parts = {
+        "nodes": len(scene.nodes),
+        "vertices": sum(len(mesh.positions) for mesh in meshes),
+        "triangles": sum(len(mesh.indices) for mesh in meshes),
+        "animations": len(scene.animations),
+    }
+    told = ", ".join(f"{n:,} {name[:-1] if n == 1 else name}" for name, n in parts.items() if n)
+    told = told.replace("vertice,", "vertex,")
+    options = {"tonemap": "neutral", "exposure": round(exposure, 2)}
+    camera: Any = shoot.camera
+    return Shown(scene, camera, options, told=told, playing=bool(scene.animations))
 
 
 def _picture(path: str) -> Shown:

@@ -18,6 +18,7 @@ _FILES = (
     "sunrise.exr",
     "sunset.exr",
     "bunny.obj",
+    "gallery.glb",
     "suzanne.glb",
     "teapot.obj",
 )
@@ -64,8 +65,8 @@ def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
     sunset.exr     a quay at the sea in the evening, the sun on the horizon        6,248
     =============  ==============================================================  ==================
 
-    The meshes have no texture coordinates; `load_mesh` computes smooth normals where a file has none. Sizes are those
-    along x, y and z in the file's own units.
+    The meshes in this table have no texture coordinates; `load_mesh` computes smooth normals where a file has none.
+    Sizes are those along x, y and z in the file's own units.
 
     ===========  ======================  ========  =========  ==================
     mesh         shows                   vertices  triangles  size
@@ -74,6 +75,9 @@ def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
     suzanne.glb  Blender's monkey head   2,012     3,936      2.7, 1.9, 1.6
     teapot.obj   Utah teapot             792       992        32.1, 15.8, 20.0
     ===========  ======================  ========  =========  ==================
+
+    gallery.glb is a scene for `load_scene`: a room with a lamp, a mirror ball, a golden head that an animation turns,
+    and a camera.
 
     Examples
     --------

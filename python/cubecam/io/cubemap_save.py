@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._calls import checked_call
 from .._core import CubeMap
-from ..typing import Center, Convention, FileLayout, Tonemap
+from ..typing import Center, Compression, Convention, FileLayout, Tonemap
 from . import formats
+from .babylon_env import encode_env
+from .cube_files import SUFFIXES, encode_cube
 from .cubemap_names import (
     Source,
     check_names,
@@ -22,6 +25,7 @@ from .cubemap_outputs import encode_output
 from .files import as_path
 from .pixels import Array
 from .screen import Clipping, check_look, curve_for
+from .sh_file import encode_sh
 from .stored_as import stored_files
 from .writing import write_files
 
@@ -43,16 +47,20 @@ def save_cubemap(
     srgb: bool | None = None,
     half: bool = False,
     output: str = "color",
+    compression: Compression | None = None,
 ) -> None:
     """Write a cubemap as one picture or six files. The method `CubeMap.save`.
 
     A file of 8 bits holds what a screen shows: linear floats are mapped by the tone curve, then everything linear is
-    sRGB-encoded. EXR and HDR hold linear numbers. Filtered levels (`CubeMap.levels` of `prefilter`) are not written.
+    sRGB-encoded. EXR and HDR hold linear numbers; KTX2 and DDS hold the cube's own, with filtered levels
+    (`CubeMap.levels` of `prefilter`), which other kinds leave out.
 
     Parameters
     ----------
     path : path, sequence of six paths, or a name with {face}
-        The extension names the kind of file, as in `save_image`. {face} becomes px nx py ny pz nz.
+        The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by
+        roughness, in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level}
+        becomes 0, 1, ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
     layout : str, optional
         "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
         "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -74,6 +82,8 @@ def save_cubemap(
     output : str
         "color", or the name of an output in `outputs`, such as "distance", "normal" and "id". Its numbers are written
         to .exr as they are, as floats or whole numbers of 32 bits, in any layout, and never mixed (`to_equirect`).
+    compression : {"zstd", "zlib"}, optional
+        How the levels of a .ktx2 file are packed. "zstd" needs the package of the extra "ktx2".
 
     Raises
     ------
@@ -87,6 +97,12 @@ def save_cubemap(
     -----
     Cells of a cross without a face are 0. A cubemap of float16 is written to EXR as half.
 
+    A KTX2 or DDS file holds uint8 as it is, in a format of the cube's `encoding`, and floats as light; three channels
+    become four. Level k has N >> k texels an edge; filtered levels of other sizes are resized. The file says
+    that its levels are filtered (docs/conventions.md), and `load_cubemap` reads them back. A cube with ``mipmaps=True``
+    and without filtered levels gets plain mipmaps, all others one level. Fewer levels than N has powers of two keep the
+    last one from becoming too small: `prefilter` with log2(N) - 3 of them ends at 16 texels.
+
     Examples
     --------
     >>> import cubecam as cc, tempfile, pathlib
@@ -98,6 +114,12 @@ def save_cubemap(
     """
     named = layout_name(layout)
     check_names(convention, center)
+    if isinstance(path, (str, os.PathLike)) and "{level}" in str(as_path(path)):
+        _save_levels(
+            cube, str(as_path(path)), layout=layout, convention=convention, width=width, center=center,
+            exposure=exposure, tonemap=tonemap, srgb=srgb, half=half, output=output,
+        )  # fmt: skip
+        return
     paths = six_paths(path, for_reading=False)
     if paths is not None and len(set(paths)) < 6:
         raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
@@ -105,6 +127,29 @@ def save_cubemap(
     if width is not None and wanted != "equirect":
         raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
     check_look(exposure, tonemap, srgb)
+    suffix = "" if paths is not None else as_path(path).suffix.lower()
+    if compression is not None and suffix != ".ktx2":
+        raise ValueError(f'compression: expected with ".ktx2" only, got {compression!r}')
+    if suffix in (".env", ".json"):
+        data = encode_env(cube) if suffix == ".env" else encode_sh(cube)
+        write_files({as_path(path): data})
+        return
+    if suffix in SUFFIXES:
+        if wanted is not None or output != "color" or srgb:
+            raise ValueError(
+                f"layout, output, srgb: expected none of them for {suffix} files, which hold faces in the numbers of "
+                f"the cube, got {wanted!r}, {output!r}, {srgb!r}"
+            )
+        data = encode_cube(
+            cube,
+            suffix,
+            convention=convention,
+            exposure=exposure,
+            half=half,
+            compression=compression,
+        )
+        write_files({as_path(path): data})
+        return
     if output != "color":
         if half or exposure != 0 or srgb:
             raise ValueError(
@@ -175,6 +220,15 @@ def save_cubemap(
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
     clipping.warn()
     write_files({target: encoded})
+
+
+def _save_levels(cube: CubeMap, name: str, **options: Any) -> None:
+    """Write each filtered level under its number."""
+    if options["output"] != "color":
+        raise ValueError(f'output: expected "color" for files of levels, got {options["output"]!r}')
+    for k, level in enumerate(cube.levels):
+        faces = CubeMap(level, mipmaps=False, encoding=cube.encoding)
+        save_cubemap(faces, name.replace("{level}", str(k)), **options)
 
 
 def _storable(cube: CubeMap, target: Path) -> CubeMap:

@@ -50,6 +50,7 @@ def load_cubemap(
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
     part: Part | None = None,
+    levels: bool | None = None,
 ) -> CubeMap:
     """Read a cubemap from six files or one.
 
@@ -63,7 +64,7 @@ def load_cubemap(
         "cross", "vertical_cross", "row", "column", "equirect", "openexr", or "faces" for six files. None: the layout
         follows from the shape: 4:3, 3:4, 6:1, 1:6, 2:1.
     convention : {"gl", "inside", "three"}, optional
-        How the faces are stored. None: as the file says, if cubecam wrote it as EXR, PNG, TIFF, JPEG or TGA; "inside"
+        How the faces are stored. None: as the file says, if cubecam wrote it; "inside"
         for OpenEXR environment cubes, which always are; else "gl". A panorama has no faces and no convention.
     size : int, optional
         Texels along an edge of a face. None: as stored; for a panorama, the power of two that keeps all detail.
@@ -78,8 +79,12 @@ def load_cubemap(
     dtype : dtype, optional
         "uint8", "float16" or "float32". None: uint8 from 8 bits, float16 from half, else float32.
     part : int or str, optional
-        Which picture of a file that holds several, as in `load_image`; of a DDS file with several cubemaps, which
-        cubemap. Of six files, the same part of each.
+        Which picture of a file that holds several, as in `load_image`; of a DDS or KTX2 file with several cubemaps,
+        which cubemap. Of six files, the same part of each.
+    levels : bool, optional
+        Whether the smaller levels of a DDS or KTX2 file are light filtered by roughness: level k of L for the roughness
+        ``k / (L - 1)``. They become `CubeMap.levels`. None: as the file says, if cubecam wrote it, else False. With
+        `size` there are none.
 
     Returns
     -------
@@ -93,10 +98,10 @@ def load_cubemap(
         If a file does not exist (FileNotFoundError), or may not be read.
     ImageError
         If a file is not a picture, ends early, or claims more pixels than its bytes can hold; for kinds that are not
-        read, such as KTX2; for a DDS cubemap without all six faces.
+        read, such as KTX2 of ASTC; for a DDS cubemap without all six faces.
     ValueError
-        For a shape of no layout, faces that are not square or not of one size, unknown names, or a part that the file
-        does not have.
+        For a shape of no layout, faces that are not square or not of one size, unknown names, a part that the file
+        does not have, or ``levels=True`` for a file without smaller levels.
 
     Warns
     -----
@@ -108,8 +113,8 @@ def load_cubemap(
     In an EXR file with the attribute `envmap`, samples lie on the borders of the faces, by OpenEXR's rule. Such
     files are resampled; all other cubemaps are copied texel by texel.
 
-    A DDS cubemap holds its faces one by one, in the order +X -X +Y -Y +Z -Z. Its first level is read; `mipmaps=True`
-    makes levels anew from it.
+    A DDS or KTX2 cubemap holds its faces one by one, in the order +X -X +Y -Y +Z -Z. Smaller levels that are plain
+    mipmaps are not read; `mipmaps=True` makes them anew from the first.
 
     Examples
     --------
@@ -129,7 +134,7 @@ def load_cubemap(
         cube = CubeMap(faces, convention=convention, mipmaps=mipmaps, encoding=encoding)
     else:
         found = _one_file(path)
-        picture = read_picture(found, part, faces=True)
+        picture = read_picture(found, part, faces=True, levels=levels)
         stored = StoredAs.read(picture.attributes)
         convention = chosen("convention", convention, stored.convention, found)
         center = chosen("center", center, stored.center, found)
@@ -137,16 +142,22 @@ def load_cubemap(
             cube = _from_picture(picture, srgb, wanted, convention, size, center, mipmaps, dtype)
         except ValueError as error:
             raise ValueError(f"{found}: {error}") from error
+    if levels and len(cube.levels) == 1:
+        raise ValueError(f"levels: expected a DDS or KTX2 file with several levels, got {path}")
     if size not in (None, cube.size):
         return cube.resize(size, dtype=dtype)
     if dtype is None or cube.dtype == np.dtype(dtype):
         return cube
-    return CubeMap.from_layout(
-        cube.to_layout("column", dtype=dtype),
-        layout="column",
-        mipmaps=mipmaps,
-        encoding=cube.encoding,
-    )
+    converted = [
+        CubeMap.from_layout(
+            CubeMap(level).to_layout("column", dtype=dtype),
+            layout="column",
+            mipmaps=mipmaps,
+            encoding=cube.encoding,
+        )
+        for level in cube.levels
+    ]
+    return converted[0] if len(converted) == 1 else CubeMap.from_levels(converted)
 
 
 @checked_call
@@ -161,6 +172,7 @@ def load_environment(
     mipmaps: bool = False,
     dtype: npt.DTypeLike | None = None,
     part: Part | None = None,
+    levels: bool | None = None,
 ) -> CubeMap:
     """Read the surroundings of a scene: an equirectangular photograph, or any file that `load_cubemap` reads.
 
@@ -172,7 +184,7 @@ def load_environment(
         Texels along an edge of a face. None: the next power of two from width / pi, which keeps all detail.
     center : {"-z", "+z", "+x", "-x"}, optional
         The direction in the middle of the panorama: "-z", straight ahead, by default.
-    layout, convention, srgb, mipmaps, dtype, part
+    layout, convention, srgb, mipmaps, dtype, part, levels
         As in `load_cubemap`.
 
     Returns
@@ -211,6 +223,7 @@ def load_environment(
         mipmaps=mipmaps,
         dtype=dtype,
         part=part,
+        levels=levels,
     )
 
 
@@ -250,9 +263,8 @@ def _one_file(path: object) -> Path:
 
 def _faces(files: list[Picture], paths: list[Path], srgb: bool) -> tuple[Array, Encoding]:
     """Stack six square pictures of one size, converted to the most channels and, if types differ, to float32."""
-    pictures = [file.pixels for file in files]
-    faces = [_colors(formats.decode(pixels, srgb)) for pixels in pictures]
-    encodings = {formats.encoding_after_decode(pixels, srgb) for pixels in pictures}
+    faces = [_colors(formats.decode(file.pixels, srgb, file.encoding)) for file in files]
+    encodings = {formats.encoding_after_decode(file.pixels, srgb, file.encoding) for file in files}
     shapes = [face.shape[1::-1] for face in faces]
     for path, shape in zip(paths, shapes, strict=True):
         if shape[0] != shape[1] or shape != shapes[0]:
@@ -294,6 +306,12 @@ def _with_channels(face: Array, channels: int) -> Array:
     return face
 
 
+def _stored_channels(faces: Array, picture: Picture) -> Array:
+    """Take away the alpha that a file of cubecam got only because its format has one."""
+    added = StoredAs.read(picture.attributes).channels == "3"
+    return faces[..., :3] if added and faces.shape[-1] == 4 else faces
+
+
 def _colors(pixels: Array) -> Array:
     if pixels.dtype.kind == "u" and pixels.dtype != np.uint8:
         raise ImageError(f"expected colours, got {pixels.dtype} whole numbers: an id map?")
@@ -310,15 +328,23 @@ def _from_picture(
     mipmaps: bool,
     dtype: npt.DTypeLike | None,
 ) -> CubeMap:
-    encoding = formats.encoding_after_decode(picture.pixels, srgb)
+    encoding = formats.encoding_after_decode(picture.pixels, srgb, picture.encoding)
     if picture.faces is not None:
         if layout is not None:
             raise ValueError(
-                f"layout: expected None for a DDS cubemap, which holds faces, got {layout!r}"
+                f"layout: expected None for a cubemap that holds faces, got {layout!r}"
             )
-        faces = _colors(formats.decode(picture.faces, srgb))
-        return CubeMap(faces, convention=convention or "gl", mipmaps=mipmaps, encoding=encoding)
-    pixels = _colors(formats.decode(picture.pixels, srgb))
+        made = [
+            CubeMap(
+                _stored_channels(_colors(formats.decode(level, srgb, picture.encoding)), picture),
+                convention=convention or "gl",
+                mipmaps=mipmaps,
+                encoding=encoding,
+            )
+            for level in (picture.faces, *picture.levels)
+        ]
+        return made[0] if len(made) == 1 else CubeMap.from_levels(made)
+    pixels = _colors(formats.decode(picture.pixels, srgb, picture.encoding))
     height, width = pixels.shape[:2]
     if picture.environment == "cube" and layout is None:
         layout = "openexr"

@@ -1,14 +1,14 @@
 """Read DDS files: cubemaps, and pictures of the kinds of numbers that OpenImageIO does not read.
 
 Microsoft, "Programming guide for DDS": the headers, and the order of faces and levels. Each face is stored with all its
-levels before the next face; only the first level is read. Compressed blocks (BC1 to BC7) are decoded by OpenImageIO.
+levels before the next face. Compressed blocks (BC1 to BC7) are decoded by OpenImageIO.
 """
 
 from __future__ import annotations
 
 import struct
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,9 +16,12 @@ import numpy as np
 from .._core import ImageError
 
 if TYPE_CHECKING:
+    from ..typing import Encoding
     from .pixels import Array
 
 MAGIC = b"DDS "
+#: How the remark begins that cubecam leaves in the reserved bytes of a file.
+OWN = "cubecam"
 FACES = ("+X", "-X", "+Y", "-Y", "+Z", "-Z")
 _HEADER = struct.Struct("<4s7I44x2I4s5I5I")
 _DX10 = struct.Struct("<5I")
@@ -196,6 +199,7 @@ class Dds:
     start: int  # of the pixels
     format: _Format | None
     told: str  # the name of a format, also of one that is not read
+    text: str  # what the writing program left in the reserved bytes
     fields: tuple[Any, ...]  # of the header
     fields10: tuple[int, ...] | None
 
@@ -241,12 +245,13 @@ def read_header(data: bytes) -> Dds:
     if levels > max(width, height).bit_length():
         raise ImageError(f"expected at most {max(width, height).bit_length()} levels, got {levels}")
     images = max(images, 1) * (6 if cube else 1)
-    found = Dds(width, height, levels, images, cube, start, form, told, fields, fields10)
+    text = data[32:76].split(b"\0")[0].decode("ascii", "replace")
+    found = Dds(width, height, levels, images, cube, start, form, told, text, fields, fields10)
     if form is not None:
         _check_length(found, len(data))
         # Some programs count the faces of one cubemap in the header that follows "DX10", some the cubemaps.
         if cube and images == 36 and len(data) < start + 36 * stride(found):
-            found = Dds(width, height, levels, 6, cube, start, form, told, fields, fields10)
+            found = replace(found, images=6)
     return found
 
 
@@ -290,28 +295,44 @@ def _check_faces(caps2: int) -> None:
 
 
 def decode(
-    dds: Dds, data: bytes, first: int, count: int, blocks: Callable[[bytes], Array]
+    dds: Dds,
+    data: bytes,
+    first: int,
+    count: int,
+    blocks: Callable[[bytes], Array],
+    level: int = 0,
 ) -> Array:
-    """Give the first levels of `count` pictures from `first` on, (count, H, W, C).
+    """Give a level of `count` pictures from `first` on, (count, H, W, C).
 
     `blocks` reads the bytes of a DDS file of one picture, for the kinds that are stored in blocks.
     """
     if dds.format is None:
         raise ImageError(f"expected a DDS file of one, three or four channels, got {dds.told}")
-    step, size = stride(dds), dds.format.size(dds.width, dds.height)
-    starts = [dds.start + i * step for i in range(first, first + count)]
+    step = stride(dds)
+    width, height = max(1, dds.width >> level), max(1, dds.height >> level)
+    size, before = dds.format.size(width, height), stride(replace(dds, levels=level))
+    starts = [dds.start + i * step + before for i in range(first, first + count)]
     if starts[-1] + size > len(data):
         raise ImageError(f"expected {dds.images} pictures in the DDS file, got {len(data)} bytes")
-    levels = b"".join(data[at : at + size] for at in starts)
+    texels = b"".join(data[at : at + size] for at in starts)
     if dds.format.decode is not None:
-        pixels = dds.format.decode(levels, count * dds.width * dds.height)
-        return pixels.reshape(count, dds.height, dds.width, -1)
-    rows = (dds.height + 3) // 4 * 4
-    pixels = blocks(_one_picture(dds, rows * count) + levels)
-    shape = (count, rows, dds.width, pixels.shape[-1])
+        pixels = dds.format.decode(texels, count * width * height)
+        return pixels.reshape(count, height, width, -1)
+    rows = (height + 3) // 4 * 4
+    pixels = blocks(_one_picture(dds, width, rows * count) + texels)
+    shape = (count, rows, width, pixels.shape[-1])
     if pixels.size != np.prod(shape):
         raise ImageError(f"expected {shape} pixels of {dds.told}, got {pixels.shape}")
-    return pixels.reshape(shape)[:, : dds.height]
+    return pixels.reshape(shape)[:, :height]
+
+
+def encoding(dds: Dds) -> Encoding | None:
+    """Say what whole numbers are, where cubecam wrote the file, or DXGI's format says it; None: the file does not."""
+    if dds.format is None or dds.fields10 is None:
+        return None
+    if dds.format.name.endswith("_SRGB"):
+        return "srgb"
+    return "linear" if dds.text.startswith(OWN) else None
 
 
 def header(
@@ -339,10 +360,10 @@ def header(
     return top + remark.ljust(44, b"\0") + form + rest + more
 
 
-def _one_picture(dds: Dds, height: int) -> bytes:
+def _one_picture(dds: Dds, width: int, height: int) -> bytes:
     """Make the header of a file that holds the blocks of all pictures, one below another, without levels."""
     fields = list(dds.fields)
-    fields[3], fields[5], fields[6], fields[7] = height, 0, 0, 1
+    fields[3:8] = [height, width, 0, 0, 1]
     fields[2] = 0x1007  # caps, height, width, pixel format
     fields[-5:] = [0x1000, 0, 0, 0, 0]  # a texture without faces and levels
     header = _HEADER.pack(*fields)

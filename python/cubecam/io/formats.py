@@ -86,16 +86,19 @@ def for_file(
     return screen_pixels(pixels, encoding, exposure, curve, True)
 
 
-def decode(pixels: Array, srgb: bool) -> Array:
-    """Turn the numbers of a file into the array that `load_image` returns."""
+def decode(pixels: Array, srgb: bool, encoding: Encoding | None = None) -> Array:
+    """Turn the numbers of a file into the array that `load_image` returns; `encoding` is what the file says of them."""
     if srgb and pixels.dtype in (np.uint8, np.uint16):
-        return on_color(srgb_decode, to_float32(pixels))
+        light = to_float32(pixels)
+        return light if encoding == "linear" else on_color(srgb_decode, light)
     return to_float32(pixels) if pixels.dtype == np.uint16 else pixels
 
 
-def encoding_after_decode(pixels: Array, srgb: bool) -> Encoding:
-    """Say what the numbers are that `decode` makes of those of a file: whole numbers in files are sRGB."""
-    return "linear" if srgb else encoding_of(pixels)
+def encoding_after_decode(pixels: Array, srgb: bool, encoding: Encoding | None = None) -> Encoding:
+    """Say what the numbers are that `decode` makes: whole numbers are sRGB if the file says nothing."""
+    if srgb or pixels.dtype.kind == "f":
+        return "linear"
+    return encoding or encoding_of(pixels)
 
 
 def encode(

@@ -45,16 +45,16 @@ def load_image(path: PathLike, *, srgb: bool = False, part: Part | None = None) 
     Parameters
     ----------
     path : str or os.PathLike
-        A file in EXR, HDR, PNG, JPEG, TIFF, WebP, DDS or another format that OpenImageIO reads. The format follows from
-        the contents, not from the name.
+        A file in EXR, HDR, PNG, JPEG, TIFF, WebP, DDS, KTX2 or another format that OpenImageIO reads. The format
+        follows from the contents, not from the name.
     srgb : bool
         True decodes files of 8 and 16 bits from the sRGB curve (IEC 61966-2-1) to linear float32; alpha stays as it
         is. Files of floating-point numbers are linear already and stay as they are.
     part : int or str, optional
         Which picture of a file that holds several: a number from 0 on (the parts of an EXR, the pages of a TIFF, the
-        frames of a GIF or WebP, the faces of a DDS cubemap), or the name of a part, a view or a layer of an EXR, or of
-        a face ("+X") of a DDS cubemap. None: the first part of an EXR with the channels R, G, B, else with Y; of other
-        files the first picture.
+        frames of a GIF or WebP, the faces of a DDS or KTX2 cubemap), or the name of a part, a view or a layer of an
+        EXR, or of a face ("+X") of a cubemap. None: the first part of an EXR with the channels R, G, B, else with Y; of
+        other files the first picture.
 
     Returns
     -------
@@ -70,7 +70,8 @@ def load_image(path: PathLike, *, srgb: bool = False, part: Part | None = None) 
         If there is no file of that name (FileNotFoundError), or it may not be read.
     ImageError
         If the contents are not a picture, end early, or claim more pixels than their bytes can hold; for kinds that are
-        not read, such as KTX2 and deep EXR; for a DDS cubemap, which `load_cubemap` reads, without `part`.
+        not read, such as deep EXR and KTX2 of ASTC; for a DDS or KTX2 cubemap, which `load_cubemap` reads, without
+        `part`; for KTX2 of Zstandard or Basis Universal without the packages of the extra "ktx2".
     ValueError
         For a part that the file does not have.
 
@@ -87,7 +88,8 @@ def load_image(path: PathLike, *, srgb: bool = False, part: Part | None = None) 
     >>> studio.shape, studio.dtype.name, float(studio.max())
     ((512, 1024, 3), 'float16', 616.5)
     """
-    return decode(read_picture(path, part).pixels, srgb)
+    picture = read_picture(path, part)
+    return decode(picture.pixels, srgb, picture.encoding)
 
 
 @checked_call

@@ -19,6 +19,7 @@ from .picture_kinds import FREE_PIXELS, most_bytes
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from ..typing import Encoding
     from .picture_kinds import Kind
     from .pixels import Array
 
@@ -54,12 +55,15 @@ _MOST_PARTS = 4096
 class Picture:
     """The contents of a file: (H, W, C) pixels, row 0 on top, C of 1, 3 or 4, and its attributes by name.
 
-    `faces` are those of a file that holds them one by one, (6, N, N, C) in the order +X -X +Y -Y +Z -Z.
+    `faces` are those of a file that holds them one by one, (6, N, N, C) in the order +X -X +Y -Y +Z -Z, and `levels`
+    its smaller levels. `encoding` is what a file says about its whole numbers, None if it says nothing.
     """
 
     pixels: Array
     attributes: dict[str, Any] = field(default_factory=dict)
     faces: Array | None = None
+    levels: tuple[Array, ...] = ()
+    encoding: Encoding | None = None
 
     @property
     def environment(self) -> str:

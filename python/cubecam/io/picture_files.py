@@ -1,29 +1,34 @@
-"""Read a picture file of any kind: by its contents, Radiance, DDS, or what OpenImageIO reads."""
+"""Read a picture file of any kind: by its contents, Radiance, DDS, KTX2, or what OpenImageIO reads."""
 
 from __future__ import annotations
 
 import operator
 import os
+from collections.abc import Mapping
 from typing import TypeAlias
 
 import numpy as np
 
 from .._core import ImageError
-from . import dds, oiio, radiance
+from . import dds, ktx2, oiio, radiance
 from .files import as_path, open_file
 from .oiio import Picture
 from .picture_kinds import DDS, Kind, check_canvas, find_kind, refused_kind
 from .pixels import Array
+from .stored_as import ATTRIBUTE, KTX_KEY, StoredAs
 
 #: A part of a file that holds several pictures: a number from 0 on, or a name.
 Part: TypeAlias = int | str
 
 
-def read_picture(path: object, part: Part | None = None, *, faces: bool = False) -> Picture:
+def read_picture(
+    path: object, part: Part | None = None, *, faces: bool = False, levels: bool | None = None
+) -> Picture:
     """Read a picture of a file.
 
-    `faces` gives a DDS cubemap as one picture with `faces`, of which `part` counts; else the parts of a DDS file are
-    its faces.
+    `faces` gives a cubemap of a DDS or KTX2 file as one picture with `faces` and `levels`, and `part` counts cubemaps;
+    else the parts of such a file are its faces. Its smaller levels are read if `levels` is True, and if it is None
+    where the file says that they are filtered by roughness.
 
     Raises
     ------
@@ -44,15 +49,18 @@ def read_picture(path: object, part: Part | None = None, *, faces: bool = False)
         file.seek(max(0, length - 26))
         end = file.read(26)
         file.seek(0)
-        # These two are read here, other kinds by OpenImageIO, which opens the file by its name.
-        data = file.read() if start.startswith((radiance.MAGIC, dds.MAGIC)) else b""
+        # These are read here, other kinds by OpenImageIO, which opens the file by its name.
+        own = (radiance.MAGIC, dds.MAGIC, ktx2.MAGIC)
+        data = file.read() if start.startswith(own) else b""
     try:
         _refuse(start)
         if start.startswith(radiance.MAGIC):
             _only(part)
             return Picture(radiance.read(data))
         if start.startswith(dds.MAGIC):
-            return _read_dds(data, part, faces)
+            return _read_dds(data, part, faces, levels)
+        if start.startswith(ktx2.MAGIC):
+            return _read_ktx2(data, part, faces, levels)
         return oiio.read(found, _kind(start, end, found.suffix, length), part)
     except ImageError as error:
         raise ImageError(f"{found}: {error}") from error.__cause__
@@ -73,7 +81,9 @@ def decode_picture(data: bytes) -> Picture:
     if start.startswith(radiance.MAGIC):
         return Picture(radiance.read(data))
     if start.startswith(dds.MAGIC):
-        return _read_dds(data, None, False)
+        return _read_dds(data, None, False, False)
+    if start.startswith(ktx2.MAGIC):
+        return _read_ktx2(data, None, False, False)
     return oiio.read_bytes(data, _kind(start, data[-26:], "", len(data)))
 
 
@@ -118,7 +128,7 @@ def _only(part: Part | None) -> None:
         )
 
 
-def _read_dds(data: bytes, part: Part | None, faces: bool) -> Picture:
+def _read_dds(data: bytes, part: Part | None, faces: bool, levels: bool | None) -> Picture:
     """Give all faces of a cubemap, or one picture."""
     header = dds.read_header(data)
     if header.format is None and header.images == 1:
@@ -136,8 +146,41 @@ def _read_dds(data: bytes, part: Part | None, faces: bool) -> Picture:
     blocks = _Blocks()
     pixels = dds.decode(header, data, at * count, count, blocks)
     if count == 6:
-        return Picture(pixels[0], blocks.attributes, faces=pixels)
+        attributes = {**blocks.attributes, ATTRIBUTE: header.text}
+        rest = [
+            dds.decode(header, data, at * count, count, blocks, level)
+            for level in range(1, header.levels if filtered(attributes, levels) else 1)
+        ]
+        return Picture(pixels[0], attributes, pixels, tuple(rest), dds.encoding(header))
     return Picture(np.ascontiguousarray(pixels[0]), blocks.attributes)
+
+
+def _read_ktx2(data: bytes, part: Part | None, faces: bool, levels: bool | None) -> Picture:
+    """Give all faces of a cubemap with their levels, or one picture."""
+    header = ktx2.read_header(data)
+    cube = header.faces == 6
+    if cube and not faces:
+        if part is None:
+            raise ImageError(
+                "expected a picture, got a KTX2 cubemap, which load_cubemap reads; part= 0 to "
+                f"{6 * header.layers - 1} or {', '.join(dds.FACES)} names a face"
+            )
+        at = _index(part, 6 * header.layers, dds.FACES)
+        found = ktx2.read(data, levels=1, layer=at // 6)
+        return Picture(np.ascontiguousarray(found.levels[0][at % 6]), encoding=found.encoding)
+    layer = _index(part, header.layers, ())
+    attributes = {ATTRIBUTE: header.text(KTX_KEY)}
+    every = cube and filtered(attributes, levels)
+    found = ktx2.read(data, levels=None if every else 1, layer=layer)
+    if not cube:
+        return Picture(found.levels[0], attributes, encoding=found.encoding)
+    first, *rest = found.levels
+    return Picture(first[0], attributes, faces=first, levels=tuple(rest), encoding=found.encoding)
+
+
+def filtered(attributes: Mapping[str, object], levels: bool | None) -> bool:
+    """Say whether the smaller levels of a file are read: as the caller says, or else as the file does."""
+    return StoredAs.read(attributes).levels == "roughness" if levels is None else levels
 
 
 class _Blocks:

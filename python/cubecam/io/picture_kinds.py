@@ -67,7 +67,6 @@ _KINDS = (
 
 # Files that hold pictures or cubemaps, and are not read.
 _REFUSED = (
-    (b"\xabKTX 20\xbb", "KTX2"),
     (b"\xabKTX 11\xbb", "KTX"),
     (b"sB\x13\0", "Basis"),
     (b"\x86\x16\x87\x96\xf6\xd6\x96\x36", "Babylon.js .env"),

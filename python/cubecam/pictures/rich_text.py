@@ -17,7 +17,7 @@ from .cards import Card, Fact, Row, Shot
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["card_text"]
+__all__ = ["card_text", "colorful", "half_blocks"]
 
 #: The widest picture of a mesh or a material, and of a scene, characters.
 _BALL_WIDTH, _SCENE_WIDTH = 24, 48
@@ -28,7 +28,7 @@ def card_text(card: Card, console: Console, width: int) -> RenderableType:
     body = _table(card.facts)
     note = card.note
     columns: list[RenderableType] = [body]
-    if card.picture is not None and _colorful(console) and width >= 60:
+    if card.picture is not None and colorful(console) and width >= 60:
         shot = card.picture()
         note = note or shot.problem
         if shot.pixels is not None:
@@ -78,7 +78,7 @@ def _hex(color: Iterable[int]) -> str:
     return "#" + "".join(f"{value:02x}" for value in color)
 
 
-def _colorful(console: Console) -> bool:
+def colorful(console: Console) -> bool:
     """Say whether half blocks in colours can be seen: not in files, without colours, or in ASCII."""
     return (
         console.color_system in ("256", "truecolor", "windows")

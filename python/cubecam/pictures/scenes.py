@@ -9,7 +9,7 @@ import numpy as np
 
 from .._core import CubeMap, Material, Mesh, Node, Probe, Scene
 from .cards import Card, Fact, Row, Shot, count, number, shorten, swatch_of, vector
-from .describe import card_of, color_of, light_text, mesh_text
+from .describe import animation_text, camera_text, card_of, color_of, light_text, mesh_text
 from .studio import BALL, draw_ball, draw_mesh, draw_scene, draw_solid
 
 #: More nodes, balls and lights than these are counted, not listed.
@@ -34,6 +34,9 @@ def _(scene: Scene) -> Card:
         *_placing(scene),
         _surroundings("background", scene.background),
     ]
+    if scene.variants:
+        shown = "none" if scene.variant is None else shorten(scene.variant)
+        facts.append(Fact("variants", f"{shorten(', '.join(scene.variants))}; shown: {shown}"))
     names = {id(material): f"M{index + 1}" for index, material in enumerate(materials)}
     card = Card(
         "Scene",
@@ -50,6 +53,16 @@ def _(scene: Scene) -> Card:
             for light in lights[:MOST_LIGHTS]
         ]
         card.lists.append((count(len(lights), "light"), rows + _more(lights, MOST_LIGHTS)))
+    for title, things, text in (
+        ("camera", scene.cameras, camera_text),
+        ("animation", scene.animations, animation_text),
+    ):
+        rows = [
+            Row(shorten(getattr(thing, "name", "") or type(thing).__name__), text(thing))
+            for thing in things[:MOST_LIGHTS]
+        ]
+        if rows:
+            card.lists.append((count(len(things), title), rows + _more(things, MOST_LIGHTS)))
     probes = _distinct(node.environment for node in nodes if isinstance(node.environment, Probe))
     if probes:
         rows = [Row("Probe", _probe_text(probe)) for probe in probes[:MOST_LIGHTS]]
@@ -140,7 +153,7 @@ def _solid(node: Node, size: int = BALL) -> Callable[[], Shot] | None:
 
 def _tile(material: Material, names: dict[int, str]) -> Card:
     return Card(
-        f"{names[id(material)]} {type(material).__name__}",
+        f"{names[id(material)]} {shorten(material.name, 40) or type(material).__name__}",
         [Fact("", "", color_of(material))],
         picture=lambda: draw_ball(material, _TILE),
     )

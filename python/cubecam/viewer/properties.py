@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._core import Texture
 from ..io.pixels import srgb_decode, srgb_encode
 from .control import Control
 
@@ -32,8 +33,8 @@ def properties(thing: object, *, leave_out: Collection[str] = ()) -> tuple[Contr
     """Make the controls of an object's properties.
 
     Properties that hold numbers, vectors, colours, flags, names or text have controls, and so have uniforms, which are
-    numbers by name. Meshes, textures, cubemaps, cameras, matrices and shader sources have none: a panel has no place to
-    edit them.
+    numbers by name. A map that is there can be switched off, and a `Texture` has its place on the surface. Meshes,
+    cubemaps, cameras, matrices and shader sources have no controls: a panel has no place to edit them.
 
     Parameters
     ----------
@@ -231,6 +232,9 @@ def _controls(one: _Property) -> Iterator[Control]:
             yield from _or_none(one, _vector(one, count), [0.0] * count)
     elif one.kinds == ("str",) and one.takes == ("str",):
         yield one.control("text")
+    elif one.optional and any(kind.endswith("Image") for kind in one.kinds):
+        if value is not None:
+            yield from _map(one)
     elif one.optional and "bool" in one.takes:
         yield _switch(one)
 
@@ -442,6 +446,70 @@ def _switch(one: _Property) -> Control:
 
     get()
     return one.control("flag", get=get, set=lambda value: one.set(kept[0] if value else None))
+
+
+def _map(one: _Property) -> Iterator[Control]:
+    """Give a flag for a picture that may be switched off, and its place where the property takes a Texture."""
+    kept: list[Any] = [one.get()]
+
+    def today() -> Any:
+        value = one.get()
+        if value is not None:
+            kept[0] = value
+        return value
+
+    def set_shown(value: bool) -> None:
+        one.set((today() or kept[0]) if value else None)
+
+    # Comparing pictures takes long: they are told apart as objects.
+    first = one.get()
+    yield one.control(
+        "flag",
+        get=lambda: today() is not None,
+        set=set_shown,
+        keep=lambda: lambda: None if one.get() is first else one.set(first),
+    )
+    if not any(kind.endswith("Texture") and "Render" not in kind for kind in one.kinds):
+        return
+
+    def place() -> Texture:
+        value = today() or kept[0]
+        return value if isinstance(value, Texture) else Texture(value)
+
+    def put(**fields: Any) -> None:
+        was = place()
+        names = ("uv_set", "offset", "rotation", "scale")
+        changed = Texture(was.source, **{**{name: getattr(was, name) for name in names}, **fields})
+        kept[0] = changed
+        if one.get() is not None:
+            one.set(changed)
+
+    for name in ("offset", "scale"):
+        yield one.control(
+            "vector",
+            name=f"{one.name} {name}",
+            get=lambda name=name: [float(f"{float(v):.7g}") for v in getattr(place(), name)],
+            set=lambda value, name=name: put(**{name: value}),
+            keep=None,
+        )
+    yield one.control(
+        "number",
+        name=f"{one.name} rotation",
+        get=lambda: float(f"{place().rotation:.7g}"),
+        set=lambda value: put(rotation=value),
+        keep=None,
+        low=-180.0,
+        high=180.0,
+        unit="degrees",
+    )
+    yield one.control(
+        "choice",
+        name=f"{one.name} uv_set",
+        get=lambda: str(place().uv_set),
+        set=lambda value: put(uv_set=int(value)),
+        keep=None,
+        choices=("0", "1"),
+    )
 
 
 def _of_mapping(one: _Property, mapping: Mapping[str, Any]) -> Iterator[Control]:

@@ -10,7 +10,10 @@ from .._core import Material, Node, Probe, Scene
 from ..io.screen import CURVES
 from .control import Control, Section
 from .environment import EnvironmentTurn
+from .material_panel import groups, maps_shown, material_controls
+from .morph_panel import morph_names, weight_controls
 from .panel import Memory, properties
+from .scene_camera import camera_names
 
 if TYPE_CHECKING:
     from .viewer import Viewer
@@ -38,8 +41,9 @@ def scene_sections(viewer: Viewer) -> list[Section]:
     Returns
     -------
     list of Section
-        "View", one section or two for each material, one for each light, "Environment", one for each probe, "Lens", one
-        for each node, and "Reset". A title names the nodes that have the material or the probe.
+        "View", "Scene" (cameras, variants, animations), sections for each material, one for each light,
+        "Environment", one for each probe, "Lens", one for each node, and "Reset". A title names the nodes that have the
+        material or the probe.
 
     Examples
     --------
@@ -59,6 +63,7 @@ def scene_sections(viewer: Viewer) -> list[Section]:
     scene, nodes = viewer.scene, viewer.scene.nodes
     sections = [
         _view(memory, viewer, nodes),
+        *_time_and_variants(memory, viewer),
         *_few(_materials(memory, nodes), "materials"),
         *_few(_lights(memory, scene), "lights"),
         _environment(memory, scene),
@@ -174,6 +179,44 @@ def _view(memory: Memory, viewer: Any, nodes: tuple[Node, ...]) -> Section:
     return Section("View", memory.controls("view", make, shape=shape))
 
 
+def _time_and_variants(memory: Memory, viewer: Any) -> Iterator[Section]:
+    """Give the section for what a scene from a file may have: cameras, variants, animations."""
+    scene = viewer.scene
+    cameras, variants = tuple(camera_names(scene)), tuple(getattr(scene, "variants", ()))
+    animations = tuple(one.name for one in getattr(scene, "animations", ()))
+    if not (cameras or variants or animations):
+        return
+
+    def make() -> tuple[Control, ...]:
+        found = []
+        if cameras:
+            words: dict[str, object] = {"free": None, **{name: name for name in cameras}}
+            help_ = "The camera of the scene whose view is shown; moving the view makes it free."
+            found.append(_pick(viewer, "scene_camera", words, help_))
+        if variants:
+            looks: dict[str, object] = {"None": None, **{name: name for name in variants}}
+            found.append(_pick(scene, "variant", looks, "Which materials the nodes show."))
+        if animations:
+            names: dict[str, object] = {name: name for name in viewer._player.names}
+            found += [
+                _pick(viewer, "animation", names, "Which animation plays."),
+                _value(viewer, "playing", "flag", help="Whether time runs; the space bar, too."),
+                _value(
+                    viewer, "time", "number", get=lambda: round(float(viewer.time), 3),
+                    low=0.0, high=max(one.duration for one in scene.animations), unit="seconds",
+                    help="The time of the animation; after its end it begins again.",
+                ),
+                _value(
+                    viewer, "speed", "number", low=0.0, high=4.0, step=0.05,
+                    help="How fast time runs: 1 as the animation was made.",
+                ),
+            ]  # fmt: skip
+        return tuple(found)
+
+    shape = (cameras, variants, animations)
+    yield Section("Scene", memory.controls("scene", make, shape=shape))
+
+
 def _materials(memory: Memory, nodes: tuple[Node, ...]) -> Iterator[Section]:
     users: dict[int, tuple[Material, list[Node]]] = {}
     for node in nodes:
@@ -183,13 +226,15 @@ def _materials(memory: Memory, nodes: tuple[Node, ...]) -> Iterator[Section]:
         uniforms = getattr(material, "uniforms", {})
         controls = memory.controls(
             material,
-            lambda material=material: properties(material),  # type: ignore[misc]
-            shape=tuple(uniforms),
+            lambda material=material: material_controls(material),  # type: ignore[misc]
+            shape=(tuple(uniforms), maps_shown(memory, material)),
         )
         names = _names(having)
         own = tuple(c for c in controls if c.name.split(" ")[0] not in _SURFACE)
         rest = tuple(c for c in controls if c.name.split(" ")[0] in _SURFACE)
-        yield Section(f"{names}: {type(material).__name__}", own, open=len(users) <= 4)
+        for title, some in groups(material, own):
+            first = title == type(material).__name__
+            yield Section(f"{names}: {title}", some, open=first and len(users) <= 4)
         yield Section(f"{names}: surface", rest, open=False)
 
 
@@ -237,7 +282,12 @@ def _lens(memory: Memory, camera: Any) -> tuple[Control, ...]:
 
 def _nodes(memory: Memory, nodes: tuple[Node, ...]) -> Iterator[Section]:
     for node in nodes:
-        controls = memory.controls(node, lambda node=node: properties(node))  # type: ignore[misc]
+        names = morph_names(node)
+        controls = memory.controls(
+            node,
+            lambda node=node, names=names: (*weight_controls(node, names), *properties(node)),  # type: ignore[misc]
+            shape=names,
+        )
         yield Section(f"{_name(node)}: node", controls, open=False)
 
 

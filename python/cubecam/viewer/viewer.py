@@ -23,6 +23,8 @@ from .controls import Controls, FirstPerson, Orbit, make_controls
 from .live import LiveView, shown_at
 from .outputs import OUTPUTS, output_picture, probe_picture
 from .picking import Pick, pick_of
+from .player import Player
+from .scene_camera import camera_names, free_camera
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Viewer", "show_scene"]
 
+_PANEL = 0.5  # seconds after which the panel shows the time of a running animation again
 _PICKED = ("id", "position", "normal", "distance")
 
 
@@ -114,6 +117,8 @@ class Viewer(LiveView):
         self._frame: tuple[tuple[int, tuple[int, int]], Frame] | None = None
         self._node_of: tuple[int, dict[int, Node]] = (-1, {})
         self._scene = scene
+        self._player = Player(scene)
+        self._follows: PerspectiveCamera | OrthographicCamera | None = None
         bounds = _extent(scene)
         if camera is None:
             camera = PerspectiveCamera()
@@ -131,6 +136,7 @@ class Viewer(LiveView):
         self.output = output
         self.camera = camera
         self._clicked: tuple[float, float] | None = None
+        self._panel_told = 0.0  # when the panel last followed an animation
         self.picked: Pick | None = None
 
     # ----- settings
@@ -145,6 +151,8 @@ class Viewer(LiveView):
         _expect(value, Scene, "scene")
         with self._lock:
             self._scene = value
+            before, self._player, self._follows = self._player, Player(value), None
+            self._player.playing, self._player.speed = before.playing, before.speed
             self._frame, self._node_of = None, (-1, {})
         self._set_something()
 
@@ -162,6 +170,93 @@ class Viewer(LiveView):
             if value.target is None and isinstance(self._controls, Orbit):
                 _give_target(value, _extent(self._scene))
             self._home = _pose(value)
+        self._set_something()
+
+    @property
+    def scene_camera(self) -> str | None:
+        """The camera of the scene whose view is shown, by its name; None after a person has moved the view.
+
+        A camera without a name has that of its node, else a number. The view follows the camera when its node moves.
+        """
+        found = (w for w, camera in camera_names(self._scene).items() if camera is self._follows)
+        return next(found, None) if self._follows is not None else None
+
+    @scene_camera.setter
+    def scene_camera(self, value: str | None) -> None:
+        known = camera_names(self._scene)
+        if value is not None and value not in known:
+            names = ", ".join(map(repr, known)) or "None, in a scene without cameras"
+            raise ValueError(f"scene_camera: expected {names}, got {value!r}")
+        with self._lock:
+            self._follows = None if value is None else known[value]
+            if value is not None:
+                self.camera = free_camera(known[value], self._ahead(known[value]))
+        self._set_something()
+
+    def _ahead(self, camera: PerspectiveCamera | OrthographicCamera) -> float:
+        """Give the distance from a camera to the middle of the scene, which the view then turns round."""
+        bounds = _extent(self._scene)
+        if bounds is None:
+            return 1.0
+        away = (bounds[0] + bounds[1]) / 2 - free_camera(camera).position
+        return max(float(np.linalg.norm(away)), 1e-6)
+
+    def _follow(self) -> None:
+        """Bring the view to the scene's camera, which may have moved with its node."""
+        if self._follows is None:
+            return
+        now = free_camera(self._follows, self._ahead(self._follows))
+        for name, value in _pose(now).items():
+            setattr(self._camera, name, value)
+
+    # ----- time
+
+    @property
+    def animation(self) -> str:
+        """The animation of the scene that plays, by its name; one without a name has a number. Empty without any."""
+        return self._player.animation
+
+    @animation.setter
+    def animation(self, value: str) -> None:
+        with self._lock:
+            self._player.animation = value
+        self._set_something()
+
+    @property
+    def playing(self) -> bool:
+        """Whether the animation's time runs while the view is shown; the space bar changes it."""
+        return self._player.playing
+
+    @playing.setter
+    def playing(self, value: bool) -> None:
+        if not isinstance(value, (bool, np.bool_)):
+            raise TypeError(f"playing: expected True or False, got {value!r}")
+        with self._lock:
+            self._player.playing = bool(value)
+        self._set_something()
+
+    @property
+    def time(self) -> float:
+        """The seconds since the beginning of the animation; after its end it begins again."""
+        return self._player.time
+
+    @time.setter
+    def time(self, value: float) -> None:
+        with self._lock:
+            self._player.time = value
+        self._set_something()
+
+    @property
+    def speed(self) -> float:
+        """How fast the animation's time runs: 1 as it was made, 2 twice as fast, below 0 backwards."""
+        return self._player.speed
+
+    @speed.setter
+    def speed(self, value: float) -> None:
+        if not np.isfinite(value):
+            raise ValueError(f"speed: expected a finite number, got {value!r}")
+        with self._lock:
+            self._player.speed = float(value)
         self._set_something()
 
     @property
@@ -258,6 +353,8 @@ class Viewer(LiveView):
     def help(self) -> str:
         """What mouse and keys do, one line each."""
         lines = [self.controls.help, "click  pick", "r  the first view again"]
+        if self._player.names and " " not in self.controls.keys:
+            lines.append("space  play, pause")
         if "o" not in self.controls.keys:
             lines.append("o  colour, distance, normals, ids")
         return "\n".join([*lines, super().help])
@@ -275,6 +372,7 @@ class Viewer(LiveView):
     # ----- pictures
 
     def _picture(self, size: tuple[int, int], moving: bool) -> npt.NDArray[np.uint8]:
+        self._follow()
         output = self._output
         if isinstance(output, Probe):
             return probe_picture(
@@ -358,6 +456,7 @@ class Viewer(LiveView):
             self.controls.let_go()  # what is let go of elsewhere is not reported
         if self.controls.handle(event, self.camera, size):
             self._clicked = None
+            self._follows = None
             self.changed()
         elif kind == "pointer_down":
             self._clicked = (event["x"], event["y"])
@@ -373,9 +472,12 @@ class Viewer(LiveView):
         if key in self.controls.keys:
             return
         if key == "r":
+            self._follows = None
             for name, value in self._home.items():
                 setattr(self.camera, name, value)
             self.changed()
+        elif key == " " and self._player.names:
+            self.playing = not self.playing
         elif key == "o":
             now = OUTPUTS.index(self._output) if self._output in OUTPUTS else -1
             self.output = OUTPUTS[(now + 1) % len(OUTPUTS)]  # type: ignore[assignment]
@@ -391,8 +493,16 @@ class Viewer(LiveView):
 
     def _tick(self, now: float) -> None:
         with self._lock:
-            if not self.closed and self.controls.tick(now, self.camera):
+            if self.closed:
+                return
+            if self.controls.tick(now, self.camera):
+                self._follows = None
                 self.changed()
+            if self._player.tick(now):
+                self.changed()
+                if now - self._panel_told > _PANEL:
+                    self._panel_told = now
+                    self._tell("panel", None)  # the slider of the time
 
     def _release(self) -> None:
         self._frame = None

@@ -7,8 +7,8 @@ and `blocks` the textures of GPUs that OpenImageIO decodes.
 
 from __future__ import annotations
 
-from .header import MAGIC
+from .header import MAGIC, read_header
 from .reading import Ktx2, read
 from .writing import write
 
-__all__ = ["MAGIC", "Ktx2", "read", "write"]
+__all__ = ["MAGIC", "Ktx2", "read", "read_header", "write"]

@@ -55,7 +55,7 @@ class Header:
         return self.key_values.get(key, b"").split(b"\0")[0].decode("utf-8", "replace")
 
 
-def read_header(data: memoryview) -> Header:
+def read_header(source: bytes | memoryview) -> Header:
     """Read header, level index, descriptor and keys.
 
     Raises
@@ -63,6 +63,7 @@ def read_header(data: memoryview) -> Header:
     ImageError
         For headers that are broken, and for kinds that are not read: volumes, and formats that it names.
     """
+    data = memoryview(source)
     if len(data) < HEADER.size or data[:12] != MAGIC:
         raise ImageError(f"expected a KTX2 header of {HEADER.size} bytes, got {len(data)}")
     (
