@@ -89,6 +89,7 @@ BY_POSITION = {
     "StereoCamera.off_axis": ["camera"],
     "StereoCamera.toe_in": ["camera"],
     "Scene.remove": ["thing"],
+    "Scene.save": ["path"],
     "Scene.show": ["where"],
     "Scene.set_positions": ["nodes", "positions"],
     "Scene.set_matrices": ["nodes", "matrices"],
