@@ -2146,7 +2146,7 @@ MUTATIONS = [
     ),
     Mutation(
         "KTX2: the alpha of sRGB is sRGB in the descriptor",
-        "ktx2/formats.py",
+        "ktx2/texels.py",
         "if srgb and index == 3:",
         "if srgb and index == 4:",
         ("tests/unit/test_ktx2.py",),

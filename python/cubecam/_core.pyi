@@ -2069,9 +2069,9 @@ class CubeMap:
         Parameters
         ----------
         path : path, sequence of six paths, or a name with {face}
-            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
-            in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
-            ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
+            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by
+            roughness, in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level}
+            becomes 0, 1, ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
         layout : str, optional
             "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
             "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -2126,7 +2126,7 @@ class CubeMap:
 
     def save_for(self, engine: Engine, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
         """
-        Write light for an engine: a file that it loads, the right way round, and a README. The method `CubeMap.save_for`.
+        Write light for an engine: files that it loads, the right way round. The method `CubeMap.save_for`.
 
         Parameters
         ----------
@@ -2157,7 +2157,7 @@ class CubeMap:
         unity        environment.exr, a panorama with -X in the middle (Unity's +X)
         godot        environment.exr, a panorama with +Z in the middle
         blender      environment.exr, a panorama with +X in the middle
-        filament     environment.hdr, a panorama with +Z in the middle, mirrored; sh.json
+        filament     environment.hdr, a panorama with +Z in the middle; sh.json
         ===========  ==============================================================================
 
         All engines but Babylon.js filter the light themselves and get level 0 alone. A cube without filtered levels is

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import packing
-from .formats import descriptor, number_of
+from .texels import descriptor, number_of
 from .header import HEADER, LEVEL, MAGIC
 
 if TYPE_CHECKING:
