@@ -2138,6 +2138,7 @@ MUTATIONS = [
         ("tests/unit/test_variants.py",),
     ),
     Mutation(
+<<<<<<< HEAD
         "saving: v counts from the bottom",
         "write/meshes.py",
         "np.float32(1) - uvs[:, 1]",
@@ -2206,5 +2207,54 @@ MUTATIONS = [
         "if array.shape != (6, edge, edge, faces.shape[3]) or not 1 <= edge <= size:",
         "if False:",
         ("tests/unit/test_saved_scenes.py",),
+=======
+        "KTX2: the largest level comes first",
+        "ktx2/writing.py",
+        "for k in reversed(range(len(pictures))):",
+        "for k in range(len(pictures)):",
+        ("tests/unit/test_ktx2.py",),
+    ),
+    Mutation(
+        "KTX2: the alpha of sRGB is sRGB in the descriptor",
+        "ktx2/texels.py",
+        "if srgb and index == 3:",
+        "if srgb and index == 4:",
+        ("tests/unit/test_ktx2.py",),
+    ),
+    Mutation(
+        "KTX2: more bytes than a level has are not noticed",
+        "ktx2/packing.py",
+        "if len(found) != size or more:",
+        "if len(found) != size:",
+        ("tests/unit/test_ktx2.py",),
+    ),
+    Mutation(
+        "DDS: all faces of a level come before the next level",
+        "cube_files.py",
+        "for face in range(6) for picture in pictures",
+        "for picture in pictures for face in range(6)",
+        ("tests/unit/test_cube_files.py",),
+    ),
+    Mutation(
+        "mipmaps of sRGB: means of encoded numbers",
+        "cube_files.py",
+        'encoded = cube.encoding == "srgb"',
+        "encoded = False",
+        ("tests/unit/test_cube_files.py",),
+    ),
+    Mutation(
+        ".env: faces are not turned upside down",
+        "babylon_env.py",
+        "_rgbd(face[::-1])",
+        "_rgbd(face)",
+        ("tests/unit/test_cube_files.py",),
+    ),
+    Mutation(
+        "save_for: Unity gets the panorama of three.js",
+        "engines.py",
+        '"unity": (_panorama("-x"), _UNITY)',
+        '"unity": (_panorama("+x"), _UNITY)',
+        ("tests/unit/test_cube_files.py",),
+>>>>>>> light
     ),
 ]
