@@ -2138,7 +2138,6 @@ MUTATIONS = [
         ("tests/unit/test_variants.py",),
     ),
     Mutation(
-<<<<<<< HEAD
         "saving: v counts from the bottom",
         "write/meshes.py",
         "np.float32(1) - uvs[:, 1]",
@@ -2207,7 +2206,8 @@ MUTATIONS = [
         "if array.shape != (6, edge, edge, faces.shape[3]) or not 1 <= edge <= size:",
         "if False:",
         ("tests/unit/test_saved_scenes.py",),
-=======
+    ),
+    Mutation(
         "KTX2: the largest level comes first",
         "ktx2/writing.py",
         "for k in reversed(range(len(pictures))):",
@@ -2255,6 +2255,5 @@ MUTATIONS = [
         '"unity": (_panorama("-x"), _UNITY)',
         '"unity": (_panorama("+x"), _UNITY)',
         ("tests/unit/test_cube_files.py",),
->>>>>>> light
     ),
 ]
