@@ -17,7 +17,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-asan dev lint format stubs bench docs gallery sdist wheel fuzz mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-asan dev lint format stubs bench docs gallery sdist wheel fuzz mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -39,6 +39,10 @@ test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile 
 test-browser: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages and JupyterLab with Chromium, which apt installs
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
+
+test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV)/.deps-light $(VENV)/.bpy ## open files in three.js, Babylon.js, ktx-parse, Filament and Blender; needs npm and Chromium
+	@$(PYTHON) scripts/system.py --browser
+	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
 
 test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(PY) scripts/sanitize.py $(PYTEST_ARGS)
@@ -95,6 +99,11 @@ $(VENV)/.deps: pyproject.toml scripts/system.py scripts/packages.py
 
 $(VENV)/.deps-%: $(VENV)/.deps
 	@$(PACKAGES) $*
+	@touch $@
+
+# Blender's module needs Python 3.11 and numpy of its own.
+$(VENV)/.bpy: $(VENV)/.deps
+	@$(PY) -m venv $(VENV)/bpy && $(VENV)/bpy/bin/python -m pip install --quiet "bpy==5.0.1"
 	@touch $@
 
 $(VENV)/.installed: $(VENV)/.deps $(SOURCES)

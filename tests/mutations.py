@@ -72,6 +72,9 @@ POLYGONS = ("tests/unit/test_polygons.py",)
 GLTF = ("tests/unit/test_gltf_geometry.py",)
 GLTF_FILES = ("tests/unit/test_gltf.py",)
 GLTF_COMPRESSION = ("tests/unit/test_gltf_compression.py",)
+GLTF_MATERIALS = ("tests/unit/test_gltf_materials.py",)
+GLTF_SCENE = ("tests/unit/test_gltf_scene.py",)
+OBJ_SCENE = ("tests/unit/test_obj_scene.py",)
 
 STL = ("tests/unit/test_stl.py",)
 OFF = ("tests/unit/test_off.py",)
@@ -1248,7 +1251,7 @@ MUTATIONS = [
     ),
     Mutation(
         "files: light goes into 8 bits without a curve",
-        "cubecam/io/formats.py",
+        "io/formats.py",
         "screen_pixels(pixels, encoding, exposure, curve, True)",
         "screen_pixels(pixels, encoding, exposure, None, True)",
         ("tests/unit/test_screen.py", "tests/gl/test_encoding.py"),
@@ -1692,6 +1695,62 @@ MUTATIONS = [
         GLTF_COMPRESSION,
     ),
     Mutation(
+        "load_scene: texture transforms turn the other way",
+        "scene/textures.py",
+        "1 - y - math.cos(turn) * sy",
+        "1 - y + math.cos(turn) * sy",
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: data maps are sRGB, too",
+        "scene/textures.py",
+        'encoding="srgb" if color and pixels.dtype == "uint8" else "linear"',
+        'encoding="srgb" if pixels.dtype == "uint8" else "linear"',
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: glossiness is roughness",
+        "scene/materials.py",
+        "np.rint(full - gloss * alpha)",
+        "np.rint(gloss * alpha)",
+        GLTF_MATERIALS,
+    ),
+    Mutation(
+        "load_scene: quaternions of animations stay x, y, z, w",
+        "scene/animations.py",
+        "values = values[:, [3, 0, 1, 2]]",
+        "values = values[:, [0, 1, 2, 3]]",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: the penumbra is the inner share of a cone",
+        "scene/lights.py",
+        "penumbra=1 - min(inner / outer, 1.0)",
+        "penumbra=min(inner / outer, 1.0)",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: an environment as it lies in the file",
+        "scene/environment.py",
+        'convention="three"',
+        'convention="gl"',
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "load_scene: ids by the tree, not by the file",
+        "scene/build.py",
+        "found = sorted(tree.below(roots))",
+        "found = tree.below(roots)",
+        GLTF_SCENE,
+    ),
+    Mutation(
+        "MTL: half of the highlight",
+        "mtl_materials.py",
+        "level = 2 * max(sum(highlight) / 3, 0.0)",
+        "level = max(sum(highlight) / 3, 0.0)",
+        OBJ_SCENE,
+    ),
+    Mutation(
         "STL: text wherever a file begins with solid",
         "stl.py",
         "if any(byte < 9 or 13 < byte < 32 for byte in head):",
@@ -2063,5 +2122,131 @@ MUTATIONS = [
         "vec3(uv, v_layer)",
         "vec3(uv, 1.0 - v_layer)",
         ("tests/gl/test_behind.py",),
+    ),
+    Mutation(
+        "animation: tangents without the distance of the keys",
+        "scene/animation.cpp",
+        "distance * (cube - 2.0 * square + share) * leaving[i]",
+        "(cube - 2.0 * square + share) * leaving[i]",
+        ("tests/unit/test_animation.py",),
+    ),
+    Mutation(
+        "animation: rotations the longer way",
+        "scene/animation.cpp",
+        "const double sign = cosine < 0.0 ? -1.0 : 1.0;",
+        "const double sign = 1.0;",
+        ("tests/unit/test_animation.py",),
+    ),
+    Mutation(
+        "parents: a camera's up stays in the node",
+        "scene/camera.cpp",
+        "world.up = turn * placement.up;",
+        "world.up = placement.up;",
+        ("tests/unit/test_parents.py",),
+    ),
+    Mutation(
+        "parents: a snapshot is kept though a light follows a node of another scene",
+        "scene/snapshot.cpp",
+        "!elsewhere.empty() || !lights_elsewhere.empty()",
+        "!elsewhere.empty()",
+        ("tests/gl/test_parents.py",),
+    ),
+    Mutation(
+        "range: the square in place of the fourth power",
+        "include/lights.glsl",
+        "max(1.0 - share * share, 0.0)",
+        "max(1.0 - share, 0.0)",
+        ("tests/gl/test_parents.py",),
+    ),
+    Mutation(
+        "spot: three.js' edge",
+        "include/lights.glsl",
+        "return t * t;",
+        "return t * t * (3.0 - 2.0 * t);",
+        ("tests/gl/test_spot_light.py",),
+    ),
+    Mutation(
+        "variants: the own material is forgotten",
+        "scene/node.cpp",
+        "value.own_material = own;",
+        "value.own_material = shown->second;",
+        ("tests/unit/test_variants.py",),
+    ),
+    Mutation(
+        "variants: circles by way of their materials",
+        "cycle_collector.cpp",
+        "for (const auto& [name, material] : value.variants) materials.push_back(material);",
+        "",
+        ("tests/unit/test_variants.py",),
+    ),
+    Mutation(
+        "saving: v counts from the bottom",
+        "write/meshes.py",
+        "np.float32(1) - uvs[:, 1]",
+        "uvs[:, 1]",
+        ("tests/unit/test_save_scene.py",),
+    ),
+    Mutation(
+        "saving: 65535 is an index of 16 bits",
+        "write/meshes.py",
+        "np.uint16 if most < 65535",
+        "np.uint16 if most < 65536",
+        ("tests/unit/test_save_scene.py",),
+    ),
+    Mutation(
+        "saving: a transform has the offset of v from the bottom",
+        "write/standard.py",
+        "1 - place.offset[1] - math.cos(angle) * sy",
+        "place.offset[1] - math.cos(angle) * sy",
+        ("tests/unit/test_save_scene.py",),
+    ),
+    Mutation(
+        "saving: rotations of animations keep w first",
+        "write/motion.py",
+        "numbers = numbers[:, [1, 2, 3, 0]]",
+        "numbers = numbers[:, [0, 1, 2, 3]]",
+        ("tests/unit/test_save_scene.py",),
+    ),
+    Mutation(
+        "saving: lights point along +Z of their nodes",
+        "write/places.py",
+        'turned = turn_to(np.asarray(getattr(thing, "direction", _FORWARD)))',
+        'turned = turn_to(-np.asarray(getattr(thing, "direction", _FORWARD)))',
+        ("tests/unit/test_save_scene.py",),
+    ),
+    Mutation(
+        "saving: an extension is used without a word in extensionsUsed",
+        "write/document.py",
+        "self.used.add(extension)",
+        "pass",
+        ("tests/unit/test_save_scene.py",),
+    ),
+    Mutation(
+        "saving: a mesh in two materials comes back as two",
+        "extras/apply.py",
+        "self._replace(meshes, self._parts.meshes[other][0])",
+        "pass",
+        ("tests/unit/test_saved_scenes.py",),
+    ),
+    Mutation(
+        "extras: any property may be set",
+        "extras/values.py",
+        "if name not in names:",
+        "if False:",
+        ("tests/unit/test_saved_scenes.py",),
+    ),
+    Mutation(
+        "extras: nodes of the file alone stay",
+        "extras/apply.py",
+        "for index in self._carriers():",
+        "for index in ():",
+        ("tests/unit/test_saved_scenes.py",),
+    ),
+    Mutation(
+        "extras: levels of any shape reach the core",
+        "extras/values.py",
+        "if array.shape != (6, edge, edge, faces.shape[3]) or not 1 <= edge <= size:",
+        "if False:",
+        ("tests/unit/test_saved_scenes.py",),
     ),
 ]

@@ -64,6 +64,8 @@ def _meshes(scene):
             scene.add(shape, material)
     scene.add(mesh(), cc.StandardMaterial(map=cc.Texture(image(), uv_set=1)))
     scene.add(mesh(uvs1=RNG.random((5, 2))), cc.StandardMaterial())
+    for _ in range(2):  # equal meshes, which may change one by one
+        scene.add(cc.Mesh.box(), cc.StandardMaterial())
 
 
 def _standard(scene):
@@ -141,18 +143,19 @@ def _textures(scene):
         "uniform float k; vec3 effect(vec2 uv) { return k * frame(uv).rgb; }",
         uniforms={"k": np.float32(2)},
     )
-    node = scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial())
+    scene.add(cc.Mesh.box(), cc.BasicMaterial(color="red"))
     camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0), shift=(0, 0.5))
-    shown = cc.RenderTexture(
-        scene, camera, size=(8, 4), exclude=[node], effects=[effect, effect], name="tv"
-    )
-    node.material.map = shown
-    scene.add(
-        mesh(uvs=RNG.random((5, 2))),
-        cc.StandardMaterial(map=shown, emissive_map=cc.Texture(shown, scale=(2, 2))),
-    )
+    options = {"size": (8, 4), "effects": [effect, effect], "name": "tv"}
+    shown = cc.RenderTexture(scene, camera, **options)
     matrices = cc.Camera(view=camera.view, projection=camera.projection(2))
-    scene.add(mesh(), cc.StandardMaterial(map=cc.RenderTexture(scene, matrices)))
+    other = cc.RenderTexture(scene, matrices)
+    for material in (
+        cc.BasicMaterial(map=shown),
+        cc.StandardMaterial(map=shown, emissive_map=cc.Texture(shown, scale=(2, 2))),
+        cc.StandardMaterial(map=other),
+    ):
+        scene.add(mesh(uvs=RNG.random((5, 2))), material)
+    shown.exclude = other.exclude = scene.nodes[1:]
 
 
 def _held(scene):
@@ -187,7 +190,7 @@ def _cameras(scene):
     scene.add(cc.Camera(view=view, projection=scene.cameras[1].projection(2)))
     scene.add(cc.OrthographicCamera(height=0.25))
     shown = cc.RenderTexture(scene, scene.cameras[2], size=(4, 4))
-    scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))
+    shown.exclude = [scene.add(mesh(uvs=RNG.random((5, 2))), cc.BasicMaterial(map=shown))]
 
 
 def _variants(scene):
@@ -216,9 +219,12 @@ def _motion(scene):
     scene.add(cc.Animation([channel(still, "rotation", [1], [(1, 0, 0, 0)])]))
     # glTF has no times before 0.
     scene.add(cc.Animation([
-        channel(moved, "rotation", [0, 1], turns[:2]),
         channel(still, "translation", [-1, 1], RNG.random((2, 3))),
+        channel(moved, "rotation", [0, 1], turns[:2]),
     ]))  # fmt: skip
+    early = channel(still, "scale", [-2, -1], 1 + RNG.random((2, 3)))
+    scene.add(cc.Animation([early], name="early"))
+    scene.add(cc.Animation([channel(still, "scale", [0, 1], 1 + RNG.random((2, 3)))]))
 
 
 def skinned(count=6, joints=3):
@@ -242,6 +248,9 @@ def _skins(scene):
     scene.add(shape, cc.StandardMaterial(), skin=skin)
     scene.add(shape, cc.StandardMaterial(), skin=skin)
     scene.add(skinned(4, 2), cc.StandardMaterial(), skin=cc.Skin([knee, hip]))
+    rough = skinned(50)
+    rough.update(joints=rough.joints, joint_weights=rough.joint_weights * (1 + 1e-6))
+    scene.add(rough, cc.StandardMaterial(), skin=skin)
 
 
 def _morphs(scene):

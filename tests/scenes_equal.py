@@ -38,7 +38,6 @@ MESH = (
 )
 OTHERS = {
     "Skin": ("joints", "inverse_bind_matrices", "skeleton"),
-    "MorphTarget": ("positions", "normals", "tangents", "uvs", "uvs1", "colors", "name"),
     "Animation": ("name", "channels", "duration"),
     "AnimationChannel": ("node", "path", "times", "values", "interpolation"),
 }
@@ -123,8 +122,8 @@ class Walk:
         elif isinstance(want, (cc.Texture, cc.Blend, cc.Stencil, cc.Shadow)):
             # Equal ones are interchangeable, and properties make a new one at each look.
             self.properties(got, want, PLANS[kind].names, where)
-        elif isinstance(want, cc.Image):
-            # An image never changes, so that equal ones are interchangeable, too.
+        elif isinstance(want, (cc.Image, cc.MorphTarget)):
+            # These never change, so that equal ones are interchangeable, too.
             self.properties(got, want, PLANS[kind].names, where)
         elif self.known(got, want, where):
             return

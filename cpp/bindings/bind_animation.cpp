@@ -119,19 +119,20 @@ void bind_channel(py::module_& module) {
     // The node goes into the state, which is pickled later, since its scene may hold the channel.
     channel.def("__reduce__", [](const py::object& self) {
         const py::object call = py::module_::import("operator").attr("methodcaller");
-        return py::make_tuple(call("_remake", self.attr("path"), self.attr("times"),
+        return py::make_tuple(call("_remake", pickle_format, self.attr("path"), self.attr("times"),
                                    self.attr("values"), self.attr("interpolation")),
                               py::make_tuple(py::type::of<AnimationChannel>()),
                               closed_state(py::make_tuple(self.attr("node"))));
     });
     channel.def_static(
         "_remake",
-        [](const PathName& path, const ArrayLike& times, const ArrayLike& values,
-           const InterpolationName& interpolation) {
+        [](const WholeNumber& format, const PathName& path, const ArrayLike& times,
+           const ArrayLike& values, const InterpolationName& interpolation) {
+            check_pickle(format);
             return make_channel(py::none(), path, times, values, interpolation);
         },
-        py::arg("path"), py::arg("times"), py::arg("values"), py::arg("interpolation"),
-        "For unpickling: a channel without a node.");
+        py::arg("format"), py::arg("path"), py::arg("times"), py::arg("values"),
+        py::arg("interpolation"), "For unpickling: a channel without a node.");
     def_setstate(channel, "tuple", [](AnimationChannel& self, const py::tuple& state) {
         self.restore_node(to_shared_or_none<Node>(state[0], "node", "a Node"));
     });

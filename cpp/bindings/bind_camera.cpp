@@ -95,7 +95,8 @@ void bind_parent(Class<CameraOf<Lens>, Camera>& made) {
         "ndarray (3,) float64: the position in world space, read-only.");
     made.def(
         "_world_placement",
-        [](const C& self) {
+        [](const C& self) -> py::typing::Tuple<py::array_t<double>, OrNone<py::array_t<double>>,
+                                               py::array_t<double>, py::array_t<double>> {
             const Placement p = std::get<Placed<Lens>>(self.world_value()).placement;
             return py::make_tuple(point_array(p.position),
                                   p.target ? py::object(point_array(*p.target)) : py::none(),

@@ -92,7 +92,7 @@ std::shared_ptr<Animation> to_animation(const Scene& scene, py::handle value) {
         const auto name = value.cast<std::string>();
         std::set<std::string> names;
         for (const auto& animation : known) {
-            if (animation->name() == name) return animation;
+            if (!name.empty() && animation->name() == name) return animation;
             names.insert(animation->name());
         }
         names.erase("");

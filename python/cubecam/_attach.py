@@ -33,6 +33,7 @@ _DESCRIBED = (
     _core.Material,
     _core.Light,
     _core.Shadow,
+    _core.Animation,
     _core.Probe,
     _core.RenderTexture,
     _core.Camera,

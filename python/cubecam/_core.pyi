@@ -1238,6 +1238,55 @@ class Scene:
         ((), True)
         """
 
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """
+        Write a scene to a file of glTF 2.0, which other programs read. The method `Scene.save`.
+
+        `load_scene` of the file gives an equal scene. Nodes, meshes, skins, morph targets, textures, `StandardMaterial`,
+        lights, cameras, animations, variants and visibility are written as glTF and its KHR extensions have them. What
+        glTF has no words for stands in `extras` under the key "cubecam", which other programs skip: they show a similar
+        glTF material in place of the other kinds of materials, and no environment.
+
+        Parameters
+        ----------
+        path : path
+            A name that ends in .glb, one file with everything in it, or in .gltf: then the numbers are in
+            ``NAME.bin`` and the pictures in ``NAME-0.png``, ``NAME-1.png``, ... beside it.
+
+        Raises
+        ------
+        OSError
+            If the folder does not exist or may not be written, or the disk is full. The old files stay as they were.
+        ValueError
+            For another extension, for a scene whose render textures show another scene, for a skin with joints or a light,
+            camera or probe with a parent that are not in the scene, and for more than 4 GiB in a .glb file. Nothing is
+            written then.
+
+        Warns
+        -----
+        SceneWarning
+            For an animation none of whose nodes is in the scene: it is left out.
+
+        Notes
+        -----
+        Numbers of glTF arrays are float32; those of nodes, lights and cameras keep all their digits. Texture coordinates
+        are exact to 2**-24, because glTF counts v from the top. 8-bit images become PNG files; images of floats are
+        stored in full in `extras`, beside an 8-bit PNG for other programs. A light or camera that does not lie at the
+        origin of its parent along -Z gets a node of its own in the file. See docs/howto/save_scene.md.
+
+        Examples
+        --------
+        >>> import cubecam as cc, tempfile, pathlib
+        >>> scene = cc.Scene()
+        >>> ball = scene.add(cc.Mesh.sphere(), cc.StandardMaterial(color="gold", roughness=.3), name="ball")
+        >>> lamp = scene.add(cc.PointLight(position=(2, 3, 4), intensity=20, decay=2))
+        >>> path = pathlib.Path(tempfile.mkdtemp()) / "ball.glb"
+        >>> scene.save(path)
+        >>> again = cc.load_scene(path)
+        >>> again.nodes[0].name, again.lights[0]
+        ('ball', PointLight(position=(2, 3, 4), color=(1, 1, 1), intensity=20, decay=2))
+        """
+
     def set_matrices(
         self: Scene, nodes: collections.abc.Iterable[Node], matrices: np.typing.ArrayLike
     ) -> None:
@@ -2069,9 +2118,9 @@ class CubeMap:
         Parameters
         ----------
         path : path, sequence of six paths, or a name with {face}
-            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
-            in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
-            ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
+            The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by
+            roughness, in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level}
+            becomes 0, 1, ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
         layout : str, optional
             "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
             "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with
@@ -2126,7 +2175,7 @@ class CubeMap:
 
     def save_for(self, engine: Engine, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
         """
-        Write light for an engine: a file that it loads, the right way round, and a README. The method `CubeMap.save_for`.
+        Write light for an engine: files that it loads, the right way round. The method `CubeMap.save_for`.
 
         Parameters
         ----------
@@ -2157,7 +2206,7 @@ class CubeMap:
         unity        environment.exr, a panorama with -X in the middle (Unity's +X)
         godot        environment.exr, a panorama with +Z in the middle
         blender      environment.exr, a panorama with +X in the middle
-        filament     environment.hdr, a panorama with +Z in the middle, mirrored; sh.json
+        filament     environment.hdr, a panorama with +Z in the middle; sh.json
         ===========  ==============================================================================
 
         All engines but Babylon.js filter the light themselves and get level 0 alone. A cube without filtered levels is
@@ -5765,7 +5814,7 @@ class PointLight(Light):
     Parameters
     ----------
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5773,8 +5822,15 @@ class PointLight(Light):
         A factor of `color`, not negative.
     decay : float
         The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
+    range : float
+        The light ends at this distance, world units, above 0: it is multiplied by max(min(1 - (distance /
+        range)**4, 1), 0), the window of KHR_lights_punctual. Infinity: no end.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -5851,20 +5907,21 @@ class PointLight(Light):
 
 class SpotLight(Light):
     """
-    Light from one point into a cone, by the formulas of three.js and glTF.
+    Light from one point into a cone, by the formulas of glTF's KHR_lights_punctual.
 
     Parameters
     ----------
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates.
     direction : array_like (3,)
-        The way the light travels along the cone's axis, in world space, of any length except 0; it is kept
-        normalised. Straight down by default.
+        The way the light travels along the cone's axis, in world space or with a parent in its
+        coordinates, of any length except 0; it is kept normalised. Straight down by default.
     angle : float
         Angle from the axis to the cone's edge, degrees: above 0, below 90. There is no light outside the cone.
     penumbra : float
         Share of the angle, from the edge inwards, over which the light fades: with 0 the edge is sharp, with
-        1 the light fades from the axis on. The fade is GLSL's smoothstep between the cosines of the two angles.
+        1 the light fades from the axis on. The fade is the square of the share between the cosines of the two
+        angles, as KHR_lights_punctual recommends; three.js has GLSL's smoothstep there.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5872,8 +5929,15 @@ class SpotLight(Light):
         A factor of `color`, not negative.
     decay : float
         The light falls with distance**-decay: 0 is no fall, 2 is the law of physics. Not negative.
+    range : float
+        The light ends at this distance, world units, above 0: it is multiplied by max(min(1 - (distance /
+        range)**4, 1), 0), the window of KHR_lights_punctual. Infinity: no end.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -5986,8 +6050,8 @@ class DirectionalLight(Light):
     Parameters
     ----------
     direction : array_like (3,)
-        The way the light travels, in world space, of any length except 0; it is kept normalised. Straight
-        down by default.
+        The way the light travels, in world space or with a parent in its coordinates, of any length except 0; it
+        is kept normalised. Straight down by default.
     color : array_like (3,) or str
         Linear RGB, not negative; or a CSS name or "#rrggbb", which are sRGB (IEC 61966-2-1) and are
         decoded to linear. A light has no alpha: "transparent" raises ValueError.
@@ -5995,6 +6059,10 @@ class DirectionalLight(Light):
         A factor of `color`, not negative.
     shadow : Shadow, bool or None
         None or False: the light casts no shadows. True: ``Shadow()``.
+    parent : Node, optional
+        A node, of any scene, that the light moves with. A scale of the node moves the light's position, but
+        changes neither its strength nor its range. The light does not keep the node alive; when the node no
+        longer exists, `parent` is None.
 
     Raises
     ------
@@ -6212,9 +6280,10 @@ class PerspectiveCamera(Camera):
     fov : float
         Vertical field of view in degrees, above 0 and below 180.
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates, as target and up.
     target : array_like (3,), optional
-        The point that the camera looks at. None: the camera looks along -Z from any position.
+        The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+        along the parent's -Z.
     up : array_like (3,)
         The direction that is up in the picture; not along the line of sight.
     near, far : float
@@ -6226,6 +6295,11 @@ class PerspectiveCamera(Camera):
     pixel_aspect : float
         The width of a pixel over its height, above 0: 1 for the pixels of screens, and close to 1 for those
         of calibrated cameras; see `from_intrinsics`.
+    parent : Node, optional
+        A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+        changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+        that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+        is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
     Raises
     ------
@@ -6328,7 +6402,7 @@ class PerspectiveCamera(Camera):
         self: PerspectiveCamera,
     ) -> tuple[
         np.typing.NDArray[np.float64],
-        object,
+        np.typing.NDArray[np.float64] | None,
         np.typing.NDArray[np.float64],
         np.typing.NDArray[np.float64],
     ]:
@@ -6425,7 +6499,7 @@ class PerspectiveCamera(Camera):
         Parameters
         ----------
         target : array_like (3,) or Node
-            World space, of a node its origin; it becomes the camera's `target`.
+            World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -6684,13 +6758,19 @@ class OrthographicCamera(Camera):
     height : float
         World units from the bottom to the top of the picture, above 0.
     position : array_like (3,)
-        World space.
+        World space, or with a parent its coordinates, as target and up.
     target : array_like (3,), optional
-        The point that the camera looks at. None: the camera looks along -Z from any position.
+        The point that the camera looks at. None: the camera looks along -Z from any position, with a parent
+        along the parent's -Z.
     up : array_like (3,)
         The direction that is up in the picture; not along the line of sight.
     near, far : float
         Depths in world units between which surfaces are drawn: near < far.
+    parent : Node, optional
+        A node, of any scene, that the camera moves with. A scale of the node moves the camera's points, but
+        changes neither the lens nor any length of it. With the position (0, 0, 0) and no target the camera is
+        that of a glTF node. The camera does not keep the node alive; when the node no longer exists, `parent`
+        is None. `look_at`, `fit`, `orbit` and the like take and keep points and lengths of the world.
 
     Raises
     ------
@@ -6738,7 +6818,7 @@ class OrthographicCamera(Camera):
         self: OrthographicCamera,
     ) -> tuple[
         np.typing.NDArray[np.float64],
-        object,
+        np.typing.NDArray[np.float64] | None,
         np.typing.NDArray[np.float64],
         np.typing.NDArray[np.float64],
     ]:
@@ -6835,7 +6915,7 @@ class OrthographicCamera(Camera):
         Parameters
         ----------
         target : array_like (3,) or Node
-            World space, of a node its origin; it becomes the camera's `target`.
+            World space, of a node its origin; it becomes the camera's `target`, with a parent in its coordinates.
         up : array_like (3,), optional
             The direction that is up in the picture; it becomes the camera's `up`. None: the camera's `up` stays.
 
@@ -7115,6 +7195,7 @@ class AnimationChannel:
 
     @staticmethod
     def _remake(
+        format: typing.SupportsIndex,
         path: AnimationPath,
         times: np.typing.ArrayLike,
         values: np.typing.ArrayLike,
@@ -7231,6 +7312,16 @@ class Animation:
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Animation) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
     @property
     def channels(self) -> tuple[AnimationChannel, ...]:
         """

@@ -29,7 +29,7 @@ from tests.fuzz.seeds import seeds
 
 SECONDS = 5.0
 MEMORY = 300 << 20  # bytes
-PICTURES = ["hdr", "pic", "exr", "png", "jpg", "tif", "webp", "bmp", "tga", "gif", "dds"]
+PICTURES = ["hdr", "pic", "exr", "png", "jpg", "tif", "webp", "bmp", "tga", "gif", "dds", "ktx2"]
 #: What the readers raise for files that are broken; a wrong shape of a cubemap is a ValueError.
 EXPECTED = (cc.MeshError, cc.ImageError)
 
@@ -56,6 +56,8 @@ def read(path: Path) -> None:
         cc.load_image(path)
     with contextlib.suppress(*EXPECTED, ValueError):
         cc.load_cubemap(path, size=8)
+    with contextlib.suppress(*EXPECTED, ValueError):
+        cc.load_cubemap(path, levels=True)
 
 
 def broken(kind: str, number: int) -> bytes:

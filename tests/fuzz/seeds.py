@@ -11,8 +11,9 @@ import numpy as np
 import OpenImageIO as oiio
 
 import cubecam as cc
+from cubecam.io import ktx2
 from tests.gltf_files import GltfFile
-from tests.scene_files import SceneFile, noise
+from tests.scene_files import SceneFile, f32, noise
 
 SQUARE = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
 
@@ -222,8 +223,8 @@ def _whole_scene() -> GltfFile:
     file.add("cameras", {"type": "orthographic", "orthographic": shape})
     node = file.node(mesh=file.mesh(square, square), name="a", camera=0)
     file.node(camera=1, extensions={"KHR_lights_punctual": {"light": 0}})
-    times = file.accessor(np.float32([0, 1]))
-    rows = file.accessor(np.float32([[0, 0, 0, 1], [0, 1, 0, 0]]))
+    times = file.accessor(f32([0, 1]))
+    rows = file.accessor(f32([[0, 0, 0, 1], [0, 1, 0, 0]]))
     channel = {"sampler": 0, "target": {"node": node, "path": "rotation"}}
     file.add("animations", {"channels": [channel], "samplers": [{"input": times, "output": rows}]})
     light = {"specularImages": [[file.image(deep)] * 6], "intensity": 2, "rotation": [0, 0, 0, 1]}
@@ -320,7 +321,23 @@ def _pictures(folder: Path) -> dict[str, list[bytes]]:
     files["hdr"] += _radiance(rng)
     files["pic"] = _radiance(rng)[:2]
     files["dds"] = _dds(rng)
+    filtered = cc.CubeMap.from_levels([cube, cc.CubeMap(rng.random((6, 4, 4, 3), "f4"))])
+    filtered.save(folder / "a.dds")
+    keep("dds", folder / "a.dds")
+    for compression in (None, "zlib", "zstd"):
+        filtered.save(folder / "a.ktx2", compression=compression)
+        keep("ktx2", folder / "a.ktx2")
+    files["ktx2"] += _ktx2(rng)
     return files
+
+
+def _ktx2(rng: np.random.Generator) -> list[bytes]:
+    """Make pictures: 8 bits, blocks of BC1, and a header of Basis Universal without what it tells of."""
+    plain = ktx2.write([rng.integers(0, 255, (4, 4, 4)).astype("u1")], encoding="srgb")
+    blocks = bytearray(plain[: -64 + 8])
+    blocks[12:16] = struct.pack("<I", 133)
+    blocks[88:104] = struct.pack("<2Q", 8, 8)
+    return [plain, bytes(blocks)]
 
 
 def _exr_parts(path: Path, light: np.ndarray) -> None:

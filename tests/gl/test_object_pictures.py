@@ -93,6 +93,7 @@ def instances(world, renderer):
         *world.cameras,
         world.stereo,
         camera,
+        cc.Animation([]),
         cc.Shadow(),
         cc.Blend("one", "zero"),
         cc.Stencil(),
@@ -550,12 +551,41 @@ def test_units():
 
 
 def test_every_property_of_a_light_and_a_probe_is_shown():
+    scene = cc.Scene()
+    node = scene.add()
     for thing in (
-        cc.SpotLight(),
-        cc.PointLight(),
-        cc.DirectionalLight(),
+        cc.SpotLight(parent=node, range=2),
+        cc.PointLight(parent=node, range=2),
+        cc.DirectionalLight(parent=node),
         cc.AmbientLight(),
         cc.Probe(),
     ):
         for name in describe._properties(type(thing)):
             assert name.replace("_", " ") in words(thing)
+
+
+def test_a_scene_of_cameras_animations_and_variants():
+    scene = cc.Scene()
+    cart = scene.add(cc.Mesh.box(), cc.PhongMaterial(name="oak"), name="cart")
+    scene.add(cc.PerspectiveCamera(fov=40, parent=cart))
+    scene.add(cc.Camera(view=np.eye(4), projection=np.eye(4)))
+    scene.add(cc.PointLight(range=3, parent=cart))
+    roll = cc.AnimationChannel(cart, "translation", [0, 2], np.eye(3)[:2], interpolation="step")
+    scene.add(cc.Animation([roll], name="roll"))
+    scene.variants = ["red", "blue"]
+    scene.variant = "red"
+    text = words(scene)
+    for part in (
+        "2 cameras",
+        "fov 40°, position (0, 0, 0), on node #1 cart",
+        "given by its matrices",
+        "range 3, on node #1 cart",
+        "1 animation",
+        "2 s, 1 channel of 1 node",
+        "red, blue; shown: red",
+        "M1 oak",
+    ):
+        assert part in text, part
+    assert "translation, 2 keys, step" in words(scene.animations[0])
+    assert "world position" not in words(cc.PointLight())
+    assert "world position" in words(scene.lights[0])

@@ -16,13 +16,14 @@ LOADERS: dict[str, Callable[..., object]] = {
     "cubemap": cc.load_cubemap,
     "environment": cc.load_environment,
     "mesh": cc.load_mesh,
+    "scene": cc.load_scene,
 }
 loaders = pytest.mark.parametrize("load", LOADERS.values(), ids=LOADERS)
-ENDING = {cc.load_mesh: "obj"}
+ENDING = {cc.load_mesh: "obj", cc.load_scene: "obj"}
 
 
 def kind(load):
-    return cc.MeshError if load is cc.load_mesh else cc.ImageError
+    return cc.MeshError if load in ENDING else cc.ImageError
 
 
 def named(load, folder):

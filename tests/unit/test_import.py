@@ -143,6 +143,7 @@ def test_public_names_exist_and_say_where_they_live():
         "load_environment",
         "load_cubemap",
         "load_mesh",
+        "load_scene",
         "save_animation",
         "sample_data",
     ],

@@ -179,6 +179,13 @@ def in_no_scene():
     return node
 
 
+def channel():
+    """A channel whose node is gone: no scene keeps it."""
+    return cc.AnimationChannel(
+        cc.Scene().add(), "rotation", [0, 2], [(1, 0, 0, 0), (0, 1, 0, 0)], interpolation="step"
+    )
+
+
 def skinned_node():
     """A node whose scene keeps its joints."""
     scene = cc.Scene()
@@ -206,6 +213,8 @@ MAKE = {
     "MorphTarget": lambda: cc.MorphTarget(
         positions=np.eye(3), colors=np.ones((3, 3)), uvs1=np.ones((3, 2)), name="smile"
     ),
+    "AnimationChannel": channel,
+    "Animation": lambda: cc.Animation([channel()], name="walk"),
     "Skin": lambda: cc.Skin([None, None], [np.eye(4), np.diag((1, 2, 3, 1))]),
     "Stencil": lambda: cc.Stencil(func="equal", reference=3, depth_pass="incr"),
     "Texture": lambda: cc.Texture(
@@ -269,6 +278,8 @@ def test_both_lists_hold_every_class_that_pickles():
         "Texture",
         "MorphTarget",
         "Skin",
+        "AnimationChannel",
+        "Animation",
         "Node with a skin",
     }
     assert set(OLD_PICKLES) == set(MAKE) - new_since_0_1

@@ -417,6 +417,157 @@ def test_a_texture_that_shows_another_scene_is_refused_before_a_byte_is_written(
     assert not list(tmp_path.iterdir())
 
 
+def _light(scene, node):
+    scene.add(cc.PointLight(parent=node))
+
+
+def _camera(scene, node):
+    scene.add(cc.PerspectiveCamera(parent=node))
+
+
+def _probe(scene, node):
+    scene.add(cc.Mesh.box(), cc.MirrorMaterial()).environment = cc.Probe(parent=node)
+
+
+def _skin(scene, node):
+    shape = cc.Mesh(np.eye(3), [[0, 1, 2]], joints=[[0] * 4] * 3, joint_weights=[[1, 0, 0, 0]] * 3)
+    joint = scene.add()
+    scene.add(shape, skin=cc.Skin([joint]))
+    scene.remove(joint)
+
+
+@pytest.mark.parametrize("belong", [_light, _camera, _probe, _skin])
+def test_what_belongs_to_a_node_of_another_scene_is_refused(belong, tmp_path):
+    other = cc.Scene()
+    scene = cc.Scene()
+    scene.add()  # a node of the same id
+    belong(scene, other.add(name="far"))
+    with pytest.raises(ValueError, match="of the scene"):
+        scene.save(tmp_path / "x.glb")
+    assert not list(tmp_path.iterdir())
+
+
+def test_an_animation_of_nothing_is_left_out_with_a_warning(tmp_path):
+    scene = cc.Scene()
+    node = scene.add()
+    scene.add(cc.Animation([cc.AnimationChannel(node, "scale", [0], [(1, 1, 1)])], name="gone"))
+    scene.remove(node)
+    with pytest.warns(cc.SceneWarning, match="animation 'gone' moves no node") as told:
+        scene.save(tmp_path / "x.glb")
+    assert len(told) == 1
+    assert told[0].filename == __file__
+    assert "animations" not in tree_of(cc.load_scene(tmp_path / "x.glb"), tmp_path).tree.raw
+
+
+def test_animations(tmp_path):
+    scene = cc.Scene()
+    node = scene.add()
+    turns = [cc.axis_angle((1, 2, 3), a) for a in (0, 50)]
+    moves = RNG.random((6, 3)).astype(np.float32)
+    scene.add(
+        cc.Animation(
+            [
+                cc.AnimationChannel(node, "rotation", [0, 1], turns, interpolation="step"),
+                cc.AnimationChannel(node, "translation", [0, 2], moves, interpolation="cubic"),
+            ]
+        )
+    )
+    document = tree_of(scene, tmp_path)
+    (entry,) = document.tree.raw["animations"]
+    first, second = entry["samplers"]
+    assert (first["interpolation"], second["interpolation"]) == ("STEP", "CUBICSPLINE")
+    got = document.accessor(first["output"])
+    np.testing.assert_allclose(got, [(*q[1:], q[0]) for q in turns], atol=1e-7)
+    np.testing.assert_array_equal(document.accessor(second["output"]), moves)
+    times = document.tree.raw["accessors"][second["input"]]
+    assert (times["min"], times["max"]) == ([0], [2])
+    assert [c["target"] for c in entry["channels"]] == [
+        {"node": 0, "path": "rotation"},
+        {"node": 0, "path": "translation"},
+    ]
+
+
+def test_joints_without_a_common_root_get_one(tmp_path):
+    scene = cc.Scene()
+    joints = [scene.add(), scene.add()]
+    weights = np.array([[0.5, 0.5, 0, 0], [0.5, 0, 0.5, 0], [3, 1, 0, 0]])
+    shape = cc.Mesh(np.eye(3), [[0, 1, 2]], joints=[[1, 0, 1, 1]] * 3, joint_weights=weights)
+    scene.add(shape, skin=cc.Skin(joints, skeleton=joints[0]))
+    document = tree_of(scene, tmp_path)
+    raw = document.tree.raw
+    assert raw["scenes"][0]["nodes"] == [2, 3]
+    assert raw["nodes"][3] == {"children": [0, 1], "extras": {"cubecam": {"carrier": True}}}
+    attributes = raw["meshes"][0]["primitives"][0]["attributes"]
+    # Weights have a sum of 1, no joint counts twice, and one without weight is 0 (section 3.7.3.3).
+    want = [[0.5, 0.5, 0, 0], [1, 0, 0, 0], [0.75, 0.25, 0, 0]]
+    np.testing.assert_allclose(document.accessor(attributes["WEIGHTS_0"]), want, atol=1e-7)
+    assert document.accessor(attributes["JOINTS_0"]).tolist() == [[1, 0, 0, 0]] * 3
+    # The skeleton is a root of all joints, or is not named.
+    assert "skeleton" not in raw["skins"][0]
+    assert document.stored(attributes["JOINTS_0"]).dtype == np.uint8
+
+
+def test_variants_name_their_materials(tmp_path):
+    scene = cc.Scene()
+    scene.variants = ["day", "night", "dusk"]
+    red, blue = opaque(), opaque(metallic=0)
+    node = scene.add(cc.Mesh.box(), red)
+    node.variants = {"dusk": blue, "day": blue}
+    raw = raw_of(scene, tmp_path)
+    name = "KHR_materials_variants"
+    assert raw["extensions"][name] == {"variants": [{"name": n} for n in scene.variants]}
+    (primitive,) = raw["meshes"][0]["primitives"]
+    assert primitive["material"] == 0
+    assert primitive["extensions"][name] == {"mappings": [{"material": 1, "variants": [0, 2]}]}
+
+
+def test_morph_targets(tmp_path):
+    change = RNG.normal(size=(24, 3))
+    uvs = RNG.normal(size=(24, 2))
+    box = cc.Mesh.box()
+    targets = [cc.MorphTarget(positions=change, name="up"), cc.MorphTarget(uvs=uvs)]
+    shape = cc.Mesh(box.positions, box.indices, uvs=box.uvs, morph_targets=targets)
+    scene = cc.Scene()
+    scene.add(shape, opaque(), weights=[0.5, 0])
+    document = tree_of(scene, tmp_path)
+    mesh = document.tree.raw["meshes"][0]
+    assert mesh["weights"] == [0, 0]
+    assert mesh["extras"]["targetNames"] == ["up", ""]
+    assert document.tree.raw["nodes"][0]["weights"] == [0.5, 0]
+    first, second = mesh["primitives"][0]["targets"]
+    np.testing.assert_array_equal(document.accessor(first["POSITION"]), np.float32(change))
+    np.testing.assert_array_equal(
+        document.accessor(second["TEXCOORD_0"]), np.float32(uvs * (1, -1))
+    )
+
+
+def test_cameras(tmp_path):
+    scene = cc.Scene()
+    node = scene.add()
+    scene.add(cc.PerspectiveCamera(fov=60, near=0.5, far=20, parent=node))
+    scene.add(
+        cc.OrthographicCamera(
+            height=3, near=1, far=2, position=(1, 2, 3), target=(1, 0, 3), up=(0, 0, 1)
+        )
+    )
+    raw = raw_of(scene, tmp_path)
+    assert raw["cameras"] == [
+        {
+            "type": "perspective",
+            "perspective": {"yfov": pytest.approx(math.pi / 3), "znear": 0.5, "zfar": 20},
+        },
+        {
+            "type": "orthographic",
+            "orthographic": {"xmag": 1.5, "ymag": 1.5, "znear": 1, "zfar": 2},
+        },
+    ]
+    assert raw["nodes"][0] == {"camera": 0}
+    carrier = raw["nodes"][1]
+    assert carrier["translation"] == [1, 2, 3]
+    np.testing.assert_allclose(turned(carrier, (0, 0, -1)), (0, -1, 0), atol=1e-12)
+    np.testing.assert_allclose(turned(carrier, (0, 1, 0)), (0, 0, 1), atol=1e-12)
+
+
 def test_files_of_equal_scenes_are_equal(tmp_path):
     """No time, no address, no order of a set."""
     scenes = [scene_of(opaque(map=PICTURE), cc.MirrorMaterial()) for _ in range(2)]

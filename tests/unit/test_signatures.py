@@ -42,6 +42,10 @@ BY_POSITION = {
     "Mesh.arrow": ["length"],
     "Mesh.from_trimesh": ["mesh"],
     "Skin": ["joints", "inverse_bind_matrices"],
+    "AnimationChannel": ["node", "path", "times", "values"],
+    "AnimationChannel.sample": ["seconds"],
+    "Animation": ["channels"],
+    "Scene.set_time": ["seconds", "animation"],
     "Scene.find": ["name"],
     "Node.look_at": ["target"],
     "Camera.intrinsics": ["size"],
@@ -50,6 +54,7 @@ BY_POSITION = {
     "CubeMap.from_equirect": ["image"],
     "load_image": ["path"],
     "load_mesh": ["path"],
+    "load_scene": ["path"],
     "load_cubemap": ["path"],
     "load_environment": ["path"],
     "save_image": ["path", "pixels"],
@@ -84,6 +89,7 @@ BY_POSITION = {
     "StereoCamera.off_axis": ["camera"],
     "StereoCamera.toe_in": ["camera"],
     "Scene.remove": ["thing"],
+    "Scene.save": ["path"],
     "Scene.show": ["where"],
     "Scene.set_positions": ["nodes", "positions"],
     "Scene.set_matrices": ["nodes", "matrices"],
@@ -144,7 +150,7 @@ BY_POSITION = {
 }
 
 #: Callables with one signature for each kind of thing that may be given.
-OVERLOADS = {"Scene.add": [["light"], ["mesh", "material"]]}
+OVERLOADS = {"Scene.add": [["light"], ["camera"], ["animation"], ["mesh", "material"]]}
 
 
 def positional(arguments):
@@ -442,5 +448,7 @@ def test_errors_of_the_call_itself_stay():
 def test_overloads_are_explained_by_what_was_named():
     with pytest.raises(TypeError, match=r"^add\(\): visible: expected bool, got 'no'$"):
         cc.Scene().add(visible="no")
-    with pytest.raises(TypeError, match=r"^add\(\) has no option 'colour'; it takes light, mesh, "):
+    with pytest.raises(
+        TypeError, match=r"^add\(\) has no option 'colour'; it takes light, camera, animation, "
+    ):
         cc.Scene().add(colour="red")

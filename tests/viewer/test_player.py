@@ -116,7 +116,8 @@ def test_the_view_of_a_camera_on_a_node_follows_it_until_it_is_moved(view, scene
     (node,) = scene.find("view")
     for position in ((0, 1.4, 5.1), (0.5, 1, 4)):
         node.position = position
-        want = renderer.render(scene, scene.cameras[0], (64, 48), samples=4, tonemap="neutral", encode="srgb").color  # fmt: skip
+        options = {"samples": 4, "tonemap": "neutral", "encode": "srgb"}
+        want = renderer.render(scene, scene.cameras[0], (64, 48), **options).color
         assert np.abs(view.draw().astype(int) - want).max() <= 1
     assert view.scene_camera == "view"
     for kind, x in (("pointer_down", 10), ("pointer_move", 30), ("pointer_up", 30)):
@@ -152,13 +153,13 @@ def test_standard_material_has_groups_and_ranges_and_loses_nothing(renderer):
     scene.add(cc.Mesh.sphere(1), material, name="ball")
     with cc.Viewer(scene, size=(8, 8), renderer=renderer) as view:
         sections = {s.title.removeprefix("ball: "): s for s in view.panel()}
-        assert ["StandardMaterial", *_GROUPS, "surface"] == [t for t in sections if t in _GROUPS or t in ("StandardMaterial", "surface")]  # fmt: skip
-        shown = [
-            c.name for t in ("StandardMaterial", *_GROUPS, "surface") for c in sections[t].controls
-        ]
+        titles = ["StandardMaterial", *_GROUPS, "surface"]
+        assert titles == [title for title in sections if title in titles]
+        shown = [control.name for title in titles for control in sections[title].controls]
         assert sorted(shown) == sorted(c.name for c in properties(material))
         by_name = {c.name: c for c in material_controls(material)}
-        for name, low, high in (("metallic", 0, 1), ("roughness", 0, 1), ("ior", 1, 3), ("anisotropy_rotation", -180, 180)):  # fmt: skip
+        ranges = {"metallic": (0, 1), "roughness": (0, 1), "ior": (1, 3)}
+        for name, (low, high) in {**ranges, "anisotropy_rotation": (-180, 180)}.items():
             assert (by_name[name].low, by_name[name].high) == (low, high)
         assert by_name["normal_map rotation"].get() == 30
         set_(view, "normal_map scale", [4, 5], "ball: relief")

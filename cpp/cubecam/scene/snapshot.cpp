@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace cubecam {
@@ -473,7 +474,17 @@ bool Scene::follow_moves(SceneSnapshot& snapshot) const {
         put(*moved, node.locked_world_matrix());
         moved->revision = next_revision();
     };
+    // Each node is visited once: the joints of a chain would otherwise be visited for each joint
+    // above them.
+    const std::unordered_set<const Node*> all(graph_->moved.begin(), graph_->moved.end());
+    std::unordered_set<const Node*> seen;
+    const auto is_below_another = [&all](const Node& node) {
+        const Node* above = node.parent_.get();
+        while (above != nullptr && !all.contains(above)) above = above->parent_.get();
+        return above != nullptr;
+    };
     for (Node* moved : graph_->moved) {
+        if (!seen.insert(moved).second || is_below_another(*moved)) continue;
         follow(*moved);
         if (moved->children_.empty()) continue;
         for (const auto& below : moved->subtree()) follow(*below);

@@ -1,7 +1,7 @@
 """Babylon.js' .env: filtered levels and irradiance of a cubemap in one file.
 
 The format is that of Babylon's environmentTextureTools, version 2: eight bytes, a JSON manifest that ends in a zero
-byte, then a PNG for each face of each level down to one texel. Colours are RGBD: ``light = (rgb / 255)**2.2 / (d / 255)``.
+byte, then a PNG for each face of each level down to one texel. Colours are RGBD: light = (rgb / 255)^2.2 / (d / 255).
 """
 
 from __future__ import annotations
@@ -23,8 +23,9 @@ MAGIC = b"\x86\x16\x87\x96\xf6\xd6\x96\x36"
 _SCALE = 0.8
 #: Filtered levels that the file's are mixed of.
 _LEVELS = 16
-#: The factors of the real spherical harmonics, rows as in `CubeMap.sh`, with those of the cosine lobe over pi.
-_FIRST, _XY, _ZZ, _XX = 0.488603 * 2 / 3, 1.092548 / 4, 0.315392 / 4, 0.546274 / 4
+#: The factors of the real spherical harmonics, rows as in `CubeMap.sh`, times those of the cosine lobe over pi: 1, 2/3
+#: and 1/4. Those count twice, since Babylon takes them away once when it makes harmonics of the polynomial again.
+_FIRST, _XY, _ZZ, _XX = 0.488603 * 4 / 9, 1.092548 / 16, 0.315392 / 16, 0.546274 / 16
 _SH = np.array([0.282095, _FIRST, _FIRST, _FIRST, _XY, _XY, _ZZ, _XY, _XX])
 
 
@@ -47,7 +48,10 @@ def encode_env(cube: CubeMap) -> bytes:
     for k in range(size.bit_length()):
         level = _at_roughness(made, level_roughness(k, size), size >> k)
         faces = CubeMap(level).to_convention("three")
-        blobs += [oiio.encode(".png", _rgbd(face), {"oiio:UnassociatedAlpha": 1}) for face in faces]
+        # Babylon turns the pictures upside down when it decodes them.
+        blobs += [
+            oiio.encode(".png", _rgbd(face[::-1]), {"oiio:UnassociatedAlpha": 1}) for face in faces
+        ]
     mipmaps, at = [], 0
     for blob in blobs:
         mipmaps.append({"length": len(blob), "position": at})
@@ -68,7 +72,7 @@ def level_roughness(k: int, size: int) -> float:
 
 
 def irradiance_polynomial(sh: Array) -> dict[str, list[float]]:
-    """Give the polynomial of a normal that is irradiance over pi, from `CubeMap.sh`, in Babylon's axes (-x, y, z)."""
+    """Give Babylon's polynomial of a normal for the diffuse light, from `CubeMap.sh`, in Babylon's axes (-x, y, z)."""
     c = sh[:, :3] * _SH[:, None]
     if c.shape[1] == 1:
         c = np.repeat(c, 3, axis=1)

@@ -58,9 +58,9 @@ def save_cubemap(
     Parameters
     ----------
     path : path, sequence of six paths, or a name with {face}
-        The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by roughness,
-        in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level} becomes 0, 1,
-        ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
+        The extension names the kind of file, as in `save_image`, or .ktx2, .dds, .env (Babylon.js: filtered by
+        roughness, in Babylon's own steps) or .json (the numbers of `sh`). {face} becomes px nx py ny pz nz. {level}
+        becomes 0, 1, ...: a name such as "sky/{level}_{face}.hdr" stands for six files of each filtered level.
     layout : str, optional
         "cross", "vertical_cross", "row", "column", "equirect" or "openexr" for one picture ("cross" if None);
         "faces" or None for six files. "openexr" is OpenEXR's environment cube: a column of "inside" faces with

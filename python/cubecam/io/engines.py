@@ -23,8 +23,8 @@ _THREE = """\
 three.js: light and background of a scene (three 0.163 or later).
 environment.exr is a panorama with +X in the middle; three.js filters it by roughness itself.
 import {{ EXRLoader }} from "three/addons/loaders/EXRLoader.js";
-const sky = await new EXRLoader().loadAsync("environment.exr"); sky.mapping = THREE.EquirectangularReflectionMapping;
-scene.environment = scene.background = sky; // or six faces: new HDRCubeTextureLoader().load(["px.hdr", "nx.hdr", ...])
+const sky = await new EXRLoader().loadAsync("environment.exr"); // or HDRCubeTextureLoader of px.hdr ... nz.hdr
+sky.mapping = THREE.EquirectangularReflectionMapping; scene.environment = scene.background = sky;
 """
 _BABYLON = """\
 Babylon.js: filtered light of {size} texels an edge and its irradiance, for PBR materials and the skybox.
@@ -35,7 +35,7 @@ scene.createDefaultSkybox(sky, true, 1000);
 """
 _UNITY = """\
 Unity: put environment.exr into Assets; it is a panorama with the scene's -X, Unity's +X, in the middle.
-Import settings: Texture Shape "Cube", Mapping "Latitude-Longitude Layout", Convolution Type "Specular (Glossy Reflection)".
+Import settings: Texture Shape "Cube", Mapping "Latitude-Longitude Layout", Convolution "Specular".
 Make a material with the shader "Skybox/Cubemap", give it the texture, and set it in Window > Rendering > Lighting.
 Models of glTF files (glTFast) have x mirrored, as the panorama expects.
 In code: RenderSettings.skybox = material; DynamicGI.UpdateEnvironment();
@@ -49,23 +49,23 @@ $WorldEnvironment.environment = world
 """
 _BLENDER = """\
 Blender: environment.exr is a panorama with +X in the middle, for models imported from glTF (y up becomes z up).
-import bpy; tree = (bpy.context.scene.world or bpy.data.worlds.new("World")).node_tree; bpy.context.scene.world.use_nodes = True
+import bpy; world = bpy.context.scene.world; world.use_nodes = True; tree = world.node_tree
 node = tree.nodes.new("ShaderNodeTexEnvironment"); node.image = bpy.data.images.load("//environment.exr")
 tree.links.new(node.outputs["Color"], tree.nodes["Background"].inputs["Color"])
 By hand: World > Surface > Color > Environment Texture, Projection "Equirectangular".
 """
 _FILAMENT = """\
-Filament: environment.hdr is a panorama in the orientation that cmgen and gltf_viewer expect.
+Filament: environment.hdr is a panorama with +Z in the middle, as cmgen expects; sh.json has nine numbers.
 cmgen --format=ktx --size={size} --deploy=out environment.hdr
-auto ibl = image::ktxreader / IndirectLight::Builder().reflections(texture).irradiance(3, sh).build(*engine);
-In Python, with filly: viewer.load_environment("environment.hdr")
-sh.json holds the nine numbers of the diffuse light.
+gltf_viewer --ibl=environment.hdr model.glb
+In Python, with filly: scene.environment = renderer.load_environment("environment.hdr")
+scene.environment_visible = True
 """
 
 
 @checked_call
 def save_for(cube: CubeMap, engine: Engine, folder: PathLike) -> list[Path]:
-    """Write light for an engine: a file that it loads, the right way round, and a README. The method `CubeMap.save_for`.
+    """Write light for an engine: files that it loads, the right way round. The method `CubeMap.save_for`.
 
     Parameters
     ----------

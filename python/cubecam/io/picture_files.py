@@ -81,7 +81,9 @@ def decode_picture(data: bytes) -> Picture:
     if start.startswith(radiance.MAGIC):
         return Picture(radiance.read(data))
     if start.startswith(dds.MAGIC):
-        return _read_dds(data, None, False)
+        return _read_dds(data, None, False, False)
+    if start.startswith(ktx2.MAGIC):
+        return _read_ktx2(data, None, False, False)
     return oiio.read_bytes(data, _kind(start, data[-26:], "", len(data)))
 
 

@@ -66,8 +66,8 @@ def load_scene(path: PathLike) -> Scene:
     - KHR_materials_pbrSpecularGlossiness becomes a dielectric of the same reflectance, ``ior=0``.
     - EXT_lights_image_based: level 0 is the environment; cubecam filters it itself, diffuse light included.
 
-    OBJ: an object or a group is a node, and each of its materials a node below it. An MTL is converted as Blender does:
-    see `docs/howto`.
+    OBJ: an object, or a group in a file without objects, is a node, and each of its materials a node below it. An MTL
+    is converted as Blender's importer converts it; docs/howto/load_scene.md has the table.
 
     Examples
     --------

@@ -10,6 +10,7 @@ import numpy as np
 from .. import _core
 from .._core import (
     AmbientLight,
+    Animation,
     BasicMaterial,
     Camera,
     DirectionalLight,
@@ -27,10 +28,13 @@ from .._core import (
     StereoCamera,
 )
 from . import diagrams
-from .cards import Card, Fact, count, number, shorten, swatch_of, vector
+from .cards import Card, Fact, Row, count, number, shorten, swatch_of, vector
 from .studio import draw_ball, draw_mesh
 
-__all__ = ["card_of", "color_of", "light_text", "mesh_text"]
+__all__ = ["animation_text", "camera_text", "card_of", "color_of", "light_text", "mesh_text"]
+
+#: More channels than these are counted, not listed.
+MOST_CHANNELS = 20
 
 _UNITS = {
     "fov": "°",
@@ -83,6 +87,7 @@ def _(material: Material) -> Card:
 @card_of.register
 def _(light: Light) -> Card:
     own = [name for name in _properties(type(light)) if name not in vars(Light)]
+    own = [name for name in own if name not in _plain(light)]
     card = Card(_title(light), _facts(light, ["color", "intensity", *own]))
     shown = swatch_of(light.color)
     if isinstance(light, SpotLight):
@@ -194,9 +199,73 @@ def light_text(light: Light) -> str:
     """Describe a light in one line, without its colour."""
     parts = [f"{name} {vector(getattr(light, name))}" for name in _PLACES if hasattr(light, name)]
     parts.append(f"intensity {number(light.intensity)}")
+    if getattr(light, "range", np.inf) != np.inf:
+        parts.append(f"range {number(light.range)}")  # type: ignore[attr-defined]
+    parts += _on_parent(light)
     if getattr(light, "shadow", None) is not None:
         parts.append("with shadow")
     return ", ".join(parts)
+
+
+def camera_text(camera: Camera) -> str:
+    """Describe a camera in one line."""
+    parts = [
+        f"{name} {number(getattr(camera, name))}{_UNITS[name]}"
+        for name in ("fov", "height")
+        if hasattr(camera, name)
+    ]
+    for name in ("position", "target"):
+        place = getattr(camera, name, None)
+        parts += [] if place is None else [f"{name} {vector(place)}"]
+    return ", ".join([*(parts or ["given by its matrices"]), *_on_parent(camera)])
+
+
+def animation_text(animation: Animation) -> str:
+    """Describe an animation in one line."""
+    nodes = {id(channel.node): channel.node for channel in animation.channels}
+    channels = count(len(animation.channels), "channel")
+    return f"{number(animation.duration)} s, {channels} of {count(len(nodes), 'node')}"
+
+
+def _keys(number_of_keys: int) -> str:
+    return "1 key" if number_of_keys == 1 else f"{number_of_keys:,} keys"
+
+
+def _on_parent(thing: Any) -> list[str]:
+    parent = getattr(thing, "parent", None)
+    return [] if parent is None else [f"on node #{parent.id} {shorten(parent.name, 40)}".strip()]
+
+
+def _plain(thing: Any) -> set[str]:
+    """Name the properties that say nothing more: places in the world without a parent, and no range."""
+    plain: set[str] = set()
+    if getattr(thing, "parent", None) is None:
+        plain |= {"parent", "world_position", "world_direction"}
+    if getattr(thing, "range", None) == np.inf:
+        plain.add("range")
+    return plain
+
+
+@card_of.register
+def _(animation: Animation) -> Card:
+    facts = [Fact("name", shorten(animation.name))] if animation.name else []
+    facts.append(Fact("duration", f"{number(animation.duration)} s"))
+    facts.append(Fact("channels", str(len(animation.channels))))
+    card = Card("Animation", facts)
+    rows = [
+        Row(
+            "gone"
+            if channel.node is None
+            else f"#{channel.node.id} {shorten(channel.node.name, 40)}",
+            f"{channel.path}, {_keys(len(channel.times))}, {channel.interpolation}",
+        )
+        for channel in animation.channels[:MOST_CHANNELS]
+    ]
+    left = len(animation.channels) - len(rows)
+    rows += [Row("", f"… and {left:,} more", faint=True)] if left else []
+    if rows:
+        card.lists.append((count(len(animation.channels), "channel"), rows))
+    return card
 
 
 def mesh_text(mesh: Mesh) -> str:

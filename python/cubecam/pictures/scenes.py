@@ -9,7 +9,7 @@ import numpy as np
 
 from .._core import CubeMap, Material, Mesh, Node, Probe, Scene
 from .cards import Card, Fact, Row, Shot, count, number, shorten, swatch_of, vector
-from .describe import card_of, color_of, light_text, mesh_text
+from .describe import animation_text, camera_text, card_of, color_of, light_text, mesh_text
 from .studio import BALL, draw_ball, draw_mesh, draw_scene, draw_solid
 
 #: More nodes, balls and lights than these are counted, not listed.
@@ -34,6 +34,9 @@ def _(scene: Scene) -> Card:
         *_placing(scene),
         _surroundings("background", scene.background),
     ]
+    if scene.variants:
+        shown = "none" if scene.variant is None else shorten(scene.variant)
+        facts.append(Fact("variants", f"{shorten(', '.join(scene.variants))}; shown: {shown}"))
     names = {id(material): f"M{index + 1}" for index, material in enumerate(materials)}
     card = Card(
         "Scene",
@@ -50,6 +53,16 @@ def _(scene: Scene) -> Card:
             for light in lights[:MOST_LIGHTS]
         ]
         card.lists.append((count(len(lights), "light"), rows + _more(lights, MOST_LIGHTS)))
+    if cameras := scene.cameras:
+        rows = [Row(type(one).__name__, camera_text(one)) for one in cameras[:MOST_LIGHTS]]
+        card.lists.append((count(len(cameras), "camera"), rows + _more(cameras, MOST_LIGHTS)))
+    if animations := scene.animations:
+        rows = [
+            Row(shorten(one.name or "Animation"), animation_text(one))
+            for one in animations[:MOST_LIGHTS]
+        ]
+        more = _more(animations, MOST_LIGHTS)
+        card.lists.append((count(len(animations), "animation"), rows + more))
     probes = _distinct(node.environment for node in nodes if isinstance(node.environment, Probe))
     if probes:
         rows = [Row("Probe", _probe_text(probe)) for probe in probes[:MOST_LIGHTS]]
@@ -104,7 +117,7 @@ def _tree(roots: Iterable[Node], total: int | None, names: dict[int, str]) -> li
         if node.mesh is None:
             parts.insert(0, "group")
         else:
-            kind = f"{names.get(id(node.material), '')} {type(node.material).__name__}".strip()
+            kind = f"{names.get(id(node.material), '')} {_name_of(node.material)}".strip()
             parts[:0] = [mesh_text(node.mesh), kind]
         if isinstance(node.environment, Probe):
             parts.append("Probe")
@@ -140,10 +153,15 @@ def _solid(node: Node, size: int = BALL) -> Callable[[], Shot] | None:
 
 def _tile(material: Material, names: dict[int, str]) -> Card:
     return Card(
-        f"{names[id(material)]} {type(material).__name__}",
+        f"{names[id(material)]} {_name_of(material)}",
         [Fact("", "", color_of(material))],
         picture=lambda: draw_ball(material, _TILE),
     )
+
+
+def _name_of(material: Material | None) -> str:
+    name = "" if material is None else material.name
+    return shorten(name, 40) if name else type(material).__name__
 
 
 def _distinct(things: Iterable[Any]) -> list[Any]:

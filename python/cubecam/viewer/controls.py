@@ -294,9 +294,9 @@ def _scale(camera: AnyCamera, factor: float) -> bool:
     if isinstance(camera, OrthographicCamera):
         camera.height = camera.height * factor
         return True
-    if camera.target is None:
-        return False
     standing = navigation.Standing(camera)
+    if standing.target is None:
+        return False
     nearest = min(1.01 * float(camera.near), standing.distance)
     distance = max(standing.distance * factor, nearest)
     standing.place(standing.target - standing.direction * distance, standing.target)

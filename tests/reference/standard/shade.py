@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..shading import Ambient, Point, Spot, dot, reflect, refract, way_to
+from ..shading import Ambient, Point, Spot, dot, falloff, reflect, refract, way_to
 from ..transforms import normalised
 from .iridescence import iridescent_fresnel, schlick_to_f0
 from .material import Environment, anisotropy_frame
@@ -88,11 +88,11 @@ def lobe_frame(p, surface):
 
 
 def arriving(light, position):
-    """(l, the irradiance of a surface that faces the light): lux of a directional light; candela / distance^decay."""
+    """(l, the irradiance of a surface that faces the light): lux of a directional light, else candela."""
     l, distance = way_to(light, position)  # noqa: E741
     irradiance = np.asarray(light.color, float) * light.intensity
     if isinstance(light, (Point, Spot)):
-        irradiance = irradiance / distance**light.decay
+        irradiance = irradiance * falloff(light, distance)
     if isinstance(light, Spot):
         irradiance = irradiance * light.share(l)
     return l, np.broadcast_to(irradiance, position.shape)

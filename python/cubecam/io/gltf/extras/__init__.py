@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...._core import Image, Material, MeshError, Scene, StandardMaterial
+from ...._warnings import SceneWarning, warn_user
 from ..document import Gltf
 from ..entries import Entry
 from .apply import Application
@@ -34,7 +35,13 @@ class Extras:
     def __init__(self, document: Gltf) -> None:
         self._document = document
         root = _own(document.tree)
-        self._active = root is not None and root.integer("format", 0) == FORMAT
+        number = FORMAT if root is None else root.integer("format")
+        self._active = root is not None and number == FORMAT
+        if number != FORMAT:
+            warn_user(
+                f"{document.path}: extras of cubecam of format {number}, expected {FORMAT}, are left out",
+                SceneWarning,
+            )
         objects = root.entries("objects") if root is not None and self._active else []
         self._reader = Reader(document, objects, f"extras.{KEY}.objects")
 

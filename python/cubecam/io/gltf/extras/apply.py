@@ -8,13 +8,22 @@ from typing import Any
 import numpy as np
 
 from .... import _core
-from ...._core import Material, Mesh, MeshError, Node, Scene, ShaderMaterial
+from ...._core import (
+    Animation,
+    AnimationChannel,
+    Material,
+    MeshError,
+    Node,
+    Scene,
+    ShaderMaterial,
+    Skin,
+)
 from ..document import Gltf
 from ..entries import Entry
-from .classes import MESH, NODE, PLANS, SCENE, arguments_of, material_names
+from .classes import MESH, NODE, PLANS, SCENE, material_names
 from .values import Parts, Reader, made_of
 
-_MESH_WORDS = ("same", *MESH, "joint_weights", "morph_targets")
+_MESH_WORDS = ("same", *MESH, "joints", "joint_weights", "morph_targets")
 
 
 class Application:
@@ -42,6 +51,7 @@ class Application:
             self._material(index, material)
         for index, node in self._parts.nodes.items():
             self._node(index, node)
+        self._skins()
         for index, animation in enumerate(self._parts.animations):
             if animation is not None:
                 self._animation(index, animation)
@@ -69,18 +79,17 @@ class Application:
                 return
             self._replace(meshes, self._parts.meshes[other][0])
             return
-        if any(name in entry for name in ("joint_weights", "morph_targets")):
-            self._replace(meshes, self._rebuilt(entry, meshes[0]))
-        else:
-            self._set(meshes[0], entry, MESH)
-
-    def _rebuilt(self, entry: Entry, mesh: Any) -> Mesh:
-        """Return a mesh with other arrays, some of which no setter changes."""
-        arguments = dict(arguments_of(mesh))
-        for name in entry.raw:
-            arguments[name] = self._reader.value(entry.raw[name], entry.path(name))
-        made: Mesh = made_of(Mesh, arguments, entry.where)
-        return made
+        self._set(meshes[0], entry, (*MESH, "morph_targets"))
+        bones = {
+            name: self._reader.value(entry.raw[name], entry.path(name))
+            for name in ("joints", "joint_weights")
+            if name in entry
+        }
+        if bones:
+            try:
+                meshes[0].update(**bones)
+            except (TypeError, ValueError, IndexError, OverflowError) as error:
+                raise MeshError(f"{entry.path('joints')}: {error}") from None
 
     def _replace(self, meshes: list[Any], mesh: Any) -> None:
         """Show a mesh where the loader's own one is."""
@@ -89,10 +98,34 @@ class Application:
             return
         for node in self._parts.nodes.values():
             if node.mesh is old:
-                weights = getattr(node, "weights", None)
+                weights = node.weights
                 node.mesh = mesh
-                if weights is not None and len(weights):
-                    node.weights = weights  # type: ignore[attr-defined]
+                if len(weights):
+                    node.weights = weights
+
+    def _skins(self) -> None:
+        """Give skins a skeleton that is no root of all their joints."""
+        made: dict[int, Skin] = {}
+        for index, node in self._parts.nodes.items():
+            number = self._document.entry("nodes", index).index(
+                "skin", self._document.count("skins")
+            )
+            entry = None if number is None else self._entry("skins", number)
+            if number is None or entry is None or node.skin is None:
+                continue
+            self._reader.check_names(entry, ("skeleton",))
+            if number not in made:
+                skeleton = self._reader.value(entry.raw.get("skeleton"), entry.path("skeleton"))
+                made[number] = made_of(
+                    Skin,
+                    {
+                        "joints": node.skin.joints,
+                        "inverse_bind_matrices": node.skin.inverse_bind_matrices,
+                        "skeleton": skeleton,
+                    },
+                    entry.where,
+                )
+            self._reader.set(node, "skin", made[number], entry.where)
 
     def _material(self, index: int, material: Material) -> None:
         entry = self._entry("materials", index)
@@ -134,31 +167,56 @@ class Application:
         for name, value in steps:
             self._reader.set(thing, name, value, entry.path(name))
 
-    def _animation(self, index: int, animation: Any) -> None:
+    def _animation(self, index: int, animation: Animation) -> None:
         """Add the channels that glTF does not have."""
         entry = self._entry("animations", index)
         if entry is None:
             return
         self._reader.check_names(entry, ("channels",))
-        names = ("node", "path", "times", "values", "interpolation")
-        channels = list(animation.channels)
-        for place in range(len(entry.entries("channels"))):
-            channel = entry.member("channels", place)
-            self._reader.check_names(channel, names)
-            given = {n: channel.raw.get(n) for n in names}
-            values = {
-                n: self._reader.value(v, channel.path(n)) for n, v in given.items() if n != "node"
-            }
-            values["node"] = self._reader.value({"node": given["node"]}, channel.path("node"))
-            channels.append(made_of(_core.AnimationChannel, values, channel.where))  # type: ignore[attr-defined]
-        made = made_of(
-            _core.Animation,  # type: ignore[attr-defined]
-            {"channels": channels, "name": animation.name},
-            entry.where,
-        )
-        self._scene.remove(animation)
-        self._scene.add(made)
+        made = self._with_channels(entry, animation.name, list(animation.channels))
+        # In its place among the others.
+        others = list(self._scene.animations)
+        for other in others:
+            self._scene.remove(other)
+        for other in others:
+            self._scene.add(made if other is animation else other)
         self._parts.animations[index] = made
+
+    def _with_channels(
+        self, entry: Entry, name: str, channels: list[AnimationChannel]
+    ) -> Animation:
+        """Make an animation of channels, and of those that stand in an entry."""
+        names = ("node", "path", "times", "values", "interpolation")
+        for number in range(len(entry.entries("channels"))):
+            channel = entry.member("channels", number)
+            self._reader.check_names(channel, ("place", *names))
+            place = channel.integer("place")
+            node = self._reader.value({"node": channel.raw.get("node")}, channel.path("node"))
+            rest = {n: self._reader.value(channel.raw.get(n), channel.path(n)) for n in names[1:]}
+            made = made_of(AnimationChannel, {"node": node, **rest}, channel.where)
+            channels.insert(place, made)
+        result: Animation = made_of(Animation, {"channels": channels, "name": name}, entry.where)
+        return result
+
+    def _order_animations(self, entry: Entry) -> None:
+        """Add animations of which some stand in extras alone."""
+        found = []
+        for place in range(len(entry.entries("animations"))):
+            member = entry.member("animations", place)
+            if "animation" in member:
+                index = member.index("animation", len(self._parts.animations))
+                if index is not None and self._parts.animations[index] is not None:
+                    found.append(self._parts.animations[index])
+            else:
+                self._reader.check_names(member, ("name", "channels"))
+                found.append(self._with_channels(member, member.text("name") or "", []))
+        for animation in self._scene.animations:
+            self._scene.remove(animation)
+        for animation in found:
+            try:
+                self._scene.add(animation)
+            except ValueError as error:
+                raise MeshError(f"{entry.path('animations')}: {error}") from None
 
     def _scene_properties(self) -> None:
         number = self._document.tree.index("scene", self._document.count("scenes"))
@@ -167,11 +225,13 @@ class Application:
         entry = self._entry("scenes", number or 0)
         if entry is None:
             return
-        self._reader.check_names(entry, (*SCENE, "lights", "cameras", "variant"))
+        self._reader.check_names(entry, (*SCENE, "lights", "cameras", "animations", "variant"))
         self._set(self._scene, entry, SCENE)
         for word, things in (("lights", self._parts.lights), ("cameras", self._parts.cameras)):
             if word in entry:
                 self._order(entry, word, things)
+        if "animations" in entry:
+            self._order_animations(entry)
         self._set(self._scene, entry, ("variant",))
 
     def _order(self, entry: Entry, word: str, things: dict[int, Any]) -> None:

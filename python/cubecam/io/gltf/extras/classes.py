@@ -55,6 +55,10 @@ PLANS = {
         ),
         Plan(_core.CubeMap, CUBE),
         Plan(
+            _core.MorphTarget,
+            ("positions", "normals", "tangents", "uvs", "uvs1", "colors", "name"),
+        ),
+        Plan(
             _core.Probe,
             (
                 "position", "size", "near", "far", "format", "mipmaps", "samples", "update",

@@ -28,13 +28,16 @@ _DEEP = 16
 class Parts(Protocol):
     """The objects that the loader made, by indices of glTF; lights and cameras by the index of their node."""
 
+    @property
+    def texture(self) -> Callable[[int], Image | None]:
+        """The image of a texture; None if it cannot be read."""
+
     nodes: dict[int, Node]
     meshes: dict[int, list[Any]]
     materials: dict[int, Material]
     lights: dict[int, Any]
     cameras: dict[int, Any]
     animations: list[Any]
-    texture: Callable[[int], Image | None]
 
 
 class Reader:

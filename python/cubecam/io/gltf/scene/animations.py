@@ -94,11 +94,23 @@ class Animations:
             if values.size % width:
                 raise sampler.error("output", f"an accessor of a multiple of {width} weights")
             values = values.reshape(-1, width)
+        times, values = self._increasing(times, values, sampler)
         with at(sampler):
             return [
                 AnimationChannel(node, name, times, values, interpolation=_INTERPOLATIONS[how])
                 for node in moved
             ]
+
+    def _increasing(
+        self, times: npt.NDArray[np.float64], values: npt.NDArray[np.float64], sampler: Entry
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Keep the last of several keys of one time, which some exporters write and glTF forbids."""
+        kept = np.append(np.diff(times) != 0, True)
+        if kept.all() or len(values) % len(times):
+            return times, values
+        self._left_out.add("keys of equal times are one key, the last", sampler.where)
+        per_key = len(values) // len(times)
+        return times[kept], values[np.repeat(kept, per_key)]
 
     def _read(self, sampler: Entry, key: str, kind: str, times: int) -> npt.NDArray[np.float64]:
         number = accessor_index(self._document, sampler, key)

@@ -26,8 +26,7 @@ class Materials:
         """Return the index of a material."""
         if id(material) not in self._known:
             shown = plain(similar(material), self._is_translucent)
-            name = getattr(material, "name", "")
-            entry: Json = {"name": name} if name else {}
+            entry: Json = {"name": material.name} if material.name else {}
             entry |= self._standard.entry(shown)
             index = self._document.add("materials", entry)
             self._known[id(material)] = (material, index)

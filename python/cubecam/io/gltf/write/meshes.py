@@ -24,8 +24,10 @@ _DIFFERENCES = {
     "TEXCOORD_1": "uvs1",
     "COLOR_0": "colors",
 }
-#: How far the length of a normal may be from 1, and the sum of weights of joints.
+#: How far the length of a normal may be from 1.
 _UNIT = 1e-4
+#: How far the sum of the weights of joints may be from 1, for each weight above 0 (section 3.7.3.3).
+_WEIGHT = 2e-7
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,7 @@ class Meshes:
         }
         entry: Json = {"primitives": [primitive]}
         extras: Json = {}
-        targets = getattr(mesh, "morph_targets", ())
+        targets = mesh.morph_targets
         if targets:
             primitive["targets"] = [self._target(target, attributes) for target in targets]
             if any(
@@ -136,28 +138,24 @@ class Meshes:
                 found["COLOR_0"] = clipped
             if not colors or not np.array_equal(clipped, mesh.colors):
                 exact["colors"] = self._values.array(mesh.colors)
-        found |= self._influences(mesh, exact)
+        found |= self._bones(mesh, exact)
         add = self._document.accessor
-        attributes = {"POSITION": add(positions, target=VERTICES, bounds=True)}
+        # Readers take primitives of the same accessors for one mesh, which two equal meshes are not.
+        attributes = {"POSITION": add(positions, target=VERTICES, bounds=True, owner=id(mesh))}
         for key, array in found.items():
             attributes[key] = add(array, target=VERTICES)
         return attributes, exact
 
-    def _influences(self, mesh: Mesh, exact: Json) -> dict[str, Array]:
+    def _bones(self, mesh: Mesh, exact: Json) -> dict[str, Array]:
         """Return JOINTS_n and WEIGHTS_n (section 3.7.3.3)."""
         found: dict[str, Array] = {}
-        joints, weights = getattr(mesh, "joints", None), getattr(mesh, "joint_weights", None)
-        if joints is None or weights is None:
+        if mesh.joints is None or mesh.joint_weights is None:
             return found
-        weights = np.asarray(weights, np.float32)
-        sums = weights.sum(axis=1, dtype=np.float64)
-        if (np.abs(sums - 1) > _UNIT).any():
-            exact["joint_weights"] = self._values.array(weights)
-            lost = sums <= 0
-            weights = weights / np.where(lost, 1, sums)[:, None]
-            weights[lost, 0] = 1
-            weights = weights.astype(np.float32)
-        joints = np.where(weights > 0, joints, 0)  # section 3.7.3.3: unused joints are 0
+        joints, weights = _influences(mesh.joints, mesh.joint_weights)
+        own = np.array_equal(joints, mesh.joints) and np.array_equal(weights, mesh.joint_weights)
+        if not own:
+            exact["joints"] = self._values.array(np.asarray(mesh.joints, np.uint16))
+            exact["joint_weights"] = self._values.array(np.asarray(mesh.joint_weights))
         kind = np.uint8 if joints.max(initial=0) < 256 else np.uint16
         for level in range(joints.shape[1] // 4):
             part = slice(4 * level, 4 * level + 4)
@@ -211,6 +209,27 @@ def _unit(normals: Array) -> Array:
     made = normals / np.where(lost, 1, lengths)[:, None]
     made[lost] = (0, 1, 0)
     return made.astype(np.float32)
+
+
+def _influences(joints: Array, weights: Array) -> tuple[Array, Array]:
+    """Return joints and weights as section 3.7.3.3 asks: weights have a sum of 1, and no joint counts twice."""
+    joints, weights = np.array(joints), np.array(weights)
+    for column in range(1, joints.shape[1]):
+        for earlier in range(column):
+            both = (weights[:, column] > 0) & (weights[:, earlier] > 0)
+            twice = both & (joints[:, column] == joints[:, earlier])
+            weights[twice, earlier] += weights[twice, column]
+            weights[twice, column] = 0
+    sums = weights.sum(axis=1, dtype=np.float64)
+    off = np.abs(sums - 1) > _WEIGHT * (weights > 0).sum(axis=1)
+    lost = sums <= 0
+    weights[off] /= np.where(lost, 1, sums)[off, None]
+    weights[lost, 0] = 1
+    # The rest of rounding goes to the largest weight.
+    rows = np.flatnonzero(off)
+    rest = 1 - weights[rows].sum(axis=1, dtype=np.float64)
+    weights[rows, weights[rows].argmax(axis=1)] += rest
+    return np.where(weights > 0, joints, 0), weights
 
 
 def _from_top(uvs: Array) -> Array:

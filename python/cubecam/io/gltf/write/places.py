@@ -27,6 +27,8 @@ from .document import Array, Document, Json
 from .values import Values, number, numbers, same
 
 _LIGHTS = "KHR_lights_punctual"
+#: The least penumbra that glTF can say, where the inner angle is less than the outer one.
+_SHARPEST = 1e-6
 _FORWARD = np.array([0.0, 0.0, -1.0])
 
 
@@ -38,12 +40,17 @@ class Places:
         self._nodes = nodes
         #: The node of each light and camera, by `id`.
         self.holders: dict[int, int] = {}
+        self._kept: list[Any] = []
         self._carried: list[tuple[Any, int]] = []
 
     def hold(self, thing: Any, word: str) -> None:
         """Find a node for a light or a camera: its parent if it lies there as glTF has it, else a carrier."""
         parent = _parent_of(thing)
         above = None if parent is None else self._nodes.get(parent)
+        if parent is not None and above is None:
+            raise ValueError(
+                f"{word}: expected a parent that is a node of the scene, got {parent!r}, which is not"
+            )
         if above is not None and _is_plain(thing) and not self._holds(above, word):
             index = above
         else:
@@ -52,6 +59,7 @@ class Places:
             if above is not None:
                 self._document.lists["nodes"][above].setdefault("children", []).append(index)
         self.holders[id(thing)] = index
+        self._kept.append(thing)  # no other object may get its id
         entry = self._document.lists["nodes"][index]
         if word == "camera":
             entry["camera"] = self._document.add("cameras", _camera_entry(thing))
@@ -96,11 +104,7 @@ class Places:
 
     def roots(self) -> list[int]:
         """Return the carriers that have no node above them."""
-        return [
-            index
-            for thing, index in self._carried
-            if _parent_of(thing) is None or _parent_of(thing) not in self._nodes
-        ]
+        return [index for thing, index in self._carried if _parent_of(thing) is None]
 
 
 def is_placed(camera: Camera) -> bool:
@@ -142,7 +146,7 @@ def _light_entry(light: Any) -> Json:
     if isinstance(light, SpotLight):
         outer = math.radians(light.angle)
         # The inner angle is less than the outer one (KHR_lights_punctual, "Spot").
-        inner = min(outer * (1 - light.penumbra), outer * (1 - 1e-6))
+        inner = outer * (1 - max(light.penumbra, _SHARPEST))
         entry["spot"] = {"innerConeAngle": inner, "outerConeAngle": outer}
     return entry
 
@@ -181,8 +185,8 @@ def _extras(thing: Any, carried: bool, values: Values) -> Json:
         return found
     if getattr(thing, "decay", 2) != 2:
         found["decay"] = values.value(thing.decay)
-    if getattr(thing, "penumbra", 1) == 0:
-        found["penumbra"] = 0.0
+    if getattr(thing, "penumbra", 1) < _SHARPEST:
+        found["penumbra"] = thing.penumbra
     if np.asarray(thing.color).max(initial=0) > 1:
         found |= values.properties(thing, ("color", "intensity"))
     if not same(thing.shadow, None):

@@ -32,15 +32,21 @@ def save_scene(scene: Scene, path: PathLike) -> None:
     OSError
         If the folder does not exist or may not be written, or the disk is full. The old files stay as they were.
     ValueError
-        For another extension, for a scene whose render textures show another scene, for a skin with joints that are
-        not in the scene, and for more than 4 GiB in a .glb file.
+        For another extension, for a scene whose render textures show another scene, for a skin with joints or a light,
+        camera or probe with a parent that are not in the scene, and for more than 4 GiB in a .glb file. Nothing is
+        written then.
+
+    Warns
+    -----
+    SceneWarning
+        For an animation none of whose nodes is in the scene: it is left out.
 
     Notes
     -----
     Numbers of glTF arrays are float32; those of nodes, lights and cameras keep all their digits. Texture coordinates
     are exact to 2**-24, because glTF counts v from the top. 8-bit images become PNG files; images of floats are
     stored in full in `extras`, beside an 8-bit PNG for other programs. A light or camera that does not lie at the
-    origin of its parent along -Z gets a node of its own in the file. See docs/howto/scene-files.md.
+    origin of its parent along -Z gets a node of its own in the file. See docs/howto/save_scene.md.
 
     Examples
     --------

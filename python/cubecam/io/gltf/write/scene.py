@@ -14,7 +14,7 @@ from .meshes import Meshes, Shown
 from .motion import Skins, add_animation
 from .pictures import Pictures
 from .places import Places, is_placed, is_punctual, quaternion
-from .values import Values
+from .values import Values, numbers
 
 _VISIBILITY = "KHR_node_visibility"
 _VARIANTS = "KHR_materials_variants"
@@ -49,7 +49,7 @@ class _Writer:
                 Scene: self._scene_reference,
             },
         )
-        self.variants = {name: i for i, name in enumerate(getattr(scene, "variants", ()))}
+        self.variants = {name: i for i, name in enumerate(scene.variants)}
         self.meshes = Meshes(self.document, self.materials, self.values, self.variants)
         self.skins = Skins(self.document, self.nodes)
         self.places = Places(self.document, self.nodes)
@@ -57,8 +57,8 @@ class _Writer:
 
     def _write(self) -> None:
         scene, document = self.scene, self.document
-        cameras = list(getattr(scene, "cameras", ()))
-        animations = list(getattr(scene, "animations", ()))
+        cameras = list(scene.cameras)
+        animations = list(scene.animations)
         document.lists["scenes"] = [{}]
         states = {record[0]: record[2] for record in state_of(scene)["nodes"]}
         moved = {c.node for a in animations for c in a.channels if c.node is not None}
@@ -82,19 +82,21 @@ class _Writer:
             names = [{"name": name} for name in self.variants]
             document.extensions[_VARIANTS] = {"variants": names}
             document.used.add(_VARIANTS)
-        numbers = [add_animation(document, self.nodes, a, self.values) for a in animations]
+        motions = [add_animation(document, self.nodes, a, self.values) for a in animations]
         self.places.finish(scene.lights, "light", self.values)
         self.places.finish(cameras, "camera", self.values)
         for node in scene.nodes:
             self._add_extras(node, document.lists["nodes"][self.nodes[node]], states[node.id])
         extras = self._scene_extras(cameras)
+        if any(m is not None and "animation" not in m for m in motions):
+            extras["animations"] = [m for m in motions if m is not None]
         self.materials.finish(self.values)
         self.pictures.finish(self.values)
         if extras:
             document.lists["scenes"][0]["extras"] = {KEY: extras}
-        self._root([n for n in numbers if n is not None])
+        self._root()
 
-    def _root(self, animations: list[int]) -> None:
+    def _root(self) -> None:
         """Write the roots of the scene, and what stands in the extras of the root."""
         document = self.document
         roots = [self.nodes[n] for n in self.scene.nodes if n.parent is None]
@@ -114,10 +116,12 @@ class _Writer:
         groups: list[set[int]] = []
         for skin in self.skins.all:
             tops = set()
-            for node in skin.joints:
-                while node.parent is not None:
+            for joint in skin.joints:
+                node = joint
+                while node is not None and node.parent is not None:
                     node = node.parent
-                tops.add(self.nodes[node])
+                if node is not None:
+                    tops.add(self.nodes[node])
             # A root may belong to several skins.
             for group in [g for g in groups if g & tops]:
                 tops |= group
@@ -145,17 +149,15 @@ class _Writer:
             self.document.extend(entry, _VISIBILITY, {"visible": False})
         if node.mesh is None:
             return
-        variants = getattr(node, "variants", {})
-        material = getattr(node, "own_material", None) or node.material
+        variants = node.variants
+        material = node.own_material
         assert material is not None
         pairs = tuple((name, variants[name]) for name in self.variants if name in variants)
         entry["mesh"] = self.meshes.index(Shown(node.mesh, material, pairs))
-        skin = getattr(node, "skin", None)
-        if skin is not None and getattr(node.mesh, "joints", None) is not None:
-            entry["skin"] = self.skins.index(skin)
-        weights = np.asarray(getattr(node, "weights", ()), np.float32)
-        if weights.any():
-            entry["weights"] = [float(str(w)) for w in weights]
+        if node.skin is not None and node.mesh.joints is not None:
+            entry["skin"] = self.skins.index(node.skin)
+        if np.any(node.weights):
+            entry["weights"] = numbers(np.asarray(node.weights))
 
     def _add_extras(self, node: Node, entry: Json, state: Any) -> None:
         """Write what glTF cannot say of a node."""
@@ -164,8 +166,11 @@ class _Writer:
         matrix = state[5]
         if matrix is not None and not parts_of(matrix)[3]:
             extras["matrix"] = self.values.array(matrix)
-        if node.mesh is None and node.material is not None:
-            extras["material"] = self.values.value(node.material)
+        if node.mesh is None:
+            if node.own_material is not None:
+                extras["material"] = self.values.value(node.own_material)
+            if node.variants:
+                extras["variants"] = self.values.value(node.variants)
         if extras:
             own = entry.setdefault("extras", {}).setdefault(KEY, {})
             own.update(extras)
@@ -184,9 +189,8 @@ class _Writer:
                     else self.values.value(thing)
                     for index, thing in zip(held, things, strict=True)
                 ]
-        variant = getattr(self.scene, "variant", None)
-        if variant is not None:
-            extras["variant"] = variant
+        if self.scene.variant is not None:
+            extras["variant"] = self.scene.variant
         return extras
 
     def _node_reference(self, node: Node) -> Json:

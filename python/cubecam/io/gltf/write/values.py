@@ -55,6 +55,10 @@ def same(a: Any, b: Any) -> bool:
     return type(a) is type(b) and bool(a == b)
 
 
+#: What stands for a node that is not in the scene.
+_NOWHERE = {"node": None}
+
+
 class Values:
     """Turns properties into JSON. `references` gives the JSON of nodes, materials, images and scenes."""
 
@@ -135,6 +139,10 @@ class Values:
         found = self.properties(thing, [n for n in names if not callable(getattr(thing, n))])
         if type(thing) is Camera:
             found["projection"] = self.value(thing.projection())
+        if found.get("parent") == _NOWHERE:
+            raise ValueError(
+                f"{plan.kind.__name__}: expected a parent that is a node of the scene, got one that is not"
+            )
         return {"class": plan.kind.__name__, **found}
 
     def _cube(self, cube: CubeMap) -> Json:
