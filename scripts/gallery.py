@@ -6,6 +6,7 @@ The head is data/suzanne.glb (CC0-1.0); everything else is made here.
 """
 
 import sys
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ WALLS = (
 )
 
 
-def wall(scene, name, color, position, size, turn):
+def wall(scene: cc.Scene, name: str, color: Any, position: Any, size: Any, turn: Any) -> cc.Node:
     """Add a rectangle whose normal points into the room."""
     material = cc.StandardMaterial(color=color, metallic=0, roughness=0.9)
     rotation = None if turn is None else cc.axis_angle(*turn)
@@ -35,7 +36,7 @@ def wall(scene, name, color, position, size, turn):
     )
 
 
-def tiles():
+def tiles() -> Any:
     """Make a floor of two kinds of stone with joints; uint8 (256, 256, 3), sRGB."""
     rows, columns = np.indices((256, 256))
     light = ((rows // 64 + columns // 64) % 2)[..., None]
@@ -44,7 +45,7 @@ def tiles():
     return np.where(joint, 60, stone).astype(np.uint8)
 
 
-def build():
+def build() -> cc.Scene:
     """Make the scene."""
     scene = cc.Scene()
     room = scene.add(name="room")

@@ -3,6 +3,7 @@
 import importlib.util
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,8 +67,10 @@ def test_the_scene_is_what_its_script_makes():
     for one, other in zip(read.nodes, made.nodes, strict=True):
         assert np.allclose(one.world_matrix, other.world_matrix, atol=1e-6)
     assert [animation.duration for animation in read.animations] == [8]
-    assert [camera.parent.name for camera in read.cameras] == ["view"]
-    assert [light.parent.name for light in read.lights] == ["bulb"]
+    cameras: Any = read.cameras
+    lights: Any = read.lights
+    assert [camera.parent.name for camera in cameras] == ["view"]
+    assert [light.parent.name for light in lights] == ["bulb"]
     assert cc.sample_data(SCENE).stat().st_size < 200_000
 
 

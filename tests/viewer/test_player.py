@@ -131,6 +131,7 @@ def test_a_free_camera_keeps_the_lens():
     node = cc.Scene().add(position=(1, 2, 3), scale=2)
     camera = cc.OrthographicCamera(height=3, near=1, far=9, parent=node)
     free = free_camera(camera, 4)
+    assert isinstance(free, cc.OrthographicCamera)
     assert (free.height, free.near, free.far) == (3, 1, 9)
     assert free.position == pytest.approx((1, 2, 3))
     assert free.target == pytest.approx((1, 2, -1))
