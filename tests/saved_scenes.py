@@ -145,8 +145,7 @@ def _textures(scene):
     )
     scene.add(cc.Mesh.box(), cc.BasicMaterial(color="red"))
     camera = cc.PerspectiveCamera(position=(0, 0, 5), target=(0, 0, 0), shift=(0, 0.5))
-    options = {"size": (8, 4), "effects": [effect, effect], "name": "tv"}
-    shown = cc.RenderTexture(scene, camera, **options)
+    shown = cc.RenderTexture(scene, camera, size=(8, 4), effects=[effect, effect], name="tv")
     matrices = cc.Camera(view=camera.view, projection=camera.projection(2))
     other = cc.RenderTexture(scene, matrices)
     for material in (

@@ -24,7 +24,7 @@ MESSAGE = (
 )
 CUBE = np.full((6, 4, 4, 3), 0.5, np.float32)
 PICTURE = np.full((4, 8, 3), 0.5, np.float32)
-TRIANGLE = {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "indices": [[0, 1, 2]]}
+TRIANGLE: dict[str, Any] = {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "indices": [[0, 1, 2]]}
 DIRECTIONS = {"incident": [0, -1, 0], "normal": [0, 1, 0]}
 DECLARED = "vec3 shade() { return vec3(1.0); }"
 EFFECT = "vec4 effect(vec2 uv) { return frame(uv); }"

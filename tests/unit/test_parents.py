@@ -214,6 +214,6 @@ def test_cameras_of_a_scene():
     scene.clear()
     assert not scene.cameras
     with pytest.raises(TypeError, match="a Light, a Camera, an Animation or None"):
-        scene.add("camera")  # type: ignore[call-overload]
+        scene.add("camera")
     with pytest.raises(TypeError, match="a Node, a Light, a Camera or an Animation"):
-        scene.remove("camera")  # type: ignore[arg-type]
+        scene.remove("camera")

@@ -1,6 +1,7 @@
 """Scene.save: what stands in the file, by the specifications of glTF 2.0 and its extensions."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -75,6 +76,11 @@ def scene_of(*materials, mesh=None):
     return scene
 
 
+def from_top(uvs):
+    """Texture coordinates with v from the top, as glTF has them."""
+    return uvs * np.array([1, -1]) + np.array([0, 1])
+
+
 def at(entry, path):
     """Find a value below an entry; a name that begins with KHR_ is an extension of it."""
     if path.startswith("KHR_"):
@@ -119,11 +125,12 @@ def test_arrays_of_a_mesh(tmp_path):
         "POSITION": mesh.positions,
         "NORMAL": mesh.normals,
         "TANGENT": mesh.tangents,
-        "TEXCOORD_0": mesh.uvs * (1, -1) + (0, 1),
-        "TEXCOORD_1": mesh.uvs1 * (1, -1) + (0, 1),
+        "TEXCOORD_0": from_top(mesh.uvs),
+        "TEXCOORD_1": from_top(mesh.uvs1),
         "COLOR_0": mesh.colors,
     }.items():
         got = document.accessor(keys.pop(key))
+        assert want is not None
         np.testing.assert_allclose(got, want, rtol=0, atol=0 if "TEX" not in key else 2**-24)
     assert not keys
     entry = document.tree.raw["accessors"][0]
@@ -332,7 +339,8 @@ def test_lights_get_nodes_that_point_along_minus_z(tmp_path):
     assert spot["spot"]["innerConeAngle"] == pytest.approx(math.radians(30))
     assert sun == {"type": "directional", "intensity": 0.5}
     assert raw["nodes"][0]["translation"] == [1, 2, 3]
-    for node, light in zip(raw["nodes"], scene.lights, strict=False):
+    lights: tuple[Any, ...] = scene.lights
+    for node, light in zip(raw["nodes"], lights, strict=False):
         np.testing.assert_allclose(turned(node, (0, 0, -1)), light.direction, atol=1e-12)
         assert node["extras"]["cubecam"]["carrier"]
     assert [n["extensions"]["KHR_lights_punctual"]["light"] for n in raw["nodes"]] == [0, 1]
@@ -499,7 +507,7 @@ def test_joints_without_a_common_root_get_one(tmp_path):
     assert raw["nodes"][3] == {"children": [0, 1], "extras": {"cubecam": {"carrier": True}}}
     attributes = raw["meshes"][0]["primitives"][0]["attributes"]
     # Weights have a sum of 1, no joint counts twice, and one without weight is 0 (section 3.7.3.3).
-    want = [[0.5, 0.5, 0, 0], [1, 0, 0, 0], [0.75, 0.25, 0, 0]]
+    want = np.array([[0.5, 0.5, 0, 0], [1, 0, 0, 0], [0.75, 0.25, 0, 0]])
     np.testing.assert_allclose(document.accessor(attributes["WEIGHTS_0"]), want, atol=1e-7)
     assert document.accessor(attributes["JOINTS_0"]).tolist() == [[1, 0, 0, 0]] * 3
     # The skeleton is a root of all joints, or is not named.

@@ -2,6 +2,7 @@
 
 import json
 import struct
+from typing import Any
 
 import numpy as np
 import pytest
@@ -67,7 +68,7 @@ def test_nodes_stand_where_the_file_says(tiles, tree):
 
 def test_16_materials_each_on_its_tile(tiles):
     scene = cc.load_scene(tiles)
-    materials = {node.name: node.material for node in scene.nodes if node.mesh is not None}
+    materials: dict[str, Any] = {node.name: node.material for node in scene.nodes if node.mesh is not None}
     assert [materials[name].name for name in NAMES] == list(NAMES)
     assert materials["behind glass"] is materials["base map"]
     assert materials["glass"].transmission == 1
@@ -80,8 +81,10 @@ def test_16_materials_each_on_its_tile(tiles):
 def test_a_camera_and_three_lights(tiles, tree):
     scene = cc.load_scene(tiles)
     wanted = world_matrices(tree)
-    np.testing.assert_allclose(scene.cameras[0].world_position, wanted["camera"][:3, 3], atol=2e-6)
-    sun, lamp, spot = scene.lights
+    camera: Any = scene.cameras[0]
+    np.testing.assert_allclose(camera.world_position, wanted["camera"][:3, 3], atol=2e-6)
+    lights: Any = scene.lights
+    sun, lamp, spot = lights
     forwards = {name: -wanted[name][:3, 2] for name in ("sun", "spot")}
     np.testing.assert_allclose(sun.world_direction, forwards["sun"], atol=2e-6)
     np.testing.assert_allclose(spot.world_direction, forwards["spot"], atol=2e-6)
@@ -102,7 +105,8 @@ def test_pictures_of_several_exposures_are_one():
             255 * np.where(share <= 0.0031308, low, 1.055 * share ** (1 / 2.4) - 0.055)
         ).astype(np.uint8)
 
-    shots = [(s, bytes_of(light / (1.2 * 2**s) + emitted)) for s in (-2, 0, 3, 6)]
+    stops = (-2.0, 0.0, 3.0, 6.0)
+    shots = [(s, bytes_of(light / (1.2 * 2**s) + emitted)) for s in stops]
     made = put_together(shots, bytes_of(emitted))
     np.testing.assert_allclose(screen(made), screen(light + emitted), atol=0.004)
 
