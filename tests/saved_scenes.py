@@ -64,6 +64,8 @@ def _meshes(scene):
             scene.add(shape, material)
     scene.add(mesh(), cc.StandardMaterial(map=cc.Texture(image(), uv_set=1)))
     scene.add(mesh(uvs1=RNG.random((5, 2))), cc.StandardMaterial())
+    for _ in range(2):  # equal meshes, which may change one by one
+        scene.add(cc.Mesh.box(), cc.StandardMaterial())
 
 
 def _standard(scene):
@@ -246,6 +248,9 @@ def _skins(scene):
     scene.add(shape, cc.StandardMaterial(), skin=skin)
     scene.add(shape, cc.StandardMaterial(), skin=skin)
     scene.add(skinned(4, 2), cc.StandardMaterial(), skin=cc.Skin([knee, hip]))
+    rough = skinned(50)
+    rough.update(joints=rough.joints, joint_weights=rough.joint_weights * (1 + 1e-6))
+    scene.add(rough, cc.StandardMaterial(), skin=skin)
 
 
 def _morphs(scene):

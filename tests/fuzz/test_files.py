@@ -24,7 +24,7 @@ def test_the_unbroken_files_are_read(kind, tmp_path):
         if kind == "mtl":
             shape = tmp_path / "shape.obj"
             shape.write_bytes(files.OBJ_OF_MTL % path.name.encode())
-            assert [node.material.name for node in cc.load_scene(shape) if node.mesh] == [
+            assert [node.material.name for node in cc.load_scene(shape) if node.material] == [
                 "a",
                 "b c",
             ]

@@ -1,5 +1,7 @@
 """A sheet with joints and morph targets, and the same sheet as numpy bends it."""
 
+from typing import Any
+
 import numpy as np
 
 import cubecam as cc
@@ -42,7 +44,7 @@ class Bent:
         along = deformation.unit(np.cross((0, 1, 0), given))
         self.positions = np.float32(positions)
         self.normals = np.float32(given) if normals else None
-        self.tangents = (
+        self.tangents: Any = (
             np.c_[np.float32(along), np.full(count, rng.choice([-1, 1]))] if normals else None
         )
         self.colors = np.float32(rng.uniform(0.2, 0.8, (count, 4)))
@@ -55,7 +57,7 @@ class Bent:
                 normals=rng.uniform(-0.2, 0.2, (count, 3)) if normals else None,
                 tangents=rng.uniform(-0.2, 0.2, (count, 3)) if normals else None,
                 uvs=rng.uniform(-0.1, 0.1, (count, 2)) if index else None,
-                colors=rng.uniform(-0.3, 0.3, (count, 3)) if index else None,
+                colors=rng.uniform(-1.5, 1.5, (count, 3)) if index else None,
                 name=f"target {index}",
             )
             for index in range(targets)
@@ -76,7 +78,7 @@ class Bent:
         )
         self.scene = cc.Scene(background=(0, 0, 0))
         self.root = self.scene.add(position=place)
-        self.nodes = []
+        self.nodes: list[cc.Node] = []
         for _ in range(joints):
             above = self.nodes[-1] if self.nodes and rng.random() < 0.3 else self.root
             self.nodes.append(self.scene.add(parent=above))

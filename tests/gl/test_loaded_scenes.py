@@ -1,6 +1,7 @@
 """Pictures of scenes that load_scene read: places of textures, cameras, lights, variants, motion, skins."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,10 +9,10 @@ import pytest
 import cubecam as cc
 from tests.compare import assert_close
 from tests.gl.flat import flat_camera
-from tests.scene_files import SceneFile, noise
+from tests.scene_files import SceneFile, f32, noise, u8
 
 NEAREST = {"minFilter": 9728, "magFilter": 9728}
-UNLIT = {"extensions": {"KHR_materials_unlit": {}}}
+UNLIT: dict[str, Any] = {"extensions": {"KHR_materials_unlit": {}}}
 
 
 @pytest.fixture
@@ -163,14 +164,14 @@ def test_variants_show(renderer, load):
 
 def test_an_animation_moves_a_skinned_square(renderer, load):
     file = SceneFile()
-    joints, weights = np.zeros((4, 4), np.uint8), np.float32([[1, 0, 0, 0]] * 4)
+    joints, weights = np.zeros((4, 4), np.uint8), f32([[1, 0, 0, 0]] * 4)
     square = file.square(colored((1, 1, 1)), JOINTS_0=joints, WEIGHTS_0=weights)
     file.node(mesh=file.mesh(square), skin=0)
     bone = file.node(scale=[0.5, 0.5, 1])
     file.add("skins", {"joints": [bone]})
     sampler = {
-        "input": file.accessor(np.float32([0, 1])),
-        "output": file.accessor(np.float32([[0, 0, 0], [0.5, 0.5, 0]])),
+        "input": file.accessor(f32([0, 1])),
+        "output": file.accessor(f32([[0, 0, 0], [0.5, 0.5, 0]])),
     }
     channel = {"sampler": 0, "target": {"node": bone, "path": "translation"}}
     file.add("animations", {"channels": [channel], "samplers": [sampler]})
@@ -186,7 +187,7 @@ def test_an_animation_moves_a_skinned_square(renderer, load):
 def test_a_morph_target_bends_a_square(renderer, load):
     file = SceneFile()
     square = file.square(colored((1, 1, 1)))
-    square["targets"] = [{"POSITION": file.accessor(np.float32([[0.5, 0, 0]] * 4))}]
+    square["targets"] = [{"POSITION": file.accessor(f32([[0.5, 0, 0]] * 4))}]
     file.node(mesh=file.mesh(square, weights=[1]))
     got = look(renderer, load(file))[..., 0]
     np.testing.assert_array_equal(got, np.tile(np.arange(24) >= 12, (24, 1)))
@@ -194,8 +195,8 @@ def test_a_morph_target_bends_a_square(renderer, load):
 
 def test_a_surface_without_normals_is_flat(renderer, load):
     # A roof: without normals each side has its own, with shared vertices or not.
-    roof = np.float32([[-1, -1, 0], [0, -1, 1], [1, -1, 0], [-1, 1, 0], [0, 1, 1], [1, 1, 0]])
-    indices = np.uint8([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4])
+    roof = f32([[-1, -1, 0], [0, -1, 1], [1, -1, 0], [-1, 1, 0], [0, 1, 1], [1, 1, 0]])
+    indices = u8([0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4])
     file = SceneFile()
     file.node(mesh=file.mesh(file.primitive(roof, indices)))
     camera = cc.OrthographicCamera(height=2, position=(0, 0, 5))

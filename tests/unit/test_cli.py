@@ -55,7 +55,9 @@ def test_the_command_is_installed(start):
     assert cc.__version__ in done.stdout
 
 
-@pytest.mark.parametrize("command", ["info", "demo", "convert", "capture", "example", "view"])
+@pytest.mark.parametrize(
+    "command", ["info", "demo", "render", "bake", "convert", "capture", "example", "view"]
+)
 def test_every_command_has_help(command):
     result = cubecam(command, "--help")
     assert result.exit_code == 0
@@ -67,7 +69,7 @@ def test_every_command_has_help(command):
 TYPE_NAMES = (
     r"\b(TEXT|INTEGER|FLOAT|RANGE|BOOLEAN|PATH|FILENAME|CHOICE)\b|x>=|<(str|int|float|bool)|\["
 )
-COMMANDS = ["info", "demo", "convert", "capture", "example", "view"]
+COMMANDS = ["info", "demo", "render", "bake", "convert", "capture", "example", "view"]
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -83,6 +85,8 @@ def test_help_says_what_to_write_and_not_types(command):
         "--window",
         "--terminal",
         "--no-browser",
+        "--no-preview",
+        "--ground",
     }
     for line in text.splitlines():
         found = re.match(r"^  (?:-\w, )?(--[\w-]+)(.*)", line)

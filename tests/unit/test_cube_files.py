@@ -65,7 +65,7 @@ def test_filtered_levels_get_the_sizes_of_the_file(suffix, tmp_path):
     assert [level.shape[1] for level in again.levels] == [64, 32, 16, 8]
     want = cc.CubeMap(cube.levels[3]).resize(8).faces
     np.testing.assert_array_equal(again.levels[3], want)
-    with pytest.raises(ValueError, match="expected at most 7 levels in a file of 64 texels an edge, got 8"):  # fmt: skip
+    with pytest.raises(ValueError, match="expected at most 7 levels in a file of 64 texels"):
         sky_cube(64).prefilter(levels=8).save(tmp_path / f"a{suffix}")
 
 
@@ -196,17 +196,17 @@ def test_save_for_of_other_kinds(tmp_path):
     light = cc.load_image(tmp_path / "godot" / "environment.exr")
     np.testing.assert_allclose(light, 0.503, atol=2e-3)
     with pytest.raises(ValueError, match="engine: expected one of three, babylon"):
-        grey.save_for("unreal", tmp_path)
+        grey.save_for("unreal", tmp_path)  # type: ignore[arg-type]
 
 
 def test_options_that_do_not_go_together(tmp_path):
     cube = levels_cube()
     with pytest.raises(ValueError, match=r'compression: expected with "\.ktx2" only'):
         cube.save(tmp_path / "a.dds", compression="zlib")
-    with pytest.raises(ValueError, match="expected none of them for .ktx2 files"):
+    with pytest.raises(ValueError, match="expected none of them for"):
         cube.save(tmp_path / "a.ktx2", layout="cross")
+    cube.save(tmp_path / "a.ktx2")
     with pytest.raises(ValueError, match="layout: expected None for a cubemap that holds faces"):
-        cube.save(tmp_path / "a.ktx2")
         cc.load_cubemap(tmp_path / "a.ktx2", layout="cross")
 
 
@@ -217,7 +217,7 @@ def test_from_levels():
     with pytest.raises(ValueError, match=r"levels\[1\]: expected 3 channels of float32, got 4"):
         cc.CubeMap.from_levels([cube, cc.CubeMap(np.ones((6, 2, 2, 4), np.float32))])
     with pytest.raises(TypeError, match=r"levels\[1\]: expected a CubeMap"):
-        cc.CubeMap.from_levels([cube, 3])
+        cc.CubeMap.from_levels([cube, 3])  # type: ignore[list-item]
     filtered = sky_cube(16).prefilter(levels=3)
     again = cc.CubeMap.from_levels([cc.CubeMap(level) for level in filtered.levels])
     assert again == filtered

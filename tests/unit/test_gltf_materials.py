@@ -7,7 +7,7 @@ import pytest
 
 import cubecam as cc
 from tests.gltf_files import CORNERS
-from tests.scene_files import SQUARE_UVS, SceneFile, noise, picture
+from tests.scene_files import SQUARE_UVS, SceneFile, material_of, noise, picture
 
 
 @pytest.fixture
@@ -380,8 +380,8 @@ def test_files_beside_the_model(tmp_path):
     entry = {"emissiveTexture": {"index": file.add("textures", {"source": image})}}
     file.node(mesh=file.mesh(file.square(entry)))
     (tmp_path / "a.gltf").write_bytes(file.gltf())
-    node = cc.load_scene(tmp_path / "a.gltf").nodes[0]
-    np.testing.assert_array_equal(node.material.emissive_map.pixels, pixels)
+    made = material_of(cc.load_scene(tmp_path / "a.gltf"))
+    np.testing.assert_array_equal(made.emissive_map.pixels, pixels)
 
 
 @pytest.mark.parametrize(
@@ -403,10 +403,10 @@ def test_a_picture_that_cannot_be_read_is_left_out(tmp_path, uri, text):
     file.node(mesh=file.mesh(file.square(entry)))
     (tmp_path / "model" / "a.gltf").write_bytes(file.gltf())
     with pytest.warns(cc.SceneWarning, match=text) as seen:
-        node = cc.load_scene(tmp_path / "model" / "a.gltf").nodes[0]
+        made = material_of(cc.load_scene(tmp_path / "model" / "a.gltf"))
     assert len(seen) == 1
     assert "textures[0]" in str(seen[0].message)
-    assert node.material.emissive_map is None
+    assert made.emissive_map is None
 
 
 def test_a_required_picture_that_cannot_be_read_is_refused(load):

@@ -7,7 +7,7 @@ import pytest
 
 import cubecam as cc
 from tests.gltf_files import CORNERS, SQUARE, GltfFile
-from tests.scene_files import SceneFile, noise, picture
+from tests.scene_files import SceneFile, f32, noise, picture
 
 
 @pytest.fixture
@@ -75,7 +75,7 @@ def test_instances_are_nodes_below(load):
     assert tree.mesh is None
     assert [leaf.name for leaf in leaves] == ["leaf.0", "leaf.1"]
     got = [leaf.world_matrix[:3, 3] for leaf in leaves]
-    np.testing.assert_allclose(got, places + np.float32([0, 0, 1]))
+    np.testing.assert_allclose(got, places + f32([0, 0, 1]))
     np.testing.assert_allclose([leaf.scale for leaf in leaves], 3)
     assert leaves[0].mesh is leaves[1].mesh
 
@@ -253,7 +253,7 @@ def test_variants(load):
 def moving(path, times, values, interpolation=None, **node):
     file = GltfFile()
     number = file.node(**node)
-    sampler = {"input": file.accessor(np.float32(times)), "output": values(file)}
+    sampler = {"input": file.accessor(f32(times)), "output": values(file)}
     if interpolation:
         sampler["interpolation"] = interpolation
     channel = {"sampler": 0, "target": {"node": number, "path": path}}
@@ -330,8 +330,8 @@ def test_weights_of_a_node_come_first(load):
 
 def test_weights_move(load):
     file = morphed()
-    values = file.accessor(np.float32([0, 1, 1, 0]))
-    sampler = {"input": file.accessor(np.float32([0, 1])), "output": values}
+    values = file.accessor(f32([0, 1, 1, 0]))
+    sampler = {"input": file.accessor(f32([0, 1])), "output": values}
     channel = {"sampler": 0, "target": {"node": 0, "path": "weights"}}
     file.add("animations", {"channels": [channel], "samplers": [sampler]})
     node = load(file).set_time(0.25).nodes[0]
@@ -339,7 +339,7 @@ def test_weights_move(load):
 
 
 def test_channels_that_cubecam_does_not_know(load):
-    file = moving("pointer", [0], lambda f: f.accessor(np.float32([1])))
+    file = moving("pointer", [0], lambda f: f.accessor(f32([1])))
     with pytest.warns(cc.SceneWarning, match="KHR_animation_pointer"):
         assert load(file).animations == ()
 
@@ -403,7 +403,7 @@ def test_a_skin_of_two_sets(load):
 
 def test_joints_outside_of_the_scene_are_read(load):
     file = GltfFile()
-    joints, weights = np.zeros((3, 4), np.uint8), np.float32([[1, 0, 0, 0]] * 3)
+    joints, weights = np.zeros((3, 4), np.uint8), f32([[1, 0, 0, 0]] * 3)
     file.node(mesh=file.mesh(file.primitive(JOINTS_0=joints, WEIGHTS_0=weights)), skin=0)
     bone = file.node(root=False, name="bone")
     file.node(root=False, name="above", children=[bone])
@@ -504,12 +504,15 @@ def test_pictures_are_counted(load, monkeypatch):
 
 def test_pictures_are_decoded_once(load, monkeypatch):
     from cubecam.io import model_pictures
+    from cubecam.io.picture_files import decode_picture
 
     decoded = []
-    read = model_pictures.decode_picture
-    monkeypatch.setattr(
-        model_pictures, "decode_picture", lambda data: decoded.append(len(data)) or read(data)
-    )
+
+    def counted(data):
+        decoded.append(len(data))
+        return decode_picture(data)
+
+    monkeypatch.setattr(model_pictures, "decode_picture", counted)
     file = SceneFile()
     data = picture(noise(4, 4))
     source = file.image(data)
@@ -552,4 +555,5 @@ def test_a_ply_is_one_node(tmp_path):
     (node,) = cc.load_scene(tmp_path / "leaf.ply").nodes
     assert node.name == "leaf"
     assert isinstance(node.material, cc.StandardMaterial)
+    assert node.mesh is not None
     np.testing.assert_array_equal(node.mesh.colors, [[1, 0, 0, 1]] * 3)

@@ -1,4 +1,4 @@
-"""KTX2 files: what is written by the specification (KTX 2.0 revision 4), read by struct alone; what is read by value."""
+"""KTX2 files by the specification (KTX 2.0, revision 4): written ones by struct alone, read ones by value."""
 
 import builtins
 import struct
@@ -176,11 +176,11 @@ TEXELS = bytes(4 * 4 * 4)
         (made(37, (4, 4), TEXELS, scheme=7), "the supercompression 7"),
         (made(37, (4, 4), TEXELS, scheme=1), "expected Zstandard or zlib for R8G8B8A8_UNORM, got BasisLZ"),
         (made(37, (4, 4), TEXELS, scheme=3, unpacked=64), "expected a level packed by zlib"),
-        (made(37, (4, 4), zlib.compress(bytes(63)), scheme=3, unpacked=64), "expected 64 bytes in a level packed by zlib, got 63"),
+        (made(37, (4, 4), zlib.compress(bytes(63)), scheme=3, unpacked=64), "in a level packed by zlib, got 63"),
         (made(37, (4, 4), zlib.compress(bytes(65)), scheme=3, unpacked=64), "packed by zlib, got more"),
         (made(37, (4, 4), TEXELS, scheme=2, unpacked=64), "expected a level packed by Zstandard"),
         (made(37, (4, 4), zlib.compress(TEXELS), scheme=3, unpacked=65), "expected uncompressedByteLength 64"),
-        (made(37, (60000, 60000), zlib.compress(TEXELS), scheme=3, unpacked=60000**2 * 4), "expected at most .* bytes of numbers"),
+        (made(37, (60000, 60000), zlib.compress(TEXELS), scheme=3, unpacked=60000**2 * 4), "expected at most"),
         (made(157, (4, 4), TEXELS), "VkFormat 157, ASTC"),
         (made(147, (4, 4), TEXELS), "VkFormat 147, ETC2 or EAC"),
         (made(141, (4, 4), TEXELS), "BC5, two channels"),

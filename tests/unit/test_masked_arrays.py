@@ -117,7 +117,11 @@ OBJECTS: dict[str, Any] = {
 
 #: What a call needs besides the argument under test, beyond the arguments listed here under their names.
 NEEDED: dict[str, Any] = {
-    "Mesh": lambda: TRIANGLE,
+    "Mesh": lambda: {
+        **TRIANGLE,
+        "joints": VALUES["joints"],
+        "joint_weights": VALUES["joint_weights"],
+    },
     "Camera": lambda: {"view": np.eye(4), "projection": np.eye(4)},
     "Scene.add": lambda: {"mesh": morphing_mesh()},
     "Skin": lambda: {"joints": [cc.Scene().add()]},

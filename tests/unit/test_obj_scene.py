@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.scene_files import noise, picture
+from tests.scene_files import material_of, noise, picture
 
 SHAPE = """mtllib look.mtl
 v 0 0 0
@@ -157,7 +157,7 @@ def test_what_is_left_out(load, mtl, text):
 def test_a_missing_library(tmp_path):
     (tmp_path / "a.obj").write_text("mtllib b.mtl c.mtl\nusemtl m\n" + SHAPE[16:] + FACE)
     with pytest.warns(cc.SceneWarning, match="a library of materials is left out"):
-        made = cc.load_scene(tmp_path / "a.obj").nodes[0].material
+        made = material_of(cc.load_scene(tmp_path / "a.obj"))
     assert made.name == "m"
 
 

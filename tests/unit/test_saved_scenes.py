@@ -209,6 +209,25 @@ def test_extras_that_cubecam_did_not_write_are_refused_by_place(case, tmp_path):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("other", [(2, 3), (4, 4), (16, 3)])
+def test_levels_fit_their_cubemap(other, tmp_path):
+    """Faces of another size or with other channels than those of the levels, which the core takes as they are."""
+    size, channels = other
+    scene = cc.Scene(background=cc.CubeMap(np.zeros((6, size, size, channels), np.float16)))
+    scene.environment = cc.CubeMap(np.zeros((6, 4, 4, 3), np.float16)).prefilter(levels=2)
+
+    def change(tree):
+        background, environment = sorted(objects(tree), key=lambda o: "levels" in o)
+        environment["faces"] = background["faces"]
+
+    path = edited(tmp_path, scene, change)
+    if size > 4 and channels == 3:
+        assert cc.load_scene(path).environment.size == size  # levels may be smaller
+    else:
+        with pytest.raises(cc.MeshError, match="levels: expected pairs"):
+            cc.load_scene(path)
+
+
 def test_extras_of_a_later_format_are_left_out_with_one_warning(tmp_path):
     path = edited(tmp_path, simple(), lambda t: t["extras"]["cubecam"].update(format=2))
     with pytest.warns(cc.SceneWarning, match="format 2") as told:

@@ -168,7 +168,7 @@ def alpha_of(ground):
 
 
 def test_the_ground_loses_the_light_that_a_box_hides(renderer):
-    """One light at 45 degrees: the shadow of a box of height 2 is 2 long, and black."""
+    """One light at 45 degrees: the shadow of a box of height 2 is 2 long, and black; it lies where the box stands."""
     scene = cc.Scene()
     box = scene.add(cc.Mesh.box(2), position=(0, 5, 0))
     ground = Ground(scene, [box], np.array([[1, 1, 0]]) / np.sqrt(2), texels=256)
@@ -182,6 +182,21 @@ def test_the_ground_loses_the_light_that_a_box_hides(renderer):
     assert (lost[inside] > 0.99).all()
     assert (lost[outside] < 0.01).all()
     assert ground.node.visible
+
+
+def test_a_shadow_is_not_mirrored(renderer):
+    """A high box at +Z and a low one at -Z, light from +X: the shadow at +Z is the longer one."""
+    scene = cc.Scene()
+    boxes = [
+        scene.add(cc.Mesh.box((1, height, 1)), position=(0, height / 2, z))
+        for height, z in ((3, 2), (0.5, -2))
+    ]
+    ground = Ground(scene, boxes, np.array([[1, 1, 0]]) / np.sqrt(2), texels=256)
+    ground.update(renderer)
+    dark = alpha_of(ground) > 0.5
+    rows = [int((1 - 2 * (0.5 - z / ground.side)) * 128 + 128) for z in (2, -2)]
+    lengths = [dark[row].sum() * ground.side / 256 for row in rows]
+    assert lengths == pytest.approx([4, 1.5], abs=0.2)
 
 
 def test_the_ground_fades_and_does_not_hide_from_below(renderer):

@@ -86,7 +86,7 @@ def bake(
 ) -> None:
     """Filter light by roughness and write it for another program, with a README on how to load it.
 
-    Examples: cubecam bake studio --for babylon -o light; cubecam bake room.glb --at Lamp --for three -o public/light
+    Examples: cubecam bake studio --for babylon; cubecam bake room.glb --at Lamp -o light
     """
     is_scene = Path(source).suffix.lower() in _SCENES
     if not is_scene:

@@ -65,8 +65,8 @@ def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
     sunset.exr     a quay at the sea in the evening, the sun on the horizon        6,248
     =============  ==============================================================  ==================
 
-    The meshes in this table have no texture coordinates; `load_mesh` computes smooth normals where a file has none.
-    Sizes are those along x, y and z in the file's own units.
+    The meshes below have no texture coordinates; `load_mesh` computes smooth normals where a file has none. Sizes are
+    those along x, y and z in the file's own units.
 
     ===========  ======================  ========  =========  ==================
     mesh         shows                   vertices  triangles  size
@@ -76,8 +76,8 @@ def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
     teapot.obj   Utah teapot             792       992        32.1, 15.8, 20.0
     ===========  ======================  ========  =========  ==================
 
-    gallery.glb is a scene for `load_scene`: a room with a lamp, a mirror ball, a golden head that an animation turns,
-    and a camera.
+    gallery.glb is a scene for `load_scene`: a room with a lamp, a mirror ball, a camera, and a golden head that an
+    animation turns.
 
     Examples
     --------

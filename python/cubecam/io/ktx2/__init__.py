@@ -1,6 +1,6 @@
 """KTX 2.0 files (Khronos, "KTX File Format Specification", version 2.0, revision 4): cubemaps and pictures with levels.
 
-`read` and `write` are all that other modules need. `formats` says how texels lie in memory, `header` reads and checks
+`read` and `write` are all that other modules need. `texels` says how texels lie in memory, `header` reads and checks
 all that comes before the texels, `packing` holds the two general compressions, `basis` what Basis Universal decodes,
 and `blocks` the textures of GPUs that OpenImageIO decodes.
 """

@@ -12,7 +12,7 @@ from ..picture_kinds import DDS
 
 if TYPE_CHECKING:
     from ..pixels import Array
-    from .formats import Format
+    from .texels import Format
 
 
 def decode(form: Format, data: memoryview, width: int, height: int, count: int) -> Array:

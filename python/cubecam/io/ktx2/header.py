@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..._core import ImageError
 from . import packing
-from .formats import FORMATS, Format, format_name
+from .texels import FORMATS, Format, format_name
 
 MAGIC = b"\xabKTX 20\xbb\r\n\x1a\n"
 HEADER = struct.Struct("<12s9I4I2Q")

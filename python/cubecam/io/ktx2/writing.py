@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from . import packing
-from .formats import descriptor, number_of
 from .header import HEADER, LEVEL, MAGIC
+from .texels import descriptor, number_of
 
 if TYPE_CHECKING:
     from ...typing import Encoding

@@ -68,8 +68,18 @@ class Document:
             self._views[key] = self.add("bufferViews", entry)
         return self._views[key]
 
-    def accessor(self, array: Array, *, target: int | None = None, bounds: bool = False) -> int:
-        """Store an array, (N,) for scalars, (N, n) for vectors, (N, 4, 4) for matrices that act on column vectors."""
+    def accessor(
+        self,
+        array: Array,
+        *,
+        target: int | None = None,
+        bounds: bool = False,
+        owner: int | None = None,
+    ) -> int:
+        """Store an array, (N,) for scalars, (N, n) for vectors, (N, 4, 4) for matrices that act on column vectors.
+
+        Equal arrays of one `owner` share an accessor.
+        """
         if array.ndim == 3:
             kind = "MAT4"
             array = array.transpose(0, 2, 1)  # columns stand one after another
@@ -78,7 +88,7 @@ class Document:
         array = np.ascontiguousarray(array)
         stride = array.strides[0] if target == VERTICES else None
         view = self.view(array.tobytes(), target, stride)
-        key = (view, kind, array.dtype.name, bounds)
+        key = (view, kind, array.dtype.name, bounds, owner)
         if key not in self._accessors:
             entry: Json = {
                 "bufferView": view,

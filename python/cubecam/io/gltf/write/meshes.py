@@ -24,8 +24,10 @@ _DIFFERENCES = {
     "TEXCOORD_1": "uvs1",
     "COLOR_0": "colors",
 }
-#: How far the length of a normal may be from 1, and the sum of weights of joints.
+#: How far the length of a normal may be from 1.
 _UNIT = 1e-4
+#: How far the sum of the weights of joints may be from 1, for each weight above 0 (section 3.7.3.3).
+_WEIGHT = 2e-7
 
 
 @dataclass(frozen=True)
@@ -138,7 +140,8 @@ class Meshes:
                 exact["colors"] = self._values.array(mesh.colors)
         found |= self._bones(mesh, exact)
         add = self._document.accessor
-        attributes = {"POSITION": add(positions, target=VERTICES, bounds=True)}
+        # Readers take primitives of the same accessors for one mesh, which two equal meshes are not.
+        attributes = {"POSITION": add(positions, target=VERTICES, bounds=True, owner=id(mesh))}
         for key, array in found.items():
             attributes[key] = add(array, target=VERTICES)
         return attributes, exact
@@ -218,10 +221,14 @@ def _influences(joints: Array, weights: Array) -> tuple[Array, Array]:
             weights[twice, earlier] += weights[twice, column]
             weights[twice, column] = 0
     sums = weights.sum(axis=1, dtype=np.float64)
-    off = np.abs(sums - 1) > _UNIT
+    off = np.abs(sums - 1) > _WEIGHT * (weights > 0).sum(axis=1)
     lost = sums <= 0
     weights[off] /= np.where(lost, 1, sums)[off, None]
     weights[lost, 0] = 1
+    # The rest of rounding goes to the largest weight.
+    rows = np.flatnonzero(off)
+    rest = 1 - weights[rows].sum(axis=1, dtype=np.float64)
+    weights[rows, weights[rows].argmax(axis=1)] += rest
     return np.where(weights > 0, joints, 0), weights
 
 
