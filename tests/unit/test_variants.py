@@ -3,7 +3,6 @@
 import copy
 import gc
 import pickle
-import weakref
 
 import pytest
 
@@ -142,12 +141,12 @@ def test_circles_by_way_of_variants_are_freed():
         node.variants = {"on": cc.BasicMaterial(map=None if hidden else texture)}
         if hidden:
             scene.variant = "on"
-        dead.append(weakref.ref(scene))
+        dead.append(cc.PointLight(parent=node))  # knows whether the core still has the node
         del scene, texture, node
     for _ in range(64):  # makes the collector run
         cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), size=(2, 2))
     gc.collect()
-    assert [ref() for ref in dead] == [None, None]
+    assert [light.parent for light in dead] == [None, None]
 
 
 def test_names_of_materials():

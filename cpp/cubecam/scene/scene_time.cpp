@@ -59,7 +59,8 @@ void Scene::set_time(double seconds, const Animation& animation) {
     for (const auto& [id, target] : targets) {
         const auto& [node, channels] = target;
         if (node->graph() != graph_) continue;  // removed since
-        Change& change = changes.emplace_back(node.get(), node->value_.placing, std::nullopt);
+        changes.push_back({node.get(), node->value_.placing, std::nullopt});
+        Change& change = changes.back();
         std::optional<Transform> transform;
         for (const Keys* keys : channels) {
             if (keys->path == AnimationPath::weights) {

@@ -549,7 +549,8 @@ SceneSnapshot Scene::snapshot_alone(SharedReads& shared, std::uint64_t* changes)
         elsewhere = builder.take_elsewhere();
         snapshot.lights.reserve(lights_.size());
         for (const auto& light : lights_) {
-            LightSnapshot& added = snapshot.lights.emplace_back(light, shared.value_of(*light));
+            snapshot.lights.push_back({light, shared.value_of(*light)});
+            LightSnapshot& added = snapshot.lights.back();
             added.own = added.value.parameters;
             auto parent = added.value.parent.lock();
             if (parent && contains(*parent)) {
