@@ -70,6 +70,8 @@ VALUES: dict[str, Any] = {
     "joints": [[0, 1, 0, 0]] * 3,
     "joint_weights": [[0.5, 0.5, 0.0, 0.0]] * 3,
     "weights": [0.5],
+    "times": [0.0, 1.0, 2.0],
+    "values": [[1.0, 2.0, 3.0]] * 3,
     "inverse_bind_matrices": np.eye(4)[None],
     "image": PICTURE,
     "map": PICTURE,
@@ -125,6 +127,12 @@ NEEDED: dict[str, Any] = {
     "Camera": lambda: {"view": np.eye(4), "projection": np.eye(4)},
     "Scene.add": lambda: {"mesh": morphing_mesh()},
     "Skin": lambda: {"joints": [cc.Scene().add()]},
+    "AnimationChannel": lambda: {
+        "node": cc.Scene().add(),
+        "path": "translation",
+        "times": VALUES["times"],
+        "values": VALUES["values"],
+    },
     "ShaderMaterial": lambda: {"fragment": DECLARED},
     "ImageEffect": lambda: {"fragment": EFFECT},
     "Texture": lambda: {"source": PICTURE},
@@ -162,6 +170,8 @@ def of_the_stub():
         for owner, function in members:
             setter = any(ast.unparse(d).endswith(".setter") for d in function.decorator_list)
             made = function.name == "__init__"
+            if function.name.startswith("_") and not made:
+                continue  # called by cubecam alone
             name = owner if made else f"{owner}.{function.name}".lstrip(".")
             for argument in (*function.args.args, *function.args.kwonlyargs):
                 kind = "" if argument.annotation is None else ast.unparse(argument.annotation)

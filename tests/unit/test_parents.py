@@ -208,7 +208,7 @@ def test_cameras_of_a_scene():
     with pytest.raises(ValueError, match="a camera that is not in the scene, got one that is"):
         scene.add(first)
     scene.remove(first)
-    assert scene.cameras == (second,)
+    assert list(scene.cameras) == [second]
     with pytest.raises(ValueError, match="a camera of this scene"):
         scene.remove(first)
     scene.clear()

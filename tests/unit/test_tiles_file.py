@@ -68,7 +68,9 @@ def test_nodes_stand_where_the_file_says(tiles, tree):
 
 def test_16_materials_each_on_its_tile(tiles):
     scene = cc.load_scene(tiles)
-    materials: dict[str, Any] = {node.name: node.material for node in scene.nodes if node.mesh is not None}
+    materials: dict[str, Any] = {
+        node.name: node.material for node in scene.nodes if node.mesh is not None
+    }
     assert [materials[name].name for name in NAMES] == list(NAMES)
     assert materials["behind glass"] is materials["base map"]
     assert materials["glass"].transmission == 1
