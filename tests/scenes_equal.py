@@ -5,7 +5,7 @@ Two objects correspond if they stand in the same place; each object corresponds 
 """
 
 import enum
-from collections.abc import Hashable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -134,8 +134,8 @@ class Walk:
                 self.value(a, b, f"{where}[{part}]")
             assert len(state_of(got)) == len(state_of(want)), f"{where}: levels"
         elif kind in materials():
-            made: Hashable = type(want)
-            self.properties(got, want, (*material_names(made), "name"), where)
+            names = material_names(type(want))  # type: ignore[arg-type]
+            self.properties(got, want, (*names, "name"), where)
         elif kind in OTHERS:
             self.properties(got, want, OTHERS[kind], where)
         elif type(want) is cc.Camera:
