@@ -2298,4 +2298,18 @@ MUTATIONS = [
         "one.set(today() if value else None)",
         ("tests/viewer/test_player.py",),
     ),
+    Mutation(
+        "blending: fronts are drawn before backs",
+        SURFACE,
+        "gl_->CullFace(GL_FRONT);",
+        "gl_->CullFace(GL_BACK);",
+        ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "blending: nodes with backs share a call",
+        "surface_calls.cpp",
+        "if (a.node->backs_first()) return false;",
+        "",
+        ("tests/gl/test_blending.py",),
+    ),
 ]

@@ -56,6 +56,51 @@ def test_the_four_sources_of_alpha_count_alike(renderer, mode):
     assert_close(got, np.broadcast_to(want, got.shape), "blend")
 
 
+def walls(turned):
+    """Two walls across the line of sight: the farther one shows its back. `turned`: the nearer one is drawn first."""
+    corners = np.array([[-9, -9], [9, -9], [9, 9], [-9, 9]], float)
+    positions, triangles, colors = [], [], []
+    for number, (z, front) in enumerate(((-4, False), (-2, True))):
+        positions += [(x, y, z) for x, y in corners]
+        order = [[0, 1, 2], [0, 2, 3]] if front else [[0, 2, 1], [0, 3, 2]]
+        triangles += [[4 * number + i for i in triangle] for triangle in order]
+        colors += [WALLS[number]] * 4
+    if turned:
+        triangles.reverse()
+    return cc.Mesh(positions, triangles, colors=colors)
+
+
+WALLS = ((0.9, 0.2, 0.1, 0.5), (0.1, 0.7, 0.3, 0.25))
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("kind", [cc.BasicMaterial, cc.StandardMaterial])
+def test_backs_of_one_mesh_lie_behind_its_fronts(any_path, turned, mirrored, kind):
+    ground = (0.3, 0.6, 0.9, 1)
+    scene = cc.Scene(background=ground)
+    look = {"unlit": True} if kind is cc.StandardMaterial else {}
+    material = kind(vertex_colors=True, double_sided=True, **look)
+    scene.add(walls(turned), material, scale=(-1, 1, 1) if mirrored else None)
+    want = blend("alpha", WALLS[1], blend("alpha", WALLS[0], ground))
+    got = draw(any_path, scene).color
+    assert_close(got, np.broadcast_to(want, got.shape), "blend")
+
+
+def test_each_mesh_with_backs_is_drawn_whole(renderer):
+    """Nodes of one mesh and one material are drawn one after the other, each with its backs and fronts."""
+    scene = cc.Scene(background=(0, 0, 0, 1))
+    material = cc.BasicMaterial(vertex_colors=True, double_sided=True)
+    mesh = walls(turned=False)
+    for z in (-6, 0):
+        scene.add(mesh, material, position=(0, 0, z))
+    want = (0, 0, 0, 1)
+    for color in WALLS * 2:
+        want = blend("alpha", color, want)
+    got = draw(renderer, scene).color
+    assert_close(got, np.broadcast_to(want, got.shape), "blend")
+
+
 FACTORS: dict[BlendFactor, Any] = {
     "zero": lambda s, d: np.zeros(4),
     "one": lambda s, d: np.ones(4),

@@ -82,6 +82,14 @@ struct NodeSnapshot {
     bool drawn_as_transparent() const {
         return translucent || (!depth_write && glm::any(material.value.surface.color_write));
     }
+
+    /// Whether its triangles that show their backs are drawn first, then the others: what lies
+    /// behind inside one mesh is then blended first, in whatever order its triangles are. Sums and
+    /// products do not depend on the order.
+    bool backs_first() const {
+        return translucent && material.value.surface.double_sided && blend != Blend::additive &&
+               blend != Blend::multiply;
+    }
 };
 
 /// A light at the moment of the snapshot; `object` identifies its shadow map.

@@ -31,6 +31,8 @@ bool is_drawn_alone(const NodeSnapshot& node) {
 /// Whether one draw call may draw two nodes that follow each other.
 bool join(const SurfaceItem& a, const SurfaceItem& b) {
     if (a.mesh != b.mesh || a.node->turned != b.node->turned) return false;
+    // All backs of one call are drawn before its fronts, which is the order within one node alone.
+    if (a.node->backs_first()) return false;
     const NodeSnapshot& left = *a.node;
     const NodeSnapshot& right = *b.node;
     const bool same_material = left.material.revision == right.material.revision;

@@ -353,9 +353,18 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
             array, vertex_buffer::records, instanced ? node_records_.id() : view_records_.id(), 0,
             static_cast<GLsizei>(instanced ? sizeof(NodeRecord) : sizeof(ViewRecord)));
         gl_->BindVertexArray(array);
-        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
-                                               nullptr, call.count, call.first);
-        ++stats.draw_calls;
+        const auto draw = [&] {
+            gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
+                                                   nullptr, call.count, call.first);
+            ++stats.draw_calls;
+        };
+        if (node.backs_first()) {
+            gl_->Enable(GL_CULL_FACE);
+            gl_->CullFace(GL_FRONT);
+            draw();
+            gl_->CullFace(GL_BACK);
+        }
+        draw();
         stats.triangles += std::int64_t{mesh.index_count / 3} * call.count;
     }
 }
