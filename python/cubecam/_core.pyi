@@ -4094,7 +4094,8 @@ class Material:
 
     ======================  =========================================================================
     opacity=1               from 0 to 1; multiplies the alpha of the colours
-    double_sided=False      True shows both sides; False culls back faces
+    double_sided=False      True shows both sides; False culls back faces. Of a translucent mesh the
+                            triangles that show their backs are drawn first, then the others
     blend=None              how the material's colour S, of alpha a, is combined with D, the colour
                             that is already in the picture:
                             "opaque": S, with alpha 1;
