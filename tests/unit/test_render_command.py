@@ -87,6 +87,35 @@ def test_the_ground_is_a_shadow_alone_in_a_transparent_picture(tmp_path):
     assert (picture[0, :, 3] == 0).all()
 
 
+@pytest.mark.parametrize("tonemap", ["neutral", "none"])
+def test_a_colour_behind_the_model_is_the_colour_that_was_given(tonemap, tmp_path):
+    for name in ("#336699", "#ffffff", "#ff0000"):
+        looks = ["--size", "32x24", "--background", name, "--exposure", 1, "--tonemap", tonemap]
+        drawn(tmp_path / "x.png", SUZANNE, *looks)
+        expected = [int(name[i : i + 2], 16) for i in (1, 3, 5)]
+        assert cc.load_image(tmp_path / "x.png")[0, 0, :3].tolist() == expected
+    drawn(tmp_path / "x.gif", SUZANNE, *looks, "--seconds", 0.1)
+    assert cc.load_image(tmp_path / "x.gif")[0, 0, :3].tolist() == expected
+
+
+def test_half_a_surface_is_half_over_a_colour_and_keeps_its_colour_over_nothing(tmp_path):
+    scene = cc.Scene()
+    sheet = cc.BasicMaterial(color=(0.5, 0.2, 0.1, 0.25))
+    scene.add(cc.Mesh.plane(2, 2), sheet, rotation=cc.axis_angle((1, 0, 0), 90))
+    scene.save(tmp_path / "x.glb")
+    looks = ["--size", "32x32", "--at", "0,0", "-e", "studio", "--tonemap", "none"]
+    drawn(tmp_path / "none.png", tmp_path / "x.glb", *looks, "--background", "transparent")
+    alpha = int(cc.load_image(tmp_path / "none.png")[16, 16, 3])
+    assert alpha == pytest.approx(64, abs=1)
+    light = cc.load_image(tmp_path / "none.png", srgb=True)[16, 16, :3]
+    drawn(tmp_path / "over.png", tmp_path / "x.glb", *looks, "--background", "#3060ff")
+    over = cc.load_image(tmp_path / "over.png", srgb=True)[16, 16, :3]
+    behind = np.array([0x30, 0x60, 0xFF]) / 255
+    behind = ((behind + 0.055) / 1.055) ** 2.4
+    assert light[0] / light[1] == pytest.approx(2.5, rel=0.03)
+    assert over == pytest.approx(0.25 * light + 0.75 * behind, abs=0.01)
+
+
 def test_light_files_hold_light(tmp_path):
     drawn(tmp_path / "a.exr", SUZANNE, "--size", "64x48", "--background", "#ff8000")
     drawn(

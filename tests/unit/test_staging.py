@@ -92,6 +92,17 @@ def test_a_model_without_extent_is_refused():
         fit_camera(shown_nodes(scene), at=(0, 0), aspect=1)
 
 
+@pytest.mark.parametrize("fit", [fit_camera, fit_turntable])
+@pytest.mark.parametrize("size", [1e-6, 1, 2e4, 1e7])
+def test_models_of_all_sizes_lie_between_the_clip_planes(fit, size):
+    scene = cc.Scene()
+    scene.add(cc.Mesh.sphere(1), scale=size)
+    camera = fit(shown_nodes(scene), at=(30, 15), aspect=4 / 3)
+    depth = projected(camera, shown_nodes(scene), 4 / 3)[:, 2]
+    assert camera.near < depth.min()
+    assert depth.max() < camera.far
+
+
 def test_moments_of_an_animation_are_all_seen():
     scene = cc.Scene()
     ball = scene.add(cc.Mesh.sphere(1))

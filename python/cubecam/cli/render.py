@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -27,7 +27,7 @@ from .help import Command, argument, option
 from .preview import preview, preview_option
 
 if TYPE_CHECKING:
-    from .. import CubeMap
+    from .. import CubeMap, Frame
     from ..staging.shoot import Shoot
 
 T = TypeVar("T")
@@ -261,18 +261,25 @@ def render(
             if ground:
                 shoot.add_ground(renderer, moving=film and plan.animation is not None)
             shoot.set_background(background)
-            look: dict[str, Any] = {
-                "samples": min(samples, renderer.info.limits.max_samples),
-                "exposure": stops,
-            }
+            curve = None if tonemap == "none" else tonemap
+            look: dict[str, Any] = {"samples": min(samples, renderer.info.limits.max_samples)}
+            screen = _screen(shoot, background, stops, curve) if not light else None
             if light:
+                look |= {"format": "rgba32f", "exposure": stops}
+            elif screen is not None:
                 look["format"] = "rgba32f"
             else:
-                look |= {"encode": "srgb", "tonemap": None if tonemap == "none" else tonemap}
+                look |= {"encode": "srgb", "tonemap": curve, "exposure": stops}
+            pixels_of = screen or (lambda frame: frame.color[..., :3])
             if film:
-                shown = _save_film(path, shoot, renderer, pixels, plan, look, background)
+                shown = _save_film(path, shoot, renderer, pixels, plan, look, pixels_of)
+            elif light:
+                shown = _save_light(path, shoot, renderer, pixels, look)
             else:
-                shown = _save_still(path, shoot, renderer, pixels, look, background)
+                from .. import save_image
+
+                shown = pixels_of(shoot.draw(renderer, pixels, **look))
+                save_image(path, shown)
             drawn_by = str(renderer.info.renderer)
         click.echo(path)
         if not no_preview:
@@ -411,25 +418,31 @@ def _name_of(camera: Any) -> str:
     return str(getattr(camera, "name", "") or (parent.name if parent is not None else ""))
 
 
-def _save_still(
-    path: str,
-    shoot: Shoot,
-    renderer: Renderer,
-    size: tuple[int, int],
-    look: dict[str, Any],
-    background: str | None,
+def _screen(
+    shoot: Shoot, background: str | None, stops: float, curve: Any
+) -> Callable[[Frame], Any] | None:
+    """Give the function from light to pixels for a background that is no light: none, or a colour of the screen."""
+    from ..staging.screen import over_color, straight
+
+    if background == "transparent":
+        return lambda frame: straight(cast("Any", frame.color), exposure=stops, tonemap=curve)
+    if background in (None, *_BACKGROUNDS):
+        return None
+    color = tuple(float(c) for c in cast("Any", shoot.scene.background)[:3])
+    shoot.scene.background = (*(c / 2**stops for c in color), 0)
+    return lambda frame: over_color(cast("Any", frame.color), color, exposure=stops, tonemap=curve)
+
+
+def _save_light(
+    path: str, shoot: Shoot, renderer: Renderer, size: tuple[int, int], look: dict[str, Any]
 ) -> Any:
-    """Draw a picture into a file; return it as a screen shows it."""
-    from .. import save_image, to_screen
+    """Draw light into a file; return it as a screen shows it."""
+    from .. import to_screen
 
     frame = shoot.draw(renderer, size, **look)
-    if look.get("format") == "rgba32f":
-        with warnings_reported(path):
-            frame.save(path)
-        return to_screen(frame)
-    pixels = frame.color
-    save_image(path, pixels if background == "transparent" else pixels[..., :3])
-    return pixels
+    with warnings_reported(path):
+        frame.save(path)
+    return to_screen(frame)
 
 
 def _save_film(
@@ -439,7 +452,7 @@ def _save_film(
     size: tuple[int, int],
     plan: _Plan,
     look: dict[str, Any],
-    background: str | None,
+    pixels_of: Callable[[Frame], Any],
 ) -> Any:
     """Draw a film into a file; return its first picture."""
     first: list[Any] = []
@@ -455,7 +468,7 @@ def _save_film(
             **look,
         )
         for frame in _with_progress(frames, plan.count, path):
-            pixels = frame.color if background == "transparent" else frame.color[..., :3]
+            pixels = pixels_of(frame)
             if not first:
                 first.append(pixels)
             yield pixels

@@ -213,4 +213,8 @@ def _clip(camera: PerspectiveCamera, near: float, far: float) -> None:
         raise ValueError(
             "expected a model with an extent, got a point or a line towards the camera"
         )
-    camera.near, camera.far = near * 0.5, far * 20
+    # The far plane of a new camera may be nearer than the model: the plane that leaves room for the other comes first.
+    if near * 0.5 < camera.far:
+        camera.near, camera.far = near * 0.5, far * 20
+    else:
+        camera.far, camera.near = far * 20, near * 0.5
