@@ -116,6 +116,24 @@ def test_half_a_surface_is_half_over_a_colour_and_keeps_its_colour_over_nothing(
     assert over == pytest.approx(0.25 * light + 0.75 * behind, abs=0.01)
 
 
+def test_the_ground_of_a_film_lies_below_all_its_moments(tmp_path):
+    scene = cc.Scene()
+    box = scene.add(cc.Mesh.box(1), cc.StandardMaterial(color="white", metallic=0))
+    keys = [(0, 0, 0), (0, 4, 0)]
+    scene.add(cc.Animation([cc.AnimationChannel(box, "translation", [0, 1], keys)]))
+    scene.save(tmp_path / "x.glb")
+    looks = ["-s", "48x96", "--fps", 2, "--at", "0,0", "--background", "transparent"]
+    drawn(tmp_path / "with.webp", tmp_path / "x.glb", *looks, "--ground")
+    drawn(tmp_path / "without.webp", tmp_path / "x.glb", *looks)
+    films = []
+    for name in ("with.webp", "without.webp"):
+        with Image.open(tmp_path / name) as film:
+            films.append(np.asarray(film.convert("RGBA")).astype(int))
+    whole = films[1][..., 3] == 255
+    assert whole.sum() > 50
+    assert np.abs(films[0] - films[1])[whole].max() < 40
+
+
 def test_light_files_hold_light(tmp_path):
     drawn(tmp_path / "a.exr", SUZANNE, "--size", "64x48", "--background", "#ff8000")
     drawn(

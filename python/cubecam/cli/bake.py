@@ -1,4 +1,4 @@
-"""`cubecam bake`: the light of a photograph, or of a place in a scene, filtered and written for another program."""
+"""`cubecam bake`: the light of a photograph, or of a place in a scene, written for another program."""
 
 from __future__ import annotations
 
@@ -84,7 +84,9 @@ def bake(
     no_preview: bool,
     device: str | None,
 ) -> None:
-    """Filter light by roughness and write it for another program, with a README on how to load it.
+    """Write the light of a photograph, or of a place in a scene, for another program.
+
+    A README says how to load it. Light for Babylon.js is filtered by roughness; the others filter it themselves.
 
     Examples: cubecam bake studio --for babylon; cubecam bake room.glb --at Lamp -o light
     """

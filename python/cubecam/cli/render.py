@@ -241,6 +241,8 @@ def render(
             shoot = _stage(model, environment, variant)
         plan = _Plan.of(shoot, film, animation, time, turns, seconds, fps)
         pixels = size or (_FILM if film else _STILL)
+        moves = film and plan.animation is not None
+        moments = shoot.moments_of(plan.seconds) if moves else []
         if camera is not None:
             shoot.camera = _camera_of(shoot, camera)
             if plan.turns:
@@ -250,16 +252,16 @@ def render(
                 at or (30.0, 15.0),
                 pixels[0] / pixels[1],
                 turns=plan.turns != 0,
-                moments=shoot.moments_of(plan.seconds)
-                if plan.animation is not None and film
-                else [],
+                moments=moments,
                 animation=plan.animation or 0,
             )
         with Renderer(device=parse_device(device)) as renderer:
             light = ending in _LIGHT
             stops = exposure if light else exposure + shoot.exposure(renderer)
             if ground:
-                shoot.add_ground(renderer, moving=film and plan.animation is not None)
+                shoot.add_ground(
+                    renderer, moving=moves, moments=moments, animation=plan.animation or 0
+                )
             shoot.set_background(background)
             curve = None if tonemap == "none" else tonemap
             look: dict[str, Any] = {"samples": min(samples, renderer.info.limits.max_samples)}

@@ -20,7 +20,7 @@ from .writing import write_files
 ENGINES: tuple[Engine, ...] = get_args(Engine)
 
 _THREE = """\
-three.js: light and background of a scene (three 0.163 or later).
+three.js: light and background of a scene (tried with three 0.187).
 environment.exr is a panorama with +X in the middle; three.js filters it by roughness itself.
 import {{ EXRLoader }} from "three/addons/loaders/EXRLoader.js";
 const sky = await new EXRLoader().loadAsync("environment.exr"); // or HDRCubeTextureLoader of px.hdr ... nz.hdr
@@ -34,14 +34,14 @@ scene.environmentTexture = sky;
 scene.createDefaultSkybox(sky, true, 1000);
 """
 _UNITY = """\
-Unity: put environment.exr into Assets; it is a panorama with the scene's -X, Unity's +X, in the middle.
+Unity (not tried in it): put environment.exr into Assets; a panorama with the scene's -X, Unity's +X, in its middle.
 Import settings: Texture Shape "Cube", Mapping "Latitude-Longitude Layout", Convolution "Specular".
 Make a material with the shader "Skybox/Cubemap", give it the texture, and set it in Window > Rendering > Lighting.
 Models of glTF files (glTFast) have x mirrored, as the panorama expects.
 In code: RenderSettings.skybox = material; DynamicGI.UpdateEnvironment();
 """
 _GODOT = """\
-Godot 4: put environment.exr into the project; it is a panorama with +Z in the middle.
+Godot 4 (not tried in it): put environment.exr into the project; it is a panorama with +Z in the middle.
 var sky = Sky.new(); sky.sky_material = PanoramaSkyMaterial.new()
 sky.sky_material.panorama = load("res://environment.exr")
 var world = Environment.new(); world.background_mode = Environment.BG_SKY; world.sky = sky

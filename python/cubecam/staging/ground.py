@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,8 @@ class Ground:
         Unit vectors towards the light; each gives an equal share of the ground's light.
     texels : int
         Texels along the ground.
+    moments : iterable
+        The nodes are counted once for each; a generator may move them in between.
 
     Notes
     -----
@@ -40,10 +42,18 @@ class Ground:
     """
 
     def __init__(
-        self, scene: Scene, nodes: Sequence[Node], directions: Vectors, *, texels: int = 256
+        self,
+        scene: Scene,
+        nodes: Sequence[Node],
+        directions: Vectors,
+        *,
+        texels: int = 256,
+        moments: Iterable[object] = (None,),
     ) -> None:
         self._scene, self._directions, self._texels = scene, directions, texels
-        box = Extent(np.concatenate([np.eye(3), -np.eye(3)])).add(nodes)
+        box = Extent(np.concatenate([np.eye(3), -np.eye(3)]))
+        for _ in moments:
+            box.add(nodes)
         high, low = box.reach[:3], -box.reach[3:]
         self._centre = (low + high) / 2
         self._radius = float(np.linalg.norm(high - low)) / 2

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -142,7 +142,14 @@ class Shoot:
 
     # ----- ground
 
-    def add_ground(self, renderer: Renderer, *, moving: bool) -> None:
+    def add_ground(
+        self,
+        renderer: Renderer,
+        *,
+        moving: bool,
+        moments: Sequence[float] = (),
+        animation: int | str = 0,
+    ) -> None:
         """Lay a ground under the model that catches its shadow."""
         count = _MOVING if moving else _STILL
         if self._own_lights:
@@ -151,7 +158,14 @@ class Shoot:
             assert self._around is not None
             directions = directions_of_light(self._around, count)
             directions = directions @ _rotation(self.scene.environment_rotation).T
-        self.ground = Ground(self.scene, self.nodes, directions, texels=160 if moving else 320)
+        # No moment of a film goes below the ground.
+        self.ground = Ground(
+            self.scene,
+            self.nodes,
+            directions,
+            texels=160 if moving else 320,
+            moments=self._run(moments, animation),
+        )
         self.ground.update(renderer)
 
     def _directions_of_lamps(self, count: int) -> npt.NDArray[np.float64]:
@@ -190,15 +204,16 @@ class Shoot:
         animation: int | str,
     ) -> None:
         """Fit the camera to the model, for a turntable and for all moments of an animation if there are any."""
-
-        def run() -> Iterator[None]:
-            for moment in moments or [None]:  # type: ignore[list-item]
-                if moment is not None:
-                    self.set_time(moment, animation)
-                yield
-
         fit = fit_turntable if turns else fit_camera
-        self.camera = fit(self.nodes, at=at, aspect=aspect, moments=run())
+        self.camera = fit(self.nodes, at=at, aspect=aspect, moments=self._run(moments, animation))
+
+    def _run(self, moments: Sequence[float], animation: int | str) -> Iterator[None]:
+        """Go through moments of an animation; without any, stay once at the present one."""
+        for moment in moments:
+            self.set_time(moment, animation)
+            yield
+        if not moments:
+            yield
 
     def set_time(self, seconds: float, animation: int | str) -> None:
         """Move what an animation moves."""
