@@ -1237,14 +1237,14 @@ MUTATIONS = [
     ),
     Mutation(
         "files: exposure multiplies encoded numbers",
-        "screen.py",
+        "io/screen.py",
         'exposed(srgb_decode(color) if encoding == "srgb" else color, exposure)',
         "exposed(color, exposure)",
         ("tests/unit/test_screen.py",),
     ),
     Mutation(
         "files: a tone curve is applied twice",
-        "screen.py",
+        "io/screen.py",
         'tonemap if pixels.dtype.kind == "f" and not mapped else None',
         'tonemap if pixels.dtype.kind == "f" else None',
         ("tests/gl/test_encoding.py",),

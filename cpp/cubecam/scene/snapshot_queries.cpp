@@ -41,6 +41,16 @@ bool moves_vertices(const NodeSnapshot& node) {
     return node.material.value.traits().moves_vertices();
 }
 
+bool vertices_see_pictures(const NodeSnapshot& node) {
+    if (!moves_vertices(node)) return false;
+    const auto is_drawn = [](const auto& source) {
+        return std::holds_alternative<std::size_t>(source);
+    };
+    return is_drawn(node.environment) ||
+           std::any_of(node.textures.begin(), node.textures.end(),
+                       [&](const TextureSourceSnapshot& t) { return std::visit(is_drawn, t); });
+}
+
 bool shows_behind(const NodeSnapshot& node) { return node.material.value.traits().shows_behind; }
 
 bool receive_shadow(const NodeSnapshot& node) {

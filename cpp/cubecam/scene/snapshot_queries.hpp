@@ -22,6 +22,9 @@ const CubeSourceSnapshot& environment_of(const SceneSnapshot& scene, const NodeS
 /// Whether a user's own source moves a node's vertices.
 bool moves_vertices(const NodeSnapshot& node);
 
+/// Whether that source may look up pictures that are drawn: those of render textures and probes.
+bool vertices_see_pictures(const NodeSnapshot& node);
+
 /// Whether the scene behind shows through a node, which is not blended.
 bool shows_behind(const NodeSnapshot& node);
 

@@ -191,6 +191,8 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, node_binding, block_.id());
     UserProgram& program = programs_->user_shadow(material, node.mesh->colors() != nullptr);
     const std::vector<BoundTexture> textures = input.look_up(node);
+    // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
+    if (context_->software() && vertices_see_pictures(node)) gl_->Finish();
     program.use(*material.user_code->inputs,
                 std::span(textures).subspan(material.user_code->first_texture));
     program.program().use();

@@ -267,6 +267,8 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
 const gl::Program& SurfacePass::program_of(const SurfaceItem& item, const SurfaceVariant& variant) {
     const MaterialTraits& material = item.node->material.value.traits();
     if (!material.user_code) return programs_.surface(variant, material);
+    // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
+    if (context_->software() && vertices_see_pictures(*item.node)) gl_->Finish();
     UserProgram& program = programs_.user_surface(variant, material);
     program.use(*material.user_code->inputs,
                 std::span(item.textures->textures).subspan(material.user_code->first_texture));
