@@ -118,17 +118,22 @@ def test_half_a_surface_is_half_over_a_colour_and_keeps_its_colour_over_nothing(
 
 def test_the_ground_of_a_film_lies_below_all_its_moments(tmp_path):
     scene = cc.Scene()
-    box = scene.add(cc.Mesh.box(1), cc.StandardMaterial(color="white", metallic=0))
-    keys = [(0, 0, 0), (0, 4, 0)]
-    scene.add(cc.Animation([cc.AnimationChannel(box, "translation", [0, 1], keys)]))
+    box = scene.add(cc.Mesh.box(1), cc.StandardMaterial(color="red", metallic=0))
+    scene.add(cc.SpotLight((0, 4, 4), (0, -1, -1), angle=30, intensity=100, decay=2))
+    moves = [
+        cc.AnimationChannel(box, "translation", [0, 1], [(0, 0, 0), (0, 2, 0)]),
+        cc.AnimationChannel(box, "scale", [0, 1], [(1, 1, 1), (1, 3, 1)]),
+    ]
+    scene.add(cc.Animation(moves))
     scene.save(tmp_path / "x.glb")
-    looks = ["-s", "48x96", "--fps", 2, "--at", "0,0", "--background", "transparent"]
+    looks = ["-s", "96x96", "--fps", 2, "--background", "transparent"]
     drawn(tmp_path / "with.webp", tmp_path / "x.glb", *looks, "--ground")
     drawn(tmp_path / "without.webp", tmp_path / "x.glb", *looks)
     films = []
     for name in ("with.webp", "without.webp"):
         with Image.open(tmp_path / name) as film:
             films.append(np.asarray(film.convert("RGBA")).astype(int))
+    # In the first picture the box is at its lowest: the ground must not darken what is seen of it.
     whole = films[1][..., 3] == 255
     assert whole.sum() > 50
     assert np.abs(films[0] - films[1])[whole].max() < 40
