@@ -424,7 +424,7 @@ def _screen(
     shoot: Shoot, background: str | None, stops: float, curve: Any
 ) -> Callable[[Frame], Any] | None:
     """Give the function from light to pixels for a background that is no light: none, or a colour of the screen."""
-    from ..staging.screen import over_color, straight
+    from ..staging.backdrop import over_color, straight
 
     if background == "transparent":
         return lambda frame: straight(cast("Any", frame.color), exposure=stops, tonemap=curve)
