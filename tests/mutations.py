@@ -1634,8 +1634,8 @@ MUTATIONS = [
     Mutation(
         "glTF: inverse bind matrices after the joints",
         "gltf/deformation.py",
-        "worlds @ bind[: len(numbers)]",
-        "bind[: len(numbers)] @ worlds",
+        "else worlds @ bind",
+        "else bind @ worlds",
         GLTF,
     ),
     Mutation(

@@ -1,23 +1,15 @@
 """Debian's Chromium, driven by playwright."""
 
-import shutil
-
 import pytest
-from playwright.sync_api import sync_playwright
+
+from tests.chromium import headless_chromium
 
 
 @pytest.fixture(scope="session")
 def chromium():
     """One browser for the session."""
-    path = shutil.which("chromium")
-    assert path is not None, (
-        "expected the program chromium; python3 scripts/system.py --browser installs it"
-    )
-    with sync_playwright() as playwright:
-        # Chromium's own sandbox needs rights that containers do not have.
-        browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+    with headless_chromium() as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture

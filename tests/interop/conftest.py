@@ -12,10 +12,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.chromium import headless_chromium
+
 HERE = Path(__file__).parent
-#: Chromium's WebGL by SwiftShader; containers allow no sandbox.
-ARGUMENTS = [
-    "--no-sandbox",
+#: Chromium's WebGL by SwiftShader.
+WEBGL = [
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
     "--ignore-gpu-blocklist",
@@ -92,16 +93,8 @@ def served(npm, tmp_path):
 @pytest.fixture(scope="session")
 def chromium():
     """One browser for the session."""
-    from playwright.sync_api import sync_playwright
-
-    path = shutil.which("chromium")
-    assert path is not None, (
-        "expected the program chromium; python3 scripts/system.py --browser installs it"
-    )
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=ARGUMENTS)
+    with headless_chromium(*WEBGL) as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -10,11 +10,13 @@ import click
 from .common import (
     FILE,
     NUMBER,
+    SAMPLE_LIGHT,
     WholeNumber,
     choice,
     device_option,
     failures_reported,
     parse_device,
+    sample_light,
     warnings_reported,
     words,
 )
@@ -25,9 +27,6 @@ if TYPE_CHECKING:
     from .. import CubeMap, Node, Scene
 
 Program: TypeAlias = Literal["three", "babylon", "unity", "godot", "blender", "filament"]
-
-_SCENES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
-_SAMPLE = "sunset.exr"
 
 
 @click.command(cls=Command)
@@ -53,7 +52,7 @@ _SAMPLE = "sunset.exr"
     metavar="FILE",
     group="Of a scene",
     help="The light from all around, as for cubecam render.",
-    note=f"the file's own lights and environment; without any {Path(_SAMPLE).stem}",
+    note=f"the file's own lights and environment; without any {Path(SAMPLE_LIGHT).stem}",
 )
 @option(
     "--size",
@@ -90,11 +89,13 @@ def bake(
 
     Examples: cubecam bake studio --for babylon; cubecam bake room.glb --at Lamp -o light
     """
-    is_scene = Path(source).suffix.lower() in _SCENES
+    from ..io.scenes import ENDINGS
+
+    is_scene = Path(source).suffix.lower() in ENDINGS
     if not is_scene:
         for name, value in {"--at": at, "--environment": environment}.items():
             if value is not None:
-                told = f"expected with a scene ({', '.join(_SCENES)}), got {source}"
+                told = f"expected with a scene ({', '.join(ENDINGS)}), got {source}"
                 raise click.BadParameter(told, param_hint=name)
     with failures_reported():
         told = ""
@@ -108,9 +109,7 @@ def bake(
             if cube.size != size:
                 cube = cube.resize(size)
         Path(output).mkdir(parents=True, exist_ok=True)
-        writer: Any = cube
-        written = writer.save_for(program, output)
-        for path in written:
+        for path in cube.save_for(program, output):
             click.echo(path)
         if not no_preview:
             from .. import to_screen
@@ -131,8 +130,6 @@ def _caught(
     import numpy as np
 
     from .. import CubeMap, Renderer
-    from ..data import sample_data
-    from ..io.cubemaps import load_environment
     from ..io.scenes import load_scene
     from ..staging.fit import Extent
     from ..staging.shoot import Shoot
@@ -141,9 +138,8 @@ def _caught(
     with warnings_reported(source):
         scene = load_scene(source)
     around = None if environment is None else environment_of(environment)
-    shoot = Shoot(scene, around, lambda: load_environment(sample_data(_SAMPLE), size=256))
-    box = Extent(np.concatenate([np.eye(3), -np.eye(3)])).add(shoot.nodes)
-    low, high = -box.reach[3:], box.reach[:3]
+    shoot = Shoot(scene, around, sample_light)
+    low, high = Extent.box(shoot.nodes)
     place, left_out = _place(scene, at, (low + high) / 2)
     length = float(np.linalg.norm(high - low) + np.linalg.norm(place - (low + high) / 2))
     with Renderer(device=parse_device(device)) as renderer:

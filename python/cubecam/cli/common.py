@@ -6,7 +6,7 @@ import contextlib
 import math
 import warnings
 from collections.abc import Callable, Iterator
-from typing import Any, Literal, NoReturn, TypeAlias, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Literal, NoReturn, TypeAlias, TypeVar, get_args
 
 import click
 from click.shell_completion import CompletionItem
@@ -15,9 +15,23 @@ from .. import Error
 from ..typing import Tonemap
 from .help import option
 
+if TYPE_CHECKING:
+    from .. import CubeMap
+
 Curve: TypeAlias = Literal[Tonemap, "none"]
 Triple: TypeAlias = tuple[float, float, float]
 F = TypeVar("F", bound=Callable[..., Any])
+
+#: The sample photograph that lights a model without light of its own.
+SAMPLE_LIGHT = "sunset.exr"
+
+
+def sample_light() -> CubeMap:
+    """Read that photograph."""
+    from ..data import sample_data
+    from ..io.cubemaps import load_environment
+
+    return load_environment(sample_data(SAMPLE_LIGHT), size=256)
 
 
 class WholeNumber(click.ParamType):

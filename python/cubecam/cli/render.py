@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -14,12 +14,14 @@ from .. import Renderer
 from .common import (
     FILE,
     NUMBER,
+    SAMPLE_LIGHT,
     Curve,
     WholeNumber,
     choice,
     device_option,
     failures_reported,
     parse_device,
+    sample_light,
     warnings_reported,
     words,
 )
@@ -32,7 +34,6 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-_SAMPLE = "sunset.exr"
 _MOVING = (".gif", ".webp", ".apng", ".mp4")
 _LIGHT = (".exr", ".hdr", ".pic", ".pfm")  # files of light, not of a screen's numbers
 _WITH_ALPHA = (".png", ".apng", ".webp", ".exr", ".tif", ".tiff", ".tga")
@@ -103,7 +104,7 @@ def _backgrounds(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
     metavar="FILE",
     shell_complete=_environments,
     help="The light from all around: a panorama or a cubemap, or the name of a sample photograph, such as studio.",
-    note=f"the file's own lights and environment; without any {Path(_SAMPLE).stem}",
+    note=f"the file's own lights and environment; without any {Path(SAMPLE_LIGHT).stem}",
 )
 @option(
     "--variant", metavar="NAME", help="The variant of the materials.", note="the file's first look"
@@ -330,18 +331,14 @@ def _check_options(
 
 
 def _stage(model: str, environment: str | None, variant: str | None) -> Shoot:
-    from ..data import sample_data
-    from ..io.cubemaps import load_environment
     from ..io.scenes import load_scene
     from ..staging.shoot import Shoot
 
-    scene: Any = load_scene(model)
+    scene = load_scene(model)
     if variant is not None:
-        names = list(scene.variants)
-        found = number_or_name(variant, names, "variant")
-        scene.variant = found if isinstance(found, str) else names[found]
+        scene.variant = scene.variants[_place_of(variant, scene.variants, "variant")]
     cube = None if environment is None else environment_of(environment)
-    return Shoot(scene, cube, lambda: load_environment(sample_data(_SAMPLE), size=256))
+    return Shoot(scene, cube, sample_light)
 
 
 def environment_of(name: str) -> CubeMap:
@@ -358,9 +355,7 @@ def environment_of(name: str) -> CubeMap:
 class _Plan:
     """What moves in a film, and for how long; for a still, the moment that it shows."""
 
-    def __init__(
-        self, animation: int | str | None, turns: float, seconds: float, count: int
-    ) -> None:
+    def __init__(self, animation: int | None, turns: float, seconds: float, count: int) -> None:
         self.animation, self.turns, self.seconds, self.count = animation, turns, seconds, count
 
     @staticmethod
@@ -374,17 +369,16 @@ class _Plan:
         fps: float,
     ) -> _Plan:
         known = shoot.scene.animations
-        wanted: int | str | None = None
+        wanted: int | None = None
         if animation is not None or time is not None or (film and known and not turns):
-            wanted = number_or_name(animation or "0", [one.name for one in known], "animation")
+            wanted = _place_of(animation or "0", [one.name for one in known], "animation")
         if not film:
             if wanted is not None:
                 shoot.set_time(time or 0.0, wanted)
             return _Plan(wanted, 0.0, 0.0, 1)
         length = _SECONDS
         if wanted is not None:
-            index = wanted if isinstance(wanted, int) else [one.name for one in known].index(wanted)
-            length = float(known[index].duration) or _SECONDS
+            length = known[wanted].duration or _SECONDS
         lasts = seconds or length
         rounds = turns if turns is not None else 0.0 if wanted is not None else 1.0
         count = max(1, round(lasts * fps))
@@ -393,10 +387,10 @@ class _Plan:
         return _Plan(wanted, rounds, lasts, count)
 
 
-def number_or_name(text: str, names: list[str], what: str) -> int | str:
-    """Find one of several things by its name, else by its number."""
+def _place_of(text: str, names: Sequence[str], what: str) -> int:
+    """Find the place of one of several things by its name, else by its number."""
     if text in names:
-        return text
+        return names.index(text)
     if text.isdecimal() and int(text) < len(names):
         return int(text)
     if not names:
@@ -408,16 +402,10 @@ def number_or_name(text: str, names: list[str], what: str) -> int | str:
 
 
 def _camera_of(shoot: Shoot, wanted: str) -> Any:
+    from ..viewer.scene_camera import name_of
+
     cameras = shoot.scene.cameras
-    names = [_name_of(camera) for camera in cameras]
-    found = number_or_name(wanted, names, "camera")
-    return cameras[found if isinstance(found, int) else names.index(found)]
-
-
-def _name_of(camera: Any) -> str:
-    """Give the name of a camera: its own, else that of its node."""
-    parent = getattr(camera, "parent", None)
-    return str(getattr(camera, "name", "") or (parent.name if parent is not None else ""))
+    return cameras[_place_of(wanted, [name_of(camera) for camera in cameras], "camera")]
 
 
 def _screen(

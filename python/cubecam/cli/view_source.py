@@ -10,19 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from .. import CubeMap, Error, OrthographicCamera, PerspectiveCamera, Scene
 from ..io.cubemap_names import spellings
-from .common import warnings_reported
+from .common import sample_light, warnings_reported
 
 if TYPE_CHECKING:
     from ..viewer.live import LiveView
 
 __all__ = ["FAILURES", "Shown", "read", "stamp"]
 
-_MODELS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 _PICTURES = (
     ".exr", ".hdr", ".pic", ".rgbe", ".xyze", ".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".tga", ".gif",
     ".pfm", ".dds",
 )  # fmt: skip
-_SAMPLE = "sunset.exr"  # the light of a model without light
 
 
 @dataclass
@@ -80,17 +78,19 @@ def read(path: str) -> Shown:
         As the functions that read it; ValueError also for an extension that is not known, and for a script that fails
         or makes no scene.
     """
+    from ..io.scenes import ENDINGS
+
     kind = Path(path).suffix.lower()
     if kind == ".py":
         return _script(path)
-    if kind in _MODELS:
+    if kind in ENDINGS:
         return _model(path)
     if kind in _PICTURES:
         return _picture(path)
     if not Path(path).exists():
         raise FileNotFoundError(2, "No such file or directory", path)
     raise ValueError(
-        f"expected a model ({', '.join(_MODELS)}), a cubemap or panorama (.exr, .hdr, .png, .jpg, ...) "
+        f"expected a model ({', '.join(ENDINGS)}), a cubemap or panorama (.exr, .hdr, .png, .jpg, ...) "
         f"or a Python script (.py), got {path}"
     )
 
@@ -98,14 +98,12 @@ def read(path: str) -> Shown:
 def _model(path: str) -> Shown:
     """Show a file's scene in its own light, or else in that of a sample photograph, with what it has of animations."""
     from .. import Renderer
-    from ..data import sample_data
-    from ..io.cubemaps import load_environment
     from ..io.scenes import load_scene
     from ..staging.shoot import Shoot
 
     with warnings_reported(path):
         scene = load_scene(path)
-    shoot = Shoot(scene, None, lambda: load_environment(sample_data(_SAMPLE), size=256))
+    shoot = Shoot(scene, None, sample_light)
     shoot.place_camera((30.0, 15.0), 4 / 3, turns=False, moments=[], animation=0)
     shoot.set_background(None)
     if shoot.measures:

@@ -9,7 +9,6 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 from .._core import FileError, ImageError, MeshError
-from . import ktx2
 from .picture_files import decode_picture
 from .pixels import Array, on_color, srgb_decode
 
@@ -78,13 +77,7 @@ class ModelPictures:
 
 def _decoded(data: bytes) -> Array | FileError:
     try:
-        if data.startswith(ktx2.MAGIC):
-            texture = ktx2.read(data, levels=1)
-            if texture.faces != 1:
-                return ImageError("expected a picture, got a KTX2 cubemap")
-            pixels = texture.levels[0]
-        else:
-            pixels = decode_picture(data).pixels
+        pixels = decode_picture(data).pixels
     except FileError as error:
         return error
     if pixels.dtype.kind == "f" and np.isnan(pixels).any():

@@ -11,7 +11,7 @@ from .._core import MeshError, Scene
 from .files import PathLike, as_path, read_file
 from .left_out import LeftOut
 
-__all__ = ["load_scene"]
+__all__ = ["ENDINGS", "load_scene"]
 
 # The module that reads each kind of file with its function `read_scene(path, data, left_out)`.
 _READERS = {
@@ -22,6 +22,8 @@ _READERS = {
     ".stl": ".meshes.plain_scene",
     ".off": ".meshes.plain_scene",
 }
+#: The extensions of files of scenes.
+ENDINGS = tuple(_READERS)
 
 
 @checked_call

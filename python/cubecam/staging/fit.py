@@ -45,6 +45,12 @@ class Extent:
             self.reach = np.maximum(self.reach, _reach(node, self.directions))
         return self
 
+    @staticmethod
+    def box(nodes: Iterable[Node]) -> tuple[Vectors, Vectors]:
+        """Give the lowest and the highest corner of nodes."""
+        reach = Extent(np.concatenate([np.eye(3), -np.eye(3)])).add(nodes).reach
+        return -reach[3:], reach[:3]
+
     @property
     def empty(self) -> bool:
         """Whether nothing that has a vertex was added."""
@@ -69,7 +75,7 @@ def _reach(node: Node, directions: Vectors) -> Vectors:
 
 
 def _deforms(node: Node) -> bool:
-    return getattr(node, "skin", None) is not None or len(getattr(node, "weights", ())) > 0
+    return node.skin is not None or len(node.weights) > 0
 
 
 def axes_towards(azimuth: float, elevation: float) -> Vectors:
@@ -147,8 +153,7 @@ def fit_camera(
     right, left, top, bottom, near, far = extent.reach
     z = max((right + left) / (2 * lens.across), (top + bottom) / (2 * lens.along))
     x, y = (right - left) / 2, (top - bottom) / 2
-    camera = PerspectiveCamera(fov=_vertical(fov, aspect))
-    _clip(camera, z - near, z + far)
+    camera = _camera(_vertical(fov, aspect), z - near, z + far)
     camera.position = x * axes[0] + y * axes[1] + z * axes[2]
     camera.target = x * axes[0] + y * axes[1] + (near - far) / 2 * axes[2]
     return camera
@@ -186,9 +191,8 @@ def fit_turntable(
         np.maximum(top - lift, bottom + lift).max() / lens.along,
     )
     axes = axes_towards(*at)
-    camera = PerspectiveCamera(fov=_vertical(fov, aspect))
     radius = float(np.linalg.norm((extent.reach[:3] + extent.reach[3:6]) / 2))
-    _clip(camera, z - near.max(), z + radius)
+    camera = _camera(_vertical(fov, aspect), z - near.max(), z + radius)
     target = middle + np.array([0.0, lift / max(axes[1][1], 0.2), 0.0])
     camera.position = target + z * axes[2]
     camera.target = target
@@ -207,14 +211,10 @@ def _check(extent: Extent) -> None:
         raise ValueError("expected a model with vertices that are shown, got none")
 
 
-def _clip(camera: PerspectiveCamera, near: float, far: float) -> None:
-    """Set the clip distances so that depth is precise and a ground round the model is seen."""
+def _camera(fov: float, near: float, far: float) -> PerspectiveCamera:
+    """Make a camera for a model from `near` to `far`: depth is precise, and a ground round the model is seen."""
     if not near > 1e-6 * far:
         raise ValueError(
             "expected a model with an extent, got a point or a line towards the camera"
         )
-    # The far plane of a new camera may be nearer than the model: the plane that leaves room for the other comes first.
-    if near * 0.5 < camera.far:
-        camera.near, camera.far = near * 0.5, far * 20
-    else:
-        camera.far, camera.near = far * 20, near * 0.5
+    return PerspectiveCamera(fov=fov, near=near * 0.5, far=far * 20)

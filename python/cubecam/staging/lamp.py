@@ -90,12 +90,13 @@ def _peak(directions: Vectors, energy: Vectors) -> Vectors:
     return np.asarray(best[int((inside @ weights).argmax())])
 
 
-def sky_irradiance(cube: CubeMap, normal: npt.ArrayLike) -> float:
-    """Give the luminance of the irradiance on a plane with a normal."""
+def sky_irradiance(cube: CubeMap, normals: npt.ArrayLike) -> Vectors:
+    """Give the luminance of the irradiance on planes: (...) for normals (..., 3)."""
     small = cube.resize(min(cube.size, _SIZE))
     directions, solid = texels(small.size)
-    cosine = np.maximum(directions @ np.asarray(normal, np.float64), 0)
-    return float((_radiance(small) @ _LUMINANCE * solid * cosine).sum())
+    energy = (_radiance(small) @ _LUMINANCE * solid).ravel()
+    cosine = np.maximum(np.asarray(normals, np.float64) @ directions.reshape(-1, 3).T, 0)
+    return np.asarray(cosine @ energy)
 
 
 def directions_of_light(cube: CubeMap, count: int) -> Vectors:

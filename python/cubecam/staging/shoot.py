@@ -85,11 +85,14 @@ class Shoot:
 
     # ----- light
 
+    def _sphere(self) -> tuple[npt.NDArray[np.float64], float]:
+        """Give the middle of the model and the distance of the corners of its box."""
+        low, high = Extent.box(self.nodes)
+        return (low + high) / 2, float(np.linalg.norm(high - low)) / 2
+
     def _light_of_lamps(self) -> float:
         """Give the mean radiance of a white matt surface in the middle of the model, over six sides."""
-        box = Extent(np.concatenate([np.eye(3), -np.eye(3)])).add(self.nodes)
-        high, low = box.reach[:3], -box.reach[3:]
-        middle, radius = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
+        middle, radius = self._sphere()
         return sum(_arriving(light, middle, radius) for light in self.scene.lights)
 
     def set_background(self, background: str | tuple[float, ...] | None) -> None:
@@ -170,9 +173,7 @@ class Shoot:
 
     def _directions_of_lamps(self, count: int) -> npt.NDArray[np.float64]:
         """Share the directions among the lamps by the light that each brings to the ground; a lamp has some width."""
-        box = Extent(np.concatenate([np.eye(3), -np.eye(3)])).add(self.nodes)
-        high, low = box.reach[:3], -box.reach[3:]
-        middle, radius = (low + high) / 2, float(np.linalg.norm(high - low)) / 2
+        middle, radius = self._sphere()
         found, weights = [], []
         for light in self.scene.lights:
             towards = _towards(light, middle, radius)
@@ -217,8 +218,7 @@ class Shoot:
 
     def set_time(self, seconds: float, animation: int | str) -> None:
         """Move what an animation moves."""
-        scene: Any = self.scene
-        scene.set_time(seconds, animation)
+        self.scene.set_time(seconds, animation)
 
     def moments_of(self, seconds: float) -> list[float]:
         """Give the times at which an animation is looked at before the camera is placed."""
@@ -266,9 +266,9 @@ def _towards(light: Light, point: npt.NDArray[np.float64], radius: float) -> Any
     if isinstance(light, AmbientLight):
         return None
     if isinstance(light, DirectionalLight):
-        return -np.asarray(getattr(light, "world_direction", light.direction), np.float64)
+        return -np.asarray(light.world_direction, np.float64)
     lamp: Any = light
-    away = np.asarray(getattr(lamp, "world_position", lamp.position), np.float64) - point
+    away = np.asarray(lamp.world_position, np.float64) - point
     return away / max(float(np.linalg.norm(away)), 1e-9 * max(radius, 1e-30))
 
 
@@ -282,7 +282,7 @@ def _arriving(light: Light, point: npt.NDArray[np.float64], radius: float) -> fl
         return strength
     if not isinstance(light, DirectionalLight):
         lamp: Any = light
-        position = np.asarray(getattr(lamp, "world_position", lamp.position), np.float64)
+        position = np.asarray(lamp.world_position, np.float64)
         # Light falls off from the lamp to the model's surface, not to its middle.
         away = max(float(np.linalg.norm(position - point)), 0.5 * radius, 1e-9)
         strength /= away**lamp.decay
@@ -290,14 +290,7 @@ def _arriving(light: Light, point: npt.NDArray[np.float64], radius: float) -> fl
 
 
 def _rotation(quaternion: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    w, x, y, z = np.asarray(quaternion, np.float64)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return np.asarray(Scene().add(rotation=quaternion).matrix[:3, :3])
 
 
 def _turned(scene: Scene, cube: CubeMap) -> CubeMap:

@@ -34,5 +34,5 @@ def blurred(cube: CubeMap) -> CubeMap:
 def exposure_for(cube: CubeMap, intensity: float = 1.0) -> float:
     """Choose the stops at which a white matt surface, on average over its sides, is as bright as on a photograph."""
     sides = np.concatenate([np.eye(3), -np.eye(3)])
-    mean = intensity * float(np.mean([sky_irradiance(cube, side) for side in sides])) / np.pi
+    mean = intensity * float(sky_irradiance(cube, sides).mean()) / np.pi
     return float(np.clip(np.log2(_GREY / mean), -16, 16)) if mean > 0 else 0.0

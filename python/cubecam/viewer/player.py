@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,7 +29,7 @@ class Player:
     """
 
     def __init__(self, scene: Scene) -> None:
-        self._scene: Any = scene
+        self._scene = scene
         self._index = 0
         self._time = 0.0
         self._last: float | None = None  # when the running time was looked at
@@ -39,8 +39,7 @@ class Player:
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the animations; two of one name get numbers, and so do those without."""
-        known = getattr(self._scene, "animations", ())
-        names = [animation.name for animation in known]
+        names = [animation.name for animation in self._scene.animations]
         return tuple(
             name if name and names.count(name) == 1 else f"{name} {i}".strip()
             for i, name in enumerate(names)
@@ -63,7 +62,7 @@ class Player:
     @property
     def duration(self) -> float:
         """The seconds that the animation lasts; 0 if there is none."""
-        known = getattr(self._scene, "animations", ())
+        known = self._scene.animations
         return float(known[self._index].duration) if self._index < len(known) else 0.0
 
     @property

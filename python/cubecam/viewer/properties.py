@@ -461,7 +461,7 @@ def _map(one: _Property) -> Iterator[Control]:
     def set_shown(value: bool) -> None:
         one.set((today() or kept[0]) if value else None)
 
-    # Comparing pictures takes long: they are told apart as objects.
+    # Comparing the pixels of two pictures takes long, so a picture counts as unchanged only if it is the same object.
     first = one.get()
     yield one.control(
         "flag",

@@ -8,15 +8,20 @@ import numpy as np
 
 from .._core import OrthographicCamera, PerspectiveCamera, Scene
 
-__all__ = ["camera_names", "free_camera"]
+__all__ = ["camera_names", "free_camera", "name_of"]
+
+
+def name_of(camera: Any) -> str:
+    """Give the name of a camera's node; empty without one."""
+    parent = getattr(camera, "parent", None)  # a camera of matrices has none
+    return "" if parent is None else str(parent.name)
 
 
 def camera_names(scene: Scene) -> dict[str, Any]:
-    """Name the cameras of a scene: by their own names, else by their nodes' names, else by numbers."""
+    """Name the cameras of a scene: by their nodes' names, else by numbers."""
     found: dict[str, Any] = {}
-    for i, camera in enumerate(getattr(scene, "cameras", ())):
-        parent = getattr(camera, "parent", None)
-        name = getattr(camera, "name", "") or (parent.name if parent is not None else "")
+    for i, camera in enumerate(scene.cameras):
+        name = name_of(camera)
         word = name if name and name not in found else f"{name or 'camera'} {i}"
         found[word] = camera
     return found
@@ -44,7 +49,7 @@ def free_camera(camera: Any, ahead: float = 1.0) -> PerspectiveCamera | Orthogra
         target, up = position - np.array([0.0, 0.0, ahead]), np.array([0.0, 1.0, 0.0])
     else:
         target = np.asarray(camera.target, float)
-    parent = getattr(camera, "parent", None)
+    parent = camera.parent
     if parent is not None:
         matrix = np.asarray(parent.world_matrix, float)
         at = matrix[:3, :3] @ position + matrix[:3, 3]

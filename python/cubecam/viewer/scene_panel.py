@@ -182,8 +182,8 @@ def _view(memory: Memory, viewer: Any, nodes: tuple[Node, ...]) -> Section:
 def _time_and_variants(memory: Memory, viewer: Any) -> Iterator[Section]:
     """Give the section for what a scene from a file may have: cameras, variants, animations."""
     scene = viewer.scene
-    cameras, variants = tuple(camera_names(scene)), tuple(getattr(scene, "variants", ()))
-    animations = tuple(one.name for one in getattr(scene, "animations", ()))
+    cameras, variants = tuple(camera_names(scene)), scene.variants
+    animations = tuple(one.name for one in scene.animations)
     if not (cameras or variants or animations):
         return
 

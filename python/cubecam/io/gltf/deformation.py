@@ -74,21 +74,33 @@ def skin(document: Gltf, shape: Surface, entry: Entry) -> None:
 
 def _joint_matrices(document: Gltf, entry: Entry) -> Matrices:
     """Return the matrix of each joint: from the space of the mesh to the world."""
+    numbers = joints_of(document, entry)
+    worlds: Matrices = document.nodes.worlds[numbers]
+    bind = inverse_bind_matrices(document, entry, len(numbers))
+    return worlds if bind is None else worlds @ bind
+
+
+def joints_of(document: Gltf, entry: Entry) -> list[int]:
+    """Read the nodes that are the joints of a skin."""
     numbers = entry.indices("joints", document.count("nodes"))
     if not numbers:
         raise entry.error("joints", "a list of nodes")
-    worlds: Matrices = document.nodes.worlds[numbers]
+    return numbers
+
+
+def inverse_bind_matrices(document: Gltf, entry: Entry, joints: int) -> Matrices | None:
+    """Read the matrices of a skin, (J, 4, 4), one for each joint; None if it has none."""
     if "inverseBindMatrices" not in entry:
-        return worlds
+        return None
     inverse = accessor_index(document, entry, "inverseBindMatrices")
     check_type(entry, "inverseBindMatrices", document.layout(inverse), "MAT4")
     bind = np.asarray(document.accessor(inverse), np.float64)
-    if len(bind) < len(numbers):
+    if len(bind) < joints:
         raise MeshError(
-            f"{entry.path('inverseBindMatrices')}: expected {len(numbers)} matrices, one for each "
+            f"{entry.path('inverseBindMatrices')}: expected {joints} matrices, one for each "
             f"joint, got {len(bind)}"
         )
-    return worlds @ bind[: len(numbers)]
+    return bind[:joints]
 
 
 def _add_joints(

@@ -12,57 +12,6 @@ INSTANCING = "EXT_mesh_gpu_instancing"
 VISIBILITY = "KHR_node_visibility"
 GEOMETRY = frozenset({DRACO, *MESHOPT, INSTANCING, VISIBILITY, "KHR_mesh_quantization"})
 
-#: Those that leave triangles where they are: looks, lights, metadata, behaviour.
-HARMLESS = frozenset(
-    {
-        "ADOBE_materials_clearcoat_specular",
-        "ADOBE_materials_clearcoat_tint",
-        "ADOBE_materials_thin_transparency",
-        "AGI_stk_metadata",
-        "CESIUM_primitive_outline",
-        "EXT_feature_metadata",
-        "EXT_instance_features",
-        "EXT_lights_ies",
-        "EXT_lights_image_based",
-        "EXT_mesh_features",
-        "EXT_structural_metadata",
-        "EXT_texture_avif",
-        "EXT_texture_webp",
-        "FB_geometry_metadata",
-        "KHR_animation_pointer",
-        "KHR_audio_emitter",
-        "KHR_lights_punctual",
-        "KHR_materials_anisotropy",
-        "KHR_materials_clearcoat",
-        "KHR_materials_diffuse_transmission",
-        "KHR_materials_dispersion",
-        "KHR_materials_emissive_strength",
-        "KHR_materials_ior",
-        "KHR_materials_iridescence",
-        "KHR_materials_pbrSpecularGlossiness",
-        "KHR_materials_sheen",
-        "KHR_materials_specular",
-        "KHR_materials_transmission",
-        "KHR_materials_unlit",
-        "KHR_materials_variants",
-        "KHR_materials_volume",
-        "KHR_materials_volume_scatter",
-        "KHR_node_hoverability",
-        "KHR_node_selectability",
-        "KHR_techniques_webgl",
-        "KHR_texture_basisu",
-        "KHR_texture_transform",
-        "KHR_xmp",
-        "KHR_xmp_json_ld",
-        "MSFT_lod",  # the nodes of the tree are the finest level
-        "MSFT_packing_normalRoughnessMetallic",
-        "MSFT_packing_occlusionRoughnessMetallic",
-        "MSFT_texture_dds",
-        "NV_materials_mdl",
-        "VRMC_materials_mtoon",
-    }
-)
-
 #: Those that `load_scene` follows, besides those of geometry.
 SCENE = frozenset(
     {
@@ -102,9 +51,29 @@ SILENT = frozenset(
         "KHR_node_selectability",
         "KHR_xmp",
         "KHR_xmp_json_ld",
-        "MSFT_lod",
+        "MSFT_lod",  # the nodes of the tree are the finest level
         "MSFT_packing_normalRoughnessMetallic",
         "MSFT_packing_occlusionRoughnessMetallic",
+    }
+)
+
+#: Those that leave triangles where they are: looks, lights, metadata, behaviour.
+HARMLESS = (
+    SCENE
+    | SILENT
+    | {
+        "ADOBE_materials_clearcoat_specular",
+        "ADOBE_materials_clearcoat_tint",
+        "ADOBE_materials_thin_transparency",
+        "CESIUM_primitive_outline",
+        "EXT_lights_ies",
+        "EXT_texture_avif",
+        "KHR_animation_pointer",
+        "KHR_materials_diffuse_transmission",
+        "KHR_materials_volume_scatter",
+        "KHR_techniques_webgl",
+        "NV_materials_mdl",
+        "VRMC_materials_mtoon",
     }
 )
 

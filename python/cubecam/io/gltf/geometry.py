@@ -18,7 +18,7 @@ from .extensions import DRACO, INSTANCING
 from .limits import Limits
 from .matrices import composed, rotations
 from .nodes import hidden
-from .primitives import MODES, Attributes, Floats, Surface, accessor_index, surface
+from .primitives import MODES, Attributes, Surface, accessor_index, from_bottom, surface
 
 
 def read(path: Path, data: bytes) -> list[Part]:
@@ -149,7 +149,7 @@ class Geometry:
         # The specification asks for flat normals where a file has none. load_mesh promises smooth ones for every kind
         # of file; `flat_shading` of a material draws any mesh flat.
         uvs, uvs1 = (
-            None if given is None else _from_bottom(given) for given in (shape.uvs, shape.uvs1)
+            None if given is None else from_bottom(given) for given in (shape.uvs, shape.uvs1)
         )
         try:
             part = Part(
@@ -181,8 +181,3 @@ def instances(document: Gltf, node: Entry, limits: Limits) -> Matrices:
         turn,
         np.ones((count, 3)) if scale is None else scale,
     )
-
-
-def _from_bottom(uvs: Floats) -> Floats:
-    """Turn v, which glTF counts from the top of a picture, into cubecam's, from its bottom."""
-    return np.stack([uvs[:, 0], 1 - uvs[:, 1]], axis=1)

@@ -164,6 +164,11 @@ def colors(attributes: Attributes, alpha: float) -> Floats | None:
     return np.clip(result, 0, 1) if alpha else result
 
 
+def from_bottom(uvs: Floats) -> Floats:
+    """Turn v, which glTF counts from the top of a picture, into cubecam's, from its bottom."""
+    return np.stack([uvs[:, 0], 1 - uvs[:, 1]], axis=1)
+
+
 def triangles(document: Gltf, primitive: Entry, vertices: int) -> Faces:
     """Read the triangles, (T, 3), of a primitive that has some vertices."""
     corners = _corners(document, primitive, vertices)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...._core import Material, Node, Scene
 from ...left_out import LeftOut
+from ..deformation import joints_of
 from ..document import Gltf
 from ..entries import Entry
 from ..extensions import INSTANCING, unread
@@ -23,7 +24,7 @@ from .environment import add_environment
 from .lights import light_of
 from .materials import Materials
 from .meshes import Meshes, Primitive
-from .skins import Skins, joints_of
+from .skins import Skins
 from .textures import Textures
 from .values import at
 from .variants import variant_materials, variant_names

@@ -14,7 +14,7 @@ from ..document import Gltf
 from ..entries import Entry
 from ..geometry import Geometry
 from ..limits import Limits
-from ..primitives import MODES, Floats, Surface
+from ..primitives import MODES, Floats, Surface, from_bottom
 from .skins import influences, morph_targets
 from .values import at
 
@@ -98,7 +98,8 @@ class Meshes:
         """Return the texture coordinates that become the first or the second ones, with v from the bottom."""
         for number, where in self._sets.items():
             if where == place:
-                return from_bottom(surface.attributes.floats(f"TEXCOORD_{number}", "VEC2"))
+                uvs = _finite(surface.attributes.floats(f"TEXCOORD_{number}", "VEC2"))
+                return None if uvs is None else from_bottom(uvs)
         return None
 
 
@@ -109,15 +110,6 @@ def target_names(mesh: Entry) -> list[str]:
     if not isinstance(names, list):
         return []
     return [name if isinstance(name, str) else "" for name in names]
-
-
-def from_bottom(uvs: Floats | None) -> Floats | None:
-    """Turn v, which glTF counts from the top of a picture, into cubecam's, from its bottom."""
-    if uvs is None:
-        return None
-    found = _finite(uvs)
-    assert found is not None
-    return np.stack([found[:, 0], 1 - found[:, 1]], axis=1)
 
 
 def _finite(values: Any) -> Any:

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from ...._core import MorphTarget, Node, Skin
+from ..deformation import inverse_bind_matrices, joints_of
 from ..document import Gltf
 from ..entries import Entry
 from ..limits import Limits
-from ..primitives import Attributes, Floats, Surface, accessor_index, check_type, colors
+from ..primitives import Attributes, Floats, Surface, colors
 from .values import at
 
 
@@ -31,16 +32,9 @@ class Skins:
     def _skin(self, entry: Entry) -> Skin:
         document = self._document
         numbers = joints_of(document, entry)
-        bind = None
-        if "inverseBindMatrices" in entry:
-            index = accessor_index(document, entry, "inverseBindMatrices")
-            check_type(entry, "inverseBindMatrices", document.layout(index), "MAT4")
-            bind = np.array(document.accessor(index), np.float64)
-            if len(bind) < len(numbers):
-                raise entry.error(
-                    "inverseBindMatrices", f"{len(numbers)} matrices, one for each joint"
-                )
-            bind = bind[: len(numbers)]
+        bind = inverse_bind_matrices(document, entry, len(numbers))
+        if bind is not None:
+            bind = bind.copy()
             bind[:, 3] = (0, 0, 0, 1)  # programs write numbers close to these
         skeleton = entry.index("skeleton", document.count("nodes"))
         with at(entry):
@@ -49,13 +43,6 @@ class Skins:
                 bind,
                 skeleton=None if skeleton is None else self._nodes.get(skeleton),
             )
-
-
-def joints_of(document: Gltf, entry: Entry) -> list[int]:
-    numbers = entry.indices("joints", document.count("nodes"))
-    if not numbers:
-        raise entry.error("joints", "a list of nodes")
-    return numbers
 
 
 def influences(surface: Surface) -> tuple[Any, Floats | None]:
