@@ -7,6 +7,7 @@
 #include "node_list.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/render/renderer.hpp"
@@ -89,7 +90,7 @@ std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredL
     }
     RendererOptions options{to_device(device), to_layered(layered),
                             static_cast<std::size_t>(cache_bytes), debug};
-    const py::gil_scoped_release release;
+    const bindings::Unlocked unlocked;
     return std::make_shared<Renderer>(std::move(options));
 }
 
@@ -122,7 +123,7 @@ PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
     Frame frame;
     const auto snapshot = scene.snapshot(bindings::to_effects(effects));
     {
-        const py::gil_scoped_release release;
+        const bindings::Unlocked unlocked;
         frame = std::visit(
             [&](const auto& value) { return renderer.render(*snapshot, value, options); }, seen);
     }
@@ -154,7 +155,7 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
     options.depth_order = parse_depth_order(depth_order);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     const auto snapshot = scene.snapshot();
-    const py::gil_scoped_release release;
+    const bindings::Unlocked unlocked;
     return renderer.capture(*snapshot, options);
 }
 
@@ -174,7 +175,7 @@ void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& pro
         if (wanted.empty()) return;
     }
     const auto snapshot = scene.snapshot();
-    const py::gil_scoped_release release;
+    const bindings::Unlocked unlocked;
     renderer.update_probes(*snapshot, wanted);
 }
 
@@ -210,7 +211,7 @@ void bind_renderer(pybind11::module_& m) {
         .def(
             "read_probe",
             [](Renderer& self, const std::shared_ptr<Probe>& probe) {
-                const py::gil_scoped_release release;
+                const bindings::Unlocked unlocked;
                 return self.read_probe(probe);
             },
             py::arg("probe"), docs::read_probe)
@@ -219,7 +220,7 @@ void bind_renderer(pybind11::module_& m) {
             [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
                 Frame held;
                 {
-                    const py::gil_scoped_release release;
+                    const bindings::Unlocked unlocked;
                     held = self.read_texture(render_texture);
                 }
                 return bindings::Pixels(PyFrame(std::move(held)).color);
@@ -231,7 +232,7 @@ void bind_renderer(pybind11::module_& m) {
                 const auto snapshot = scene.snapshot();
                 ShadowDistances picture;
                 {
-                    const py::gil_scoped_release release;
+                    const bindings::Unlocked unlocked;
                     picture = self.shadow_map(*snapshot, light);
                 }
                 return py::array_t<float>(owned_array(
@@ -239,7 +240,7 @@ void bind_renderer(pybind11::module_& m) {
             },
             py::arg("scene"), py::arg("light"), docs::shadow_map)
         .def(
-            "close", &Renderer::close, py::call_guard<py::gil_scoped_release>(),
+            "close", &Renderer::close, py::call_guard<bindings::Unlocked>(),
             "Free the OpenGL context and its memory. Calls after that raise ContextError; a second "
             "close() does nothing.")
         .def_property_readonly("closed", &Renderer::closed, "bool: whether close() was called.")
@@ -250,7 +251,7 @@ void bind_renderer(pybind11::module_& m) {
         .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
         .def("__exit__",
              [](Renderer& self, const py::args&) {
-                 const py::gil_scoped_release release;
+                 const bindings::Unlocked unlocked;
                  self.close();
              })
         .def("__repr__", [](const Renderer& self) {

@@ -1,6 +1,7 @@
 // The extension module cubecam._core.
 #include "arguments.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/scene/node.hpp"
@@ -82,6 +83,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which exports it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    cubecam::bindings::install_interrupt_check();
     bind_pickling(module);
     bind_arrays(module);
     bind_errors(module);
