@@ -10,6 +10,7 @@
 #include <sys/syscall.h>
 #include <thread>
 #include <unistd.h>
+#include <unwind.h>
 
 namespace py = pybind11;
 
@@ -41,6 +42,15 @@ constinit std::atomic<unsigned long> signal_thread{0};
 PyThreadState* leave_lock() {
     ++running;  // first: the end of the interpreter must not come in between
     return PyEval_SaveThread();
+}
+
+/// Whether Python ends the threads that ask for its lock.
+bool interpreter_ends() noexcept {
+#if PY_VERSION_HEX >= 0x030D0000
+    return Py_IsFinalizing() != 0 || Py_IsInitialized() == 0;
+#else
+    return _Py_IsFinalizing() != 0 || Py_IsInitialized() == 0;
+#endif
 }
 
 void take_lock(PyThreadState* state) noexcept {
@@ -119,3 +129,31 @@ void install_interrupt_check() {
 }
 
 }  // namespace cubecam::bindings
+
+// The linker puts this function in the place of __gxx_personality_v0 (option --wrap), which the
+// unwinder calls for each C++ frame of this module, the innermost first. A daemon thread may lose
+// the lock for ever not only in Unlocked, but wherever a binding calls Python: a user's function, a
+// generator, `__array__`, `__index__`. Python 3.10 to 3.13 then unwind the thread, and destructors
+// on the way would change reference counts without the lock: the thread sleeps instead, before the
+// first of them runs.
+extern "C" {
+
+// The names are the linker's.
+// NOLINTBEGIN(bugprone-reserved-identifier)
+_Unwind_Reason_Code __real___gxx_personality_v0(int version, _Unwind_Action actions,
+                                                _Unwind_Exception_Class kind,
+                                                _Unwind_Exception* exception,
+                                                _Unwind_Context* context);
+
+_Unwind_Reason_Code __wrap___gxx_personality_v0(int version, _Unwind_Action actions,
+                                                _Unwind_Exception_Class kind,
+                                                _Unwind_Exception* exception,
+                                                _Unwind_Context* context) {
+    if ((actions & _UA_FORCE_UNWIND) != 0 && cubecam::bindings::interpreter_ends()) {
+        cubecam::bindings::sleep_for_ever();
+    }
+    return __real___gxx_personality_v0(version, actions, kind, exception, context);
+}
+// NOLINTEND(bugprone-reserved-identifier)
+
+}  // extern "C"
