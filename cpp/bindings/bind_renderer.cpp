@@ -5,6 +5,7 @@
 #include "frame.hpp"
 #include "info.hpp"
 #include "node_list.hpp"
+#include "notices.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
 #include "unlocked.hpp"
@@ -90,8 +91,7 @@ std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredL
     }
     RendererOptions options{to_device(device), to_layered(layered),
                             static_cast<std::size_t>(cache_bytes), debug};
-    const bindings::Unlocked unlocked;
-    return std::make_shared<Renderer>(std::move(options));
+    return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
 std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
@@ -120,14 +120,11 @@ PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
     if (encode) options.encode = parse_encode(*encode);
     options.depth_format = bindings::to_depth_format(depth_format);
     const auto seen = to_camera(camera);
-    Frame frame;
     const auto snapshot = scene.snapshot(bindings::to_effects(effects));
-    {
-        const bindings::Unlocked unlocked;
-        frame = std::visit(
+    return PyFrame(bindings::with_notices([&] {
+        return std::visit(
             [&](const auto& value) { return renderer.render(*snapshot, value, options); }, seen);
-    }
-    return PyFrame(std::move(frame));
+    }));
 }
 
 std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
@@ -155,8 +152,7 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
     options.depth_order = parse_depth_order(depth_order);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     const auto snapshot = scene.snapshot();
-    const bindings::Unlocked unlocked;
-    return renderer.capture(*snapshot, options);
+    return bindings::with_notices([&] { return renderer.capture(*snapshot, options); });
 }
 
 void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& probes) {
@@ -175,8 +171,10 @@ void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& pro
         if (wanted.empty()) return;
     }
     const auto snapshot = scene.snapshot();
-    const bindings::Unlocked unlocked;
-    renderer.update_probes(*snapshot, wanted);
+    bindings::with_notices([&] {
+        renderer.update_probes(*snapshot, wanted);
+        return true;
+    });
 }
 
 }  // namespace
@@ -211,18 +209,14 @@ void bind_renderer(pybind11::module_& m) {
         .def(
             "read_probe",
             [](Renderer& self, const std::shared_ptr<Probe>& probe) {
-                const bindings::Unlocked unlocked;
-                return self.read_probe(probe);
+                return bindings::with_notices([&] { return self.read_probe(probe); });
             },
             py::arg("probe"), docs::read_probe)
         .def(
             "read_texture",
             [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
-                Frame held;
-                {
-                    const bindings::Unlocked unlocked;
-                    held = self.read_texture(render_texture);
-                }
+                Frame held =
+                    bindings::with_notices([&] { return self.read_texture(render_texture); });
                 return bindings::Pixels(PyFrame(std::move(held)).color);
             },
             py::arg("render_texture").none(false), docs::read_texture)
@@ -230,11 +224,8 @@ void bind_renderer(pybind11::module_& m) {
             "shadow_map",
             [](Renderer& self, const Scene& scene, const std::shared_ptr<Light>& light) {
                 const auto snapshot = scene.snapshot();
-                ShadowDistances picture;
-                {
-                    const bindings::Unlocked unlocked;
-                    picture = self.shadow_map(*snapshot, light);
-                }
+                ShadowDistances picture =
+                    bindings::with_notices([&] { return self.shadow_map(*snapshot, light); });
                 return py::array_t<float>(owned_array(
                     std::move(picture.distances), {picture.layers, picture.size, picture.size}));
             },
