@@ -24,6 +24,9 @@ std::string candidate_in_words(const Candidate& candidate) {
     for (std::size_t i = 0; i < list.attempts.size(); ++i) {
         text += "\n  " + std::to_string(i + 1) + ". " + list.attempts[i];
     }
+    // A driver that cannot be opened for lack of descriptors is there: nothing is to be installed.
+    const std::string files = egl::descriptors_hint();
+    if (!files.empty()) throw ContextError(text + "\n" + files);
     if (list.kind != DeviceKind::gpu) text += "\n" + egl::software_hint();
     throw ContextError(text + "\n" + egl::gpu_hint());
 }
@@ -72,6 +75,7 @@ Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 const GladGLContext& Context::gl() const noexcept { return impl_->gl; }
+Pace& Context::pace() const noexcept { return impl_->pace; }
 const std::string& Context::vendor() const noexcept { return impl_->vendor; }
 const std::string& Context::renderer() const noexcept { return impl_->renderer; }
 const std::string& Context::version() const noexcept { return impl_->version; }

@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/device_choice.hpp"
+#include "cubecam/gl/pace.hpp"
 
 #include <glad/gl.h>
 
@@ -32,6 +33,7 @@ struct Context::Impl {
     std::vector<std::string> extensions;
     bool software = false;
     bool debug = false;
+    Pace pace;
     std::mutex messages_mutex;
     std::vector<std::string> messages;
 };

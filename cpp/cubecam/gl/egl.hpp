@@ -26,5 +26,7 @@ std::string error_name(Int error);
 /// Texts that say what to install or set if no context could be started.
 std::string software_hint();
 std::string gpu_hint();
+/// What to do if this process has no file descriptors left; else empty.
+std::string descriptors_hint();
 
 }  // namespace cubecam::gl::egl

@@ -1,8 +1,10 @@
 #include "cubecam/render/readback.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/resources/repack.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +14,8 @@ namespace cubecam {
 namespace {
 
 using Result = std::shared_ptr<PixelBuffer>;
+
+constexpr std::size_t most_bytes_at_once = std::size_t{1} << 26;
 
 GLenum gl_type(Format format) {
     switch (format) {
@@ -128,12 +132,12 @@ private:
         if (!direct) layer = pool_.take(given_row * rows);
         Result all = pool_.take(taken_row * rows * count);
         for (std::size_t i = 0; i < count; ++i) {
+            poll_interrupts();
             const GLuint framebuffer = layers.one(static_cast<int>(i));
             if (slot) gl_.NamedFramebufferReadBuffer(framebuffer, attachment(*slot));
             gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
             std::byte* to = all->data() + i * taken_row * rows;
-            gl_.ReadPixels(0, 0, d_.width, d_.height, given.format, given.type,
-                           direct ? to : layer->data());
+            read_bands(given, rows, given_row, direct ? to : layer->data());
             if (direct) continue;
             if (row == copy_row) {
                 flip_rows(layer->data(), to, taken_row, rows);
@@ -146,6 +150,17 @@ private:
             }
         }
         return all;
+    }
+
+    /// Reads the bound layer in bands of rows, so that a large one can be interrupted.
+    void read_bands(const Given& given, std::size_t rows, std::size_t row_bytes, std::byte* to) {
+        const std::size_t most = std::max<std::size_t>(1, most_bytes_at_once / row_bytes);
+        for (std::size_t row = 0; row < rows; row += most) {
+            poll_interrupts();
+            const std::size_t count = std::min(most, rows - row);
+            gl_.ReadPixels(0, static_cast<GLint>(row), d_.width, static_cast<GLsizei>(count),
+                           given.format, given.type, to + row * row_bytes);
+        }
     }
 
     const GladGLContext& gl_;

@@ -1,7 +1,9 @@
 #include "cubecam/render/renderer.hpp"
 
 #include "cubecam/core/error.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/render/graph/frame_context.hpp"
+#include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/requested_outputs.hpp"
 #include "cubecam/render/stereo.hpp"
@@ -12,8 +14,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace cubecam {
 namespace {
@@ -127,7 +131,15 @@ void Renderer::close() noexcept {
         (void)gpu_.release();
         return;
     }
+    if (draws_here()) {
+        close_after_call_ = true;
+        return;
+    }
     const std::lock_guard lock(mutex_);
+    free_gpu();
+}
+
+void Renderer::free_gpu() noexcept {
     if (gpu_ == nullptr) return;
     try {
         const gl::CurrentScope scope(gpu_->context);
@@ -140,23 +152,55 @@ void Renderer::close() noexcept {
 
 bool Renderer::closed() const {
     if (gl::in_forked_child()) return true;
+    if (draws_here()) return close_after_call_;
     const std::lock_guard lock(mutex_);
     return gpu_ == nullptr;
 }
 
 Stats Renderer::stats() const {
     if (gl::in_forked_child()) throw ContextError(forked);
+    if (draws_here()) return stats_;
     const std::lock_guard lock(mutex_);
     return stats_;
 }
 
+bool Renderer::draws_here() const { return drawing_.load() == std::this_thread::get_id(); }
+
+/// The mutex is held while it lives.
+struct Renderer::Drawing {
+    explicit Drawing(Renderer& its_renderer)
+        : renderer(its_renderer), scope(its_renderer.gpu_->context) {
+        renderer.drawing_ = std::this_thread::get_id();
+    }
+    ~Drawing() {
+        if (std::uncaught_exceptions() > exceptions) {
+            // A draw may have been left in the middle, and passes depend on this state.
+            reset_raster_state(renderer.gpu_->context.gl(), depth_state(DepthOrder::nearest));
+        }
+        scope.reset();
+        renderer.drawing_ = std::thread::id();
+        if (renderer.close_after_call_) renderer.free_gpu();
+        renderer.close_after_call_ = false;
+    }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    Renderer& renderer;
+    const int exceptions = std::uncaught_exceptions();
+    std::optional<gl::CurrentScope> scope;
+};
+
 template <class Work>
 auto Renderer::run(Work&& work) {
     if (gl::in_forked_child()) throw ContextError(forked);
+    if (draws_here()) {
+        throw Error("this renderer is drawing, and a signal handler interrupted it: expected a "
+                    "call after the drawing has ended, got one from the handler");
+    }
     const std::lock_guard lock(mutex_);
     if (gpu_ == nullptr) throw ContextError("the renderer is closed: expected an open Renderer");
     const auto start = std::chrono::steady_clock::now();
-    const gl::CurrentScope scope(gpu_->context);
+    const Drawing drawing(*this);
     RendererState& state = *gpu_->state;
     state.cache.sweep();
     state.probes.sweep();
@@ -216,6 +260,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         FrameContext frame(gpu, scene);
         frame.draw(std::move(views), target, seen_by_all, {}, post_process);
         stats_ = frame.stats;
+        gpu.context.pace().finish(gpu.context.gl());
         Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
         drawn.tonemapped = post_process.tonemap != Tonemap::none;
         drawn.encoding =
@@ -262,6 +307,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         };
         frame.draw(std::move(views), target, seen, std::move(wanted));
         stats_ = frame.stats;
+        gpu.context.pace().finish(gpu.context.gl());
         return read_cube(gpu.context.gl(), target, *gpu.results,
                          kept_encoding(target, [&] { return scene_encoding(scene, 0, seen); }));
     });
@@ -322,6 +368,7 @@ std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& prob
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update_probes()");
         }
+        gpu.context.pace().finish(gpu.context.gl());
         return read_cube(gpu.context.gl(), *state->target, *gpu.results, state->encoding);
     });
 }
@@ -333,6 +380,7 @@ Frame Renderer::read_texture(const std::shared_ptr<RenderTexture>& texture) {
             throw std::invalid_argument("render_texture: expected one that this renderer has "
                                         "drawn; render a frame that shows it");
         }
+        gpu.context.pace().finish(gpu.context.gl());
         return read_frame(gpu.context.gl(), *state->target, *gpu.results);
     });
 }

@@ -11,9 +11,11 @@
 #include "cubecam/scene/scene.hpp"
 #include "cubecam/scene/stereo_camera.hpp"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <vector>
 
 namespace cubecam {
@@ -44,7 +46,9 @@ struct ShadowDistances {
 ///
 /// Any thread may call it; calls on one renderer run one after the other, several renderers run in
 /// parallel. Between calls its context is current on no thread. After close(), and in a process
-/// forked after EGL was opened, every call throws ContextError.
+/// forked after EGL was opened, every call throws ContextError. A call polls for interrupts
+/// (core/interrupts.hpp); an interrupted picture counts as not drawn. Inside a poll, the same
+/// renderer draws nothing (Error), and close() takes effect when the call ends.
 class Renderer {
 public:
     /// @throws ContextError that lists every attempt, if no OpenGL 4.5 context can be created.
@@ -98,7 +102,12 @@ public:
     bool closed() const;
 
 private:
-    struct Gpu;  // the context and everything made in it
+    struct Gpu;      // the context and everything made in it
+    struct Drawing;  // a call that draws
+
+    /// Whether a call of this thread is drawing: a signal handler runs inside it.
+    bool draws_here() const;
+    void free_gpu() noexcept;
 
     template <class Work>
     auto run(Work&& work);
@@ -110,6 +119,8 @@ private:
     mutable std::mutex mutex_;
     std::unique_ptr<Gpu> gpu_;
     Stats stats_;
+    std::atomic<std::thread::id> drawing_{};  ///< the thread whose call is drawing
+    bool close_after_call_ = false;           ///< used by that thread alone
 };
 
 }  // namespace cubecam
