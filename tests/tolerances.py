@@ -34,6 +34,10 @@ TOLERANCES = {
         "float32 bilinear weights: s * N of a 64-texel face keeps 17 bits below the point",
         relative=1e-5,
     ),
+    "sky": Tolerance(
+        1e-5,
+        "directions of float32 from float64 rays, and a smooth cube of 16 texels: its slope is below 4 for a radian",
+    ),
     "filtered_lookup": Tolerance(
         1e-5,
         "places among the faces of an atlas of 512 texels keep 14 bits below the point: weights are off by 6e-5, "

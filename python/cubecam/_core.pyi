@@ -4109,7 +4109,7 @@ class Material:
                             a `Blend`: by its factors.
                             None: "alpha" if any part of the material is translucent, else "opaque"
     depth_write=None        whether the surface hides farther surfaces that are drawn after it; None:
-                            True if the blend is "opaque"
+                            True if the blend is "opaque"; shadows do not depend on it
     depth_test=True         False: the surface is drawn over nearer ones, too
     color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
     stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
@@ -5662,7 +5662,8 @@ class Shadow:
     How a light makes its shadow: a depth map from the light's view, and the filter of its lookups.
 
     A Shadow never changes; give a light a new one instead. All visible opaque nodes whose ``cast_shadow`` is
-    True cast shadows, in or out of a picture's view, from either side of their surface. Shadows fall on
+    True cast shadows, in or out of a picture's view, from either side of their surface, whether their material
+    writes depth and colour or not. Shadows fall on
     every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again only when
     something in its view changes.
 

@@ -105,16 +105,16 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     std::map<std::pair<const MeshData*, std::uint64_t>, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
-    for (const PlannedNode& planned : input.plan.opaque) {
+    input.plan.for_each([&](const PlannedNode& planned) {
         const auto visibilities = input.plan.visible_in(planned);
         const bool seen =
             std::any_of(visibilities.begin(), visibilities.end(),
                         [layer](const Visibility& visibility) { return visibility.view == layer; });
-        if (!seen) continue;
+        if (!seen) return;
         const NodeSnapshot& node = input.scene.nodes[planned.node];
         if (moves_vertices(node)) {
             moved.push_back(&node);
-            continue;
+            return;
         }
         const std::uint64_t material = has_holes(node) ? node.material.revision : 0;
         const auto [place, added] = places.try_emplace({node.mesh.get(), material}, casters.size());
@@ -122,7 +122,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
         casters[place->second].nodes.push_back(
             make_view_record(from, matrix, from.position, layer));
-    }
+    });
     std::vector<ViewRecord> instances;
     for (const Casters& some : casters) {
         instances.insert(instances.end(), some.nodes.begin(), some.nodes.end());

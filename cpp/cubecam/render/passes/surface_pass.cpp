@@ -74,7 +74,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
 
     const SurfaceItems items = find_items(input, *cache_);
     SurfaceCallBuilder builder(
-        input, items, lights_.ambient,
+        input, items, {description.width, description.height}, lights_.ambient,
         static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment));
     std::vector<SurfaceCalls> calls;  // one for each region, or one for all
     if (use_layers(input, items, whole)) {
