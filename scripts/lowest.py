@@ -50,8 +50,10 @@ def main(arguments: list[str]) -> int:
     print("[lowest] Python packages", flush=True)
     wanted = packages.requirements(["build", "run", "test"])
     subprocess.run(
-        [sys.executable, "-m", "uv", "pip", "install", "--quiet", "--python", python]
-        + ["--resolution", "lowest-direct", *wanted],
+        [
+            *(sys.executable, "-m", "uv", "pip", "install", "--quiet", "--python", python),
+            *("--resolution", "lowest-direct", *wanted),
+        ],
         env={**os.environ, **index()},
         check=True,
     )
@@ -62,8 +64,10 @@ def main(arguments: list[str]) -> int:
         "CMAKE_BUILD_PARALLEL_LEVEL": str(len(os.sched_getaffinity(0))),
     }
     subprocess.run(
-        [python, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps"]
-        + ["--config-settings=build-dir=build/lowest", "."],
+        [
+            *(python, "-m", "pip", "install", "--quiet", "--no-build-isolation", "--no-deps"),
+            *("--config-settings=build-dir=build/lowest", "."),
+        ],
         cwd=packages.ROOT,
         env=environment,
         check=True,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from tests.helpers import DEVICE, device, on_llvmpipe, only_on_llvmpipe
+from tests.helpers import DEVICE, device, need_layers, on_llvmpipe, only_on_llvmpipe
 
 #: Only `make test-browser` installs what these tests need.
 collect_ignore = [] if importlib.util.find_spec("playwright") else ["browser"]
@@ -111,12 +111,17 @@ def fresh_renderer():
 
 @pytest.fixture
 def new_renderer():
-    """A function that makes renderers with options; all of them are closed at the end."""
+    """A function that makes renderers with options; all of them are closed at the end.
+
+    With layered=True it skips the test on a device without layers.
+    """
     import cubecam
 
     made = []
 
     def make(**options):
+        if options.get("layered"):
+            need_layers()
         made.append(cubecam.Renderer(**{"device": DEVICE, **options}))
         return made[-1]
 

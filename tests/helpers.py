@@ -43,6 +43,21 @@ def device():
         return f"none: {error}", False
 
 
+@functools.cache
+def draws_layers():
+    """Whether the device draws all faces of a cubemap in one pass."""
+    import cubecam
+
+    with cubecam.Renderer(device=DEVICE) as renderer:
+        return renderer.info.layered
+
+
+def need_layers():
+    """Skip the running test, which compares the layered path with another one, where there is none."""
+    if not draws_layers():
+        pytest.skip(f"{device()[0]} lacks GL_ARB_shader_viewport_layer_array")
+
+
 def on_llvmpipe():
     """Whether the tests draw with llvmpipe by itself, for which this suite promises bytes."""
     return device()[1]

@@ -20,7 +20,7 @@ def test_reports_the_largest_the_mean_and_the_worst_place(tmp_path):
     with pytest.raises(AssertionError) as raised:
         assert_close(got, expected, "lookup")
     text = str(raised.value)
-    assert "largest 0.5" in text
+    assert r"largest 0\.5" in text
     assert f"mean {0.5 / got.size:g}" in text
     assert "face +z, row 2, column 7, channel 1" in text
     assert len(list(tmp_path.glob("*.png"))) == 1
@@ -77,9 +77,9 @@ def test_another_driver_may_round_the_weights_of_filters(another_driver):
     """By a share of the range of the expected values: 3/512 of it, and no more."""
     expected = np.linspace(0, 100, 16).reshape(4, 4)
     assert_close(expected + 0.5, expected, "lookup")
-    with pytest.raises(AssertionError, match="largest 0.7"):
+    with pytest.raises(AssertionError, match=r"largest 0\.7"):
         assert_close(expected + 0.7, expected, "lookup")
-    with pytest.raises(AssertionError, match="largest 0.5"):
+    with pytest.raises(AssertionError, match=r"largest 0\.5"):
         assert_close(expected + 0.5, expected, "phong")
 
 
