@@ -241,7 +241,7 @@ void bind_renderer(pybind11::module_& m) {
         .def_property_readonly(
             "stats",
             [](const Renderer& self) {
-                const py::gil_scoped_release release;  // another thread may be drawing
+                const bindings::Unlocked unlocked;  // another thread may be drawing
                 return self.stats();
             },
             "Stats: what the last call drew.")

@@ -168,9 +168,8 @@ std::string software_hint() {
 
 std::string driver_variables() {
     std::string text;
-    for (const char* name :
-         {"GALLIUM_DRIVER", "MESA_LOADER_DRIVER_OVERRIDE", "LIBGL_DRIVERS_PATH",
-          "LIBGL_ALWAYS_SOFTWARE", "MESA_GL_VERSION_OVERRIDE", "EGL_PLATFORM"}) {
+    for (const char* name : {"GALLIUM_DRIVER", "MESA_LOADER_DRIVER_OVERRIDE", "LIBGL_DRIVERS_PATH",
+                             "LIBGL_ALWAYS_SOFTWARE", "MESA_GL_VERSION_OVERRIDE", "EGL_PLATFORM"}) {
         const char* value = std::getenv(name);
         if (value == nullptr || *value == '\0') continue;
         text += (text.empty() ? "" : " and ") + std::string(name) + "=" + value;

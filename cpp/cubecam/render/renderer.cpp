@@ -402,7 +402,8 @@ std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& prob
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update_probes()");
         }
-        return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer, state->encoding);
+        return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer,
+                         state->encoding);
     });
 }
 
