@@ -33,6 +33,9 @@ std::string candidate_in_words(const Candidate& candidate) {
             return attempt.find(older_version) != std::string::npos;
         });
     if (any_too_old) throw ContextError(text + "\n" + egl::version_hint());
+    // A driver that cannot be opened for lack of descriptors is there: nothing is to be installed.
+    const std::string files = egl::descriptors_hint();
+    if (!files.empty()) throw ContextError(text + "\n" + files);
     const std::string chosen = egl::driver_variables();
     if (!chosen.empty()) {
         text += "\n" + chosen + " is set: without it another driver may start.";
@@ -107,6 +110,7 @@ Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 const GladGLContext& Context::gl() const noexcept { return impl_->gl; }
+Pace& Context::pace() const noexcept { return impl_->pace; }
 const std::string& Context::vendor() const noexcept { return impl_->vendor; }
 const std::string& Context::renderer() const noexcept { return impl_->renderer; }
 const std::string& Context::version() const noexcept { return impl_->version; }

@@ -2,6 +2,7 @@
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/resources/repack.hpp"
 
@@ -277,6 +278,7 @@ Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, R
     frame.format = d.format;
     if (d.color) frame.color = reader.picture();
     frame.outputs = reader.outputs();
+    context.pace().finish(context.gl());
     reader.finish();
     gl::check_gl(context.gl(), "reading a frame");
     return frame;
@@ -288,6 +290,7 @@ std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, R
     Reader reader(context.gl(), target, pool, needed(context, buffer));
     Result color = reader.picture();
     OutputList outputs = reader.outputs();
+    context.pace().finish(context.gl());
     reader.finish();
     gl::check_gl(context.gl(), "reading a cubemap");
     return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
