@@ -8,6 +8,7 @@
 #include "notices.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/render/renderer.hpp"
@@ -230,7 +231,7 @@ void bind_renderer(pybind11::module_& m) {
             },
             py::arg("scene"), py::arg("light"), docs::shadow_map)
         .def(
-            "close", &Renderer::close, py::call_guard<py::gil_scoped_release>(),
+            "close", &Renderer::close, py::call_guard<bindings::Unlocked>(),
             "Free the OpenGL context and its memory. Calls after that raise ContextError; a second "
             "close() does nothing.")
         .def_property_readonly("closed", &Renderer::closed, "bool: whether close() was called.")
@@ -241,7 +242,7 @@ void bind_renderer(pybind11::module_& m) {
         .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
         .def("__exit__",
              [](Renderer& self, const py::args&) {
-                 const py::gil_scoped_release release;
+                 const bindings::Unlocked unlocked;
                  self.close();
              })
         .def("__repr__", [](const Renderer& self) {

@@ -1,6 +1,8 @@
 /// Gives the core's notices as Python warnings.
 #pragma once
 
+#include "unlocked.hpp"
+
 #include <pybind11/pybind11.h>
 
 namespace cubecam::bindings {
@@ -22,7 +24,7 @@ template <class Call>
 auto with_notices(Call&& call) {
     try {
         auto result = [&call] {
-            const pybind11::gil_scoped_release release;
+            const Unlocked unlocked;
             return call();
         }();
         warn_of_notices();
