@@ -54,7 +54,7 @@ void Sha256::add(std::string_view text) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(text.data());
     std::size_t left = text.size();
     while (left > 0) {
-        const auto held = static_cast<std::size_t>(length_ % rest_.size());
+        const std::size_t held = length_ % rest_.size();
         const std::size_t taken = std::min(left, rest_.size() - held);
         std::copy_n(bytes, taken, rest_.begin() + static_cast<std::ptrdiff_t>(held));
         bytes += taken;
@@ -66,7 +66,7 @@ void Sha256::add(std::string_view text) {
 
 Sha256::Digest Sha256::finish() {
     const std::uint64_t bits = length_ * 8;
-    const auto held = static_cast<std::size_t>(length_ % rest_.size());
+    const std::size_t held = length_ % rest_.size();
     std::array<char, 72> padding{};
     padding[0] = static_cast<char>(0x80);
     const std::size_t zeros = held < 56 ? 56 - held : 120 - held;
