@@ -95,28 +95,23 @@ py::array_t<float> roughness_of(const CubeMap& cube) {
     return readonly_view(std::shared_ptr<const std::vector<float>>(std::move(values)), {count});
 }
 
-/// Runs work that takes a progress function, without the GIL. What the user's function raises, and
-/// KeyboardInterrupt, end the work.
+/// Runs work that takes a progress function, without the GIL. What the user's function raises ends
+/// the work.
 template <typename Work>
 CubePtr interruptible(py::handle progress, const Work& work) {
     if (!progress.is_none() && PyCallable_Check(progress.ptr()) == 0) {
         refuse(progress, "progress", "a function of one number, or None");
     }
     const auto report = [&](double share) {
-        const Locked locked;
-        if (PyErr_CheckSignals() != 0) return false;
         if (progress.is_none()) return true;
+        const Locked locked;
         PyObject* result = PyObject_CallFunction(progress.ptr(), "d", share);
-        Py_XDECREF(result);
-        return result != nullptr;
+        if (result == nullptr) throw py::error_already_set();
+        Py_DECREF(result);
+        return true;
     };
-    CubePtr made;
-    {
-        const Unlocked unlocked;
-        made = work(report);
-    }
-    if (!made) throw py::error_already_set();
-    return made;
+    const Unlocked unlocked;
+    return work(report);
 }
 
 CubePtr prefilter_cube(const CubeMap& cube, const WholeNumber& level_count, const SizeOrNone& size,

@@ -236,9 +236,15 @@ void bind_renderer(pybind11::module_& m) {
             "close() does nothing.")
         .def_property_readonly("closed", &Renderer::closed, "bool: whether close() was called.")
         .def_property_readonly(
-            "info", &Renderer::info, py::return_value_policy::copy,
+            "info", &Renderer::info,
             "RendererInfo: the device, driver and limits; readable after close(), too.")
-        .def_property_readonly("stats", &Renderer::stats, "Stats: what the last call drew.")
+        .def_property_readonly(
+            "stats",
+            [](const Renderer& self) {
+                const bindings::Unlocked unlocked;  // another thread may be drawing
+                return self.stats();
+            },
+            "Stats: what the last call drew.")
         .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
         .def("__exit__",
              [](Renderer& self, const py::args&) {

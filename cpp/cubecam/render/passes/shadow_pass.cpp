@@ -1,6 +1,8 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/memory.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/node_record.hpp"
@@ -142,6 +144,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     }
     GLuint first = 0;
     for (const Casters& some : casters) {
+        poll_interrupts();
         const GpuMesh& mesh = cache_->mesh(*some.first->mesh);
         const auto count = static_cast<GLsizei>(some.nodes.size());
         bind_program(*some.first, input);
@@ -155,6 +158,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         stats.triangles += std::int64_t{mesh.index_count / 3} * count;
     }
     for (const NodeSnapshot* node : moved) draw_moved(*node, input, layer, stats);
+    context_->pace().submitted(*gl_, static_cast<double>(map.size) * map.size);
 }
 
 void ShadowPass::bind_program(const NodeSnapshot& node, const ShadowInput& input) {
@@ -218,12 +222,12 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
 Buffer<float> ShadowPass::read(const ShadowUse& use) {
     const auto size = static_cast<std::size_t>(use.shadow.size);
     Buffer<float> values(use.view.views.size() * size * size);
-    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    context_->pace().finish(*gl_);
     for (std::size_t layer = 0; layer < use.view.views.size(); ++layer) {
-        gl_->GetTextureSubImage(use.texture, 0, 0, 0, static_cast<GLint>(layer), use.shadow.size,
-                                use.shadow.size, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                                static_cast<GLsizei>(size * size * sizeof(float)),
-                                values.data() + layer * size * size);
+        poll_interrupts();
+        gl::read_layer(*gl_, use.texture, static_cast<int>(layer), use.shadow.size, use.shadow.size,
+                       GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(float),
+                       values.data() + layer * size * size);
     }
     gl::check_gl(*gl_, "reading a shadow map");
     const bool parallel = use.view.kind == ShadowView::Kind::parallel;
