@@ -35,13 +35,15 @@ def main(arguments: list[str]) -> int:
     package = folder / "python" / "cubecam"
     shutil.rmtree(package, ignore_errors=True)
     shutil.copytree(
-        ROOT / "python" / "cubecam", package, ignore=shutil.ignore_patterns("*.so", "__pycache__")
+        ROOT / "python" / "cubecam",
+        package,
+        ignore=shutil.ignore_patterns("*.so", "_shader_trial", "__pycache__"),
     )
     print("[sanitize] compiling", flush=True)
     module = build_version.compile_module(
         ROOT, folder / "objects", "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_CXX_FLAGS={FLAGS}"
     )
-    shutil.copy2(module, package)
+    build_version.copy_module(module, package)
     suppressions = folder / "suppressions.txt"
     suppressions.write_text(SUPPRESSIONS)
     environment = {

@@ -84,13 +84,13 @@ std::optional<bool> to_layered(py::handle value) {
 }
 
 std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredLike& layered,
-                                        std::int64_t cache_bytes, bool debug) {
+                                        std::int64_t cache_bytes, bool debug, bool trust_shaders) {
     if (cache_bytes < 0) {
         throw std::invalid_argument("cache_bytes: expected 0 or more, got " +
                                     std::to_string(cache_bytes));
     }
     RendererOptions options{to_device(device), to_layered(layered),
-                            static_cast<std::size_t>(cache_bytes), debug};
+                            static_cast<std::size_t>(cache_bytes), debug, trust_shaders};
     return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
@@ -191,7 +191,7 @@ void bind_renderer(pybind11::module_& m) {
     renderer
         .def(py::init(&make_renderer), py::kw_only(), py::arg("device") = "auto",
              py::arg("layered") = py::none(), py::arg("cache_bytes") = std::int64_t{256} << 20,
-             py::arg("debug") = false)
+             py::arg("debug") = false, py::arg("trust_shaders") = false)
         .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("exposure") = 0.0, py::arg("tonemap") = py::none(),
