@@ -3,6 +3,7 @@
 #include "cubemap_arguments.hpp"
 #include "docs/lighting.hpp"
 #include "numbers.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_resample.hpp"
@@ -113,7 +114,7 @@ CubePtr interruptible(py::handle progress, const Work& work) {
         refuse(progress, "progress", "a function of one number, or None");
     }
     const auto report = [&](double share) {
-        const py::gil_scoped_acquire locked;
+        const Locked locked;
         if (PyErr_CheckSignals() != 0) return false;
         if (progress.is_none()) return true;
         PyObject* result = PyObject_CallFunction(progress.ptr(), "d", share);
@@ -122,7 +123,7 @@ CubePtr interruptible(py::handle progress, const Work& work) {
     };
     CubePtr made;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         made = work(report);
     }
     if (!made) throw py::error_already_set();
@@ -161,7 +162,7 @@ py::array_t<double> sh_of(const CubeMap& cube, const WholeNumber& order_value) {
     const auto state = cube.data();
     std::vector<double> coefficients;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         coefficients = cube_to_sh(*state, order);
     }
     return owned_array(std::move(coefficients),
@@ -186,7 +187,7 @@ CubePtr cube_from_sh(const ArrayLike& value, const WholeNumber& size) {
     const int n = to_texels(to_int(size, "size"), "size");
     check_faces(n, 2 * sizeof(float) * static_cast<std::size_t>(channels));
     const std::vector<double> coefficients = to_vector(array);
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const Buffer<float> faces = sh_to_faces(coefficients, order, channels, n);
     PixelBuffer pixels(faces.size() * sizeof(float));
     floats_to_pixels(DType::float32, faces.data(), faces.size(), pixels.data());

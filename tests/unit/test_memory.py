@@ -1,6 +1,6 @@
 """How much memory there is: the machine's, the control groups', the limits of the process; and who asks before taking it.
 
-The files of /proc and /sys/fs/cgroup are made by the tests, after proc(5), cgroups(7) and the kernel's documentation of
+The files of /proc and /sys/fs/cgroup are made by the tests, after proc(5), cgroups(7) and the documentation of
 both versions of control groups.
 """
 

@@ -1,5 +1,6 @@
 #include "cubecam/render/readback.hpp"
 
+#include "cubecam/core/error.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/resources/repack.hpp"
 
@@ -7,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace cubecam {
 namespace {
@@ -41,11 +44,13 @@ Given given_output(const ShadedOutput& output) {
     }
 }
 
-/// Reads all layers of a target, one after the other.
+/// Reads all layers of a target. What `picture` and `outputs` return is filled by `finish`: all
+/// copies are requested first, and the GPU is waited for once.
 class Reader {
 public:
-    Reader(const GladGLContext& gl, Target& target, ResultPool& pool)
-        : gl_(gl), target_(target), d_(target.description()), pool_(pool) {
+    /// `buffer` is null for a driver that needs none.
+    Reader(const GladGLContext& gl, Target& target, ResultPool& pool, ReadBuffer* buffer)
+        : gl_(gl), target_(target), d_(target.description()), pool_(pool), buffer_(buffer) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
@@ -61,6 +66,15 @@ public:
             widen_565(reinterpret_cast<const std::uint16_t*>(from), n,
                       reinterpret_cast<std::uint32_t*>(to));
         });
+    }
+
+    void finish() {
+        if (buffer_ == nullptr) {
+            for (const Part& part : parts_) read_now(part);
+        } else {
+            read_through_buffer();
+        }
+        for (const auto& turn : turns_) turn();
     }
 
     OutputList outputs() {
@@ -97,13 +111,15 @@ private:
         const float clear = depth_state(d_.depth_order).clear;
         const Given given{GL_DEPTH_COMPONENT,
                           bits == 0 ? GLenum{GL_FLOAT} : GLenum{GL_UNSIGNED_INT}, 4};
-        const Result depth = read(target_.outputs(), std::nullopt, given, 4, copy_row);
-        const std::size_t count = depth->size() / 4;
-        if (bits == 0) {
-            turn_depth(reinterpret_cast<float*>(depth->data()), count, clear);
-        } else {
-            turn_fixed_depth(depth->data(), count, bits, clear);
-        }
+        Result depth = read(target_.outputs(), std::nullopt, given, 4, copy_row);
+        turns_.push_back([depth, bits, clear] {
+            const std::size_t count = depth->size() / 4;
+            if (bits == 0) {
+                turn_depth(reinterpret_cast<float*>(depth->data()), count, clear);
+            } else {
+                turn_fixed_depth(depth->data(), count, bits, clear);
+            }
+        });
         return depth;
     }
 
@@ -115,44 +131,115 @@ private:
     using Row = void (*)(const std::byte* from, std::byte* to, std::size_t texels);
     static constexpr Row copy_row = nullptr;
 
-    /// Reads one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
+    /// One buffer of one layer.
+    struct Part {
+        GLuint framebuffer;
+        std::optional<std::size_t> slot;
+        Given given;
+        std::size_t bytes;  ///< of a texel of the result
+        Row row;
+        std::byte* to;
+    };
+
+    /// Requests one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
     /// converts the driver's texels into texels of `bytes`; null: they are the same.
     Result read(Layers& layers, std::optional<std::size_t> slot, const Given& given,
                 std::size_t bytes, Row row) {
         const auto rows = static_cast<std::size_t>(d_.height);
         const auto columns = static_cast<std::size_t>(d_.width);
         const auto count = static_cast<std::size_t>(d_.layers());
-        const std::size_t given_row = columns * given.bytes;
-        const std::size_t taken_row = columns * bytes;
-        const bool direct = d_.shape.has_faces() && row == copy_row;
-        Result layer;
-        if (!direct) layer = pool_.take(given_row * rows);
-        Result all = pool_.take(taken_row * rows * count);
+        const std::size_t taken = columns * rows * bytes;
+        Result all = pool_.take(taken * count);
         for (std::size_t i = 0; i < count; ++i) {
-            const GLuint framebuffer = layers.one(static_cast<int>(i));
-            if (slot) gl_.NamedFramebufferReadBuffer(framebuffer, attachment(*slot));
-            gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-            std::byte* to = all->data() + i * taken_row * rows;
-            gl_.ReadPixels(0, 0, d_.width, d_.height, given.format, given.type,
-                           direct ? to : layer->data());
-            if (direct) continue;
-            if (row == copy_row) {
-                flip_rows(layer->data(), to, taken_row, rows);
-            } else if (d_.shape.has_faces()) {
-                row(layer->data(), to, rows * columns);
-            } else {
-                for (std::size_t y = 0; y < rows; ++y) {
-                    row(layer->data() + y * given_row, to + (rows - 1 - y) * taken_row, columns);
-                }
-            }
+            parts_.push_back({layers.one(static_cast<int>(i)), slot, given, bytes, row,
+                              all->data() + i * taken});
         }
         return all;
+    }
+
+    std::size_t given_bytes(const Part& part) const {
+        return part.given.bytes * static_cast<std::size_t>(d_.width) *
+               static_cast<std::size_t>(d_.height);
+    }
+
+    /// Copies a part into `to`: an address, or an offset into the bound buffer.
+    void request(const Part& part, void* to) const {
+        if (part.slot) gl_.NamedFramebufferReadBuffer(part.framebuffer, attachment(*part.slot));
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, part.framebuffer);
+        gl_.ReadPixels(0, 0, d_.width, d_.height, part.given.format, part.given.type, to);
+    }
+
+    void read_now(const Part& part) {
+        if (d_.shape.has_faces() && part.row == copy_row) return request(part, part.to);
+        if (layer_ == nullptr || layer_->size() != given_bytes(part)) {
+            layer_ = pool_.take(given_bytes(part));
+        }
+        request(part, layer_->data());
+        place(part, layer_->data());
+    }
+
+    void read_through_buffer() {
+        for (std::size_t first = 0; first < parts_.size();) {
+            std::size_t bytes = given_bytes(parts_[first]);
+            std::size_t end = first + 1;
+            while (end < parts_.size() &&
+                   aligned(bytes) + given_bytes(parts_[end]) <= ReadBuffer::most_bytes) {
+                bytes = aligned(bytes) + given_bytes(parts_[end++]);
+            }
+            try {
+                buffer_->bind(gl_, bytes);
+            } catch (const GlError& error) {
+                if (error.code() != GL_OUT_OF_MEMORY) throw;
+                for (; first < parts_.size(); ++first) read_now(parts_[first]);
+                return;
+            }
+            std::size_t offset = 0;
+            for (std::size_t i = first; i < end; ++i) {
+                request(parts_[i], reinterpret_cast<void*>(offset));
+                offset = aligned(offset + given_bytes(parts_[i]));
+            }
+            buffer_->read(gl_, bytes, [&](const std::byte* held) {
+                for (std::size_t i = first; i < end; ++i) {
+                    place(parts_[i], held);
+                    held += aligned(given_bytes(parts_[i]));
+                }
+            });
+            first = end;
+        }
+    }
+
+    /// An offset must be a multiple of the size of a component (GL 4.5 section 18.2.2).
+    static constexpr std::size_t aligned(std::size_t offset) { return (offset + 15) / 16 * 16; }
+
+    /// Copies a part that the driver has written to `from` into its result.
+    void place(const Part& part, const std::byte* from) const {
+        const auto rows = static_cast<std::size_t>(d_.height);
+        const auto columns = static_cast<std::size_t>(d_.width);
+        const std::size_t given_row = columns * part.given.bytes;
+        const std::size_t taken_row = columns * part.bytes;
+        if (d_.shape.has_faces()) {
+            if (part.row == copy_row) {
+                std::memcpy(part.to, from, taken_row * rows);
+            } else {
+                part.row(from, part.to, rows * columns);
+            }
+        } else if (part.row == copy_row) {
+            flip_rows(from, part.to, taken_row, rows);
+        } else {
+            for (std::size_t y = 0; y < rows; ++y) {
+                part.row(from + y * given_row, part.to + (rows - 1 - y) * taken_row, columns);
+            }
+        }
     }
 
     const GladGLContext& gl_;
     Target& target_;
     const TargetDescription& d_;
     ResultPool& pool_;
+    ReadBuffer* buffer_;
+    std::vector<Part> parts_;
+    std::vector<std::function<void()>> turns_;  // of the results, once they are read
+    Result layer_;                              // a part that is not read in place
 };
 
 /// The bytes of a texel in the result, and in the memory through which frames are read.
@@ -164,6 +251,10 @@ struct ResultTexel {
 ResultTexel result_texel(const ShadedOutput& output) {
     return {output_type_size(output.type) * static_cast<std::size_t>(output.channels),
             given_output(output).bytes};
+}
+
+ReadBuffer* needed(const gl::Context& context, ReadBuffer& buffer) {
+    return context.software() ? nullptr : &buffer;
 }
 
 }  // namespace
@@ -193,26 +284,28 @@ std::size_t result_bytes(const TargetDescription& d) {
     return layer * (texel * static_cast<std::size_t>(d.layers()) + passing);
 }
 
-Frame read_frame(const GladGLContext& gl, Target& target, ResultPool& pool) {
+Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer) {
     const TargetDescription& d = target.description();
-    Reader reader(gl, target, pool);
+    Reader reader(context.gl(), target, pool, needed(context, buffer));
     Frame frame;
     frame.width = d.width;
     frame.height = d.height * d.layers();
     frame.format = d.format;
     if (d.color) frame.color = reader.picture();
     frame.outputs = reader.outputs();
-    gl::check_gl(gl, "reading a frame");
+    reader.finish();
+    gl::check_gl(context.gl(), "reading a frame");
     return frame;
 }
 
-std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool,
-                                   Encoding encoding) {
+std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, ResultPool& pool,
+                                   ReadBuffer& buffer, Encoding encoding) {
     const TargetDescription& d = target.description();
-    Reader reader(gl, target, pool);
+    Reader reader(context.gl(), target, pool, needed(context, buffer));
     Result color = reader.picture();
     OutputList outputs = reader.outputs();
-    gl::check_gl(gl, "reading a cubemap");
+    reader.finish();
+    gl::check_gl(context.gl(), "reading a cubemap");
     return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
                                      std::move(outputs), encoding);
 }

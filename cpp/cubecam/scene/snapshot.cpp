@@ -423,6 +423,7 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
     }
     snapshot->seen = shared.take_seen();
     snapshot->revision = next_revision();
+    snapshot->origin = weak_from_this();
     // Render textures refer to scenes, and scenes to them: a kept snapshot must not keep them
     // alive.
     if (effects.empty() && snapshot->textures.empty() && !snapshot->follows_others) {

@@ -209,12 +209,10 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
 Buffer<float> ShadowPass::read(const ShadowUse& use) {
     const auto size = static_cast<std::size_t>(use.shadow.size);
     Buffer<float> values(use.view.views.size() * size * size);
-    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
     for (std::size_t layer = 0; layer < use.view.views.size(); ++layer) {
-        gl_->GetTextureSubImage(use.texture, 0, 0, 0, static_cast<GLint>(layer), use.shadow.size,
-                                use.shadow.size, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                                static_cast<GLsizei>(size * size * sizeof(float)),
-                                values.data() + layer * size * size);
+        gl::read_layer(*gl_, use.texture, static_cast<int>(layer), use.shadow.size, use.shadow.size,
+                       GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(float),
+                       values.data() + layer * size * size);
     }
     gl::check_gl(*gl_, "reading a shadow map");
     const bool parallel = use.view.kind == ShadowView::Kind::parallel;
