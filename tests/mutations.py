@@ -79,6 +79,8 @@ OBJ_SCENE = ("tests/unit/test_obj_scene.py",)
 STL = ("tests/unit/test_stl.py",)
 OFF = ("tests/unit/test_off.py",)
 PLY = ("tests/unit/test_ply.py",)
+ABSURD = ("tests/unit/test_absurd_arguments.py",)
+MEMORY = ("tests/unit/test_memory.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -2368,5 +2370,40 @@ MUTATIONS = [
         "if (a.node->backs_first()) return false;",
         "",
         ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "arguments: a bool is an int",
+        "numbers.cpp",
+        "if (given == nullptr || PyBool_Check(given) != 0 || PyIndex_Check(given) == 0) {",
+        "if (given == nullptr || PyIndex_Check(given) == 0) {",
+        ABSURD,
+    ),
+    Mutation(
+        "arguments: a hidden value counts",
+        "numbers.cpp",
+        "return !hides_values(value);",
+        "return true;",
+        ABSURD,
+    ),
+    Mutation(
+        "arguments: True is a number",
+        "numbers.cpp",
+        "if (given == nullptr || PyBool_Check(given) != 0) return std::nullopt;\n    if (PyFloat",
+        "if (given == nullptr) return std::nullopt;\n    if (PyFloat",
+        ABSURD,
+    ),
+    Mutation(
+        "memory: the groups above are forgotten",
+        "memory.cpp",
+        "path = path.parent_path();",
+        "return;",
+        MEMORY,
+    ),
+    Mutation(
+        "memory: what is read back is forgotten",
+        "target_store.hpp",
+        "check_target_memory(context, description, result_bytes);",
+        "check_target_memory(context, description);",
+        MEMORY,
     ),
 ]

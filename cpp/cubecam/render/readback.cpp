@@ -263,11 +263,47 @@ private:
     std::vector<std::function<void()>> turns_;  // of the results, once they are read
 };
 
+/// The bytes of a texel in the result, and in the memory through which frames are read.
+struct ResultTexel {
+    std::size_t result;
+    std::size_t passing;
+};
+
+ResultTexel result_texel(const ShadedOutput& output) {
+    return {output_type_size(output.type) * static_cast<std::size_t>(output.channels),
+            given_output(output).bytes};
+}
+
 ReadBuffer* needed(const gl::Context& context, ReadBuffer& buffer) {
     return context.software() ? nullptr : &buffer;
 }
 
 }  // namespace
+
+std::size_t result_bytes(const TargetDescription& d) {
+    std::size_t texel = 0;
+    std::size_t passing = 0;  // of one layer and one buffer at a time
+    const auto add = [&](std::size_t result, std::size_t through) {
+        texel += result;
+        passing = std::max(passing, through);
+    };
+    if (d.color) {
+        const bool packed = d.format == Format::rgb565;
+        add(packed ? 4 : texel_size(d.format), texel_size(d.format));
+    }
+    for (const ShadedOutput& output : d.outputs.by_slot()) {
+        const ResultTexel bytes = result_texel(output);
+        add(bytes.result, bytes.passing);
+    }
+    for (std::size_t i = 0; i < output_table.size(); ++i) {
+        if (!d.outputs.has(i) || output_table[i].source == OutputSource::shader) continue;
+        const std::size_t bytes = output_table[i].source == OutputSource::depth ? 4 : 1;
+        add(bytes, bytes);
+    }
+    const std::size_t layer =
+        static_cast<std::size_t>(d.width) * static_cast<std::size_t>(d.height);
+    return layer * (texel * static_cast<std::size_t>(d.layers()) + passing);
+}
 
 Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer) {
     const TargetDescription& d = target.description();

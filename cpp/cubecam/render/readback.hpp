@@ -7,9 +7,13 @@
 #include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target.hpp"
 
+#include <cstddef>
 #include <memory>
 
 namespace cubecam {
+
+/// The main memory that reading a target takes: the results, and one layer on its way.
+std::size_t result_bytes(const TargetDescription& description);
 
 /// Copies of a target's contents. Frames are flipped so that row 0 is on top, with several views
 /// one below the other; cube faces are copied as they are.

@@ -340,7 +340,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         };
         const PostProcess post_process = post_process_of(scene, options, encoding_as_drawn);
         set_post_process(description, post_process.effects.size(), post_process.any());
-        Target& target = gpu.targets.get(gpu.context, description);
+        Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         const double aspect =
             static_cast<double>(options.width) / static_cast<double>(options.height);
         std::vector<View> views;
@@ -384,7 +384,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
                                           .outputs = resolve_outputs(options.outputs, scene),
                                           .depth_format = options.depth_format,
                                           .depth_order = options.depth_order});
-        Target& target = gpu.targets.get(gpu.context, description);
+        Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);
         FrameContext frame(gpu, scene);

@@ -3,6 +3,7 @@
 #include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/memory.hpp"
 #include "cubecam/gl/pace.hpp"
+#include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/node_record.hpp"
@@ -87,7 +88,7 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
     const double bytes = 4.0 * size * size * count;
     const std::string what = "a shadow map of " + std::to_string(count) + " x " +
                              std::to_string(size) + " x " + std::to_string(size) + " texels";
-    if (context_->software()) check_memory(bytes, what);
+    check_texture_memory(*context_, bytes, 0.0, what);
     ShadowMap map;
     map.depth = gl::create_texture_2d_array(*gl_, map_format, size, size, count);
     const GLuint id = map.depth.id();
