@@ -44,6 +44,12 @@ def describe_device():
 
 
 def pytest_sessionstart(session):
+    module = os.environ.get("CUBECAM_EXPECT_MODULE")
+    if module:  # scripts/sanitize.py
+        from cubecam import _core
+
+        if _core.__file__ != module:
+            pytest.exit(f"CUBECAM_EXPECT_MODULE={module}, got {_core.__file__}", returncode=1)
     if os.environ.get("CUBECAM_EXPECT_SOFTWARE") == "1":
         text, software = describe_device()
         if not software:
