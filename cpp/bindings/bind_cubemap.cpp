@@ -4,6 +4,7 @@
 #include "docs/cubemap.hpp"
 #include "encodings.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/parallel.hpp"
 #include "cubecam/cubemap/cubemap.hpp"
@@ -80,7 +81,7 @@ CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name,
     const int size = to_texels(pixels.shape(1), "faces");
     const auto channels = static_cast<int>(pixels.shape(3));
     const Encoding encoding = to_encoding(encoding_name, faces, pixels.dtype());
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(pixels.dtype());
     PixelBuffer memory = convention == Convention::gl ? copy_pixels(pixels.data(), pixels.bytes())
                                                       : convert_faces(pixels.data(), size, texel,
@@ -104,7 +105,7 @@ void set_face(CubeMap& cube, const FaceLike& face_value, const ArrayLike& value,
     const int size = state->size;
     const std::size_t texel = static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
     const std::size_t bytes = state->face_bytes();
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     state.reset();  // the cube can write its pixels in place if no one else holds them
     // face_source is its own inverse: the face of "gl" that is made from `named` is also the face
     // of "gl" that `named` is made from.
@@ -151,7 +152,7 @@ OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const Array
         }
         PixelBuffer found;
         {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             found = nearest_lookup(texels_of(cube, *output), d, count);
         }
         return output_array(std::move(found), *output, std::move(shape));
@@ -166,7 +167,7 @@ OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const Array
     const float* lods = only_zero ? nullptr : levels.data();
     const std::size_t lod_count = levels.ndim() == 0 ? 1 : count;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         cube.sample(d, count, lods, lod_count, to);
     }
     return result;
@@ -393,7 +394,7 @@ void bind_cubemap(py::module_& module) {
         .def(
             "__eq__",
             [](const CubeMap& a, const CubeMap& b) {
-                const py::gil_scoped_release release;
+                const Unlocked unlocked;
                 return a.same_contents(b);
             },
             py::is_operator(), py::arg("other"),
@@ -402,7 +403,7 @@ void bind_cubemap(py::module_& module) {
         .def(
             "__ne__",
             [](const CubeMap& a, const CubeMap& b) {
-                const py::gil_scoped_release release;
+                const Unlocked unlocked;
                 return !a.same_contents(b);
             },
             py::is_operator(), py::arg("other"))

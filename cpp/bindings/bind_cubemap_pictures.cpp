@@ -4,6 +4,7 @@
 #include "docs/cubemap.hpp"
 #include "encodings.hpp"
 #include "numbers.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
@@ -61,7 +62,7 @@ PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
         check_picture(columns, columns / 2.0, output->channels, DType::float32);
         PixelBuffer texels;
         {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             texels = nearest_equirect(texels_of(cube, *output), columns, center, sampling);
         }
         return output_array(std::move(texels), *output, {columns / 2, columns});
@@ -71,7 +72,7 @@ PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
     check_picture(columns, columns / 2.0, state->channels, to);
     PixelBuffer pixels;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         pixels = cube_to_equirect(*state, columns, center, sampling, to);
     }
     return owned_pixels(std::move(pixels), to, {columns / 2, columns, state->channels});
@@ -84,7 +85,7 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
     const auto channels = static_cast<int>(image.shape(2));
     const int n = to_texels(size.value_or(default_face_size(width)), "size");
     check_picture(n, 6.0 * n, channels, to);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     PixelBuffer faces = equirect_to_cube(
         {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to);
     return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps, OutputList(),
@@ -115,7 +116,7 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
     const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(image.dtype());
     const Convention given = openexr ? Convention::inside : convention;
 
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     PixelBuffer faces = picture_to_faces(image.data(), width, height, texel, cells, given);
     if (given != Convention::gl)
         faces = convert_faces(faces.data(), n, texel, given, Convention::gl);
@@ -136,14 +137,14 @@ PixelsOrOutput to_convention(const CubeMap& cube, const ConventionName& name,
     PixelBuffer faces;
     if (const OutputValues* output = to_output(cube, output_name)) {
         {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             faces = convert_faces(output->values->data(), state->size, output->texel_size(),
                                   Convention::gl, convention);
         }
         return output_array(std::move(faces), *output, {6, state->size, state->size});
     }
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const std::size_t texel =
             static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
         faces =
@@ -158,7 +159,7 @@ py::array output_in_layout(const CubeMap& cube, const OutputValues& output, Layo
     const PictureSize shape = layout_size(layout, n);
     PixelBuffer picture;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const std::size_t texel = output.texel_size();
         const PixelBuffer faces =
             convert_faces(output.values->data(), n, texel, Convention::gl, convention);
@@ -187,7 +188,7 @@ PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
     const PictureSize shape = layout_size(openexr ? Layout::column : layout, state->size);
     PixelBuffer picture;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const auto channels = static_cast<std::size_t>(state->channels);
         if (openexr) {
             const PixelBuffer faces =
@@ -210,7 +211,7 @@ CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
     const auto state = cube.data();
     const DType to = to_dtype(dtype, state->dtype);
     check_picture(size, 6.0 * size, state->channels, to);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers, to);
     OutputList outputs = cube.outputs();
     for (OutputValues& output : outputs) {

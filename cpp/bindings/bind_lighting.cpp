@@ -3,6 +3,7 @@
 #include "cubemap_arguments.hpp"
 #include "docs/lighting.hpp"
 #include "numbers.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/cubemap/cubemap_resample.hpp"
 #include "cubecam/lighting/brdf_table.hpp"
@@ -102,7 +103,7 @@ CubePtr interruptible(py::handle progress, const Work& work) {
         refuse(progress, "progress", "a function of one number, or None");
     }
     const auto report = [&](double share) {
-        const py::gil_scoped_acquire locked;
+        const Locked locked;
         if (PyErr_CheckSignals() != 0) return false;
         if (progress.is_none()) return true;
         PyObject* result = PyObject_CallFunction(progress.ptr(), "d", share);
@@ -111,7 +112,7 @@ CubePtr interruptible(py::handle progress, const Work& work) {
     };
     CubePtr made;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         made = work(report);
     }
     if (!made) throw py::error_already_set();
@@ -148,7 +149,7 @@ py::array_t<double> sh_of(const CubeMap& cube, const WholeNumber& order_value) {
     const auto state = cube.data();
     std::vector<double> coefficients;
     {
-        const py::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         coefficients = cube_to_sh(*state, order);
     }
     return owned_array(std::move(coefficients),
@@ -172,7 +173,7 @@ CubePtr cube_from_sh(const ArrayLike& value, const WholeNumber& size) {
     }
     const int n = to_texels(to_int(size, "size"), "size");
     const std::vector<double> coefficients = to_vector(array);
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const Buffer<float> faces = sh_to_faces(coefficients, order, channels, n);
     PixelBuffer pixels(faces.size() * sizeof(float));
     floats_to_pixels(DType::float32, faces.data(), faces.size(), pixels.data());

@@ -3,6 +3,7 @@
 #include "docs/mesh.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 #include "vectors.hpp"
 #include "vertices.hpp"
 
@@ -112,7 +113,7 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
     }
     arrays.influences = to_influences(joints, joint_weights, arrays.positions.size());
     arrays.targets = to_targets(morph_targets);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return std::make_shared<Mesh>(MeshData(std::move(arrays)));
 }
 
@@ -136,7 +137,7 @@ std::vector<glm::vec4> new_tangents(const Mesh& mesh, py::handle tangents) {
 }
 
 void apply(Mesh& mesh, MeshUpdate update) {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     mesh.update(std::move(update));
 }
 
@@ -193,7 +194,7 @@ std::string represent(const Mesh& mesh) {
 template <class... Args>
 auto built_by(MeshData (*build)(Args...)) {
     return [build](Args... args) {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         return std::make_shared<Mesh>(build(args...));
     };
 }
@@ -353,7 +354,7 @@ void bind_mesh(pybind11::module_& module) {
     mesh.def(
         "resized",
         [](const Mesh& self, double size) {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             return std::make_shared<Mesh>(self.data()->centered_and_scaled(size));
         },
         py::arg("size"), docs::resized);
@@ -361,7 +362,7 @@ void bind_mesh(pybind11::module_& module) {
     mesh.def(
         "flat_shaded",
         [](const Mesh& self) {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             const auto data = self.data();
             return std::make_shared<Mesh>(MeshData(*self.flat_shaded(data)).with_targets_of(*data));
         },
@@ -370,7 +371,7 @@ void bind_mesh(pybind11::module_& module) {
         "with_tangents",
         [](const Mesh& self, const WholeNumber& uv_set) {
             const int set = static_cast<int>(to_int(uv_set, "uv_set", 0, 1));
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             const auto data = self.data();
             expect(data->uvs(set) != nullptr, set == 0 ? "a mesh with uvs" : "a mesh with uvs1",
                    "none");

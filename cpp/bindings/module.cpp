@@ -1,6 +1,7 @@
 // The extension module cubecam._core.
 #include "arguments.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/scene/node.hpp"
@@ -78,6 +79,11 @@ static pybind11::list exported_names(const pybind11::module_& module) {
     return names;
 }
 
+// PYBIND11_MODULE below makes the function `make_module`, and PyInit__core is the one after it:
+// pybind11's own would wait for ever in a subinterpreter, before any code of this module runs.
+#undef PYBIND11_PLUGIN_IMPL
+#define PYBIND11_PLUGIN_IMPL(name) static PyObject* make_module()
+
 PYBIND11_MODULE(_core, module) {
     using namespace cubecam;
     using cubecam::bindings::declare;
@@ -85,6 +91,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which exports it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    cubecam::bindings::install_interrupt_check();
     bind_pickling(module);
     bind_arrays(module);
     bind_errors(module);
@@ -128,4 +135,18 @@ PYBIND11_MODULE(_core, module) {
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
     cubecam::bindings::explain_all_arguments(module);
+}
+
+PYBIND11_PLUGIN_DECL(_core)
+
+PyObject* PyInit__core() {
+    if (PyInterpreterState_Get() != PyInterpreterState_Main()) {
+        PyErr_SetString(PyExc_ImportError,
+                        "cubecam: expected an import in the main interpreter, got one in a "
+                        "subinterpreter, which cubecam does not support; use processes instead "
+                        "(multiprocessing's \"spawn\" method), and with mod_wsgi "
+                        "`WSGIApplicationGroup %{GLOBAL}`");
+        return nullptr;
+    }
+    return make_module();
 }

@@ -26,6 +26,11 @@ cache_bytes : int
     256 MiB; ``stats.pictures_not_kept`` reports how many pictures of a call are larger than that.
 debug : bool
     True: the context is a debug context, whose errors say more.
+trust_shaders : bool
+    False: GLSL of a :class:`ShaderMaterial` or an :class:`ImageEffect` that is new goes first to a process of its own,
+    which compiles it and draws one pixel; if the driver crashes there, or takes more than 10 seconds or a GiB of memory,
+    the call raises ShaderError. True: GLSL is compiled at once, and a source with which the driver crashes ends the
+    program. docs/security.md says more.
 
 Raises
 ------

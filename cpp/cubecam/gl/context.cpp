@@ -67,6 +67,21 @@ Context::Context(const ContextOptions& options) {
     impl_ = start_first(list_candidates(options.device), options.debug);
 }
 
+Context::Context(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+
+Context Context::at(const std::string& platform, int device) {
+    egl::library();
+    if (platform == egl::platform_name(egl::Platform::device)) {
+        return Context({.device = device});
+    }
+    Candidate candidate;
+    candidate.platform = platform == egl::platform_name(egl::Platform::surfaceless)
+                             ? egl::Platform::surfaceless
+                             : egl::Platform::fallback;
+    candidate.info.platform = platform;
+    return Context(start_context(candidate, false));
+}
+
 Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;

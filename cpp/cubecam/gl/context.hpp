@@ -61,6 +61,9 @@ public:
     /// Throws ContextError that lists every attempt, why it failed, and what to install;
     /// std::invalid_argument for an empty device string.
     explicit Context(const ContextOptions& options = {});
+    /// Makes a context at the place where another process has one: its platform() and the index of
+    /// its device(). Throws ContextError.
+    static Context at(const std::string& platform, int device);
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;
     ~Context();
@@ -96,6 +99,7 @@ public:
 
 private:
     friend class CurrentScope;
+    explicit Context(std::unique_ptr<Impl> impl) noexcept;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -7,6 +7,7 @@
 #include "cubecam/render/stereo.hpp"
 #include "cubecam/scene/scene_encoding.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
+#include "cubecam/trial/trial.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -102,6 +103,8 @@ struct Renderer::Gpu {
         const gl::CurrentScope scope(context);
         if (context.software()) keep_freed_memory();
         state.emplace(context, layering(context, options), options.cache_bytes);
+        if (options.trust_shaders) return;
+        state->surface.programs().set_trial(std::make_unique<trial::Trial>(context));
     }
 
     gl::Context context;

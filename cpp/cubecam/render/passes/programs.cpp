@@ -207,7 +207,8 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
         .first->second;
 }
 
-UserProgram& Programs::user_surface(const SurfaceVariant& variant, const MaterialTraits& material) {
+UserProgram& Programs::user_surface(const SurfaceVariant& variant, const MaterialTraits& material,
+                                    DrawConditions& conditions) {
     const UserCode& user = *material.user_code;
     const UserSource include = include_of(*variant.kind);
     gl::ShaderOptions options = surface_options(variant, material);
@@ -216,12 +217,14 @@ UserProgram& Programs::user_surface(const SurfaceVariant& variant, const Materia
     return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
                       {{"include/user_fragment.glsl", "fragment", &fragment},
                        {"include/user_vertex.glsl", "vertex", user.vertex},
-                       {material_include, "", &include}});
+                       {material_include, "", &include}},
+                      conditions, *user.inputs);
 }
 
-UserProgram& Programs::effect(const UserSource& fragment) {
+UserProgram& Programs::effect(const EffectValue& effect, DrawConditions& conditions) {
     return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
-                      {{"include/user_fragment.glsl", "fragment", &fragment}});
+                      {{"include/user_fragment.glsl", "fragment", &effect.fragment}}, conditions,
+                      effect.inputs);
 }
 
 const gl::Program& Programs::skybox(bool turned) {
@@ -234,7 +237,8 @@ const gl::Program& Programs::skybox(bool turned) {
     return program;
 }
 
-UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_colors) {
+UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_colors,
+                                   DrawConditions& conditions) {
     SurfaceVariant variant;
     variant.kind = material.kind;
     variant.switches = material.switches;
@@ -245,7 +249,8 @@ UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_c
     std::erase_if(options.defines, [](const auto& define) { return define.first == "LAYERED"; });
     return users_.get(*gl_, {"passes/surface.vert", "passes/shadow.frag"}, options,
                       {{"include/user_fragment.glsl", "fragment", material.user_code->fragment},
-                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}});
+                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}},
+                      conditions, *material.user_code->inputs);
 }
 
 const gl::Program& Programs::shadow(const ShadowVariant& variant) {

@@ -189,17 +189,26 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
     instances_ = gl::create_buffer(*gl_, sizeof(instance), &instance);
     block_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, node_binding, block_.id());
-    UserProgram& program = programs_->user_shadow(material, node.mesh->colors() != nullptr);
-    const std::vector<BoundTexture> textures = input.look_up(node);
-    // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
-    if (context_->software() && vertices_see_pictures(node)) gl_->Finish();
-    program.use(*material.user_code->inputs,
-                std::span(textures).subspan(material.user_code->first_texture));
-    program.program().use();
     const GpuMesh& mesh = cache_->mesh(*node.mesh);
     gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::records, instances_.id(), 0,
                                  sizeof(ViewRecord));
     gl_->BindVertexArray(mesh.array.id());
+    const std::vector<BoundTexture> textures = input.look_up(node);
+    const auto own = std::span(textures).subspan(material.user_code->first_texture);
+    DrawConditions conditions;
+    if (programs_->tries()) {
+        conditions.add_node(node);
+        GLuint unit = texture_unit::first_of_material;
+        for (const BoundTexture& texture : own) {
+            conditions.textures.push_back({unit++, texture.texture, texture.revision});
+        }
+    }
+    UserProgram& program =
+        programs_->user_shadow(material, node.mesh->colors() != nullptr, conditions);
+    // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
+    if (context_->software() && vertices_see_pictures(node)) gl_->Finish();
+    program.use(*material.user_code->inputs, own);
+    program.program().use();
     gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type, nullptr,
                                            1, 0);
     ++stats.draw_calls;

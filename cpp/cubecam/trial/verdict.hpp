@@ -1,0 +1,24 @@
+#pragma once
+
+#include "cubecam/trial/report.hpp"
+
+#include <string>
+
+namespace cubecam::trial {
+
+/// What is known about a job.
+struct Verdict {
+    Outcome outcome = Outcome::survived;
+    Step step = Step::start;
+    int signal = 0;
+
+    bool passed() const { return outcome == Outcome::survived || outcome == Outcome::failed; }
+    /// Whether the next trial would end in the same way.
+    bool lasting() const { return outcome != Outcome::failed && outcome != Outcome::killed; }
+};
+
+/// Says in words why a source is refused: "the driver crashed (SIGFPE, an arithmetic error) while
+/// it compiled this source".
+std::string in_words(const Verdict& verdict);
+
+}  // namespace cubecam::trial
