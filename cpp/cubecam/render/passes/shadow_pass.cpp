@@ -1,7 +1,6 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 
 #include "cubecam/core/interrupts.hpp"
-#include "cubecam/core/memory.hpp"
 #include "cubecam/gl/pace.hpp"
 #include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/image/flip.hpp"
