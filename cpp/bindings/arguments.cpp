@@ -25,7 +25,7 @@ std::unordered_map<PyObject*, std::string>& function_names() {
     return names;
 }
 
-/// Replaces the text of the TypeError that is set by a shorter one, if the error is pybind11's.
+/// Replaces the TypeError that is set by one of a shorter text, if the error is pybind11's.
 void shorten_error(PyObject* function, PyObject* const* args, Py_ssize_t count, PyObject* names) {
     const py::error_already_set error;  // takes the error away from Python
     const std::string message = py::str(error.value());
@@ -44,8 +44,8 @@ void shorten_error(PyObject* function, PyObject* const* args, Py_ssize_t count, 
             named[py::handle(PyTuple_GET_ITEM(names, i))] = py::handle(args[positional + i]);
         }
         const py::object explain = py::module_::import("cubecam._arguments").attr("explain");
-        const py::object text = explain(function_names()[function], message, given, named);
-        PyErr_SetObject(PyExc_TypeError, text.ptr());
+        const py::object better = explain(function_names()[function], message, given, named);
+        PyErr_SetObject(py::type::handle_of(better).ptr(), better.ptr());
         return;
     }
     py::error_already_set(error).restore();
@@ -107,6 +107,8 @@ PyObject* dispatch(PyObject* function, PyObject* const* args, Py_ssize_t count, 
             shorten_error(function, args, count, names);
         } catch (py::error_already_set& error) {
             error.restore();
+        } catch (const std::exception& error) {  // no C++ exception may pass through Python
+            PyErr_SetString(PyExc_TypeError, error.what());
         }
     }
     return result;

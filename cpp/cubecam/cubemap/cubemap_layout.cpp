@@ -1,6 +1,7 @@
 #include "cubecam/cubemap/cubemap_layout.hpp"
 
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/parse_name.hpp"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,7 @@ std::string plain_name(std::string_view name) {
 
 [[noreturn]] void refuse_name(const char* what, const std::string& names, std::string_view got) {
     throw std::invalid_argument(std::string(what) + ": expected " + names + ", got '" +
-                                std::string(got) + "'");
+                                shortened(got) + "'");
 }
 
 /// Returns the value that a name stands for, whatever its letter case and its separators.

@@ -1,5 +1,6 @@
 #include "cubecam/core/checks.hpp"
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/memory.hpp"
 #include "cubecam/geometry/primitives.hpp"
 
 #include <algorithm>
@@ -109,6 +110,9 @@ MeshData icosphere(double radius, int subdivisions) {
     expect(subdivisions >= 0 && subdivisions <= most_subdivisions,
            "subdivisions from 0 to " + std::to_string(most_subdivisions),
            std::to_string(subdivisions));
+    // A triangle, half a vertex, and its share of the map of edges, twice where vectors grow.
+    const std::int64_t triangles = std::int64_t{20} << (2 * subdivisions);
+    check_memory(100.0 * static_cast<double>(triangles), std::to_string(triangles) + " triangles");
     Icosahedron solid = icosahedron();
     for (int i = 0; i < subdivisions; ++i) subdivide(solid);
 

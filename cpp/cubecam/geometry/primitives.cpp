@@ -2,6 +2,7 @@
 
 #include "cubecam/core/checks.hpp"
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/memory.hpp"
 
 #include <algorithm>
 #include <array>
@@ -28,6 +29,10 @@ void expect_vertices(std::int64_t columns, std::int64_t rows) {
     expect(vertices <= most_vertices,
            "a mesh of at most " + std::to_string(most_vertices) + " vertices",
            std::to_string(vertices));
+    // Position, normal, texture coordinates, and two triangles for each vertex; vectors that grow
+    // hold their numbers twice.
+    constexpr double bytes = 2 * (3 + 3 + 2 + 2 * 3) * sizeof(float);
+    check_memory(bytes * static_cast<double>(vertices), std::to_string(vertices) + " vertices");
 }
 
 /// (sine, cosine) of step / steps of a full turn. Quarter turns are exact, and step = steps gives

@@ -190,6 +190,24 @@ std::string software_hint() {
            "install mesa-libEGL mesa-dri-drivers (Fedora).";
 }
 
+std::string driver_variables() {
+    std::string text;
+    for (const char* name : {"GALLIUM_DRIVER", "MESA_LOADER_DRIVER_OVERRIDE", "LIBGL_DRIVERS_PATH",
+                             "LIBGL_ALWAYS_SOFTWARE", "MESA_GL_VERSION_OVERRIDE", "EGL_PLATFORM"}) {
+        const char* value = std::getenv(name);
+        if (value == nullptr || *value == '\0') continue;
+        text += (text.empty() ? "" : " and ") + std::string(name) + "=" + value;
+    }
+    return text;
+}
+
+std::string version_hint() {
+    const std::string chosen = driver_variables();
+    return "A driver is installed and starts, but it does not offer OpenGL 4.5. " +
+           (chosen.empty() ? "A newer driver may: Mesa's llvmpipe does from version 20.3."
+                           : chosen + " is set: without it the driver may offer more.");
+}
+
 std::string descriptors_hint() {
     const int opened = open("/dev/null", O_RDONLY | O_CLOEXEC);
     const int reason = errno;
