@@ -2438,7 +2438,7 @@ MUTATIONS = [
     ),
     Mutation(
         "memory: the groups above are forgotten",
-        "memory.cpp",
+        "core/memory.cpp",
         "path = path.parent_path();",
         "return;",
         MEMORY,
