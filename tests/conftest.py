@@ -31,6 +31,12 @@ def pytest_addoption(parser):
 
 
 def pytest_sessionstart(session):
+    module = os.environ.get("CUBECAM_EXPECT_MODULE")
+    if module:  # scripts/sanitize.py
+        from cubecam import _core
+
+        if _core.__file__ != module:
+            pytest.exit(f"CUBECAM_EXPECT_MODULE={module}, got {_core.__file__}", returncode=1)
     if os.environ.get("CUBECAM_EXPECT_SOFTWARE") == "1":
         text, llvmpipe = device()
         if not llvmpipe:

@@ -47,6 +47,10 @@ TOLERANCES = {
         relative=1e-5,
         elsewhere=WEIGHTS,
     ),
+    "sky": Tolerance(
+        1e-5,
+        "directions of float32 from float64 rays, and a smooth cube of 16 texels: its slope is below 4 for a radian",
+    ),
     "filtered_lookup": Tolerance(
         1e-5,
         "places among the faces of an atlas of 512 texels keep 14 bits below the point: weights are off by 6e-5, "
