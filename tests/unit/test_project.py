@@ -90,7 +90,7 @@ def test_workflows_call_targets_that_exist():
     for path in [*(ROOT / ".github" / "workflows").glob("*.yml"), ROOT / ".ci" / "run"]:
         commands = re.findall(r"(?:run: |exec |^)make ([a-z -]+)", path.read_text(), re.MULTILINE)
         called |= {word for command in commands for word in command.split()}
-    assert {"lint", "test", "test-build", "test-asan", "sdist", "wheel", "bench"} <= called
+    assert {"lint", "test", "test-build", "sanitize", "sdist", "wheel", "bench"} <= called
     assert called <= targets
 
 
