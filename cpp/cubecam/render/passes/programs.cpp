@@ -41,6 +41,9 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
 /// The file that the material's own file replaces in shaders/passes/surface.frag.
 constexpr std::string_view material_include = "include/material.glsl";
 
+constexpr std::string_view user_fragment = "include/user_fragment.glsl";
+constexpr std::string_view user_vertex = "include/user_vertex.glsl";
+
 std::string upper(std::string_view name) {
     std::string text(name);
     std::transform(text.begin(), text.end(), text.begin(), [](char c) {
@@ -201,9 +204,10 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
     const UserSource include = include_of(*variant.kind);
     gl::ShaderOptions options = surface_options(variant, material);
     add_defines(options, output_defines(variant.outputs));
+    const ShaderPart part{material_include, &include};
     return surfaces_
         .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                                      substituted({{material_include, "", &include}})))
+                                      substituted({&part, 1})))
         .first->second;
 }
 
@@ -214,14 +218,14 @@ UserProgram& Programs::user_surface(const SurfaceVariant& variant, const Materia
     const UserSource fragment = place_outputs(*user.fragment, variant.outputs);
     add_defines(options, output_defines(variant.outputs, declared_outputs(*user.fragment)));
     return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                      {{"include/user_fragment.glsl", "fragment", &fragment},
-                       {"include/user_vertex.glsl", "vertex", user.vertex},
-                       {material_include, "", &include}});
+                      {{user_fragment, &fragment, UserStage::fragment, user.fragment},
+                       {user_vertex, user.vertex, UserStage::vertex},
+                       {material_include, &include}});
 }
 
 UserProgram& Programs::effect(const UserSource& fragment) {
     return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
-                      {{"include/user_fragment.glsl", "fragment", &fragment}});
+                      {{user_fragment, &fragment, UserStage::effect}});
 }
 
 const gl::Program& Programs::skybox(bool turned) {
@@ -244,8 +248,8 @@ UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_c
     gl::ShaderOptions options = surface_options(variant, material);
     std::erase_if(options.defines, [](const auto& define) { return define.first == "LAYERED"; });
     return users_.get(*gl_, {"passes/surface.vert", "passes/shadow.frag"}, options,
-                      {{"include/user_fragment.glsl", "fragment", material.user_code->fragment},
-                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}});
+                      {{user_fragment, material.user_code->fragment, UserStage::fragment},
+                       {user_vertex, material.user_code->vertex, UserStage::vertex}});
 }
 
 const gl::Program& Programs::shadow(const ShadowVariant& variant) {

@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/user_program.hpp"
 
+#include "cubecam/gl/glsl_text.hpp"
+#include "cubecam/render/passes/shader_names.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 
 #include <algorithm>
@@ -12,10 +14,6 @@ namespace cubecam {
 namespace {
 
 constexpr std::size_t most_programs = 64;
-
-/// Uniforms that shaders/ declares itself.
-constexpr std::array<std::string_view, 7> own_uniforms = {
-    "u_box_mipmaps", "u_brdf_table", "u_cube", "u_filtered", "u_frame", "u_layer", "u_shadow_maps"};
 
 /// A GLSL type of `rows` x `columns` numbers.
 struct Shape {
@@ -118,12 +116,25 @@ std::vector<double> fitted(const std::string& name, const UniformValue& value, c
 
 }  // namespace
 
-UserProgram::UserProgram(gl::Program program, std::string text)
-    : program_(std::move(program)), text_(std::move(text)) {
+UserProgram::UserProgram(gl::Program program, std::vector<WrittenText> texts)
+    : program_(std::move(program)), texts_(std::move(texts)) {
     find_uniforms();
 }
 
+/// Returns "fragment:3: " for a name that a text declares in its third line.
+std::string UserProgram::place_of(const std::string& name) const {
+    const std::string word = name.substr(0, name.find_first_of(".["));
+    for (const WrittenText& text : texts_) {
+        if (const auto line = gl::line_of_word(text.source.text, word)) {
+            return std::string(title_of(text.source, text.stage)) + ":" + std::to_string(*line) +
+                   ": ";
+        }
+    }
+    return "";
+}
+
 void UserProgram::find_uniforms() {
+    const auto& own = shader_names(texts_.front().stage).variables;
     const GladGLContext& gl = program_.gl();
     GLint count = 0;
     GLint longest = 0;
@@ -140,15 +151,12 @@ void UserProgram::find_uniforms() {
         if (uniform.location < 0) continue;  // in a block
         uniform.array = uniform.name.ends_with("[0]");
         if (uniform.array) uniform.name.resize(uniform.name.size() - 3);
-        if (std::find(own_uniforms.begin(), own_uniforms.end(), uniform.name) !=
-            own_uniforms.end()) {
-            continue;
-        }
+        if (own.contains(uniform.name)) continue;
         if (find_shape(uniform.type) != nullptr) {
             uniform.initial = initial_of(uniform);
             uniform.current = uniform.initial;
         } else if (sampler_name(uniform.type) == nullptr || uniform.array) {
-            refuse("uniform " + uniform.name,
+            refuse(place_of(uniform.name) + "uniform " + uniform.name,
                    "a float, int, uint or bool, a vector or square matrix of them, a sampler2D or "
                    "a samplerCube",
                    "another type, or an array of samplers");
@@ -196,7 +204,10 @@ std::vector<double> UserProgram::initial_of(const Uniform& uniform) const {
 
 void UserProgram::check_known(const std::string& name) const {
     // "lamps[2].color" is known if the source mentions "lamps".
-    if (mentions(text_, name.substr(0, name.find_first_of(".[")))) return;
+    const std::string word = name.substr(0, name.find_first_of(".["));
+    for (const WrittenText& text : texts_) {
+        if (mentions(text.source.text, word)) return;
+    }
     std::string known;
     for (const Uniform& uniform : uniforms_) known += (known.empty() ? "" : ", ") + uniform.name;
     refuse("uniform " + name,
@@ -283,17 +294,49 @@ void UserProgram::set(Uniform& uniform, const std::vector<double>& numbers) {
     uniform.current = numbers;
 }
 
-std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> parts) {
+std::vector<gl::ShaderSource> substituted(std::span<const ShaderPart> parts) {
     std::vector<gl::ShaderSource> sources(gl::embedded_shaders().begin(),
                                           gl::embedded_shaders().end());
     for (gl::ShaderSource& source : sources) {
         for (const ShaderPart& part : parts) {
             if (source.name != part.file) continue;
             source.text = part.source->text;
-            source.title = part.source->path.empty() ? part.title : part.source->path;
+            source.user = part.stage.has_value();
+            if (part.stage) source.title = title_of(*part.source, *part.stage);
         }
     }
     return sources;
+}
+
+UserProgram UserPrograms::make(const GladGLContext& gl,
+                               std::initializer_list<std::string_view> files,
+                               const gl::ShaderOptions& options,
+                               std::span<const ShaderPart> parts) {
+    std::vector<WrittenText> written;
+    written.reserve(parts.size());
+    for (const ShaderPart& part : parts) {
+        if (!part.stage || part.source->text.empty()) continue;
+        const UserSource& own = part.written == nullptr ? *part.source : *part.written;
+        written.push_back({{gl::with_plain_lines(own.text), own.path}, *part.stage});
+        check_user_text(written.back().source, *part.stage);
+    }
+    std::vector<gl::ShaderSource> sources = substituted(parts);
+    std::list<PreparedText> prepared;
+    auto own = written.begin();
+    for (const ShaderPart& part : parts) {
+        if (!part.stage || part.source->text.empty()) continue;
+        prepared.push_back(prepare_user_text(
+            {gl::with_plain_lines(part.source->text), part.source->path}, *part.stage));
+        const auto source = std::find_if(sources.begin(), sources.end(), [&part](const auto& held) {
+            return held.name == part.file;
+        });
+        source->text = prepared.back().text;
+        source->after = prepared.back().after;
+        source->written = own++->source.text;
+    }
+    gl::Program program(gl, files, options, sources);
+    check_interface(gl, program.id(), written);
+    return {std::move(program), std::move(written)};
 }
 
 UserProgram& UserPrograms::get(const GladGLContext& gl,
@@ -306,11 +349,9 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
     for (const std::string_view file : files) add(file);
     for (const std::string& extension : options.extensions) add(extension);
     for (const auto& [name, value] : options.defines) add(name + "=" + value);
-    std::string text;
     for (const ShaderPart& part : parts) {
         add(part.source->text);
         add(part.source->path);
-        if (!part.title.empty()) text += part.source->text + "\n";
     }
     const auto found = std::find_if(programs_.begin(), programs_.end(),
                                     [&key](const auto& held) { return held.first == key; });
@@ -319,7 +360,7 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
         return programs_.front().second;
     }
 
-    UserProgram made(gl::Program(gl, files, options, substituted(parts)), std::move(text));
+    UserProgram made = make(gl, files, options, parts);
     if (programs_.size() == most_programs) programs_.pop_back();
     programs_.emplace_front(std::move(key), std::move(made));
     return programs_.front().second;
