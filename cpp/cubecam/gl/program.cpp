@@ -76,7 +76,10 @@ Program::Program(const GladGLContext& gl, std::span<const std::string_view> file
     GLsizei written = 0;
     gl.GetProgramInfoLog(id(), log_length, &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    throw ShaderError(shown_names(texts) + " do not link:\n" + explain_link_log(log, texts), log);
+    const std::string names = shown_names(texts);
+    const char* verb =
+        names.find(" + ") == std::string::npos ? " does not link:\n" : " do not link:\n";
+    throw ShaderError(names + verb + explain_link_log(log, texts), log);
 }
 
 GLint Program::location(std::string_view name) const {

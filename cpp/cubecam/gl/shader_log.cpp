@@ -107,6 +107,7 @@ struct Remark {
     const ShaderSource* source = nullptr;  ///< null: nowhere
     std::size_t line = 0;
     std::string text;
+    bool indirect = false;  ///< the driver gave a line of an own file
 };
 
 /// The users' texts in a stage. Includes do not depend on conditions, so that a vertex shader also
@@ -166,10 +167,11 @@ private:
 
     void add(std::string_view line, const ExpandedShader* shader, bool linking) {
         const auto place = find_place(line);
-        if (place && shader != nullptr && place->line > 0 && place->line <= shader->lines.size()) {
+        const bool placed = place && shader != nullptr && place->line <= shader->lines.size();
+        if (placed && place->line > 0) {
             add_numbered(*place, *shader);
-        } else if (linking) {
-            add_named(line);
+        } else if (linking || placed) {
+            add_named(line);  // Mesa gives line 0 to what concerns a whole function
         } else {
             remarks_.push_back({nullptr, 0, std::string(line)});
         }
@@ -190,7 +192,7 @@ private:
         for (const std::string& word : quoted_words(place.rest)) {
             for (const ShaderSource* user : users_in(shader)) {
                 const auto line = line_of_word(user->text, word);
-                if (line) return add_remark(*user, *line, head, place.rest);
+                if (line) return add_remark(*user, *line, head, place.rest, true);
             }
         }
         const std::vector<const ShaderSource*> users = users_in(shader);
@@ -199,15 +201,16 @@ private:
         for (std::size_t i = 0; i < place.line; ++i) {
             const ExpandedShader::Line& held = shader.lines[i];
             if (held.file == ExpandedShader::ahead) continue;
-            const ShaderSource* file = &shader.files[held.file];
-            if (std::find(users.begin(), users.end(), file) == users.end()) continue;
-            before = file;
+            const ShaderSource* held_file = &shader.files[held.file];
+            if (std::find(users.begin(), users.end(), held_file) == users.end()) continue;
+            before = held_file;
             last = held.number;
         }
-        if (before == nullptr) return add_remark(source, number, head, place.rest);
+        if (before == nullptr) return add_remark(source, number, head, place.rest, true);
         add_remark(*before, last, head,
                    std::string(place.rest) + " (behind the end of this source: is something not "
-                                             "closed, or a semicolon missing?)");
+                                             "closed, or a semicolon missing?)",
+                   true);
     }
 
     /// A message of a linker, which has no line: its names tell what it is about.
@@ -260,20 +263,23 @@ private:
     }
 
     void add_remark(const ShaderSource& source, std::size_t line, const std::string& head,
-                    std::string_view rest) {
+                    std::string_view rest, bool indirect = false) {
         remarks_.push_back(
             {&source, line,
-             head + std::string(source.shown()) + ":" + std::to_string(line) + std::string(rest)});
+             head + std::string(source.shown()) + ":" + std::to_string(line) + std::string(rest),
+             indirect});
     }
 
-    /// What concerns only own files follows from the mistake in a user's text, and is left out.
+    /// What the driver says of own files follows from a mistake in a user's text, and is left out.
     std::string text() const {
-        const bool user = has_user_place();
+        const bool direct = std::any_of(remarks_.begin(), remarks_.end(), [](const Remark& remark) {
+            return remark.source != nullptr && !remark.indirect;
+        });
         std::string text;
         std::vector<std::pair<const ShaderSource*, std::size_t>> places;
         std::set<std::string> written;
         for (const Remark& remark : remarks_) {
-            if (user && remark.source != nullptr && !remark.source->user) continue;
+            if (direct && remark.indirect) continue;
             if (!remark.text.empty() && !written.insert(remark.text).second) continue;
             text.append(remark.text).push_back('\n');
             const std::pair place{remark.source, remark.line};

@@ -4,6 +4,7 @@
 #include "cubecam/core/error.hpp"
 #include "cubecam/gl/glsl_outline.hpp"
 #include "cubecam/gl/program.hpp"
+#include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shader_names.hpp"
 
 #include <algorithm>
@@ -133,7 +134,7 @@ private:
             }
             if ((word != "define" && word != "undef") || directive.rest.empty()) continue;
             const std::string& name = directive.rest[0].text;
-            if (is_own(name) || name == "main") {
+            if (is_own(name) || name == "main" || name.starts_with("gl_")) {
                 refuse_line(directive.line, "expected a macro with a name that cubecam's own "
                                             "shaders do not use, got " +
                                                 name);
@@ -366,7 +367,13 @@ private:
             const auto at = std::find_if(text_.tokens().begin(), text_.tokens().end(), mentioned);
             const bool found = at != text_.tokens().end();
             line = found ? at->line : line_of_word(wanted);
-            other = found ? "only the name" : "it only in a comment";
+            const bool declared = std::any_of(
+                outline_.names.begin(), outline_.names.end(), [wanted](const gl::GlslName& name) {
+                    return name.kind == gl::GlslName::Kind::function && name.name == wanted;
+                });
+            other = declared ? "one without a body"
+                    : found  ? "only the name"
+                             : "it only in a comment";
         }
         refuse_line(line, "expected a function " + expected_function() + ", got " + *other);
     }
@@ -482,6 +489,15 @@ void check_interface(const GladGLContext& gl, GLuint program, std::span<const Wr
           });
     check(GL_SHADER_STORAGE_BLOCK, "expected uniforms and textures, got the buffer ",
           [](const std::string&) { return false; });
+    check(GL_PROGRAM_OUTPUT, "expected outputs declared as `out vec4 name;`, without a macro, got ",
+          [&](const std::string& name) {
+              if (name.starts_with("gl_") || name.starts_with("o_other_")) return true;
+              if (names.variables.contains(name)) return true;
+              const std::vector<NamedOutput> declared = declared_outputs(texts.front().source);
+              return std::any_of(
+                  declared.begin(), declared.end(),
+                  [&name](const NamedOutput& output) { return output.name == name; });
+          });
     check(GL_PROGRAM_INPUT,
           "expected vertices with position, normal, uv and color, got the attribute ",
           [&names](const std::string& name) {

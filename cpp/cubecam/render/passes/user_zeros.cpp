@@ -195,6 +195,7 @@ private:
             }
             if (end == function.close || depth != 0) continue;
             fill_declared(gl::declared_variables(tokens, i, end), tokens, end, !in_for);
+            if (tokens[i].text == "struct") i = end;  // its members are no variables
         }
         if (outline_.uncertain || !function.returns || function.close >= tokens.size()) return;
         if (function.type == "void" || resolved(function.type).empty()) return;
