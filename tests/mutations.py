@@ -26,7 +26,7 @@ CAPTURE = ("tests/gl/test_capture.py",)
 FRAMES = ("tests/gl/test_frames.py",)
 LOOKUPS = ("tests/gl/test_lookups.py",)
 PHONG = ("tests/gl/test_phong.py",)
-SKYBOX = ("tests/gl/test_skybox.py",)
+SKY_RAYS = ("tests/gl/test_sky_rays.py",)
 ALPHA = ("tests/gl/test_alpha.py",)
 SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
@@ -79,6 +79,8 @@ OBJ_SCENE = ("tests/unit/test_obj_scene.py",)
 STL = ("tests/unit/test_stl.py",)
 OFF = ("tests/unit/test_off.py",)
 PLY = ("tests/unit/test_ply.py",)
+ABSURD = ("tests/unit/test_absurd_arguments.py",)
+MEMORY = ("tests/unit/test_memory.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -160,11 +162,68 @@ MUTATIONS = [
         ORIENTATION,
     ),
     Mutation(
-        "skybox: moves with the camera",
-        "view.cpp",
-        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
-        "turned[3] *= 1.0;",
-        SKYBOX,
+        "skybox: behind a camera that sees negative depth",
+        "sky_rays.cpp",
+        "(towards < 0.0 ? -1.0 : 1.0)",
+        "1.0",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: a float loses the axis of a wide view",
+        "sky_rays.cpp",
+        "const glm::dvec2 axis = shortest(rays) + half;",
+        "const glm::dvec2 axis(0.0);",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: the other side of a parallel view",
+        "sky_rays.cpp",
+        "glm::dot(glm::dvec3(rows[2]), rays[0]) * rows[3].w",
+        "glm::dot(glm::dvec3(rows[2]), rays[0]) * -rows[3].w",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: half a pixel off",
+        "skybox.frag",
+        "floor(gl_FragCoord.xy) + 0.5 - v_centre",
+        "floor(gl_FragCoord.xy) - v_centre",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: the view's own matrix is not undone",
+        "sky_rays.cpp",
+        "glm::inverse(glm::dmat3(view.view))",
+        "glm::transpose(glm::dmat3(view.view))",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "shadow: what writes no depth casts none, but has bounds",
+        "shadow_picture.cpp",
+        "make_plan(scene_, views, state_.map.size, state_.map.size, casts_shadow)",
+        "make_plan(scene_, views, state_.map.size, state_.map.size,\n"
+        "        [](const NodeSnapshot& n) { return casts_shadow(n) && n.depth_write; })",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: bounds of what casts nothing",
+        "shadow_view.cpp",
+        "if (!casts_shadow(node)) continue;",
+        "if (!node.cast_shadow) continue;",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: the key of a map asks another question",
+        "shadow_picture.cpp",
+        "if (casts_shadow(node)) add_caster(key, node, lookup);",
+        "if (casts_shadow(node) && node.depth_write) add_caster(key, node, lookup);",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: translucent surfaces cast, too",
+        "snapshot_queries.cpp",
+        "return node.cast_shadow && !node.translucent;",
+        "return node.cast_shadow;",
+        SHADOW_MAPS,
     ),
     Mutation(
         "mirror: the normal's sign",
@@ -1000,6 +1059,41 @@ MUTATIONS = [
         "values[i] == clear ? 1.0F : 1.0F - values[i]",
         "1.0F - values[i]",
         DEPTH_ORDER,
+    ),
+    Mutation(
+        "users' GLSL: a loop without an end makes the rest dead code",
+        "surface.frag",
+        "if (u_node_id >= 0) shaded = with_alpha(shade(surface));",
+        "shaded = with_alpha(shade(surface));",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: arrays without values",
+        "user_zeros.cpp",
+        'if (!following.empty()) insert(tokens[end].end, " " + following);',
+        "",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: what vertices hand on has no value",
+        "surface.vert",
+        "cubecam_zeros();",
+        "",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: lines of a byte order mark and CR",
+        "glsl_text.cpp",
+        "} else if (i + 1 == text.size() || text[i + 1] != '\\n') {",
+        "} else if (i + 1 == text.size()) {",
+        ("tests/gl/test_shader_errors.py",),
+    ),
+    Mutation(
+        "users' GLSL: buffers of macros are let through",
+        "user_text.cpp",
+        "[](const std::string&) { return false; }",
+        "[](const std::string&) { return true; }",
+        ("tests/gl/test_shader_errors.py",),
     ),
     Mutation(
         "users' outputs: left as the node before wrote them",
@@ -2311,5 +2405,40 @@ MUTATIONS = [
         "if (a.node->backs_first()) return false;",
         "",
         ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "arguments: a bool is an int",
+        "numbers.cpp",
+        "if (given == nullptr || PyBool_Check(given) != 0 || PyIndex_Check(given) == 0) {",
+        "if (given == nullptr || PyIndex_Check(given) == 0) {",
+        ABSURD,
+    ),
+    Mutation(
+        "arguments: a hidden value counts",
+        "numbers.cpp",
+        "return !hides_values(value);",
+        "return true;",
+        ABSURD,
+    ),
+    Mutation(
+        "arguments: True is a number",
+        "numbers.cpp",
+        "if (given == nullptr || PyBool_Check(given) != 0) return std::nullopt;\n    if (PyFloat",
+        "if (given == nullptr) return std::nullopt;\n    if (PyFloat",
+        ABSURD,
+    ),
+    Mutation(
+        "memory: the groups above are forgotten",
+        "memory.cpp",
+        "path = path.parent_path();",
+        "return;",
+        MEMORY,
+    ),
+    Mutation(
+        "memory: what is read back is forgotten",
+        "target_store.hpp",
+        "check_target_memory(context, description, result_bytes);",
+        "check_target_memory(context, description);",
+        MEMORY,
     ),
 ]

@@ -55,17 +55,6 @@ bool shape_matches(const py::array& array, std::string_view pattern) {
     return true;
 }
 
-/// Whether an array is of a type that can hide values, and hides some. Such a type has a mask and
-/// the method filled(): numpy.ma.MaskedArray and its subclasses, and the masked arrays of astropy.
-/// The attributes are enough to know them, so numpy.ma is not imported.
-bool hides_values(py::handle value) {
-    // Plain arrays, which most callers pass, have no mask.
-    if (Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
-    if (!py::isinstance<py::array>(value)) return false;
-    if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return false;
-    return py::bool_(py::module_::import("numpy").attr("any")(value.attr("mask")));
-}
-
 /// Raises TypeError for an array that hides values; lists and tuples are searched as deep as numpy
 /// reads them.
 void check_nothing_hidden(py::handle value, const char* name, int depth = 64) {
@@ -182,6 +171,14 @@ py::array readonly_values(const Vector& value, std::vector<py::ssize_t> shape) {
 }
 
 }  // namespace
+
+bool hides_values(py::handle value) {
+    // Plain arrays, which most callers pass, have no mask.
+    if (Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
+    if (!py::isinstance<py::array>(value)) return false;
+    if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return false;
+    return py::bool_(py::module_::import("numpy").attr("any")(value.attr("mask")));
+}
 
 py::array to_array(py::handle value, const char* name) {
     check_nothing_hidden(value, name);

@@ -4,8 +4,11 @@
 #include "docs/cubemap.hpp"
 #include "encodings.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
+#include "values.hpp"
 
 #include "cubecam/core/parallel.hpp"
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
 #include "cubecam/render/resources/outputs.hpp"
@@ -40,15 +43,15 @@ using FaceLike = OneOf<Face, WholeNumber, Choice<face_words>>;
 
 Face to_face(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_face(value.cast<std::string>());
-    if (py::isinstance<py::bool_>(value) || !PyIndex_Check(value.ptr())) {
+    const auto index = whole_number(value);
+    if (!index) {
         throw py::type_error("face: expected a Face, a number from 0 to 5 or a name, got " +
-                             py::repr(value).cast<std::string>());
+                             text_of(value));
     }
-    const long index = py::int_(py::reinterpret_borrow<py::object>(value)).cast<long>();
-    if (index < 0 || index >= face_count) {
-        throw py::index_error("face: expected 0 to 5, got " + std::to_string(index));
+    if (*index < 0 || *index >= face_count) {
+        throw py::index_error("face: expected 0 to 5, got " + text_of(value));
     }
-    return static_cast<Face>(index);
+    return static_cast<Face>(*index);
 }
 
 /// Raises ValueError that names the face whose shape differs; numpy's own error names none.
@@ -72,7 +75,7 @@ void check_six_alike(py::handle value) {
     }
 }
 
-CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name, bool mipmaps,
+CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name, Flag mipmaps,
                   const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     check_six_alike(faces);
@@ -80,7 +83,7 @@ CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name,
     const int size = to_texels(pixels.shape(1), "faces");
     const auto channels = static_cast<int>(pixels.shape(3));
     const Encoding encoding = to_encoding(encoding_name, faces, pixels.dtype());
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(pixels.dtype());
     PixelBuffer memory = convention == Convention::gl ? copy_pixels(pixels.data(), pixels.bytes())
                                                       : convert_faces(pixels.data(), size, texel,
@@ -104,7 +107,7 @@ void set_face(CubeMap& cube, const FaceLike& face_value, const ArrayLike& value,
     const int size = state->size;
     const std::size_t texel = static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
     const std::size_t bytes = state->face_bytes();
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     state.reset();  // the cube can write its pixels in place if no one else holds them
     // face_source is its own inverse: the face of "gl" that is made from `named` is also the face
     // of "gl" that `named` is made from.
@@ -121,7 +124,7 @@ Pixels faces_view(const CubeMap& cube) {
 }
 
 OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const ArrayLike& lod,
-                   const std::string& output_name) {
+                   const Text& output_name) {
     const OutputValues* output = to_output(cube, output_name);
     const auto towards = float_array(directions, "directions", "(..., 3)");
     const auto count = static_cast<std::size_t>(towards.size() / 3);
@@ -151,7 +154,7 @@ OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const Array
         }
         PixelBuffer found;
         {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             found = nearest_lookup(texels_of(cube, *output), d, count);
         }
         return output_array(std::move(found), *output, std::move(shape));
@@ -166,7 +169,7 @@ OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const Array
     const float* lods = only_zero ? nullptr : levels.data();
     const std::size_t lod_count = levels.ndim() == 0 ? 1 : count;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         cube.sample(d, count, lods, lod_count, to);
     }
     return result;
@@ -312,7 +315,7 @@ const OutputValues* to_output(const CubeMap& cube, const std::string& name) {
         (cube.outputs().empty()
              ? ", since this cube has no output besides; Renderer.capture has outputs="
              : ", which this cube has") +
-        "; got '" + name + "'");
+        "; got '" + shortened(name) + "'");
 }
 
 py::array output_array(PixelBuffer texels, const OutputValues& output,
@@ -393,7 +396,7 @@ void bind_cubemap(py::module_& module) {
         .def(
             "__eq__",
             [](const CubeMap& a, const CubeMap& b) {
-                const py::gil_scoped_release release;
+                const Unlocked unlocked;
                 return a.same_contents(b);
             },
             py::is_operator(), py::arg("other"),
@@ -402,7 +405,7 @@ void bind_cubemap(py::module_& module) {
         .def(
             "__ne__",
             [](const CubeMap& a, const CubeMap& b) {
-                const py::gil_scoped_release release;
+                const Unlocked unlocked;
                 return !a.same_contents(b);
             },
             py::is_operator(), py::arg("other"))

@@ -4,6 +4,8 @@
 #include "docs/cubemap.hpp"
 #include "encodings.hpp"
 #include "numbers.hpp"
+#include "unlocked.hpp"
+#include "values.hpp"
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
@@ -32,7 +34,7 @@ Sampling parse_sampling(std::string_view name) {
     const std::size_t place = place_of_name(sampling_names, name);
     if (place < sampling_names.size()) return sampling_names[place].second;
     throw py::value_error("sampling: expected " + quoted_names(sampling_names) + ", got '" +
-                          std::string(name) + "'");
+                          shortened(name) + "'");
 }
 
 /// Raises ValueError for a picture that memory cannot hold.
@@ -49,9 +51,9 @@ void check_no_dtype(const DTypeOrNone& dtype, const OutputValues& output) {
                           output_type_name(output.type) + ", got " + text_of(dtype));
 }
 
-PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
+PixelsOrOutput to_equirect(const CubeMap& cube, Argument<std::optional<int>> width,
                            const CenterName& center_name, const SamplingName& sampling_name,
-                           const DTypeOrNone& dtype, const std::string& output_name) {
+                           const DTypeOrNone& dtype, const Text& output_name) {
     const Center center = parse_center(center_name);
     const Sampling sampling = parse_sampling(sampling_name);
     const auto state = cube.data();
@@ -61,7 +63,7 @@ PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
         check_picture(columns, columns / 2.0, output->channels, DType::float32);
         PixelBuffer texels;
         {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             texels = nearest_equirect(texels_of(cube, *output), columns, center, sampling);
         }
         return output_array(std::move(texels), *output, {columns / 2, columns});
@@ -71,7 +73,7 @@ PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
     check_picture(columns, columns / 2.0, state->channels, to);
     PixelBuffer pixels;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         pixels = cube_to_equirect(*state, columns, center, sampling, to);
     }
     return owned_pixels(std::move(pixels), to, {columns / 2, columns, state->channels});
@@ -84,7 +86,7 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
     const auto channels = static_cast<int>(image.shape(2));
     const int n = to_texels(size.value_or(default_face_size(width)), "size");
     check_picture(n, 6.0 * n, channels, to);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     PixelBuffer faces = equirect_to_cube(
         {image.data(), width, height, channels, image.dtype(), center, sampling}, n, to);
     return std::make_shared<CubeMap>(n, channels, to, std::move(faces), mipmaps, OutputList(),
@@ -92,8 +94,8 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
 }
 
 CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& layout_name,
-                    const ConventionName& convention_name, std::optional<int> size,
-                    const CenterName& center_name, bool mipmaps, const DTypeOrNone& dtype,
+                    const ConventionName& convention_name, Argument<std::optional<int>> size,
+                    const CenterName& center_name, Flag mipmaps, const DTypeOrNone& dtype,
                     const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     const Center center = parse_center(center_name);
@@ -115,7 +117,7 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
     const std::size_t texel = static_cast<std::size_t>(channels) * dtype_size(image.dtype());
     const Convention given = openexr ? Convention::inside : convention;
 
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     PixelBuffer faces = picture_to_faces(image.data(), width, height, texel, cells, given);
     if (given != Convention::gl)
         faces = convert_faces(faces.data(), n, texel, given, Convention::gl);
@@ -130,20 +132,20 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
 }
 
 PixelsOrOutput to_convention(const CubeMap& cube, const ConventionName& name,
-                             const std::string& output_name) {
+                             const Text& output_name) {
     const Convention convention = parse_convention(name);
     const auto state = cube.data();
     PixelBuffer faces;
     if (const OutputValues* output = to_output(cube, output_name)) {
         {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             faces = convert_faces(output->values->data(), state->size, output->texel_size(),
                                   Convention::gl, convention);
         }
         return output_array(std::move(faces), *output, {6, state->size, state->size});
     }
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const std::size_t texel =
             static_cast<std::size_t>(state->channels) * dtype_size(state->dtype);
         faces =
@@ -158,7 +160,7 @@ py::array output_in_layout(const CubeMap& cube, const OutputValues& output, Layo
     const PictureSize shape = layout_size(layout, n);
     PixelBuffer picture;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const std::size_t texel = output.texel_size();
         const PixelBuffer faces =
             convert_faces(output.values->data(), n, texel, Convention::gl, convention);
@@ -169,7 +171,7 @@ py::array output_in_layout(const CubeMap& cube, const OutputValues& output, Layo
 
 PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
                          const ConventionName& convention_name, const DTypeOrNone& dtype,
-                         const std::string& output_name) {
+                         const Text& output_name) {
     const Layout layout = parse_layout(layout_name);
     const Convention convention = parse_convention(convention_name);
     if (layout == Layout::equirect) {
@@ -187,7 +189,7 @@ PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
     const PictureSize shape = layout_size(openexr ? Layout::column : layout, state->size);
     PixelBuffer picture;
     {
-        const py::gil_scoped_release release;
+        const Unlocked unlocked;
         const auto channels = static_cast<std::size_t>(state->channels);
         if (openexr) {
             const PixelBuffer faces =
@@ -205,12 +207,12 @@ PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
     return owned_pixels(std::move(picture), to, {shape.height, shape.width, state->channels});
 }
 
-CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
+CubePtr resize(const CubeMap& cube, Int size, const DTypeOrNone& dtype) {
     to_texels(size, "size");
     const auto state = cube.data();
     const DType to = to_dtype(dtype, state->dtype);
     check_picture(size, 6.0 * size, state->channels, to);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     PixelBuffer faces = resample_faces(*state, Sampling::centers, size, Sampling::centers, to);
     OutputList outputs = cube.outputs();
     for (OutputValues& output : outputs) {
@@ -226,7 +228,7 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
     // Two signatures of each, so that type checkers know the dtype of colours.
     cube.def(
             "to_equirect",
-            [](const CubeMap& c, std::optional<int> width, const CenterName& center,
+            [](const CubeMap& c, Argument<std::optional<int>> width, const CenterName& center,
                const SamplingName& sampling, const DTypeOrNone& dtype) -> Pixels {
                 return to_equirect(c, width, center, sampling, dtype, "color");
             },
@@ -237,8 +239,8 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
              py::arg("dtype") = py::none(), py::arg("output") = "color", docs::to_equirect_output)
         .def_static(
             "from_equirect",
-            [](const ArrayLike& image, std::optional<int> size, const CenterName& center,
-               const SamplingName& sampling, bool mipmaps, const DTypeOrNone& dtype,
+            [](const ArrayLike& image, Argument<std::optional<int>> size, const CenterName& center,
+               const SamplingName& sampling, Flag mipmaps, const DTypeOrNone& dtype,
                const EncodingName& encoding) {
                 const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
                 return from_equirect(pixels, size, parse_center(center), mipmaps,

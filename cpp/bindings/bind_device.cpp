@@ -1,6 +1,7 @@
 // cubecam.Device and cubecam.devices().
 #include "docs/device.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/gl/devices.hpp"
 
@@ -49,6 +50,6 @@ void bind_device(py::module_& module) {
         .def_readonly("problem", &DeviceInfo::problem)
         .def("__repr__", &represent);
 
-    module.def("devices", &cubecam::gl::list_devices, py::call_guard<py::gil_scoped_release>(),
+    module.def("devices", &cubecam::gl::list_devices, py::call_guard<Unlocked>(),
                cubecam::docs::devices);
 }

@@ -3,6 +3,8 @@
 #include "docs/mesh.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 #include "vertices.hpp"
 
@@ -112,7 +114,7 @@ std::shared_ptr<Mesh> make_mesh(const ArrayLike& positions, const ArrayLike& ind
     }
     arrays.influences = to_influences(joints, joint_weights, arrays.positions.size());
     arrays.targets = to_targets(morph_targets);
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     return std::make_shared<Mesh>(MeshData(std::move(arrays)));
 }
 
@@ -136,7 +138,7 @@ std::vector<glm::vec4> new_tangents(const Mesh& mesh, py::handle tangents) {
 }
 
 void apply(Mesh& mesh, MeshUpdate update) {
-    const py::gil_scoped_release release;
+    const Unlocked unlocked;
     mesh.update(std::move(update));
 }
 
@@ -192,8 +194,8 @@ std::string represent(const Mesh& mesh) {
 /// A function that builds a mesh without the GIL, since a mesh of many triangles takes a while.
 template <class... Args>
 auto built_by(MeshData (*build)(Args...)) {
-    return [build](Args... args) {
-        const py::gil_scoped_release release;
+    return [build](Argument<Args>... args) {
+        const Unlocked unlocked;
         return std::make_shared<Mesh>(build(args...));
     };
 }
@@ -221,8 +223,9 @@ void bind_primitives(Class<Mesh>& mesh) {
                     docs::torus);
     mesh.def_static(
         "arrow",
-        [](double length, std::optional<double> radius, std::optional<double> head_length,
-           std::optional<double> head_radius, int segments) {
+        [](Real length, Argument<std::optional<double>> radius,
+           Argument<std::optional<double>> head_length, Argument<std::optional<double>> head_radius,
+           Int segments) {
             return std::make_shared<Mesh>(make::arrow(
                 length, radius.value_or(0.05 * length), head_length.value_or(0.25 * length),
                 head_radius.value_or(0.1 * length), segments));
@@ -352,8 +355,8 @@ void bind_mesh(pybind11::module_& module) {
         py::arg("mesh"), docs::from_trimesh);
     mesh.def(
         "resized",
-        [](const Mesh& self, double size) {
-            const py::gil_scoped_release release;
+        [](const Mesh& self, Real size) {
+            const Unlocked unlocked;
             return std::make_shared<Mesh>(self.data()->centered_and_scaled(size));
         },
         py::arg("size"), docs::resized);
@@ -361,7 +364,7 @@ void bind_mesh(pybind11::module_& module) {
     mesh.def(
         "flat_shaded",
         [](const Mesh& self) {
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             const auto data = self.data();
             return std::make_shared<Mesh>(MeshData(*self.flat_shaded(data)).with_targets_of(*data));
         },
@@ -370,7 +373,7 @@ void bind_mesh(pybind11::module_& module) {
         "with_tangents",
         [](const Mesh& self, const WholeNumber& uv_set) {
             const int set = static_cast<int>(to_int(uv_set, "uv_set", 0, 1));
-            const py::gil_scoped_release release;
+            const Unlocked unlocked;
             const auto data = self.data();
             expect(data->uvs(set) != nullptr, set == 0 ? "a mesh with uvs" : "a mesh with uvs1",
                    "none");

@@ -1,5 +1,6 @@
 // cubecam._core._read_radiance, for cubecam/io/radiance.py
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/image/radiance.hpp"
 
@@ -24,13 +25,13 @@ pybind11::array_t<float> decode_radiance(const pybind11::bytes& data, std::size_
     const std::span<const std::uint8_t> bytes = all.subspan(std::min(start, all.size()));
     RadianceScan scan;
     {
-        const pybind11::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         scan = scan_radiance(bytes, scanlines, length);
     }
     pybind11::array_t<float> made({scanlines, length, std::size_t{3}});
     const std::span<float> out(made.mutable_data(), static_cast<std::size_t>(made.size()));
     {
-        const pybind11::gil_scoped_release unlocked;
+        const Unlocked unlocked;
         read_radiance(scan, out);
     }
     return made;

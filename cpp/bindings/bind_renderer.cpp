@@ -5,8 +5,11 @@
 #include "frame.hpp"
 #include "info.hpp"
 #include "node_list.hpp"
+#include "notices.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
+#include "values.hpp"
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/render/renderer.hpp"
@@ -76,21 +79,18 @@ gl::DeviceChoice to_device(py::handle device) {
 
 std::optional<bool> to_layered(py::handle value) {
     if (value.is_none()) return std::nullopt;
-    if (!py::isinstance<py::bool_>(value))
-        throw TypeError("layered: expected True, False or None, got " + text_of(value));
-    return value.cast<bool>();
+    if (const auto layered = truth_value(value)) return layered;
+    throw TypeError("layered: expected True, False or None, got " + text_of(value));
 }
 
 std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredLike& layered,
-                                        std::int64_t cache_bytes, bool debug) {
-    if (cache_bytes < 0) {
-        throw std::invalid_argument("cache_bytes: expected 0 or more, got " +
-                                    std::to_string(cache_bytes));
-    }
+                                        const bindings::WholeNumber& cache_bytes,
+                                        bindings::Flag debug, bindings::Flag trust_shaders) {
+    const std::int64_t kept_bytes =
+        to_int(cache_bytes, "cache_bytes", 0, std::numeric_limits<std::int64_t>::max());
     RendererOptions options{to_device(device), to_layered(layered),
-                            static_cast<std::size_t>(cache_bytes), debug};
-    const py::gil_scoped_release release;
-    return std::make_shared<Renderer>(std::move(options));
+                            static_cast<std::size_t>(kept_bytes), debug, trust_shaders};
+    return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
 std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
@@ -101,13 +101,12 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
         ->world_value();
 }
 
-PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
-               const bindings::SizeLike& size, const OutputNames& outputs,
-               const FormatOrNone& format, const bindings::WholeNumber& samples, double exposure,
-               const std::optional<bindings::Choice<tonemap_names>>& tonemap,
-               const std::optional<bindings::Choice<encode_names>>& encode,
-               const bindings::EffectsLike& effects,
-               const bindings::DepthFormatName& depth_format) {
+PyFrame
+render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
+       const OutputNames& outputs, const FormatOrNone& format, const bindings::WholeNumber& samples,
+       bindings::Real exposure, const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+       const std::optional<bindings::Choice<encode_names>>& encode,
+       const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
@@ -119,24 +118,20 @@ PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
     if (encode) options.encode = parse_encode(*encode);
     options.depth_format = bindings::to_depth_format(depth_format);
     const auto seen = to_camera(camera);
-    Frame frame;
     const auto snapshot = scene.snapshot(bindings::to_effects(effects));
-    {
-        const py::gil_scoped_release release;
-        frame = std::visit(
+    return PyFrame(bindings::with_notices([&] {
+        return std::visit(
             [&](const auto& value) { return renderer.render(*snapshot, value, options); }, seen);
-    }
-    return PyFrame(std::move(frame));
+    }));
 }
 
-std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
-                                 const bindings::ArrayLike& position,
-                                 const bindings::WholeNumber& size, double near, double far,
-                                 const bindings::Nodes& exclude, const OutputNames& outputs,
-                                 const FormatOrNone& format, const bindings::WholeNumber& samples,
-                                 const bindings::OrNone<bindings::ArrayLike>& eye,
-                                 const bindings::DepthFormatName& depth_format,
-                                 const bindings::Choice<depth_order_names>& depth_order) {
+std::shared_ptr<CubeMap>
+capture(Renderer& renderer, const Scene& scene, const bindings::ArrayLike& position,
+        const bindings::WholeNumber& size, bindings::Real near, bindings::Real far,
+        const bindings::Nodes& exclude, const OutputNames& outputs, const FormatOrNone& format,
+        const bindings::WholeNumber& samples, const bindings::OrNone<bindings::ArrayLike>& eye,
+        const bindings::DepthFormatName& depth_format,
+        const bindings::Choice<depth_order_names>& depth_order) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -154,8 +149,7 @@ std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
     options.depth_order = parse_depth_order(depth_order);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
     const auto snapshot = scene.snapshot();
-    const py::gil_scoped_release release;
-    return renderer.capture(*snapshot, options);
+    return bindings::with_notices([&] { return renderer.capture(*snapshot, options); });
 }
 
 void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& probes) {
@@ -174,8 +168,10 @@ void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& pro
         if (wanted.empty()) return;
     }
     const auto snapshot = scene.snapshot();
-    const py::gil_scoped_release release;
-    renderer.update_probes(*snapshot, wanted);
+    bindings::with_notices([&] {
+        renderer.update_probes(*snapshot, wanted);
+        return true;
+    });
 }
 
 }  // namespace
@@ -192,7 +188,7 @@ void bind_renderer(pybind11::module_& m) {
     renderer
         .def(py::init(&make_renderer), py::kw_only(), py::arg("device") = "auto",
              py::arg("layered") = py::none(), py::arg("cache_bytes") = std::int64_t{256} << 20,
-             py::arg("debug") = false)
+             py::arg("debug") = false, py::arg("trust_shaders") = false)
         .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("exposure") = 0.0, py::arg("tonemap") = py::none(),
@@ -210,18 +206,14 @@ void bind_renderer(pybind11::module_& m) {
         .def(
             "read_probe",
             [](Renderer& self, const std::shared_ptr<Probe>& probe) {
-                const py::gil_scoped_release release;
-                return self.read_probe(probe);
+                return bindings::with_notices([&] { return self.read_probe(probe); });
             },
             py::arg("probe"), docs::read_probe)
         .def(
             "read_texture",
             [](Renderer& self, const std::shared_ptr<RenderTexture>& render_texture) {
-                Frame held;
-                {
-                    const py::gil_scoped_release release;
-                    held = self.read_texture(render_texture);
-                }
+                Frame held =
+                    bindings::with_notices([&] { return self.read_texture(render_texture); });
                 return bindings::Pixels(PyFrame(std::move(held)).color);
             },
             py::arg("render_texture").none(false), docs::read_texture)
@@ -229,28 +221,31 @@ void bind_renderer(pybind11::module_& m) {
             "shadow_map",
             [](Renderer& self, const Scene& scene, const std::shared_ptr<Light>& light) {
                 const auto snapshot = scene.snapshot();
-                ShadowDistances picture;
-                {
-                    const py::gil_scoped_release release;
-                    picture = self.shadow_map(*snapshot, light);
-                }
+                ShadowDistances picture =
+                    bindings::with_notices([&] { return self.shadow_map(*snapshot, light); });
                 return py::array_t<float>(owned_array(
                     std::move(picture.distances), {picture.layers, picture.size, picture.size}));
             },
             py::arg("scene"), py::arg("light"), docs::shadow_map)
         .def(
-            "close", &Renderer::close, py::call_guard<py::gil_scoped_release>(),
+            "close", &Renderer::close, py::call_guard<bindings::Unlocked>(),
             "Free the OpenGL context and its memory. Calls after that raise ContextError; a second "
             "close() does nothing.")
         .def_property_readonly("closed", &Renderer::closed, "bool: whether close() was called.")
         .def_property_readonly(
-            "info", &Renderer::info, py::return_value_policy::copy,
+            "info", &Renderer::info,
             "RendererInfo: the device, driver and limits; readable after close(), too.")
-        .def_property_readonly("stats", &Renderer::stats, "Stats: what the last call drew.")
+        .def_property_readonly(
+            "stats",
+            [](const Renderer& self) {
+                const bindings::Unlocked unlocked;  // another thread may be drawing
+                return self.stats();
+            },
+            "Stats: what the last call drew.")
         .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
         .def("__exit__",
              [](Renderer& self, const py::args&) {
-                 const py::gil_scoped_release release;
+                 const bindings::Unlocked unlocked;
                  self.close();
              })
         .def("__repr__", [](const Renderer& self) {

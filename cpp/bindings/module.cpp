@@ -1,6 +1,7 @@
 // The extension module cubecam._core.
 #include "arguments.hpp"
 #include "objects.hpp"
+#include "unlocked.hpp"
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/scene/node.hpp"
@@ -40,6 +41,9 @@ void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_scene_queries(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
+#ifdef CUBECAM_PLANTED_FAULTS
+void bind_planted_faults(pybind11::module_& module);  // planted/faults.cpp
+#endif
 
 /// Makes every class without a `__reduce__` of its own raise TypeError when it is pickled. Without
 /// this, pickle's protocols 0 and 1 make an instance in a way that makes pybind11 end the process.
@@ -75,6 +79,11 @@ static pybind11::list exported_names(const pybind11::module_& module) {
     return names;
 }
 
+// PYBIND11_MODULE below makes the function `make_module`, and PyInit__core is the one after it:
+// pybind11's own would wait for ever in a subinterpreter, before any code of this module runs.
+#undef PYBIND11_PLUGIN_IMPL
+#define PYBIND11_PLUGIN_IMPL(name) static PyObject* make_module()
+
 PYBIND11_MODULE(_core, module) {
     using namespace cubecam;
     using cubecam::bindings::declare;
@@ -82,6 +91,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which exports it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
+    cubecam::bindings::install_interrupt_check();
     bind_pickling(module);
     bind_arrays(module);
     bind_errors(module);
@@ -119,7 +129,24 @@ PYBIND11_MODULE(_core, module) {
     module.def(
         "_newest_revision", &newest_revision,
         "The newest revision of this process. While it stays the same, no object has changed.");
+#ifdef CUBECAM_PLANTED_FAULTS
+    bind_planted_faults(module);
+#endif
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
     cubecam::bindings::explain_all_arguments(module);
+}
+
+PYBIND11_PLUGIN_DECL(_core)
+
+PyObject* PyInit__core() {
+    if (PyInterpreterState_Get() != PyInterpreterState_Main()) {
+        PyErr_SetString(PyExc_ImportError,
+                        "cubecam: expected an import in the main interpreter, got one in a "
+                        "subinterpreter, which cubecam does not support; use processes instead "
+                        "(multiprocessing's \"spawn\" method), and with mod_wsgi "
+                        "`WSGIApplicationGroup %{GLOBAL}`");
+        return nullptr;
+    }
+    return make_module();
 }

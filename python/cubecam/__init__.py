@@ -24,7 +24,7 @@ from ._late import late_names
 
 if TYPE_CHECKING:
     from . import explore, plot
-    from ._warnings import ConventionWarning, SceneWarning
+    from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
     from .io.images import load_image, save_animation, save_image
@@ -37,7 +37,7 @@ else:
     # What is written in Python needs numpy, which takes more time to load than the core: `cubecam info` does without.
     __getattr__, __dir__ = late_names(
         {
-            "_warnings": ["ConventionWarning", "SceneWarning"],
+            "_warnings": ["ConventionWarning", "RendererWarning", "SceneWarning"],
             "data": ["sample_data"],
             "io.cubemaps": ["load_cubemap", "load_environment"],
             "io.images": ["load_image", "save_animation", "save_image"],
@@ -63,6 +63,7 @@ else:
 __all__ = [
     "ClippingWarning",
     "ConventionWarning",
+    "RendererWarning",
     "SceneWarning",
     "Viewer",
     "__version__",

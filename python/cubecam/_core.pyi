@@ -4109,7 +4109,7 @@ class Material:
                             a `Blend`: by its factors.
                             None: "alpha" if any part of the material is translucent, else "opaque"
     depth_write=None        whether the surface hides farther surfaces that are drawn after it; None:
-                            True if the blend is "opaque"
+                            True if the blend is "opaque"; shadows do not depend on it
     depth_test=True         False: the surface is drawn over nearer ones, too
     color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
     stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
@@ -5662,7 +5662,8 @@ class Shadow:
     How a light makes its shadow: a depth map from the light's view, and the filter of its lookups.
 
     A Shadow never changes; give a light a new one instead. All visible opaque nodes whose ``cast_shadow`` is
-    True cast shadows, in or out of a picture's view, from either side of their surface. Shadows fall on
+    True cast shadows, in or out of a picture's view, from either side of their surface, whether their material
+    writes depth and colour or not. Shadows fall on
     every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again only when
     something in its view changes.
 
@@ -7935,6 +7936,11 @@ class Renderer:
         256 MiB; ``stats.pictures_not_kept`` reports how many pictures of a call are larger than that.
     debug : bool
         True: the context is a debug context, whose errors say more.
+    trust_shaders : bool
+        False: GLSL of a :class:`ShaderMaterial` or an :class:`ImageEffect` that is new goes first to a process of its own,
+        which compiles it and draws one pixel; if the driver crashes there, or takes more than 10 seconds or a GiB of memory,
+        the call raises ShaderError. True: GLSL is compiled at once, and a source with which the driver crashes ends the
+        program. docs/security.md says more.
 
     Raises
     ------
@@ -7965,6 +7971,7 @@ class Renderer:
         layered: bool | None = None,
         cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
         debug: bool = False,
+        trust_shaders: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Renderer) -> str: ...

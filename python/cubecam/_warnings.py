@@ -6,13 +6,31 @@ import sys
 import warnings
 from pathlib import Path
 
-__all__ = ["ConventionWarning", "SceneWarning", "warn_user"]
+__all__ = ["ConventionWarning", "RendererWarning", "SceneWarning", "warn_user"]
 
 _PACKAGE = str(Path(__file__).resolve().parent)
 
 
 class ConventionWarning(UserWarning):
     """A file that cubecam wrote in one convention is read as if it were in another one."""
+
+    __module__ = "cubecam"
+
+
+class RendererWarning(UserWarning):
+    """A renderer did what a call wanted in another way than usual, such as with a new context after a lost one.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import cubecam as cc
+    >>> with warnings.catch_warnings():
+    ...     warnings.simplefilter("error", cc.RendererWarning)  # a call that gives the warning fails instead
+    ...     with cc.Renderer(device="software") as renderer:
+    ...         cube = renderer.capture(cc.Scene(), size=4)
+    >>> cube.faces.shape
+    (6, 4, 4, 4)
+    """
 
     __module__ = "cubecam"
 

@@ -98,8 +98,10 @@ LEFT_UNDONE = {
         ),
     ),
     "array partly": (
-        "float a[8]; for (int i = 0; i < int(s.uv.x * 8.0); ++i) a[i] = 1.0;"
-        " return vec3(a[0] + a[1] + a[2] + a[3] + a[4] + a[5] + a[6] + a[7]);",
+        (
+            "float a[8]; for (int i = 0; i < int(s.uv.x * 8.0); ++i) a[i] = 1.0;"
+            " return vec3(a[0] + a[1] + a[2] + a[3] + a[4] + a[5] + a[6] + a[7]);"
+        ),
         np.stack([np.floor(U * 8)] * 3 + [0 * U + 1], -1).astype(np.float32),
     ),
     "array of arrays": (
@@ -107,19 +109,43 @@ LEFT_UNDONE = {
         constant(0, 1, 0, 1),
     ),
     "global": ("return g;", constant(*BLACK)),
-    "global array": ("ga[7] = 1.0; return vec3(ga[int(s.uv.x * 6.9)], ga[8], ga[7]);", constant(0, 0, 1, 1)),
-    "structure": ("Pair p; p.a = 1.0; return vec3(p.a, p.b.y, p.many[int(s.uv.x * 99.0)].z);", constant(1, 0, 0, 1)),
-    "global structure": ("return vec3(gp.a, gp.b.y, gp.many[int(s.uv.x * 99.0)].z);", constant(*BLACK)),
+    "global array": (
+        "ga[7] = 1.0; return vec3(ga[int(s.uv.x * 6.9)], ga[8], ga[7]);",
+        constant(0, 0, 1, 1),
+    ),
+    "structure": (
+        "Pair p; p.a = 1.0; return vec3(p.a, p.b.y, p.many[int(s.uv.x * 99.0)].z);",
+        constant(1, 0, 0, 1),
+    ),
+    "global structure": (
+        "return vec3(gp.a, gp.b.y, gp.many[int(s.uv.x * 99.0)].z);",
+        constant(*BLACK),
+    ),
     "local structure": (
         "struct Own { float f[300]; } own; return vec3(own.f[int(s.uv.x * 299.0)]);",
         constant(*BLACK),
     ),
-    "own surface": ("Surface t; return t.position + t.tangent.xyz + t.color.rgb;", constant(*BLACK)),
-    "matrix": ("mat4 m; int i = int(s.uv.x * 4.0); m[i] = vec4(1.0); return m[3 - i].xyz;", constant(*BLACK)),
-    "types of a macro": ("real x2, y2[300]; highp real z2; return vec3(x2, y2[int(s.uv.x * 299.0)], z2);", constant(*BLACK)),
+    "own surface": (
+        "Surface t; return t.position + t.tangent.xyz + t.color.rgb;",
+        constant(*BLACK),
+    ),
+    "matrix": (
+        "mat4 m; int i = int(s.uv.x * 4.0); m[i] = vec4(1.0); return m[3 - i].xyz;",
+        constant(*BLACK),
+    ),
+    "types of a macro": (
+        "real x2, y2[300]; highp real z2; return vec3(x2, y2[int(s.uv.x * 299.0)], z2);",
+        constant(*BLACK),
+    ),
     "declared by a macro": ("DECLARE return vec3(d1, d2.x, 0.0);", constant(*BLACK)),
-    "integers": ("int i; uint j; bool b; return vec3(float(i), float(j), b ? 1.0 : 0.0);", constant(*BLACK)),
-    "depth on one side": ("if (s.uv.x > 0.5) gl_FragDepth = 0.5; return vec3(1.0);", constant(1, 1, 1, 1)),
+    "integers": (
+        "int i; uint j; bool b; return vec3(float(i), float(j), b ? 1.0 : 0.0);",
+        constant(*BLACK),
+    ),
+    "depth on one side": (
+        "if (s.uv.x > 0.5) gl_FragDepth = 0.5; return vec3(1.0);",
+        constant(1, 1, 1, 1),
+    ),
     "discard": (
         "if (s.uv.x > 0.5) discard; return vec3(1.0);",
         where(RIGHT, (0.25, 0.5, 0.75, 1), (1, 1, 1, 1)),
@@ -128,7 +154,7 @@ LEFT_UNDONE = {
         "if (s.uv.x > 0.5) discard; while (true) x += 1.0; return vec3(x);",
         None,
     ),
-}  # fmt: skip
+}
 AHEAD = """
 #define real float
 #define DECLARE float d1; vec3 d2;
@@ -225,12 +251,18 @@ def test_what_vertices_hand_on(any_path, body):
 
 
 EFFECTS = {
-    "endless loop": ("float x = 0.0; while (true) x += uv.x; return vec4(x);", constant(0, 0, 0, 0)),
+    "endless loop": (
+        "float x = 0.0; while (true) x += uv.x; return vec4(x);",
+        constant(0, 0, 0, 0),
+    ),
     "no value": ("vec4 c; return c;", constant(0, 0, 0, 0)),
     "no return": ("if (uv.x > 0.5) return vec4(1.0);", where(RIGHT, (1, 1, 1, 1), (0, 0, 0, 0))),
-    "array": ("float a[300]; a[0] = 1.0; return vec4(a[int(uv.x * 299.0)] * 0.0);", constant(0, 0, 0, 0)),
+    "array": (
+        "float a[300]; a[0] = 1.0; return vec4(a[int(uv.x * 299.0)] * 0.0);",
+        constant(0, 0, 0, 0),
+    ),
     "global": ("return vec4(g[int(uv.x * 299.0)]);", constant(0, 0, 0, 0)),
-}  # fmt: skip
+}
 
 
 @pytest.mark.parametrize(("body", "want"), EFFECTS.values(), ids=EFFECTS)

@@ -34,6 +34,7 @@ PYTHON_ORDER = (
     "_array_types",  # needs numpy
     "typing",
     "_core",
+    "_checks",  # what a bool, an int, a float and a str are
     "_calls",  # errors of wrong calls, in words
     "_late",
     "_warnings",
@@ -59,10 +60,11 @@ PYTHON_ORDER = (
     "__main__",
 )
 PYTHON_KNOWS = {
-    "_calls": set(),
+    "_checks": {"typing", "_core"},
+    "_calls": {"_checks"},
     "_late": set(),
     "_warnings": set(),
-    "navigation": {"_core", "_calls"},
+    "navigation": {"_core", "_checks", "_calls"},
     "optics": {"_core", "_calls"},
     "_shader_inputs": {"_core"},
     "_pickling": {"_core"},

@@ -154,12 +154,13 @@ def parse_place(page: bool, window: bool, terminal: bool) -> Literal["page", "wi
 @contextlib.contextmanager
 def warnings_reported(path: str) -> Iterator[None]:
     """Report each warning of cubecam in one line: what was clipped and which options help, what was left out."""
-    from .._warnings import ConventionWarning, SceneWarning
+    from .._warnings import ConventionWarning, RendererWarning, SceneWarning
     from ..io.screen import ClippingWarning
 
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", ClippingWarning)
         warnings.simplefilter("always", ConventionWarning)
+        warnings.simplefilter("always", RendererWarning)
         warnings.simplefilter("always", SceneWarning)
         yield
     for item in caught:
@@ -168,7 +169,7 @@ def warnings_reported(path: str) -> Iterator[None]:
             curve = "--tonemap neutral keeps highlights, " if "tonemap=" in how else ""
             hint = f"{curve}a lower --exposure makes the picture darker"
             complain(f"{path}: {what}; {hint}", kind="warning")
-        elif issubclass(item.category, (ConventionWarning, SceneWarning)):
+        elif issubclass(item.category, (ConventionWarning, RendererWarning, SceneWarning)):
             complain(str(item.message), kind="warning")
         else:
             warnings.warn_explicit(item.message, item.category, item.filename, item.lineno)

@@ -3,6 +3,7 @@
 #include "cubecam/gl/glsl_text.hpp"
 #include "cubecam/render/passes/shader_names.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
+#include "cubecam/trial/capture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -308,41 +309,72 @@ std::vector<gl::ShaderSource> substituted(std::span<const ShaderPart> parts) {
     return sources;
 }
 
-UserProgram UserPrograms::make(const GladGLContext& gl,
-                               std::initializer_list<std::string_view> files,
-                               const gl::ShaderOptions& options,
-                               std::span<const ShaderPart> parts) {
+namespace {
+
+constexpr std::size_t most_conditions = 256;  // of one program
+
+/// The texts of a program: as users wrote them, and as they are compiled.
+struct ProgramTexts {
     std::vector<WrittenText> written;
-    written.reserve(parts.size());
+    std::list<PreparedText> prepared;
+    std::vector<gl::ShaderSource> sources;  ///< which refer to the others
+};
+
+/// @throws ShaderError for a text that shall not be compiled
+ProgramTexts write_texts(std::span<const ShaderPart> parts) {
+    ProgramTexts texts;
+    texts.written.reserve(parts.size());  // the sources refer to them
+    texts.sources = substituted(parts);
     for (const ShaderPart& part : parts) {
         if (!part.stage || part.source->text.empty()) continue;
         const UserSource& own = part.written == nullptr ? *part.source : *part.written;
-        written.push_back({{gl::with_plain_lines(own.text), own.path}, *part.stage});
-        check_user_text(written.back().source, *part.stage);
+        texts.written.push_back({{gl::with_plain_lines(own.text), own.path}, *part.stage});
+        check_user_text(texts.written.back().source, *part.stage);
+        texts.prepared.push_back(prepare_user_text(
+            {gl::with_plain_lines(part.source->text), part.source->path}, *part.stage));
+        for (gl::ShaderSource& source : texts.sources) {
+            if (source.name != part.file) continue;
+            source.text = texts.prepared.back().text;
+            source.after = texts.prepared.back().after;
+            source.written = texts.written.back().source.text;
+        }
     }
-    std::vector<gl::ShaderSource> sources = substituted(parts);
-    std::list<PreparedText> prepared;
-    auto own = written.begin();
+    return texts;
+}
+
+/// Returns what to try: the program's stages in the present state of OpenGL.
+trial::Job make_job(const GladGLContext& gl, std::initializer_list<std::string_view> files,
+                    const gl::ShaderOptions& options, std::span<const gl::ShaderSource> sources,
+                    std::vector<trial::Texture> textures, const ShaderInputs& inputs) {
+    trial::Job job;
+    for (const std::string_view file : files) {
+        job.stages.push_back({gl::stage_of(file), gl::expand_shader(file, options, sources).text});
+    }
+    job.state = trial::capture_state(gl);
+    job.textures = std::move(textures);
+    GLuint unit = texture_unit::first_of_material;
+    for (const auto& [name, source] : inputs.textures) job.samplers.push_back({name, unit++});
+    return job;
+}
+
+/// Returns what messages call the user's texts: "fragment", "water.glsl".
+std::string titles_of(std::span<const ShaderPart> parts) {
+    std::string titles;
     for (const ShaderPart& part : parts) {
         if (!part.stage || part.source->text.empty()) continue;
-        prepared.push_back(prepare_user_text(
-            {gl::with_plain_lines(part.source->text), part.source->path}, *part.stage));
-        const auto source = std::find_if(sources.begin(), sources.end(), [&part](const auto& held) {
-            return held.name == part.file;
-        });
-        source->text = prepared.back().text;
-        source->after = prepared.back().after;
-        source->written = own++->source.text;
+        if (!titles.empty()) titles += " and ";
+        titles += title_of(*part.source, *part.stage);
     }
-    gl::Program program(gl, files, options, sources);
-    check_interface(gl, program.id(), written);
-    return {std::move(program), std::move(written)};
+    return titles;
 }
+
+}  // namespace
 
 UserProgram& UserPrograms::get(const GladGLContext& gl,
                                std::initializer_list<std::string_view> files,
                                const gl::ShaderOptions& options,
-                               std::initializer_list<ShaderPart> parts) {
+                               std::initializer_list<ShaderPart> parts, DrawConditions& conditions,
+                               const ShaderInputs& inputs) {
     // The key contains all parts of the program, so that no two programs share one.
     std::string key;
     const auto add = [&key](std::string_view text) { key.append(text).push_back('\0'); };
@@ -355,12 +387,36 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
     }
     const auto found = std::find_if(programs_.begin(), programs_.end(),
                                     [&key](const auto& held) { return held.first == key; });
-    if (found != programs_.end()) {
+    std::vector<trial::Texture> textures;
+    if (trial_ != nullptr) {
+        for (const UnitTexture& texture : conditions.textures) {
+            if (texture.texture == 0) continue;
+            textures.push_back(kinds_.find(gl, texture));
+            conditions.key.append(reinterpret_cast<const char*>(&textures.back()),
+                                  sizeof(trial::Texture));
+        }
+    }
+    const bool known = found != programs_.end();
+    const bool tried =
+        trial_ == nullptr || (known && found->second.survived.contains(conditions.key));
+    std::optional<ProgramTexts> texts;
+    if (!known || !tried) texts = write_texts(parts);
+    if (!tried) {
+        trial_->require(make_job(gl, files, options, texts->sources, std::move(textures), inputs),
+                        titles_of(parts));
+    }
+    if (known) {
         programs_.splice(programs_.begin(), programs_, found);
+        std::set<std::string, std::less<>>& survived = programs_.front().second.survived;
+        if (survived.size() >= most_conditions) survived.clear();
+        if (trial_ != nullptr) survived.insert(conditions.key);
         return programs_.front().second;
     }
 
-    UserProgram made = make(gl, files, options, parts);
+    gl::Program program(gl, files, options, texts->sources);
+    check_interface(gl, program.id(), texts->written);
+    UserProgram made(std::move(program), std::move(texts->written));
+    if (trial_ != nullptr) made.survived.insert(conditions.key);
     if (programs_.size() == most_programs) programs_.pop_back();
     programs_.emplace_front(std::move(key), std::move(made));
     return programs_.front().second;
