@@ -481,14 +481,14 @@ MUTATIONS = [
         "gl/context.cpp",
         "if (impl.has_mark()) return;",
         "return;",
-        LOST,
+        FAKE_DRIVERS,
     ),
     Mutation(
         "lost context: its handle is destroyed, whose ever it is now",
         "gl/context.cpp",
         "if (!impl_->reset) impl_->raw.abandon();",
         "",
-        LOST,
+        FAKE_DRIVERS,
     ),
     Mutation(
         "lost context: manual probes stay empty",
