@@ -38,6 +38,10 @@ INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
+ENDS = ("tests/gl/test_daemon_threads.py",)
+INTERRUPTS = ("tests/gl/test_interrupts.py",)
+FORKS = ("tests/gl/test_fork.py",)
+STATES = ("tests/unit/test_states.py",)
 CUBE_MAPS = ("tests/viewer/test_cube_maps.py",)
 CUBE_VIEW = ("tests/viewer/test_cube_view.py",)
 EXPLORE = ("tests/viewer/test_explore.py",)
@@ -2484,5 +2488,47 @@ MUTATIONS = [
         "check_target_memory(context, description, result_bytes);",
         "check_target_memory(context, description);",
         MEMORY,
+    ),
+    Mutation(
+        "ends: threads unwind when the interpreter ends",
+        "unlocked.cpp",
+        "if ((actions & _UA_FORCE_UNWIND) != 0 && cubecam::bindings::interpreter_ends()) {",
+        "if (false) {",
+        ENDS,
+    ),
+    Mutation(
+        "interrupts: a signal's exception is left for later",
+        "unlocked.cpp",
+        "if (PyErr_CheckSignals() != 0) throw py::error_already_set();",
+        "if (PyErr_CheckSignals() != 0) PyErr_Clear();",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: state of a draw that was left stays",
+        "renderer.cpp",
+        "if (std::uncaught_exceptions() == exceptions) return;",
+        "return;",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: a handler draws with the renderer that it interrupts",
+        "renderer.cpp",
+        "bool Renderer::draws_here() const { return drawing_.load() == std::this_thread::get_id(); }",
+        "bool Renderer::draws_here() const { return false; }",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "forks: the child runs the exit handlers of its parent",
+        "egl.cpp",
+        "on_exit(&end_child, nullptr);",
+        "",
+        FORKS,
+    ),
+    Mutation(
+        "states: a lookup that fails shows itself",
+        "arguments.cpp",
+        "const bool wrong = PyErr_ExceptionMatches(PyExc_LookupError) != 0 ||",
+        "const bool wrong =",
+        STATES,
     ),
 ]
