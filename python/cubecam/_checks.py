@@ -20,6 +20,7 @@ from . import typing as names_of_types
 
 __all__ = [
     "ArgumentChecks",
+    "check_room",
     "finite_number",
     "one_of",
     "pair",
@@ -139,6 +140,21 @@ def one_of(value: Any, name: str, known: Iterable[str | None]) -> Any:
     text = " or ".join([", ".join(words[:-1]), words[-1]] if words[1:] else words)
     error = ValueError if isinstance(value, str) else TypeError
     raise error(f"{name}: expected {text}, got {text_of(value)}")
+
+
+def check_room(size: float, what: str, name: str) -> None:
+    """Raise ValueError unless the memory holds `size` bytes more, which `what` takes.
+
+    Examples
+    --------
+    >>> check_room(1e30, "numbers of shape (9,)", "eta")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ValueError: eta: expected what fits into ... MiB of memory (...), got numbers of shape (9,), which take ...
+    """
+    try:
+        _core._check_memory(size, what)
+    except ValueError as error:
+        raise ValueError(f"{name}:{str(error).partition(':')[2]}") from None
 
 
 def pair(value: Any, name: str) -> tuple[int, int]:

@@ -1,4 +1,4 @@
-"""How much memory there is: the machine's, the control groups', the limits of the process; and who asks before taking it.
+"""How much memory there is by the machine, control groups and limits of the process, and who asks before taking it.
 
 The files of /proc and /sys/fs/cgroup are made by the tests, after proc(5), cgroups(7) and the documentation of
 both versions of control groups.
@@ -113,9 +113,7 @@ LIMITED = """
 """
 
 
-@pytest.mark.parametrize(
-    ("name", "used"), [("RLIMIT_AS", "pages[0]"), ("RLIMIT_DATA", "pages[5]")]
-)
+@pytest.mark.parametrize(("name", "used"), [("RLIMIT_AS", "pages[0]"), ("RLIMIT_DATA", "pages[5]")])
 def test_the_limits_of_the_process(name, used):
     """Targets of 1024 * 1024 texels, 6 faces, 20 bytes take 120 MiB, what is read 96 MiB more."""
     run_python(
