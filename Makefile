@@ -10,6 +10,7 @@ WORKERS ?= auto
 PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
 FUZZ_ARGS ?=
+GPU_ARGS ?=
 
 # The list has folders, too, since a removed file changes only its folder.
 SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
@@ -17,7 +18,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-asan dev lint format stubs bench docs gallery sdist wheel fuzz mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest test-asan dev lint format stubs bench gpu-check docs gallery sdist wheel fuzz mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -44,6 +45,9 @@ test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV
 	@$(PYTHON) scripts/system.py --browser
 	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
 
+test-lowest: $(VENV)/.deps $(VENV)/.deps-lowest ## build and test with the lowest versions that pyproject.toml declares; needs Python 3.10 or 3.11
+	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile $(PYTEST_ARGS)
+
 test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitizer and UndefinedBehaviorSanitizer
 	@$(PY) scripts/sanitize.py $(PYTEST_ARGS)
 
@@ -67,6 +71,9 @@ stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi ag
 
 bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL and py360convert, print ratios
 	@$(PY) -m benchmarks $(BENCH_ARGS)
+
+gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check
+	@$(PY) scripts/gpu_check.py $(GPU_ARGS)
 
 docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
 	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam

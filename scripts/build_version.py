@@ -48,8 +48,16 @@ def build(revision: str, folder: Path) -> Path:
         file.extractall(folder)
     archive.unlink()
     built = compile_module(folder, folder / "build" / "version", "-DCMAKE_BUILD_TYPE=Release")
-    shutil.copy2(built, package / "cubecam")
+    copy_module(built, package / "cubecam")
     return package
+
+
+def copy_module(module: Path, package: Path) -> None:
+    """Copy a built module into a package, and the program that tries users' GLSL if the version has one."""
+    shutil.copy2(module, package)
+    helper = module.parent / "_shader_trial"
+    if helper.exists():
+        shutil.copy2(helper, package)
 
 
 def compile_module(tree: Path, objects: Path, *options: str) -> Path:

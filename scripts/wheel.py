@@ -19,7 +19,18 @@ ROOT = Path(__file__).resolve().parent.parent
 DIST = ROOT / "dist"
 LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
 LARGEST = 5_000_000  # bytes
-EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md")
+HELPER = "cubecam/_shader_trial"  # the program that tries users' GLSL
+EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md", HELPER)
+#: A source with which Mesa's compiler crashes: only the helper may notice.
+TRIAL = """
+import cubecam as cc
+scene = cc.Scene()
+scene.add(cc.Mesh.sphere(1), cc.ShaderMaterial("vec3 shade(Surface s) { return vec3((-2147483647 - 1) / -1); }"))
+try:
+    cc.Renderer(device="software").capture(scene, size=4)
+except cc.ShaderError as error:
+    print(error)
+"""
 
 
 def run(*command: str | Path) -> None:
@@ -64,11 +75,18 @@ def check_contents(wheel: Path, folder: Path) -> None:
         extensions = [name for name in names if name.endswith(".so")]
         if len(extensions) != 1:
             raise SystemExit(f"{wheel.name}: expected one extension module, got {extensions}")
-        needed = needed_libraries(Path(archive.extract(extensions[0], folder)))
-    print(f"{extensions[0]} links {', '.join(needed)}")
+        if (archive.getinfo(HELPER).external_attr >> 16) & 0o111 == 0:
+            raise SystemExit(f"{wheel.name}: expected {HELPER} to be executable")
+        for name in (extensions[0], HELPER):
+            check_libraries(name, Path(archive.extract(name, folder)))
+
+
+def check_libraries(name: str, library: Path) -> None:
+    needed = needed_libraries(library)
+    print(f"{name} links {', '.join(needed)}")
     foreign = [name for name in needed if not LINKED.fullmatch(name)]
     if foreign:
-        raise SystemExit(f"expected only C and C++ run times, got {', '.join(foreign)}")
+        raise SystemExit(f"{name}: expected only C and C++ run times, got {', '.join(foreign)}")
 
 
 def try_it(wheel: Path, folder: Path) -> None:
@@ -78,6 +96,8 @@ def try_it(wheel: Path, folder: Path) -> None:
     # This is not the folder of the checkout, so that only the files of the wheel can be used.
     os.chdir(folder)
     subprocess.run([str(python), "-m", "cubecam", "demo", "--out", str(folder / "out")], check=True)
+    # A warning says that the helper cannot be started.
+    subprocess.run([str(python), "-W", "error", "-c", TRIAL], check=True)
 
 
 def main() -> int:

@@ -26,7 +26,7 @@ CAPTURE = ("tests/gl/test_capture.py",)
 FRAMES = ("tests/gl/test_frames.py",)
 LOOKUPS = ("tests/gl/test_lookups.py",)
 PHONG = ("tests/gl/test_phong.py",)
-SKYBOX = ("tests/gl/test_skybox.py",)
+SKY_RAYS = ("tests/gl/test_sky_rays.py",)
 ALPHA = ("tests/gl/test_alpha.py",)
 SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
@@ -162,11 +162,68 @@ MUTATIONS = [
         ORIENTATION,
     ),
     Mutation(
-        "skybox: moves with the camera",
-        "view.cpp",
-        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
-        "turned[3] *= 1.0;",
-        SKYBOX,
+        "skybox: behind a camera that sees negative depth",
+        "sky_rays.cpp",
+        "(towards < 0.0 ? -1.0 : 1.0)",
+        "1.0",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: a float loses the axis of a wide view",
+        "sky_rays.cpp",
+        "const glm::dvec2 axis = shortest(rays) + half;",
+        "const glm::dvec2 axis(0.0);",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: the other side of a parallel view",
+        "sky_rays.cpp",
+        "glm::dot(glm::dvec3(rows[2]), rays[0]) * rows[3].w",
+        "glm::dot(glm::dvec3(rows[2]), rays[0]) * -rows[3].w",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: half a pixel off",
+        "skybox.frag",
+        "floor(gl_FragCoord.xy) + 0.5 - v_centre",
+        "floor(gl_FragCoord.xy) - v_centre",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: the view's own matrix is not undone",
+        "sky_rays.cpp",
+        "glm::inverse(glm::dmat3(view.view))",
+        "glm::transpose(glm::dmat3(view.view))",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "shadow: what writes no depth casts none, but has bounds",
+        "shadow_picture.cpp",
+        "make_plan(scene_, views, state_.map.size, state_.map.size, casts_shadow)",
+        "make_plan(scene_, views, state_.map.size, state_.map.size,\n"
+        "        [](const NodeSnapshot& n) { return casts_shadow(n) && n.depth_write; })",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: bounds of what casts nothing",
+        "shadow_view.cpp",
+        "if (!casts_shadow(node)) continue;",
+        "if (!node.cast_shadow) continue;",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: the key of a map asks another question",
+        "shadow_picture.cpp",
+        "if (casts_shadow(node)) add_caster(key, node, lookup);",
+        "if (casts_shadow(node) && node.depth_write) add_caster(key, node, lookup);",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: translucent surfaces cast, too",
+        "snapshot_queries.cpp",
+        "return node.cast_shadow && !node.translucent;",
+        "return node.cast_shadow;",
+        SHADOW_MAPS,
     ),
     Mutation(
         "mirror: the normal's sign",

@@ -114,20 +114,15 @@ CubePtr interruptible(py::handle progress, const Work& work) {
         refuse(progress, "progress", "a function of one number, or None");
     }
     const auto report = [&](double share) {
-        const Locked locked;
-        if (PyErr_CheckSignals() != 0) return false;
         if (progress.is_none()) return true;
+        const Locked locked;
         PyObject* result = PyObject_CallFunction(progress.ptr(), "d", share);
-        Py_XDECREF(result);
-        return result != nullptr;
+        if (result == nullptr) throw py::error_already_set();
+        Py_DECREF(result);
+        return true;
     };
-    CubePtr made;
-    {
-        const Unlocked unlocked;
-        made = work(report);
-    }
-    if (!made) throw py::error_already_set();
-    return made;
+    const Unlocked unlocked;
+    return work(report);
 }
 
 CubePtr prefilter_cube(const CubeMap& cube, const WholeNumber& level_count, const SizeOrNone& size,

@@ -85,11 +85,11 @@ std::optional<bool> to_layered(py::handle value) {
 
 std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredLike& layered,
                                         const bindings::WholeNumber& cache_bytes,
-                                        bindings::Flag debug) {
+                                        bindings::Flag debug, bindings::Flag trust_shaders) {
     const std::int64_t kept_bytes =
         to_int(cache_bytes, "cache_bytes", 0, std::numeric_limits<std::int64_t>::max());
     RendererOptions options{to_device(device), to_layered(layered),
-                            static_cast<std::size_t>(kept_bytes), debug};
+                            static_cast<std::size_t>(kept_bytes), debug, trust_shaders};
     return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
@@ -188,7 +188,7 @@ void bind_renderer(pybind11::module_& m) {
     renderer
         .def(py::init(&make_renderer), py::kw_only(), py::arg("device") = "auto",
              py::arg("layered") = py::none(), py::arg("cache_bytes") = std::int64_t{256} << 20,
-             py::arg("debug") = false)
+             py::arg("debug") = false, py::arg("trust_shaders") = false)
         .def("render", &render, py::arg("scene"), py::arg("camera"), py::arg("size"), py::kw_only(),
              py::arg("outputs") = py::tuple(), py::arg("format") = "rgba8", py::arg("samples") = 1,
              py::arg("exposure") = 0.0, py::arg("tonemap") = py::none(),
@@ -238,7 +238,7 @@ void bind_renderer(pybind11::module_& m) {
         .def_property_readonly(
             "stats",
             [](const Renderer& self) {
-                const py::gil_scoped_release release;  // another thread may be drawing
+                const bindings::Unlocked unlocked;  // another thread may be drawing
                 return self.stats();
             },
             "Stats: what the last call drew.")

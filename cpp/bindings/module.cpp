@@ -41,6 +41,9 @@ void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
 void bind_scene_queries(pybind11::module_& module);
 void bind_renderer(pybind11::module_& module);
+#ifdef CUBECAM_PLANTED_FAULTS
+void bind_planted_faults(pybind11::module_& module);  // planted/faults.cpp
+#endif
 
 /// Makes every class without a `__reduce__` of its own raise TypeError when it is pickled. Without
 /// this, pickle's protocols 0 and 1 make an instance in a way that makes pybind11 end the process.
@@ -126,6 +129,9 @@ PYBIND11_MODULE(_core, module) {
     module.def(
         "_newest_revision", &newest_revision,
         "The newest revision of this process. While it stays the same, no object has changed.");
+#ifdef CUBECAM_PLANTED_FAULTS
+    bind_planted_faults(module);
+#endif
     refuse_pickling(module);
     module.attr("__all__") = exported_names(module);
     cubecam::bindings::explain_all_arguments(module);

@@ -24,8 +24,8 @@ constexpr unsigned active_uniforms = 0x8B86;
 constexpr unsigned pixel_pack_buffer_binding = 0x88ED;
 
 // What a test sets, by fake_set.
-int reset_answers = 0;   // so many queries report a reset, after `reset_after` that do not
-int reset_after = 0;
+int reset_answers = 0;       // so many queries report a reset
+int resets = 0;              // so many contexts report one reset each
 int reset_status = 0x8254;  // GL_INNOCENT_CONTEXT_RESET
 int current_fails = 0;      // so many eglMakeCurrent of a context fail
 int current_error = 0x300E;  // EGL_CONTEXT_LOST
@@ -63,15 +63,18 @@ Function real_gl(const char* name) {
 }
 
 unsigned graphics_reset_status() {
-    if (reset_answers > 0) {
-        if (reset_after > 0) {
-            --reset_after;
-            return 0;
-        }
-        --reset_answers;
+    // Each context reports one reset, and then that it is over.
+    static void* reported = nullptr;
+    using Current = void* (*)();
+    void* now = reinterpret_cast<Current>(dlsym(library(), "eglGetCurrentContext"))();
+    if (resets > 0 && reported != now) {
+        --resets;
+        reported = now;
         return static_cast<unsigned>(reset_status);
     }
-    return 0;
+    if (reset_answers <= 0) return 0;
+    --reset_answers;
+    return static_cast<unsigned>(reset_status);
 }
 
 const unsigned char* get_string(unsigned name) {
@@ -149,6 +152,8 @@ unsigned query_devices(std::int32_t most, void** devices, std::int32_t* count) {
 
 const char* query_device_string(void* device, std::int32_t name) {
     if (device == &fake_device) return name == extensions ? "EGL_EXT_device_drm" : nullptr;
+    // A device that does not say that it is a software device.
+    if (name == extensions && variable("FAKE_PLAIN_DEVICE") != nullptr) return "";
     return real_gl<const char* (*)(void*, std::int32_t)>("eglQueryDeviceStringEXT")(device, name);
 }
 
@@ -171,7 +176,7 @@ int* fake_number(const char* name) {
         int* place;
     };
     static const Number numbers[] = {{"reset_answers", &reset_answers},
-                                     {"reset_after", &reset_after},
+                                     {"resets", &resets},
                                      {"reset_status", &reset_status},
                                      {"current_fails", &current_fails},
                                      {"current_error", &current_error},

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 
 namespace cubecam {
 
@@ -20,7 +21,22 @@ constexpr std::chrono::milliseconds pause{50};
 inline constinit std::atomic<InterruptCheck> check{nullptr};
 inline thread_local constinit Clock::time_point next{};
 
+/// How many UninterruptedScopes this thread is in.
+inline thread_local constinit int uninterrupted = 0;
+
 }  // namespace interrupts
+
+/// While it lives, poll_interrupts() does nothing on this thread. A function that holds a lock
+/// while it calls something that polls has one: a check may run a signal handler of the user, which
+/// may need that lock on the same thread.
+class UninterruptedScope {
+public:
+    UninterruptedScope() noexcept { ++interrupts::uninterrupted; }
+    ~UninterruptedScope() { --interrupts::uninterrupted; }
+
+    UninterruptedScope(const UninterruptedScope&) = delete;
+    UninterruptedScope& operator=(const UninterruptedScope&) = delete;
+};
 
 /// The host of the library (the Python bindings) sets its check once; null switches checks off.
 inline void set_interrupt_check(InterruptCheck check) noexcept {
@@ -40,7 +56,7 @@ inline void poll_interrupts() {
     const InterruptCheck check = interrupts::check.load(std::memory_order_acquire);
     if (check == nullptr) return;
     const auto begin = interrupts::Clock::now();
-    if (begin < interrupts::next) return;
+    if (begin < interrupts::next || interrupts::uninterrupted > 0) return;
     // A check that waited long (for Python's lock) is made less often, so that checks never take
     // more than a tenth of the time; but no later than a fifth of a second.
     interrupts::next = begin + interrupts::pause;
@@ -50,6 +66,11 @@ inline void poll_interrupts() {
     const std::chrono::nanoseconds pause = interrupts::pause;
     const std::chrono::nanoseconds longest = 4 * pause;
     interrupts::next = end + (longer < pause ? pause : longer < longest ? longer : longest);
+}
+
+/// For loops over many small steps: polls once in 65,536 of them.
+inline void poll_interrupts(std::size_t step) {
+    if ((step & 0xFFFF) == 0xFFFF) poll_interrupts();
 }
 
 }  // namespace cubecam

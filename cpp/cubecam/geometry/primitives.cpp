@@ -1,6 +1,7 @@
 #include "cubecam/geometry/primitives.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/memory.hpp"
 
 #include <algorithm>
@@ -50,6 +51,7 @@ glm::dvec2 turn(int step, int steps) {
 class Builder {
 public:
     std::uint32_t vertex(glm::dvec3 position, glm::dvec3 normal, glm::dvec2 uv) {
+        poll_interrupts(arrays_.positions.size());
         arrays_.positions.emplace_back(position);
         arrays_.normals.emplace_back(glm::normalize(normal));
         arrays_.uvs.emplace_back(uv);
@@ -57,6 +59,7 @@ public:
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        poll_interrupts(arrays_.triangles.size());
         arrays_.triangles.emplace_back(a, b, c);
     }
 

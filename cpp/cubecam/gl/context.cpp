@@ -33,6 +33,9 @@ std::string candidate_in_words(const Candidate& candidate) {
             return attempt.find(older_version) != std::string::npos;
         });
     if (any_too_old) throw ContextError(text + "\n" + egl::version_hint());
+    // A driver that cannot be opened for lack of descriptors is there: nothing is to be installed.
+    const std::string files = egl::descriptors_hint();
+    if (!files.empty()) throw ContextError(text + "\n" + files);
     const std::string chosen = egl::driver_variables();
     if (!chosen.empty()) {
         text += "\n" + chosen + " is set: without it another driver may start.";
@@ -102,11 +105,27 @@ Context::Context(const ContextOptions& options) {
     impl_ = start_first(list_candidates(options.device), options.debug);
 }
 
+Context::Context(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+
+Context Context::at(const std::string& platform, int device) {
+    egl::library();
+    if (platform == egl::platform_name(egl::Platform::device)) {
+        return Context({.device = device});
+    }
+    Candidate candidate;
+    candidate.platform = platform == egl::platform_name(egl::Platform::surfaceless)
+                             ? egl::Platform::surfaceless
+                             : egl::Platform::fallback;
+    candidate.info.platform = platform;
+    return Context(start_context(candidate, false));
+}
+
 Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 const GladGLContext& Context::gl() const noexcept { return impl_->gl; }
+Pace& Context::pace() const noexcept { return impl_->pace; }
 const std::string& Context::vendor() const noexcept { return impl_->vendor; }
 const std::string& Context::renderer() const noexcept { return impl_->renderer; }
 const std::string& Context::version() const noexcept { return impl_->version; }

@@ -13,6 +13,8 @@ struct GladGLContext;  // <glad/gl.h>; only files that call GL include it
 
 namespace cubecam::gl {
 
+class Pace;
+
 /// Which device a context is made on:
 ///  - "auto": the environment variable CUBECAM_DEVICE if it is set, otherwise GPU devices, then
 ///    the software device, then the surfaceless platform, then the default display;
@@ -61,6 +63,9 @@ public:
     /// Throws ContextError that lists every attempt, why it failed, and what to install;
     /// std::invalid_argument for an empty device string.
     explicit Context(const ContextOptions& options = {});
+    /// Makes a context at the place where another process has one: its platform() and the index of
+    /// its device(). Throws ContextError.
+    static Context at(const std::string& platform, int device);
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;
     ~Context();
@@ -68,6 +73,9 @@ public:
     /// The table of GL functions, at one address for the life of the context (moves included). Its
     /// functions may be called only inside a CurrentScope.
     const GladGLContext& gl() const noexcept;
+
+    /// Everything that fills many pixels reports it here. Only inside a CurrentScope.
+    Pace& pace() const noexcept;
 
     const std::string& vendor() const noexcept;        ///< GL_VENDOR
     const std::string& renderer() const noexcept;      ///< GL_RENDERER
@@ -102,6 +110,7 @@ public:
 
 private:
     friend class CurrentScope;
+    explicit Context(std::unique_ptr<Impl> impl) noexcept;
     std::unique_ptr<Impl> impl_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/device_choice.hpp"
+#include "cubecam/gl/pace.hpp"
 
 #include <glad/gl.h>
 
@@ -43,6 +44,7 @@ struct Context::Impl {
     bool reset = false;  ///< the GPU was reset: nothing can be drawn any more
     GLuint mark = 0;     ///< a buffer whose label no other context of the process has
     std::string mark_label;
+    Pace pace;
     std::mutex messages_mutex;
     std::vector<std::string> messages;
 };

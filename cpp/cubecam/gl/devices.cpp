@@ -63,12 +63,11 @@ bool is_software_renderer(std::string_view renderer) {
     std::string text(renderer);
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    static constexpr std::array names{"llvmpipe", "lavapipe",    "softpipe",
-                                      "swrast",   "swiftshader", "software rasterizer",
+    static constexpr std::array names{"llvmpipe", "lavapipe",           "softpipe",
+                                      "swrast",   "swiftshader",        "software rasterizer",
                                       "swr (",    "basic render driver"};
-    if (std::any_of(names.begin(), names.end(), [&](std::string_view name) {
-            return text.find(name) != std::string::npos;
-        })) {
+    if (std::any_of(names.begin(), names.end(),
+                    [&](std::string_view name) { return text.find(name) != std::string::npos; })) {
         return true;
     }
     // A virtual machine's driver passes its calls to the host. Newer versions name the host's
@@ -171,11 +170,10 @@ std::string explain_failure(const std::string& text, const DeviceInfo& device) {
     }
     if (device.software && text.find("EGL_NOT_INITIALIZED") != std::string::npos) {
         const std::string chosen = egl::driver_variables();
-        return text +
-               (chosen.empty()
-                    ? " (Mesa's software driver is missing: package libgl1-mesa-dri or "
-                      "mesa-dri-drivers)"
-                    : " (the driver that " + chosen + " chooses does not start)");
+        return text + (chosen.empty()
+                           ? " (Mesa's software driver is missing: package libgl1-mesa-dri or "
+                             "mesa-dri-drivers)"
+                           : " (the driver that " + chosen + " chooses does not start)");
     }
     return text;
 }

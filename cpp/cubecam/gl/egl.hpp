@@ -32,5 +32,7 @@ std::string version_hint();
 /// The environment variables that are set and choose Mesa's driver or its version, such as
 /// "GALLIUM_DRIVER=softpipe"; empty if there is none.
 std::string driver_variables();
+/// What to do if this process has no file descriptors left; else empty.
+std::string descriptors_hint();
 
 }  // namespace cubecam::gl::egl

@@ -14,8 +14,6 @@
 
 namespace cubecam::gl {
 
-namespace {
-
 GLenum stage_of(std::string_view name) {
     if (name.ends_with(".vert")) return GL_VERTEX_SHADER;
     if (name.ends_with(".tesc")) return GL_TESS_CONTROL_SHADER;
@@ -27,6 +25,8 @@ GLenum stage_of(std::string_view name) {
                                 ".geom, .frag or .comp, got \"" +
                                 std::string(name) + "\"");
 }
+
+namespace {
 
 ShaderHandle compile(const GladGLContext& gl, std::string_view name, const ExpandedShader& source) {
     ShaderHandle shader(gl, gl.CreateShader(stage_of(name)));

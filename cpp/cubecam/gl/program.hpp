@@ -41,6 +41,9 @@ struct ExpandedShader {
     std::vector<Line> lines;
 };
 
+/// The stage of a file by the ending of its name, see Program.
+GLenum stage_of(std::string_view name);
+
 /// Resolves `#include "x.glsl"` (each file once in a stage, with names as in `sources`) and puts
 /// the lines of the options before the source. A `#version` line in a file is refused, since this
 /// function writes it. Throws ShaderError for a missing file; it names the file and line of the

@@ -24,6 +24,7 @@ struct RendererOptions {
     std::optional<bool> layered;
     std::size_t cache_bytes = std::size_t{256} << 20;  ///< limit for targets of frames and captures
     bool debug = false;                                ///< errors quote the driver's messages
+    bool trust_shaders = false;  ///< users' GLSL is compiled without a trial (trial/trial.hpp)
 };
 
 struct FrameOptions {

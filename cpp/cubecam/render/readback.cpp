@@ -1,6 +1,8 @@
 #include "cubecam/render/readback.hpp"
 
 #include "cubecam/core/error.hpp"
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/resources/repack.hpp"
 
@@ -70,7 +72,7 @@ public:
 
     void finish() {
         if (buffer_ == nullptr) {
-            for (const Part& part : parts_) read_now(part);
+            read_now(0);
         } else {
             read_through_buffer();
         }
@@ -131,15 +133,20 @@ private:
     using Row = void (*)(const std::byte* from, std::byte* to, std::size_t texels);
     static constexpr Row copy_row = nullptr;
 
-    /// One buffer of one layer.
+    /// Some rows of one buffer of one layer.
     struct Part {
         GLuint framebuffer;
         std::optional<std::size_t> slot;
         Given given;
         std::size_t bytes;  ///< of a texel of the result
         Row row;
+        std::size_t first;  ///< row, from the bottom
+        std::size_t rows;
         std::byte* to;
     };
+
+    /// A call can be interrupted after so many bytes, which take a few milliseconds.
+    static constexpr std::size_t most_of_part = std::size_t{16} << 20;
 
     /// Requests one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
     /// converts the driver's texels into texels of `bytes`; null: they are the same.
@@ -148,38 +155,54 @@ private:
         const auto rows = static_cast<std::size_t>(d_.height);
         const auto columns = static_cast<std::size_t>(d_.width);
         const auto count = static_cast<std::size_t>(d_.layers());
-        const std::size_t taken = columns * rows * bytes;
-        Result all = pool_.take(taken * count);
+        const std::size_t taken_row = columns * bytes;
+        const std::size_t most =
+            std::max<std::size_t>(most_of_part / (columns * given.bytes), std::size_t{1});
+        Result all = pool_.take(taken_row * rows * count);
         for (std::size_t i = 0; i < count; ++i) {
-            parts_.push_back({layers.one(static_cast<int>(i)), slot, given, bytes, row,
-                              all->data() + i * taken});
+            std::byte* const layer = all->data() + i * taken_row * rows;
+            for (std::size_t first = 0; first < rows; first += most) {
+                const std::size_t some = std::min(most, rows - first);
+                const std::size_t above = d_.shape.has_faces() ? first : rows - first - some;
+                parts_.push_back({layers.one(static_cast<int>(i)), slot, given, bytes, row, first,
+                                  some, layer + above * taken_row});
+            }
         }
         return all;
     }
 
     std::size_t given_bytes(const Part& part) const {
-        return part.given.bytes * static_cast<std::size_t>(d_.width) *
-               static_cast<std::size_t>(d_.height);
+        return part.given.bytes * static_cast<std::size_t>(d_.width) * part.rows;
     }
 
     /// Copies a part into `to`: an address, or an offset into the bound buffer.
     void request(const Part& part, void* to) const {
         if (part.slot) gl_.NamedFramebufferReadBuffer(part.framebuffer, attachment(*part.slot));
         gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, part.framebuffer);
-        gl_.ReadPixels(0, 0, d_.width, d_.height, part.given.format, part.given.type, to);
+        gl_.ReadPixels(0, static_cast<GLint>(part.first), d_.width, static_cast<GLsizei>(part.rows),
+                       part.given.format, part.given.type, to);
     }
 
-    void read_now(const Part& part) {
-        if (d_.shape.has_faces() && part.row == copy_row) return request(part, part.to);
-        if (layer_ == nullptr || layer_->size() != given_bytes(part)) {
-            layer_ = pool_.take(given_bytes(part));
+    /// Reads the parts from a place of the list on, one after the other.
+    void read_now(std::size_t first) {
+        Result given;  // a part that is not read in place
+        for (std::size_t i = first; i < parts_.size(); ++i) {
+            const Part& part = parts_[i];
+            poll_interrupts();
+            if (d_.shape.has_faces() && part.row == copy_row) {
+                request(part, part.to);
+                continue;
+            }
+            const std::size_t bytes = given_bytes(part);
+            if (given == nullptr || given->size() != bytes) given = pool_.take(bytes);
+            request(part, given->data());
+            place(part, given->data());
         }
-        request(part, layer_->data());
-        place(part, layer_->data());
     }
 
     void read_through_buffer() {
         for (std::size_t first = 0; first < parts_.size();) {
+            poll_interrupts();
             std::size_t bytes = given_bytes(parts_[first]);
             std::size_t end = first + 1;
             while (end < parts_.size() &&
@@ -190,8 +213,7 @@ private:
                 buffer_->bind(gl_, bytes);
             } catch (const GlError& error) {
                 if (error.code() != GL_OUT_OF_MEMORY) throw;
-                for (; first < parts_.size(); ++first) read_now(parts_[first]);
-                return;
+                return read_now(first);
             }
             std::size_t offset = 0;
             for (std::size_t i = first; i < end; ++i) {
@@ -213,7 +235,7 @@ private:
 
     /// Copies a part that the driver has written to `from` into its result.
     void place(const Part& part, const std::byte* from) const {
-        const auto rows = static_cast<std::size_t>(d_.height);
+        const std::size_t rows = part.rows;
         const auto columns = static_cast<std::size_t>(d_.width);
         const std::size_t given_row = columns * part.given.bytes;
         const std::size_t taken_row = columns * part.bytes;
@@ -239,7 +261,6 @@ private:
     ReadBuffer* buffer_;
     std::vector<Part> parts_;
     std::vector<std::function<void()>> turns_;  // of the results, once they are read
-    Result layer_;                              // a part that is not read in place
 };
 
 /// The bytes of a texel in the result, and in the memory through which frames are read.
@@ -293,6 +314,7 @@ Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, R
     frame.format = d.format;
     if (d.color) frame.color = reader.picture();
     frame.outputs = reader.outputs();
+    context.pace().finish(context.gl());
     reader.finish();
     gl::check_gl(context.gl(), "reading a frame");
     return frame;
@@ -304,6 +326,7 @@ std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, R
     Reader reader(context.gl(), target, pool, needed(context, buffer));
     Result color = reader.picture();
     OutputList outputs = reader.outputs();
+    context.pace().finish(context.gl());
     reader.finish();
     gl::check_gl(context.gl(), "reading a cubemap");
     return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,

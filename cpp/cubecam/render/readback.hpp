@@ -1,8 +1,8 @@
 #pragma once
 
 #include "cubecam/cubemap/cubemap.hpp"
-#include "cubecam/render/frame.hpp"
 #include "cubecam/gl/context.hpp"
+#include "cubecam/render/frame.hpp"
 #include "cubecam/render/resources/read_buffer.hpp"
 #include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target.hpp"

@@ -2,19 +2,24 @@
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/core/notices.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/render/graph/frame_context.hpp"
+#include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/requested_outputs.hpp"
 #include "cubecam/render/stereo.hpp"
 #include "cubecam/scene/scene_encoding.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
+#include "cubecam/trial/trial.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace cubecam {
 namespace {
@@ -103,6 +108,8 @@ struct Renderer::Gpu {
         const gl::CurrentScope scope(context);
         if (context.software()) keep_freed_memory();
         state.emplace(context, layering(context, options), options.cache_bytes);
+        if (options.trust_shaders) return;
+        state->surface.programs().set_trial(std::make_unique<trial::Trial>(context));
     }
 
     gl::Context context;
@@ -140,8 +147,16 @@ void Renderer::close() noexcept {
         (void)gpu_.release();
         return;
     }
-    const std::lock_guard lock(mutex_);
     closed_ = true;
+    if (draws_here()) {
+        close_after_call_ = true;
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    free_gpu();
+}
+
+void Renderer::free_gpu() noexcept {
     if (gpu_ == nullptr) return;
     try {
         const gl::CurrentScope scope(gpu_->context);
@@ -156,6 +171,7 @@ bool Renderer::closed() const { return gl::in_forked_child() || closed_; }
 
 Stats Renderer::stats() const {
     if (gl::in_forked_child()) throw ContextError(forked);
+    if (draws_here()) return stats_;
     const std::lock_guard lock(mutex_);
     return stats_;
 }
@@ -180,11 +196,50 @@ void Renderer::rebuild(const ContextLost& lost) {
                " and draws everything again; probes with update=\"manual\" show what is there now");
 }
 
+bool Renderer::draws_here() const { return drawing_.load() == std::this_thread::get_id(); }
+
+/// A call of a renderer: the mutex is held while it lives.
+struct Renderer::Running {
+    explicit Running(Renderer& its_renderer) : renderer(its_renderer) {
+        renderer.drawing_ = std::this_thread::get_id();
+    }
+    ~Running() {
+        renderer.drawing_ = std::thread::id();
+        if (renderer.close_after_call_) renderer.free_gpu();
+        renderer.close_after_call_ = false;
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    Renderer& renderer;
+};
+
+/// The work of a call: the context is current while it lives.
+struct Renderer::Drawing {
+    explicit Drawing(const gl::Context& its_context) : context(its_context), scope(its_context) {}
+    ~Drawing() {
+        if (std::uncaught_exceptions() == exceptions) return;
+        // A draw may have been left in the middle, and passes depend on this state.
+        reset_raster_state(context.gl(), depth_state(DepthOrder::nearest));
+    }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    const int exceptions = std::uncaught_exceptions();
+    const gl::Context& context;
+    const gl::CurrentScope scope;
+};
+
 template <class Work>
 auto Renderer::run(Work&& work) {
     if (gl::in_forked_child()) throw ContextError(forked);
+    if (draws_here()) {
+        throw Error("this renderer is drawing, and a signal handler interrupted it: expected a "
+                    "call after the drawing has ended, got one from the handler");
+    }
     const std::lock_guard lock(mutex_);
     if (gpu_ == nullptr) throw ContextError("the renderer is closed: expected an open Renderer");
+    const Running running(*this);
     ++gpu_->state->call;
     try {
         return attempt(work);
@@ -206,7 +261,7 @@ auto Renderer::run(Work&& work) {
 template <class Work>
 auto Renderer::attempt(Work&& work) {
     const auto start = std::chrono::steady_clock::now();
-    const gl::CurrentScope scope(gpu_->context);
+    const Drawing drawing(gpu_->context);
     RendererState& state = *gpu_->state;
     state.cache.sweep();
     state.probes.sweep();
@@ -402,7 +457,8 @@ std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& prob
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update_probes()");
         }
-        return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer, state->encoding);
+        return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer,
+                         state->encoding);
     });
 }
 

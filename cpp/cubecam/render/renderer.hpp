@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <vector>
 
 namespace cubecam {
@@ -49,7 +50,9 @@ struct ShadowDistances {
 ///
 /// Any thread may call it; calls on one renderer run one after the other, several renderers run in
 /// parallel. Between calls its context is current on no thread. After close(), and in a process
-/// forked after EGL was opened, every call throws ContextError.
+/// forked after EGL was opened, every call throws ContextError. A call polls for interrupts
+/// (core/interrupts.hpp); an interrupted picture counts as not drawn. Inside a poll, the same
+/// renderer draws nothing (Error), and close() takes effect when the call ends.
 ///
 /// If the context is lost, since another library ended its display or the GPU was reset, the call
 /// makes a new one, adds a notice (core/notices.hpp) and is done again: everything on the GPU is
@@ -110,6 +113,12 @@ public:
 
 private:
     struct Gpu;  // the context and everything made in it
+    struct Running;
+    struct Drawing;
+
+    /// Whether a call of this thread is drawing: a signal handler runs inside it.
+    bool draws_here() const;
+    void free_gpu() noexcept;
 
     std::unique_ptr<Gpu> make_gpu();
     /// Makes a new context in place of the lost one. @throws ContextError if there is none.
@@ -134,6 +143,8 @@ private:
     std::unique_ptr<Gpu> gpu_;         // null: closed
     std::atomic<bool> closed_{false};  // read without waiting for a call of another thread
     Stats stats_;
+    std::atomic<std::thread::id> drawing_{};  ///< the thread whose call is drawing
+    bool close_after_call_ = false;           ///< used by that thread alone
 };
 
 }  // namespace cubecam

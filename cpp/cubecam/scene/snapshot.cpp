@@ -321,7 +321,7 @@ private:
             blend,
             surface.depth_write.value_or(blend == Blend::opaque),
             {},
-            place.cast_shadow && blend == Blend::opaque,
+            place.cast_shadow,
             value.receive_shadow,
         };
         put(snapshot, world);

@@ -65,7 +65,7 @@ struct NodeSnapshot {
     Blend blend;       ///< the mode by which it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
-    bool cast_shadow;                     ///< opaque, and set for it and all nodes above it
+    bool cast_shadow;                     ///< of the node and all nodes above it
     bool receive_shadow;
     std::int32_t render_order = 0;
     std::int32_t label = 0;

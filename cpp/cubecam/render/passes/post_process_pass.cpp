@@ -1,6 +1,7 @@
 #include "cubecam/render/passes/post_process_pass.hpp"
 
 #include "cubecam/render/passes/full_screen_pass.hpp"
+#include "cubecam/render/passes/texture_units.hpp"
 
 #include <cstddef>
 
@@ -21,10 +22,11 @@ void PostProcessPass::draw(const PostProcess& post_process,
     GLuint source = target.color().id();
     for (std::size_t i = 0; i < post_process.effects.size(); ++i) {
         const EffectValue& effect = post_process.effects[i].value;
-        UserProgram& program = programs_->effect(effect.fragment);
-        program.use(effect.inputs, textures[i]);
         const std::size_t to = i % 2;
-        draw_quad(target.scratch_pass(to).one(layer), source, program.program(), layer, stats);
+        const GLuint framebuffer = target.scratch_pass(to).one(layer);
+        UserProgram& program = program_of(effect, textures[i], framebuffer, target);
+        program.use(effect.inputs, textures[i]);
+        draw_quad(framebuffer, source, program.program(), layer, stats);
         source = target.scratch(to).id();
     }
     const gl::Program& grade =
@@ -32,6 +34,23 @@ void PostProcessPass::draw(const PostProcess& post_process,
     grade.use();
     grade.set("u_gain", post_process.gain);
     draw_quad(target.post_processed_pass().one(layer), source, grade, layer, stats);
+}
+
+UserProgram& PostProcessPass::program_of(const EffectValue& effect,
+                                         const std::vector<BoundTexture>& textures,
+                                         GLuint framebuffer, const Target& target) {
+    DrawConditions conditions;
+    if (programs_->tries()) {
+        gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        gl_->BindVertexArray(cache_->views_only().id());
+        conditions.add(target.description().shape.kind);
+        conditions.textures.push_back({texture_unit::frame, target.color().id(), 0});
+        GLuint unit = texture_unit::first_of_material;
+        for (const BoundTexture& texture : textures) {
+            conditions.textures.push_back({unit++, texture.texture, texture.revision});
+        }
+    }
+    return programs_->effect(effect, conditions);
 }
 
 void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,

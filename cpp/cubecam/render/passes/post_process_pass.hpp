@@ -42,6 +42,9 @@ public:
               Stats& stats);
 
 private:
+    /// The program of an effect, tried in the state in which draw_quad() will draw.
+    UserProgram& program_of(const EffectValue& effect, const std::vector<BoundTexture>& textures,
+                            GLuint framebuffer, const Target& target);
     void draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program, int layer,
                    Stats& stats);
 

@@ -1,5 +1,6 @@
 #include "cubecam/render/passes/programs.hpp"
 
+#include "cubecam/core/error.hpp"
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
@@ -132,7 +133,9 @@ gl::ShaderOptions Programs::layer_options() const {
 }
 
 void Programs::check_textures(const SurfaceVariant& variant, const MaterialTraits& material) const {
-    const auto maps = static_cast<std::size_t>(std::popcount(variant.textures));
+    const std::size_t maps = material.user_code
+                                 ? material.textures.size()
+                                 : static_cast<std::size_t>(std::popcount(variant.textures));
     const std::size_t environment =
         (material.uses_environment ? 1U : 0U) + variant.environment.texture_count();
     const auto shadows = static_cast<std::size_t>(variant.shadows);
@@ -207,21 +210,30 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
         .first->second;
 }
 
-UserProgram& Programs::user_surface(const SurfaceVariant& variant, const MaterialTraits& material) {
+UserProgram& Programs::user_surface(const SurfaceVariant& variant, const MaterialTraits& material,
+                                    DrawConditions& conditions) {
     const UserCode& user = *material.user_code;
     const UserSource include = include_of(*variant.kind);
     gl::ShaderOptions options = surface_options(variant, material);
     const UserSource fragment = place_outputs(*user.fragment, variant.outputs);
     add_defines(options, output_defines(variant.outputs, declared_outputs(*user.fragment)));
-    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                      {{"include/user_fragment.glsl", "fragment", &fragment},
-                       {"include/user_vertex.glsl", "vertex", user.vertex},
-                       {material_include, "", &include}});
+    try {
+        return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                          {{"include/user_fragment.glsl", "fragment", &fragment},
+                           {"include/user_vertex.glsl", "vertex", user.vertex},
+                           {material_include, "", &include}},
+                          conditions, *user.inputs);
+    } catch (const ShaderError&) {
+        // Only the driver knows which textures the source really looks up.
+        check_textures(variant, material);
+        throw;
+    }
 }
 
-UserProgram& Programs::effect(const UserSource& fragment) {
+UserProgram& Programs::effect(const EffectValue& effect, DrawConditions& conditions) {
     return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
-                      {{"include/user_fragment.glsl", "fragment", &fragment}});
+                      {{"include/user_fragment.glsl", "fragment", &effect.fragment}}, conditions,
+                      effect.inputs);
 }
 
 const gl::Program& Programs::skybox(bool turned) {
@@ -234,7 +246,8 @@ const gl::Program& Programs::skybox(bool turned) {
     return program;
 }
 
-UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_colors) {
+UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_colors,
+                                   DrawConditions& conditions) {
     SurfaceVariant variant;
     variant.kind = material.kind;
     variant.switches = material.switches;
@@ -245,7 +258,8 @@ UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_c
     std::erase_if(options.defines, [](const auto& define) { return define.first == "LAYERED"; });
     return users_.get(*gl_, {"passes/surface.vert", "passes/shadow.frag"}, options,
                       {{"include/user_fragment.glsl", "fragment", material.user_code->fragment},
-                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}});
+                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}},
+                      conditions, *material.user_code->inputs);
 }
 
 const gl::Program& Programs::shadow(const ShadowVariant& variant) {

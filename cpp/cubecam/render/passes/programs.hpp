@@ -7,12 +7,15 @@
 #include "cubecam/render/resources/environment.hpp"
 #include "cubecam/render/resources/outputs.hpp"
 #include "cubecam/render/resources/stats.hpp"
+#include "cubecam/scene/image_effect.hpp"
 
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <tuple>
+#include <utility>
 
 namespace cubecam {
 
@@ -78,15 +81,24 @@ class Programs {
 public:
     Programs(const GladGLContext& gl, bool layered);
 
+    /// From now on users' sources are tried before this process compiles them.
+    void set_trial(std::unique_ptr<trial::Trial> trial) { users_.set_trial(std::move(trial)); }
+    /// Whether the conditions of draw calls matter.
+    bool tries() const { return users_.tries(); }
+
     /// `material` has the variant's kind and switches.
     const gl::Program& surface(const SurfaceVariant& variant, const MaterialTraits& material);
     /// A variant with a user's source in it. @throws ShaderError that names the user's own lines.
-    UserProgram& user_surface(const SurfaceVariant& variant, const MaterialTraits& material);
-    UserProgram& effect(const UserSource& fragment);
+    /// The three functions for users' sources must be called in the state of the draw call:
+    /// UserPrograms::get.
+    UserProgram& user_surface(const SurfaceVariant& variant, const MaterialTraits& material,
+                              DrawConditions& conditions);
+    UserProgram& effect(const EffectValue& effect, DrawConditions& conditions);
     /// `turned`: the environment's placing is not plain.
     const gl::Program& skybox(bool turned);
     const gl::Program& shadow(const ShadowVariant& variant);
-    UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors);
+    UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors,
+                             DrawConditions& conditions);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
 
 private:

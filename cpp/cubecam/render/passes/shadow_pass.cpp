@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
@@ -103,16 +105,16 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     std::map<std::pair<const MeshData*, std::uint64_t>, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
-    for (const PlannedNode& planned : input.plan.opaque) {
+    input.plan.for_each([&](const PlannedNode& planned) {
         const auto visibilities = input.plan.visible_in(planned);
         const bool seen =
             std::any_of(visibilities.begin(), visibilities.end(),
                         [layer](const Visibility& visibility) { return visibility.view == layer; });
-        if (!seen) continue;
+        if (!seen) return;
         const NodeSnapshot& node = input.scene.nodes[planned.node];
         if (moves_vertices(node)) {
             moved.push_back(&node);
-            continue;
+            return;
         }
         const std::uint64_t material = has_holes(node) ? node.material.revision : 0;
         const auto [place, added] = places.try_emplace({node.mesh.get(), material}, casters.size());
@@ -120,7 +122,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
         casters[place->second].nodes.push_back(
             make_view_record(from, matrix, from.position, layer));
-    }
+    });
     std::vector<ViewRecord> instances;
     for (const Casters& some : casters) {
         instances.insert(instances.end(), some.nodes.begin(), some.nodes.end());
@@ -142,6 +144,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     }
     GLuint first = 0;
     for (const Casters& some : casters) {
+        poll_interrupts();
         const GpuMesh& mesh = cache_->mesh(*some.first->mesh);
         const auto count = static_cast<GLsizei>(some.nodes.size());
         bind_program(*some.first, input);
@@ -155,6 +158,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         stats.triangles += std::int64_t{mesh.index_count / 3} * count;
     }
     for (const NodeSnapshot* node : moved) draw_moved(*node, input, layer, stats);
+    context_->pace().submitted(*gl_, static_cast<double>(map.size) * map.size);
 }
 
 void ShadowPass::bind_program(const NodeSnapshot& node, const ShadowInput& input) {
@@ -189,17 +193,26 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
     instances_ = gl::create_buffer(*gl_, sizeof(instance), &instance);
     block_ = gl::create_buffer(*gl_, sizeof(block), &block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, node_binding, block_.id());
-    UserProgram& program = programs_->user_shadow(material, node.mesh->colors() != nullptr);
-    const std::vector<BoundTexture> textures = input.look_up(node);
-    // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
-    if (context_->software() && vertices_see_pictures(node)) gl_->Finish();
-    program.use(*material.user_code->inputs,
-                std::span(textures).subspan(material.user_code->first_texture));
-    program.program().use();
     const GpuMesh& mesh = cache_->mesh(*node.mesh);
     gl_->VertexArrayVertexBuffer(mesh.array.id(), vertex_buffer::records, instances_.id(), 0,
                                  sizeof(ViewRecord));
     gl_->BindVertexArray(mesh.array.id());
+    const std::vector<BoundTexture> textures = input.look_up(node);
+    const auto own = std::span(textures).subspan(material.user_code->first_texture);
+    DrawConditions conditions;
+    if (programs_->tries()) {
+        conditions.add_node(node);
+        GLuint unit = texture_unit::first_of_material;
+        for (const BoundTexture& texture : own) {
+            conditions.textures.push_back({unit++, texture.texture, texture.revision});
+        }
+    }
+    UserProgram& program =
+        programs_->user_shadow(material, node.mesh->colors() != nullptr, conditions);
+    // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
+    if (context_->software() && vertices_see_pictures(node)) gl_->Finish();
+    program.use(*material.user_code->inputs, own);
+    program.program().use();
     gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type, nullptr,
                                            1, 0);
     ++stats.draw_calls;
@@ -209,7 +222,9 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
 Buffer<float> ShadowPass::read(const ShadowUse& use) {
     const auto size = static_cast<std::size_t>(use.shadow.size);
     Buffer<float> values(use.view.views.size() * size * size);
+    context_->pace().finish(*gl_);
     for (std::size_t layer = 0; layer < use.view.views.size(); ++layer) {
+        poll_interrupts();
         gl::read_layer(*gl_, use.texture, static_cast<int>(layer), use.shadow.size, use.shadow.size,
                        GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(float),
                        values.data() + layer * size * size);

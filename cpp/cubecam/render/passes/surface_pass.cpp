@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/surface_pass.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/lighting/brdf_table.hpp"
 #include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
@@ -18,6 +20,8 @@ constexpr GLuint lights_binding = 1;
 constexpr GLuint shadows_binding = 2;
 constexpr std::size_t unrolled_lights = 8;  // a loop of unknown length costs more for each light
 constexpr std::size_t many_triangles = 10'000;  // of one call
+
+double pixels(const Rect& rect) { return static_cast<double>(rect.area()); }
 
 /// Whether a view shows the world mirrored: GL's own projections have a negative determinant.
 bool mirrored(const View& view) { return glm::determinant(view.view_projection) > 0.0; }
@@ -39,12 +43,14 @@ SurfacePass::SurfacePass(const gl::Context& context, GpuCache& cache, Layering l
 
 void SurfacePass::upload_shadows(std::span<const ShadowUse> shadows, const glm::dvec3& origin) {
     shadow_kinds_ = 0;
+    shadow_textures_.clear();
     if (shadows.empty()) return;
     std::vector<ShadowBlock> blocks;
     for (const ShadowUse& shadow : shadows) {
         shadow_kinds_ |= static_cast<std::uint32_t>(shadow.view.kind) << (2 * blocks.size());
         gl_->BindTextureUnit(texture_unit::first_shadow + static_cast<GLuint>(blocks.size()),
                              shadow.texture);
+        shadow_textures_.push_back({shadow.texture, shadow.revision});
         blocks.push_back(make_shadow_block(shadow, origin));
     }
     blocks.resize(max_shadows);
@@ -70,7 +76,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
 
     const SurfaceItems items = find_items(input, *cache_);
     SurfaceCallBuilder builder(
-        input, items, lights_.ambient,
+        input, items, {description.width, description.height}, lights_.ambient,
         static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment));
     std::vector<SurfaceCalls> calls;  // one for each region, or one for all
     if (use_layers(input, items, whole)) {
@@ -107,6 +113,7 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     const bool by_texture = description.shape.has_faces() && !(color && target.multisampled());
     if (by_texture) {
         for (const Region& region : input.regions) {
+            poll_interrupts();
             clear_layer(*gl_, target, static_cast<int>(region.view), region.rect, values);
         }
     }
@@ -122,12 +129,16 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
         writes.mirror = mirrored(input.views[region.view]);
     };
 
+    const double cost = description.samples;
     const bool layered = calls.size() < input.regions.size();
+    pass_.clear();
+    pass_.add_target(description, color, outputs, layered);
     if (!layered) {
         for (std::size_t r = 0; r < input.regions.size(); ++r) {
             bind(input.regions[r]);
             look_through(input.regions[r]);
             draw_all(input, calls[r], writes, stats);
+            context_->pace().submitted(*gl_, pixels(input.regions[r].rect) * cost);
         }
         return;
     }
@@ -140,6 +151,9 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     if (all && !by_texture) clear_bound(*gl_, target, values);
     look_through(input.regions.front());
     draw_all(input, calls.front(), writes, stats);
+    for (const Region& region : input.regions) {
+        context_->pace().submitted(*gl_, pixels(region.rect) * cost);
+    }
 }
 
 bool SurfacePass::use_layers(const SurfaceInput& input, const SurfaceItems& items,
@@ -158,6 +172,8 @@ bool SurfacePass::use_layers(const SurfaceInput& input, const SurfaceItems& item
         });
     if (!one_winding || !one_scissor) return false;
     if (layering_ == Layering::always) return true;
+    // A call that fills all layers of a large picture could not be interrupted.
+    if (pixels(whole) * static_cast<double>(input.regions.size()) > gl::Pace::chunk) return false;
     // With layered drawing every node needs a call of its own.
     if (items.opaque.size() > count_calls(items, input.regions.size())) return false;
     if (!context_->software()) return true;
@@ -264,12 +280,46 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
     return variant;
 }
 
-const gl::Program& SurfacePass::program_of(const SurfaceItem& item, const SurfaceVariant& variant) {
+void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant& variant,
+                                  bool outputs) {
+    conditions_.clear();
+    conditions_.key = pass_.key;
+    conditions_.add(outputs);
+    conditions_.add_node(*item.node);
+    const auto add = [this](GLuint unit, GLuint texture, std::uint64_t revision) {
+        conditions_.textures.push_back({unit, texture, revision});
+    };
+    const MaterialTraits& material = item.node->material.value.traits();
+    const auto own = std::span(item.textures->textures).subspan(material.user_code->first_texture);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        add(texture_unit::first_of_material + static_cast<GLuint>(i), own[i].texture,
+            own[i].revision);
+    }
+    const Environment& environment = item.textures->environment;
+    const bool reflects = environment.cube.texture != 0;
+    add(texture_unit::cube, reflects ? environment.cube.texture : black_.id(),
+        environment.cube.revision);
+    if (environment.filtered != nullptr) add(texture_unit::filtered, environment.filtered->id(), 0);
+    add(texture_unit::box_mipmaps, environment.box_mipmaps.texture,
+        environment.box_mipmaps.revision);
+    add(texture_unit::behind, item.textures->behind.texture, item.textures->behind.revision);
+    if (environment.parts.filtered || environment.filtered != nullptr) {
+        add(texture_unit::brdf_table, brdf_table(), 0);
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(variant.shadows); ++i) {
+        add(texture_unit::first_shadow + static_cast<GLuint>(i), shadow_textures_[i].texture,
+            shadow_textures_[i].revision);
+    }
+}
+
+const gl::Program& SurfacePass::program_of(const SurfaceItem& item, const SurfaceVariant& variant,
+                                           bool outputs) {
     const MaterialTraits& material = item.node->material.value.traits();
     if (!material.user_code) return programs_.surface(variant, material);
+    if (programs_.tries()) find_conditions(item, variant, outputs);
     // llvmpipe runs vertex shaders at once, although it may still be drawing what they look up.
     if (context_->software() && vertices_see_pictures(*item.node)) gl_->Finish();
-    UserProgram& program = programs_.user_surface(variant, material);
+    UserProgram& program = programs_.user_surface(variant, material, conditions_);
     program.use(*material.user_code->inputs,
                 std::span(item.textures->textures).subspan(material.user_code->first_texture));
     return program.program();
@@ -325,17 +375,23 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
                              Stats& stats) {
     const gl::Program* bound = nullptr;
     for (const SurfaceCall& call : calls) {
+        poll_interrupts();
         const NodeSnapshot& node = *call.item->node;
         const GpuMesh& mesh = *call.item->mesh;
         const bool instanced = !call.node_block;
         const SurfaceVariant variant = variant_of(*call.item, instanced, outputs);
-        const gl::Program& program = program_of(*call.item, variant);
-        if (bound != &program) program.use();
-        bound = &program;
-
+        const GLuint array = instanced ? mesh.instanced.id() : mesh.array.id();
+        gl_->VertexArrayVertexBuffer(
+            array, vertex_buffer::records, instanced ? node_records_.id() : view_records_.id(), 0,
+            static_cast<GLsizei>(instanced ? sizeof(NodeRecord) : sizeof(ViewRecord)));
+        gl_->BindVertexArray(array);
         set_raster_state(*gl_, node, mirror, depth_);
         // A node that writes no depth need not be the nearest, so it writes no outputs.
         if (outputs) write_outputs(node.depth_write);
+        const gl::Program& program = program_of(*call.item, variant, outputs);
+        if (bound != &program) program.use();
+        bound = &program;
+
         if (call.node_block) {
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, node_binding, blocks_.id(), *call.node_block,
                                  sizeof(NodeBlock));
@@ -350,11 +406,6 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
                                  *call.environment, sizeof(EnvironmentBlock));
         }
         bind_textures(*call.item, variant);
-        const GLuint array = instanced ? mesh.instanced.id() : mesh.array.id();
-        gl_->VertexArrayVertexBuffer(
-            array, vertex_buffer::records, instanced ? node_records_.id() : view_records_.id(), 0,
-            static_cast<GLsizei>(instanced ? sizeof(NodeRecord) : sizeof(ViewRecord)));
-        gl_->BindVertexArray(array);
         const auto draw = [&] {
             gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, mesh.index_count, mesh.index_type,
                                                    nullptr, call.count, call.first);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/gl/context.hpp"
+#include "cubecam/render/passes/draw_conditions.hpp"
 #include "cubecam/render/passes/light_block.hpp"
 #include "cubecam/render/passes/programs.hpp"
 #include "cubecam/render/passes/surface_calls.hpp"
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace cubecam {
 
@@ -51,7 +53,10 @@ private:
     void write_outputs(bool write);
     bool use_layers(const SurfaceInput& input, const SurfaceItems& items, const Rect& whole) const;
     SurfaceVariant variant_of(const SurfaceItem& item, bool instanced, bool outputs) const;
-    const gl::Program& program_of(const SurfaceItem& item, const SurfaceVariant& variant);
+    /// Must be called in the state of the draw call (UserPrograms::get).
+    const gl::Program& program_of(const SurfaceItem& item, const SurfaceVariant& variant,
+                                  bool outputs);
+    void find_conditions(const SurfaceItem& item, const SurfaceVariant& variant, bool outputs);
     void bind_textures(const SurfaceItem& item, const SurfaceVariant& variant);
     void bind_environment(const Environment& environment);
     GLuint brdf_table();
@@ -65,9 +70,12 @@ private:
     gl::Texture brdf_table_;  ///< made when it is first needed
     gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_;
     ShaderLights lights_;
-    std::uint32_t shadow_kinds_ = 0;                       ///< see SurfaceVariant
-    Outputs outputs_;                                      ///< the shaded outputs of the target
-    std::size_t output_count_ = 0;                         ///< the length of outputs_
+    DrawConditions pass_;                        ///< what all draw calls of a pass have in common
+    DrawConditions conditions_;                  ///< of the present draw call
+    std::vector<BoundTexture> shadow_textures_;  ///< of the lights, in their order
+    std::uint32_t shadow_kinds_ = 0;             ///< see SurfaceVariant
+    Outputs outputs_;                            ///< the shaded outputs of the target
+    std::size_t output_count_ = 0;               ///< the length of outputs_
     DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of the target
     BehindLookup behind_ = BehindLookup::none;             ///< of surfaces in the target
 };

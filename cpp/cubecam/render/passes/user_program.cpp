@@ -1,6 +1,7 @@
 #include "cubecam/render/passes/user_program.hpp"
 
 #include "cubecam/render/passes/texture_units.hpp"
+#include "cubecam/trial/capture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -296,10 +297,43 @@ std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> part
     return sources;
 }
 
+namespace {
+
+constexpr std::size_t most_conditions = 256;  // of one program
+
+/// Returns what to try: the program's stages in the present state of OpenGL.
+trial::Job make_job(const GladGLContext& gl, std::initializer_list<std::string_view> files,
+                    const gl::ShaderOptions& options, std::span<const gl::ShaderSource> sources,
+                    std::vector<trial::Texture> textures, const ShaderInputs& inputs) {
+    trial::Job job;
+    for (const std::string_view file : files) {
+        job.stages.push_back({gl::stage_of(file), gl::expand_shader(file, options, sources).text});
+    }
+    job.state = trial::capture_state(gl);
+    job.textures = std::move(textures);
+    GLuint unit = texture_unit::first_of_material;
+    for (const auto& [name, source] : inputs.textures) job.samplers.push_back({name, unit++});
+    return job;
+}
+
+/// Returns what messages call the user's texts: "fragment", "water.glsl".
+std::string titles_of(std::initializer_list<ShaderPart> parts) {
+    std::string titles;
+    for (const ShaderPart& part : parts) {
+        if (part.title.empty() || part.source->text.empty()) continue;
+        if (!titles.empty()) titles += " and ";
+        titles += part.source->path.empty() ? part.title : std::string_view(part.source->path);
+    }
+    return titles;
+}
+
+}  // namespace
+
 UserProgram& UserPrograms::get(const GladGLContext& gl,
                                std::initializer_list<std::string_view> files,
                                const gl::ShaderOptions& options,
-                               std::initializer_list<ShaderPart> parts) {
+                               std::initializer_list<ShaderPart> parts, DrawConditions& conditions,
+                               const ShaderInputs& inputs) {
     // The key contains all parts of the program, so that no two programs share one.
     std::string key;
     const auto add = [&key](std::string_view text) { key.append(text).push_back('\0'); };
@@ -314,12 +348,31 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
     }
     const auto found = std::find_if(programs_.begin(), programs_.end(),
                                     [&key](const auto& held) { return held.first == key; });
-    if (found != programs_.end()) {
+    std::vector<trial::Texture> textures;
+    if (trial_ != nullptr) {
+        for (const UnitTexture& texture : conditions.textures) {
+            if (texture.texture == 0) continue;
+            textures.push_back(kinds_.find(gl, texture));
+            conditions.key.append(reinterpret_cast<const char*>(&textures.back()),
+                                  sizeof(trial::Texture));
+        }
+    }
+    const bool known = found != programs_.end();
+    if (trial_ != nullptr && !(known && found->second.survived.contains(conditions.key))) {
+        trial_->require(
+            make_job(gl, files, options, substituted(parts), std::move(textures), inputs),
+            titles_of(parts));
+    }
+    if (known) {
         programs_.splice(programs_.begin(), programs_, found);
+        std::set<std::string, std::less<>>& survived = programs_.front().second.survived;
+        if (survived.size() >= most_conditions) survived.clear();
+        if (trial_ != nullptr) survived.insert(conditions.key);
         return programs_.front().second;
     }
 
     UserProgram made(gl::Program(gl, files, options, substituted(parts)), std::move(text));
+    if (trial_ != nullptr) made.survived.insert(conditions.key);
     if (programs_.size() == most_programs) programs_.pop_back();
     programs_.emplace_front(std::move(key), std::move(made));
     return programs_.front().second;

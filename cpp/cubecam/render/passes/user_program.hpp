@@ -2,11 +2,15 @@
 
 #include "cubecam/gl/program.hpp"
 #include "cubecam/materials/user_shader.hpp"
+#include "cubecam/render/passes/draw_conditions.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
+#include "cubecam/trial/trial.hpp"
 
 #include <cstddef>
 #include <initializer_list>
 #include <list>
+#include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +33,9 @@ public:
     /// @throws std::invalid_argument for an input that the source does not contain, for one of
     /// another shape or kind, or for a missing texture.
     void use(const ShaderInputs& inputs, std::span<const BoundTexture> textures);
+
+    /// The keys of the conditions in which the driver survived the program.
+    std::set<std::string, std::less<>> survived;
 
 private:
     struct Uniform {
@@ -64,12 +71,24 @@ std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> part
 
 /// A cache of the programs of users' sources, which drops the least recently used one: a source
 /// that is edited while it is drawn leaves many old programs.
+///
+/// With a trial, a program is tried in another process before it is compiled here, and again before
+/// it is drawn in conditions that are new.
 class UserPrograms {
 public:
+    void set_trial(std::unique_ptr<trial::Trial> trial) { trial_ = std::move(trial); }
+    bool tries() const { return trial_ != nullptr; }
+
+    /// Must be called when OpenGL is in the state of the draw call, except for the program and its
+    /// textures. `conditions` describe that state; `inputs` are those that the program will use.
+    /// @throws ShaderError that names the user's own lines, or says how the trial ended.
     UserProgram& get(const GladGLContext& gl, std::initializer_list<std::string_view> files,
-                     const gl::ShaderOptions& options, std::initializer_list<ShaderPart> parts);
+                     const gl::ShaderOptions& options, std::initializer_list<ShaderPart> parts,
+                     DrawConditions& conditions, const ShaderInputs& inputs);
 
 private:
+    std::unique_ptr<trial::Trial> trial_;  // null: sources are trusted
+    TextureKinds kinds_;
     std::list<std::pair<std::string, UserProgram>> programs_;  // most recently used first
 };
 
