@@ -11,6 +11,8 @@ PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
 FUZZ_ARGS ?=
 GPU_ARGS ?=
+SOAK_ARGS ?=
+SANITIZE_ARGS ?=
 
 # The list has folders, too, since a removed file changes only its folder.
 SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
@@ -18,7 +20,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest test-asan dev lint format stubs bench gpu-check docs gallery sdist wheel fuzz mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery sdist wheel sanitize fuzz soak mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -47,9 +49,6 @@ test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV
 
 test-lowest: $(VENV)/.deps $(VENV)/.deps-lowest ## build and test with the lowest versions that pyproject.toml declares; needs Python 3.10 or 3.11
 	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile $(PYTEST_ARGS)
-
-test-asan: $(VENV)/.deps-test ## run the tests with a module for AddressSanitizer and UndefinedBehaviorSanitizer
-	@$(PY) scripts/sanitize.py $(PYTEST_ARGS)
 
 dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
 	@if git rev-parse --git-dir >/dev/null 2>&1; then $(PY) -m pre_commit install; fi
@@ -89,8 +88,14 @@ sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dis
 wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
 	@$(PY) scripts/wheel.py
 
-fuzz: $(VENV)/.installed $(VENV)/.deps-test ## break 30,000 files of each kind and read them; FUZZ_ARGS="--seed 7 --only obj,exr" for others
-	@$(PY) -m tests.fuzz.files $(FUZZ_ARGS)
+sanitize: $(VENV)/.deps-test ## run the tests with modules for AddressSanitizer and UndefinedBehaviorSanitizer, then for ThreadSanitizer
+	@$(PY) scripts/sanitize.py $(SANITIZE_ARGS)
+
+fuzz: $(VENV)/.installed $(VENV)/.deps-test ## try absurd calls, broken pickles, shaders and files; FUZZ_ARGS="--minutes 60 --only api,obj"
+	@$(PY) -m tests.fuzz $(FUZZ_ARGS)
+
+soak: $(VENV)/.installed $(VENV)/.deps-test ## edit random worlds, in threads, too, and make many contexts; SOAK_ARGS="--minutes 60"
+	@$(PY) -m tests.soak $(SOAK_ARGS)
 
 mutants: $(VENV)/.installed $(VENV)/.deps-test ## break the sources one place at a time: the tests must fail each time
 	@$(PY) tests/mutation.py

@@ -47,21 +47,16 @@ def build(revision: str, folder: Path) -> Path:
     with tarfile.open(archive) as file:
         file.extractall(folder)
     archive.unlink()
-    built = compile_module(folder, folder / "build" / "version", "-DCMAKE_BUILD_TYPE=Release")
-    copy_module(built, package / "cubecam")
+    objects = folder / "build" / "version"
+    compile_into(package / "cubecam", folder, objects, "-DCMAKE_BUILD_TYPE=Release")
     return package
 
 
-def copy_module(module: Path, package: Path) -> None:
-    """Copy a built module into a package, and the program that tries users' GLSL if the version has one."""
-    shutil.copy2(module, package)
-    helper = module.parent / "_shader_trial"
-    if helper.exists():
-        shutil.copy2(helper, package)
+def compile_into(package: Path, tree: Path, objects: Path, *options: str) -> Path:
+    """Compile a tree's module with options of CMake, in the folder `objects`, and copy it into a folder.
 
-
-def compile_module(tree: Path, objects: Path, *options: str) -> Path:
-    """Compile a tree's module with options of CMake, in the folder `objects`. Return the module's path."""
+    The program that tries shaders is compiled and copied, too, if the tree has one. Returns the copied module's path.
+    """
     import pybind11
 
     tools = Path(sys.executable).parent
@@ -79,8 +74,12 @@ def compile_module(tree: Path, objects: Path, *options: str) -> Path:
         f"-Dpybind11_DIR={pybind11.get_cmake_dir()}",
     )
     jobs = str(len(os.sched_getaffinity(0)))
-    run(cmake, "--build", str(objects), "--target", "_core", "--parallel", jobs)
-    return next(objects.rglob("_core*.so"))
+    helper = (tree / "cpp" / "shader_trial").is_dir()  # versions before 0.3 have none
+    targets = ["_core", *(["cubecam_shader_trial"] if helper else [])]
+    run(cmake, "--build", str(objects), "--target", *targets, "--parallel", jobs)
+    if helper:
+        shutil.copy2(objects / "cpp" / "shader_trial" / "_shader_trial", package)
+    return Path(shutil.copy2(next(objects.rglob("_core*.so")), package))
 
 
 def run(*command: str) -> None:

@@ -56,7 +56,7 @@ class Run:
 
 RUNS = {
     "address": Run(
-        flags="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer",
+        flags="-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer",
         # AddressSanitizer alone would stop at the first exception of C++.
         libraries=("libasan.so", "libubsan.so"),
         environment={
@@ -74,7 +74,7 @@ RUNS = {
         },
     ),
     "thread": Run(
-        flags="-O1 -g -fsanitize=thread -fno-omit-frame-pointer",
+        flags="-O1 -g1 -fsanitize=thread -fno-omit-frame-pointer",
         libraries=("libtsan.so",),
         environment={
             "TSAN_OPTIONS": "ignore_noninstrumented_modules=1:report_thread_leaks=0:history_size=7:exitcode=0"
@@ -121,8 +121,7 @@ def build(name: str, run: Run) -> Path:
         f"-DCMAKE_CXX_FLAGS_SANITIZE={run.flags} -D_GLIBCXX_ASSERTIONS",
         "-DCUBECAM_PLANTED_FAULTS=ON",
     ]
-    module = build_version.compile_module(ROOT, folder / "objects", *options)
-    return Path(shutil.copy2(module, package))
+    return build_version.compile_into(package, ROOT, folder / "objects", *options)
 
 
 def reports(folder: Path) -> list[str]:
@@ -130,7 +129,10 @@ def reports(folder: Path) -> list[str]:
     found = []
     for path in sorted(folder.glob("report.*")):
         text = path.read_text(encoding="utf-8", errors="replace")
-        starts = [m.start() for m in re.finditer(r"^.*(?:WARNING: Thread|ERROR: |runtime error)", text, re.M)]
+        starts = [
+            m.start()
+            for m in re.finditer(r"^.*(?:WARNING: Thread|ERROR: |runtime error)", text, re.M)
+        ]
         for start, end in zip(starts, [*starts[1:], len(text)], strict=True):
             if OWN_FRAME.search(text, start, end):
                 found.append(text[start:end].rstrip())
@@ -180,12 +182,17 @@ def sanitize(name: str, arguments: list[str]) -> int:
             [*prefix, sys.executable, "-c", script], env=environment, capture_output=True
         )
         if not any(want in text and "planted" in text for text in reports(folder)):
-            raise SystemExit(f"expected a report of the planted fault '{want}', got {reports(folder)}")
+            raise SystemExit(
+                f"expected a report of the planted fault '{want}', got {reports(folder)}"
+            )
         print(f"[sanitize] {name}: the planted fault '{want}' is reported", flush=True)
     shutil.rmtree(folder)
     folder.mkdir()
     pytest = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
-    chosen = arguments or [*run.tests, *(["-m", "not slow and not build"] if name == "address" else [])]
+    chosen = arguments or [
+        *run.tests,
+        *(["-m", "not slow and not build"] if name == "address" else []),
+    ]
     status = subprocess.run([*prefix, *pytest, *chosen], cwd=ROOT, env=environment).returncode
     found = reports(folder)
     for text in found[:20]:

@@ -58,6 +58,16 @@ def need_layers():
         pytest.skip(f"{device()[0]} lacks GL_ARB_shader_viewport_layer_array")
 
 
+def need_terminals():
+    """Skip the running test, which shows something in a pseudo-terminal, on a system without them (a bare chroot)."""
+    try:
+        ends = os.openpty()
+    except OSError as error:
+        pytest.skip(f"no pseudo-terminal can be opened, /dev/pts may not be mounted: {error}")
+    for end in ends:
+        os.close(end)
+
+
 def on_llvmpipe():
     """Whether the tests draw with llvmpipe by itself, for which this suite promises bytes."""
     return device()[1]

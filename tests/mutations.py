@@ -58,6 +58,8 @@ LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
+LOST = ("tests/gl/test_lost_contexts.py",)
+FAKE_DRIVERS = ("tests/gl/test_fake_drivers.py",)
 BENT = ("tests/gl/test_deformation.py",)
 SKINS = ("tests/unit/test_skins.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
@@ -473,6 +475,48 @@ MUTATIONS = [
         "known = !context_.probe(number_, probe).drawn() ||",
         "known = !context_.probe(number_, probe).drawn() &&",
         PROBES + INCREMENTAL,
+    ),
+    Mutation(
+        "lost context: another context with its handle is taken for it",
+        "gl/context.cpp",
+        "if (impl.has_mark()) return;",
+        "return;",
+        LOST,
+    ),
+    Mutation(
+        "lost context: its handle is destroyed, whose ever it is now",
+        "gl/context.cpp",
+        "if (!impl_->reset) impl_->raw.abandon();",
+        "",
+        LOST,
+    ),
+    Mutation(
+        "lost context: manual probes stay empty",
+        "probe_picture.cpp",
+        "if (forced_ || state_.last.lost) return true;",
+        "if (forced_) return true;",
+        LOST,
+    ),
+    Mutation(
+        "lost context: a call that is done again counts twice",
+        "probe_picture.cpp",
+        "if (state_.counted != context_.gpu.call) ++state_.calls;",
+        "++state_.calls;",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "reset: what was drawn during it is returned",
+        "render/renderer.cpp",
+        "auto result = work(state); gpu_->context.check_reset();",
+        "auto result = work(state);",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "reading: parts of the buffer are looked for where they are not",
+        "readback.cpp",
+        "offset = aligned(offset + given_bytes(parts_[i]));",
+        "offset = offset + given_bytes(parts_[i]);",
+        FAKE_DRIVERS,
     ),
     Mutation(
         "probe: filtered although it must not be",
@@ -2394,7 +2438,7 @@ MUTATIONS = [
     ),
     Mutation(
         "memory: the groups above are forgotten",
-        "memory.cpp",
+        "core/memory.cpp",
         "path = path.parent_path();",
         "return;",
         MEMORY,

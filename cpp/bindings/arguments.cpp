@@ -1,6 +1,9 @@
 #include "arguments.hpp"
 
+#include "numbers.hpp"
+
 #include <exception>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -65,10 +68,8 @@ void explain_state(const std::string& name) {
     if (!wrong) return;
     py::error_already_set error;
     const std::string kind = name == "_restore_frame" ? "Frame" : name.substr(0, name.find('.'));
-    const auto type = error.type().attr("__name__").cast<std::string>();
-    const auto message = py::str(error.value()).cast<std::string>();
     const std::string text = kind + ": expected the state of a pickled " + kind +
-                             ", got a broken one (" + type + ": " + message + ")";
+                             ", got a broken one (" + text_of(error.value()) + ")";
     py::raise_from(error, PyExc_ValueError, text.c_str());
 }
 
@@ -97,6 +98,8 @@ PyObject* dispatch(PyObject* function, PyObject* const* args, Py_ssize_t count, 
             explain_state(function_names()[function]);
         } catch (py::error_already_set& error) {
             error.restore();
+        } catch (const std::exception& error) {
+            PyErr_SetString(PyExc_ValueError, error.what());
         }
     }
     if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0) {

@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from tests.fuzz.runner import faults_of, run, work
+from tests.fuzz.runner import faults_of, kept, run, work
 from tests.fuzz.targets import COUNTS, NAMES, target
 
 
@@ -24,10 +24,16 @@ def main() -> int:
     parser.add_argument("--count", type=int, help="cases of each target")
     parser.add_argument("--seed", type=int, default=0, help="another number gives other cases")
     parser.add_argument("--only", default="", help=f"targets, with commas: {','.join(NAMES)}")
-    parser.add_argument("--minutes", type=float, help="go on with other cases until then; 0: until Ctrl-C")
+    parser.add_argument(
+        "--minutes", type=float, help="go on with other cases until then; 0: until Ctrl-C"
+    )
     parser.add_argument("--keep", type=Path, default=Path("tests/failures/fuzz"))
-    parser.add_argument("--work", nargs=3, metavar=("TARGET", "FIRST", "END"), help=argparse.SUPPRESS)
-    parser.add_argument("--again", nargs=2, metavar=("TARGET", "FILE"), help="try one kept case in this process")
+    parser.add_argument(
+        "--work", nargs=3, metavar=("TARGET", "FIRST", "END"), help=argparse.SUPPRESS
+    )
+    parser.add_argument(
+        "--again", nargs=2, metavar=("TARGET", "FILE"), help="try one kept case in this process"
+    )
     options = parser.parse_args()
     if options.work:
         name, first, end = options.work
@@ -58,14 +64,15 @@ def main() -> int:
     return 1 if faults else 0
 
 
-def _one(
-    name: str, count: int, seed: int, keep: Path, until: float
-) -> tuple[list[str], int]:
+def _one(name: str, count: int, seed: int, keep: Path, until: float) -> tuple[list[str], int]:
     """Try a target and print what was found."""
     begun = time.monotonic()
     if begun > until:
         return [], 0
-    found, tried = run(target(name), count, seed * 10_000_000, keep, until=until)
+    old = len(kept(name)) if seed == 0 else 0
+    found, tried = run(target(name), old, -old, keep, until=until) if old else ([], 0)
+    more, others = run(target(name), count, seed * 10_000_000, keep, until=until)
+    found, tried = [*found, *more], tried + others
     took = time.monotonic() - begun
     print(f"{name:7} {tried:6} cases, seed {seed}, {len(found)} faults, {took:.0f} s", flush=True)
     for text in found[:10]:

@@ -18,19 +18,28 @@ def body(text: str, before: str = "") -> str:
 def calls(size: int) -> str:
     """A chain of functions, each of which calls the one before twice."""
     parts = ["float f0(float x) { return x + 1.0; }\n"]
-    parts += [f"float f{i}(float x) {{ return f{i - 1}(x) + f{i - 1}(x * 0.5); }}\n" for i in range(1, size)]
+    parts += [
+        f"float f{i}(float x) {{ return f{i - 1}(x) + f{i - 1}(x * 0.5); }}\n"
+        for i in range(1, size)
+    ]
     return body(f"return vec3(f{max(size, 1) - 1}(s.uv.x));", "".join(parts))
 
 
 def doubling(size: int) -> str:
     """Macros that double what the one before gives."""
-    lines = ["#define M0 s.uv.x\n", *(f"#define M{i} M{i - 1} + M{i - 1}\n" for i in range(1, size + 1))]
+    lines = [
+        "#define M0 s.uv.x\n",
+        *(f"#define M{i} M{i - 1} + M{i - 1}\n" for i in range(1, size + 1)),
+    ]
     return body(f"return vec3(M{size});", "".join(lines))
 
 
 def structs(size: int) -> str:
     """Structs that hold two of the one before."""
-    lines = ["struct S0 { float a; };\n", *(f"struct S{i} {{ S{i - 1} a; S{i - 1} b; }};\n" for i in range(1, size))]
+    lines = [
+        "struct S0 { float a; };\n",
+        *(f"struct S{i} {{ S{i - 1} a; S{i - 1} b; }};\n" for i in range(1, size)),
+    ]
     return body(f"S{max(size, 1) - 1} t; return vec3(s.uv, 0.0);", "".join(lines))
 
 
@@ -155,7 +164,7 @@ KILLERS: dict[str, tuple[Callable[[int], str], int]] = {
     "subroutines": (lambda n: "subroutine vec3 F(); subroutine uniform F f; subroutine(F) vec3 g() { return vec3(1.0); }\n" + body("return f();"), 1),
     "doubles": (lambda n: body("dvec3 a = dvec3(s.uv, 1.0) / dvec3(0.0LF); dmat4 m = inverse(dmat4(0.0LF)); return vec3(a) + vec3(m[0].xyz);"), 1),
     "an invariant": (lambda n: body("precise vec3 a = dFdx(fwidth(vec3(0.0/0.0))); return interpolateAtOffset(a, vec2(1e38));"), 1),
-    "overloads": (lambda n: "".join(f"float f({'float a, ' * i}int b) {{ return {i}.0; }}\n".replace("float a, ", "", 0) for i in range(min(n, 2))) + body("return vec3(f(1));"), 2),
+    "overloads": (lambda n: "".join(f"float f(float a[{i + 1}]) {{ return {i}.0; }}\n" for i in range(n)) + body("float a[1]; return vec3(f(a));"), 5000),
     "other letters": (lambda n: body("float \u00e4 = 1.0; return vec3(\u00e4);") + "// \U0001f600", 1),
     "nothing": (lambda n: "", 1),
     "built-in names": (lambda n: "float sin(float x) { return x; }\n#define texture 1.0\n#define vec3 float\n" + body("return vec3(1.0);"), 1),

@@ -43,6 +43,7 @@ def _target(name: str) -> Target:
         make=lambda number: f"case {number}".encode(),
         attempt=attempt,
         seconds=0.5,
+        wall=2.0 if name == "hang" else 60.0,
         memory=MEMORY,
     )
 

@@ -7,6 +7,7 @@ the cases of a target in order and says what it does line by line, so that a cas
 from __future__ import annotations
 
 import os
+import resource
 import select
 import subprocess
 import sys
@@ -22,6 +23,7 @@ import cubecam as cc
 
 #: Cases that once were a fault, in a folder for each target: they are tried first, and always.
 CORPUS = Path(__file__).parent / "corpus"
+LIMIT = 4 << 30  # bytes that a worker can have: a machine that swaps would hold up other work
 START = 120.0  # seconds in which a worker imports the package and tries the sound cases
 
 
@@ -38,7 +40,8 @@ class Target:
     attempt: Callable[[bytes, Path], None]
     sound: Callable[[], Iterable[bytes]] = tuple
     suffix: str = "txt"
-    seconds: float = 5.0  # of CPU, and four times as many on the wall
+    seconds: float = 5.0  # of CPU
+    wall: float = 60.0  # seconds: a busy machine gives little CPU
     memory: int = 300 << 20  # bytes that a worker may need beyond what the sound cases needed
 
 
@@ -65,6 +68,11 @@ def kept(name: str) -> list[Path]:
     return sorted(path for path in (CORPUS / name).glob("*") if path.is_file())
 
 
+def case_of(target: Target, number: int) -> bytes:
+    """The case of a number; negative numbers are those of the corpus, -1 its first."""
+    return kept(target.name)[-1 - number].read_bytes() if number < 0 else target.make(number)
+
+
 def peak() -> int:
     """Return the most memory that this process has had, in bytes.
 
@@ -76,6 +84,7 @@ def peak() -> int:
 
 def work(target: Target, first: int, end: int) -> None:
     """Try cases in a worker process, which says what it does line by line."""
+    resource.setrlimit(resource.RLIMIT_DATA, (LIMIT, LIMIT))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         os.chdir(folder)
@@ -84,7 +93,7 @@ def work(target: Target, first: int, end: int) -> None:
         calm = peak()
         for number in range(first, end):
             say("start", number)
-            for fault in faults_of(target, target.make(number), folder):
+            for fault in faults_of(target, case_of(target, number), folder):
                 say("fault", number, " ".join(fault.split()))
             if peak() - calm > target.memory:
                 say("fault", number, f"memory grew by {(peak() - calm) >> 20} MiB")
@@ -111,8 +120,8 @@ def run(
 ) -> tuple[list[str], int]:
     """Try `count` cases from number `first` on. Return the faults and the number of cases that were tried.
 
-    A worker that ends early is followed by another one. Cases of faults are kept in the folder `keep`. No worker starts
-    after `until` (time.monotonic).
+    A worker that ends early is followed by another one. Numbers below 0 are those of the corpus. Cases of faults are kept
+    in the folder `keep`. No worker starts after `until` (time.monotonic).
     """
     begin, end, found = first, first + count, []
     while first < end and time.monotonic() < until:
@@ -120,8 +129,10 @@ def run(
         for number, text in told:
             found.append(f"{target.name} {number}: {text}")
             keep.mkdir(parents=True, exist_ok=True)
-            (keep / f"{target.name}-{number}.{target.suffix}").write_bytes(target.make(number))
+            case = case_of(target, number)
+            (keep / f"{target.name}-{number}.{target.suffix}").write_bytes(case)
         if last < first:
+            found += [] if told else [f"{target.name}: no case was tried"]
             break  # the sound cases are a fault, and every other worker would end there
         first = last + 1
     return found, first - begin
@@ -135,13 +146,20 @@ def _one_worker(
     found: list[tuple[int, str]] = []
     number = first - 1
     with (
+        tempfile.TemporaryDirectory() as cache,  # what is known about broken shaders is of no use to anyone
         tempfile.TemporaryFile() as errors,
-        subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=errors, bufsize=0) as worker,
+        subprocess.Popen(
+            arguments,
+            stdout=subprocess.PIPE,
+            stderr=errors,
+            bufsize=0,
+            env={**os.environ, "XDG_CACHE_HOME": cache},
+        ) as worker,
     ):
         assert worker.stdout is not None
         while True:
             # Without a buffer (bufsize=0), select sees all that is left to read.
-            limit = 4 * target.seconds if number >= first else START
+            limit = target.wall if number >= first else START
             if not select.select([worker.stdout], [], [], limit)[0]:
                 worker.kill()
                 return [*found, (number, f"no answer within {limit:g} s")], number

@@ -571,8 +571,8 @@ def method_move_every_way(world, rng, draw):
     moves = [
         lambda: camera.yaw(float(rng.uniform(-20, 20))),
         lambda: camera.pitch(float(rng.uniform(-5, 5))),
-        lambda: camera.look(float(rng.uniform(-9, 9)), float(rng.uniform(-4, 4))),
-        lambda: camera.strafe(float(rng.uniform(-0.3, 0.3)), 0.1),
+        lambda: camera.look(rng.normal(size=3)),
+        lambda: camera.strafe(float(rng.uniform(-0.3, 0.3))),
         lambda: camera.look_at(rng.uniform(-0.5, 0.5, 3)),
         lambda: camera.fit(one(rng, world.scene, np.array([[-2, -1, -2], [2, 2, 2]]))),
     ]
@@ -701,11 +701,13 @@ def method_new_objects_in_old_places(world, rng, draw):
 
 
 def method_another_topology(world, rng, draw):
-    """A mesh gets other triangles and another number of vertices."""
-    mesh = one(rng, *world.meshes[1:])
+    """Nodes of one mesh get another one, with other triangles and another number of vertices."""
+    old = one(rng, *world.meshes[1:])
     ball = cc.Mesh.sphere(0.4, int(rng.integers(6, 14)), int(rng.integers(4, 8)))
-    mesh.morph_targets = ()
-    mesh.update(positions=ball.positions, indices=ball.indices, normals=ball.normals, uvs=ball.uvs)
+    for node in world.scene.nodes:
+        if node.mesh is old:
+            node.mesh = ball
+    world.meshes[world.meshes.index(old)] = ball
 
 
 def method_light_parents(world, rng, draw):

@@ -1,12 +1,11 @@
 // A stand-in for libEGL that passes every call on, except that a test can make the driver behave as
 // drivers behave that this machine does not have: GPUs that are reset, contexts that end, devices
 // that do not start. CUBECAM_EGL_LIBRARY names the compiled library; tests/gl/fakes.py drives it.
-#include <dlfcn.h>
-
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dlfcn.h>
 #include <vector>
 
 namespace {
@@ -26,8 +25,8 @@ constexpr unsigned pixel_pack_buffer_binding = 0x88ED;
 // What a test sets, by fake_set.
 int reset_answers = 0;       // so many queries report a reset
 int resets = 0;              // so many contexts report one reset each
-int reset_status = 0x8254;  // GL_INNOCENT_CONTEXT_RESET
-int current_fails = 0;      // so many eglMakeCurrent of a context fail
+int reset_status = 0x8254;   // GL_INNOCENT_CONTEXT_RESET
+int current_fails = 0;       // so many eglMakeCurrent of a context fail
 int current_error = 0x300E;  // EGL_CONTEXT_LOST
 int no_contexts = 0;         // eglCreateContext fails
 // What a test reads, by fake_get.
@@ -105,9 +104,8 @@ void get_program(unsigned program, unsigned name, int* value) {
     get(program, name, value);
     const char* units = variable("FAKE_UNITS");
     if (name != link_status || units == nullptr || *value == 0) return;
-    const auto uniform =
-        real_gl<void (*)(unsigned, unsigned, int, int*, int*, unsigned*, char*)>(
-            "glGetActiveUniform");
+    const auto uniform = real_gl<void (*)(unsigned, unsigned, int, int*, int*, unsigned*, char*)>(
+        "glGetActiveUniform");
     int count = 0;
     int samplers = 0;
     get(program, active_uniforms, &count);
@@ -136,8 +134,8 @@ void* map_buffer(unsigned buffer, std::intptr_t offset, std::intptr_t length, un
 }
 
 unsigned query_devices(std::int32_t most, void** devices, std::int32_t* count) {
-    const auto list = real_gl<unsigned (*)(std::int32_t, void**, std::int32_t*)>(
-        "eglQueryDevicesEXT");
+    const auto list =
+        real_gl<unsigned (*)(std::int32_t, void**, std::int32_t*)>("eglQueryDevicesEXT");
     if (variable("FAKE_GPU") == nullptr) return list(most, devices, count);
     if (devices == nullptr) {
         const unsigned done = list(0, nullptr, count);
@@ -175,17 +173,13 @@ int* fake_number(const char* name) {
         const char* name;
         int* place;
     };
-    static const Number numbers[] = {{"reset_answers", &reset_answers},
-                                     {"resets", &resets},
-                                     {"reset_status", &reset_status},
-                                     {"current_fails", &current_fails},
-                                     {"current_error", &current_error},
-                                     {"no_contexts", &no_contexts},
-                                     {"robust_contexts", &robust_contexts},
-                                     {"contexts_destroyed", &contexts_destroyed},
-                                     {"direct_reads", &direct_reads},
-                                     {"buffered_reads", &buffered_reads},
-                                     {"pack_buffers", &pack_buffers}};
+    static const Number numbers[] = {
+        {"reset_answers", &reset_answers},     {"resets", &resets},
+        {"reset_status", &reset_status},       {"current_fails", &current_fails},
+        {"current_error", &current_error},     {"no_contexts", &no_contexts},
+        {"robust_contexts", &robust_contexts}, {"contexts_destroyed", &contexts_destroyed},
+        {"direct_reads", &direct_reads},       {"buffered_reads", &buffered_reads},
+        {"pack_buffers", &pack_buffers}};
     for (const Number& number : numbers) {
         if (std::strcmp(number.name, name) == 0) return number.place;
     }

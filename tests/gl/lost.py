@@ -1,4 +1,4 @@
-"""Another library in the process that ends the EGL display, and the warnings that follow; used in scripts of their own."""
+"""Another library in the process that ends the EGL display, and the warnings that follow, for scripts of tests."""
 
 import contextlib
 import ctypes

@@ -1,4 +1,4 @@
-"""Drivers that this machine does not have, played by fake_egl.cpp: resets, GPUs that do not start, few texture units."""
+"""Drivers that this machine does not have, played by fake_egl.cpp: resets, GPUs that do not start, few units."""
 
 import pytest
 
@@ -19,7 +19,9 @@ same = lambda frame: np.array_equal(frame.color, first.color) and np.array_equal
 """
 
 
-@pytest.mark.parametrize("status", ["0x8253", "0x8254", "0x8255"], ids=["guilty", "innocent", "unknown"])
+@pytest.mark.parametrize(
+    "status", ["0x8253", "0x8254", "0x8255"], ids=["guilty", "innocent", "unknown"]
+)
 def test_a_reset_during_a_call_is_survived(fake, status):
     """The driver reports it at the end of the call; the old context is destroyed and the call is done again."""
     run_fake(
@@ -44,8 +46,6 @@ def test_a_second_reset_at_once_is_an_error_and_the_next_call_tries_again(fake):
         fake,
         RESET
         + """
-class Twice:
-    pass
 fake["reset_status"] = 0x8253
 fake["resets"] = 2  # each context reports one reset
 with warned(1, "the GPU was reset"):

@@ -14,7 +14,8 @@ from tests.gl.lost import EGL, EndsBeforeEachCall, end_displays, displays, warne
 def same(got, want):
     assert got.keys() == want.keys()
     for name in want:
-        assert np.array_equal(np.asarray(got[name]), np.asarray(want[name]), equal_nan=got[name].dtype.kind == "f"), name
+        nan = got[name].dtype.kind == "f"
+        assert np.array_equal(got[name], want[name], equal_nan=nan), name
 """
 
 ROOM = (
@@ -195,7 +196,7 @@ for step in range(12):
 
 
 def test_a_context_of_another_library_on_the_ended_display_is_left_alone():
-    """VTK ends the display, opens it again and draws: a lost renderer must not make VTK's context current and draw in it."""
+    """VTK ends the display, opens it again and draws: a lost renderer must not draw in VTK's context."""
     run_python(
         ROOM
         + """

@@ -1,1 +1,1 @@
-"""Long runs: random edits against a fresh renderer, threads, contexts. `make soak` runs them for as long as one likes."""
+"""Random edits against a fresh renderer, threads, contexts: `make soak` runs them for as long as one likes."""

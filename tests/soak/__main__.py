@@ -2,7 +2,7 @@
 
 The minutes are shared out among the parts: edits (random edits of random worlds, each picture compared with one of a
 renderer that has drawn nothing before), threads (eight threads that edit and draw, compared with each of them alone)
-and contexts (renderers that come and go). The exit status is 1 if there is a fault; its line says which seed repeats it.
+and contexts (renderers that come and go). The exit status is 1 if there is a fault; its line names the seed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ def main() -> int:
     for name in names:
         begun = time.monotonic()
         report = PARTS[name](begun + 60 * options.minutes / len(names), options.seed)
-        print(f"{name:8} {report}, seed {options.seed}, {time.monotonic() - begun:.0f} s", flush=True)
+        print(
+            f"{name:8} {report}, seed {options.seed}, {time.monotonic() - begun:.0f} s", flush=True
+        )
         for text in report.faults:
             print("   ", text, flush=True)
         faults += len(report.faults)

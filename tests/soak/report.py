@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -39,7 +38,7 @@ class Held:
         status = Path("/proc/self/status").read_text(encoding="ascii")
         memory = int(status.partition("VmRSS:")[2].split()[0]) * 1024
         threads = int(status.partition("Threads:")[2].split()[0])
-        return cls(memory, threads, len(os.listdir("/proc/self/fd")))
+        return cls(memory, threads, len(list(Path("/proc/self/fd").iterdir())))
 
     def growth(self, before: Held, memory: int) -> str | None:
         """Say what has grown since `before`; memory may grow by some bytes."""

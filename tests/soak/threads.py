@@ -1,8 +1,8 @@
 """Threads that edit and draw: each sees what it would see alone.
 
 Eight threads share one renderer, then four of them. Every thread has a scene of its own and edits that follow from a
-seed; some meshes, images and cubemaps belong to all. Other threads convert cubemaps, make and end renderers, and collect
-garbage meanwhile.
+seed; some meshes, images and cubemaps belong to all. Another thread converts cubemaps, makes and ends renderers, and
+collects garbage meanwhile.
 """
 
 from __future__ import annotations
@@ -100,7 +100,9 @@ def one_round(shared: Shared, seed: int, steps: int, renderers: int, report: Rep
                     continue
                 report.count("pictures", len(got))
                 if got != want[i]:
-                    step = next(n for n, (a, b) in enumerate(zip(got, want[i], strict=True)) if a != b)
+                    step = next(
+                        n for n, (a, b) in enumerate(zip(got, want[i], strict=True)) if a != b
+                    )
                     report.faults.append(
                         f"threads, seed {seed + i}, {renderers} renderers: picture {step} differs"
                     )

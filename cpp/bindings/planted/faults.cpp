@@ -1,5 +1,5 @@
-// Faults on purpose, in the modules of `make sanitize` alone: a sanitizer that does not report them finds nothing else
-// either. CUBECAM_PLANTED_FAULTS compiles this file.
+// Faults on purpose, in the modules of `make sanitize` alone: a sanitizer that does not report them
+// finds nothing else either. CUBECAM_PLANTED_FAULTS compiles this file.
 #include <pybind11/pybind11.h>
 
 #include <climits>
