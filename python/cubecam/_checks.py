@@ -46,6 +46,7 @@ def whole_number(value: Any, name: str, low: int | None = None, high: int | None
 
     Examples
     --------
+    >>> from cubecam._checks import whole_number
     >>> import numpy as np
     >>> whole_number(np.uint8(3), "size")
     3
@@ -75,6 +76,7 @@ def real_number(value: Any, name: str) -> float:
 
     Examples
     --------
+    >>> from cubecam._checks import real_number
     >>> from fractions import Fraction
     >>> real_number(Fraction(1, 4), "exposure")
     0.25
@@ -97,6 +99,7 @@ def truth(value: Any, name: str) -> bool:
 
     Examples
     --------
+    >>> from cubecam._checks import truth
     >>> truth("False", "srgb")
     Traceback (most recent call last):
     TypeError: srgb: expected a bool, got 'False'
@@ -111,6 +114,7 @@ def finite_number(value: Any, name: str) -> float:
 
     Examples
     --------
+    >>> from cubecam._checks import finite_number
     >>> finite_number(float("nan"), "speed")
     Traceback (most recent call last):
     ValueError: speed: expected a finite number, got nan
@@ -126,6 +130,7 @@ def one_of(value: Any, name: str, known: Iterable[str | None]) -> Any:
 
     Examples
     --------
+    >>> from cubecam._checks import one_of
     >>> one_of(b"srgb", "encode", ["srgb", None])
     Traceback (most recent call last):
     TypeError: encode: expected "srgb" or None, got b'srgb'
@@ -147,6 +152,7 @@ def check_room(size: float, what: str, name: str) -> None:
 
     Examples
     --------
+    >>> from cubecam._checks import check_room
     >>> check_room(1e30, "numbers of shape (9,)", "eta")  # doctest: +ELLIPSIS
     Traceback (most recent call last):
     ValueError: eta: expected what fits into ... MiB of memory (...), got numbers of shape (9,), which take ...
@@ -162,6 +168,7 @@ def pair(value: Any, name: str) -> tuple[int, int]:
 
     Examples
     --------
+    >>> from cubecam._checks import pair
     >>> pair([640, 480.0], "size")
     Traceback (most recent call last):
     TypeError: size: expected (width, height), got [640, 480.0]
