@@ -125,8 +125,10 @@ def finite_number(value: Any, name: str) -> float:
     return number
 
 
-def one_of(value: Any, name: str, known: Iterable[str | None]) -> Any:
+def one_of(value: Any, name: str, known: Iterable[str | None], also: str = "") -> Any:
     """Give one of some names, among which may be None; another one raises ValueError, what is no str TypeError.
+
+    `also` names in the message what else the caller takes.
 
     Examples
     --------
@@ -141,7 +143,8 @@ def one_of(value: Any, name: str, known: Iterable[str | None]) -> Any:
         return None
     if isinstance(value, str) and str(value) in allowed:
         return str(value)
-    words = ["None" if one is None else f'"{one}"' for one in allowed] or ["nothing"]
+    words = ["None" if one is None else f'"{one}"' for one in allowed]
+    words += [also] if also or not words else []
     text = " or ".join([", ".join(words[:-1]), words[-1]] if words[1:] else words)
     error = ValueError if isinstance(value, str) else TypeError
     raise error(f"{name}: expected {text}, got {text_of(value)}")
@@ -251,7 +254,7 @@ class _Kinds:
 
 def _pair(value: Any) -> tuple[int, int] | None:
     """Give two ints as a tuple; None if the value is anything else."""
-    if isinstance(value, (str, bytes, dict, set, frozenset)):
+    if isinstance(value, (str, bytes, bytearray, memoryview, dict, set, frozenset)):
         return None
     try:
         items = [value[0], value[1]] if len(value) == 2 else []

@@ -96,7 +96,8 @@ LIMITED = """
     renderer.capture(cc.Scene(), size=8)
 
     def leave(mebibytes):
-        pages = [int(word) for word in open("/proc/self/statm").read().split()]
+        with open("/proc/self/statm") as file:
+            pages = [int(word) for word in file.read().split()]
         used = {used} * resource.getpagesize()
         resource.setrlimit(resource.{name}, (used + (mebibytes << 20), resource.RLIM_INFINITY))
         left, limit = _core._memory_left()
