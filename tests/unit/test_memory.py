@@ -122,7 +122,7 @@ def test_the_limits_of_the_process(name, used):
         + """
     leave(180)
     refused(ValueError, lambda: renderer.capture(cc.Scene(), size=1024))
-    refused(ValueError, lambda: renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4096, 1024)))
+    refused(ValueError, lambda: renderer.render(cc.Scene(), cc.PerspectiveCamera(), (8192, 4096)))
     cube = cc.CubeMap(np.zeros((6, 4, 4, 1), np.float32))
     refused(ValueError, lambda: cube.resize(4096))
     refused(ValueError, lambda: cube.to_equirect(width=16384))

@@ -79,7 +79,7 @@ def test_setting_the_time_moves_the_scene_and_is_clamped(view, scene):
         view.time = np.nan
     with pytest.raises(ValueError, match=r'animation: expected "turn" or "lift", got .jump'):
         view.animation = "jump"
-    with pytest.raises(TypeError, match="playing: expected True or False"):
+    with pytest.raises(TypeError, match="playing: expected a bool"):
         view.playing = 1
 
 
