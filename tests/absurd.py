@@ -202,11 +202,10 @@ def is_real(value: object) -> bool:
 
 
 def is_pair(value: object) -> bool:
-    hidden = isinstance(value, np.ma.MaskedArray)
-    pairs = (
-        isinstance(value, (tuple, list, np.ndarray)) and len(np.shape(value)) == 1 and not hidden
-    )
-    return pairs and len(value) == 2 and all(map(is_whole, value))
+    if isinstance(value, np.ndarray):
+        hidden = isinstance(value, np.ma.MaskedArray)
+        return value.shape == (2,) and value.dtype.kind in "iu" and not hidden
+    return isinstance(value, (tuple, list)) and len(value) == 2 and all(map(is_whole, value))
 
 
 class Kinds:
@@ -216,7 +215,6 @@ class Kinds:
         self.names: set[str] = set()
         self.words: set[str] = set()
         self.plain = True
-        self.arrays = False
         for part in union(annotation):
             self._add(part.removeprefix("typing.").removeprefix("cubecam.typing."))
 

@@ -199,7 +199,8 @@ std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
         throw TypeError("size: expected (width, height) in pixels, got " + text_of(value));
     };
     if (!py::isinstance<py::sequence>(value) || PyUnicode_Check(value.ptr()) != 0 ||
-        PyBytes_Check(value.ptr()) != 0 || PyByteArray_Check(value.ptr()) != 0) {
+        PyBytes_Check(value.ptr()) != 0 || PyByteArray_Check(value.ptr()) != 0 ||
+        PyMemoryView_Check(value.ptr()) != 0) {
         return refuse();
     }
     const Py_ssize_t length = PySequence_Size(value.ptr());

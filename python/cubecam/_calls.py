@@ -46,7 +46,7 @@ def checked_call(function: Callable[P, R]) -> Callable[P, R]:
         if checks is None:
             checks = ArgumentChecks(function)
         if checks:
-            given, named = checks.checked(f"{call.__name__}()", args, kwargs)
+            given, named = checks.checked(f"{_shown_name(call)}()", args, kwargs)
             args, kwargs = given, named  # type: ignore[assignment]
         try:
             return function(*args, **kwargs)
@@ -60,6 +60,12 @@ def checked_call(function: Callable[P, R]) -> Callable[P, R]:
         raise TypeError(answer)
 
     return call
+
+
+def _shown_name(function: Callable[..., Any]) -> str:
+    """Give a function's name as it is called: a class for its `__init__`."""
+    name = function.__name__
+    return function.__qualname__.split(".")[0] if name == "__init__" else name
 
 
 def _explain(

@@ -20,6 +20,7 @@ from . import typing as names_of_types
 
 __all__ = [
     "ArgumentChecks",
+    "check_room",
     "finite_number",
     "one_of",
     "pair",
@@ -45,6 +46,7 @@ def whole_number(value: Any, name: str, low: int | None = None, high: int | None
 
     Examples
     --------
+    >>> from cubecam._checks import whole_number
     >>> import numpy as np
     >>> whole_number(np.uint8(3), "size")
     3
@@ -74,6 +76,7 @@ def real_number(value: Any, name: str) -> float:
 
     Examples
     --------
+    >>> from cubecam._checks import real_number
     >>> from fractions import Fraction
     >>> real_number(Fraction(1, 4), "exposure")
     0.25
@@ -96,6 +99,7 @@ def truth(value: Any, name: str) -> bool:
 
     Examples
     --------
+    >>> from cubecam._checks import truth
     >>> truth("False", "srgb")
     Traceback (most recent call last):
     TypeError: srgb: expected a bool, got 'False'
@@ -110,6 +114,7 @@ def finite_number(value: Any, name: str) -> float:
 
     Examples
     --------
+    >>> from cubecam._checks import finite_number
     >>> finite_number(float("nan"), "speed")
     Traceback (most recent call last):
     ValueError: speed: expected a finite number, got nan
@@ -120,11 +125,14 @@ def finite_number(value: Any, name: str) -> float:
     return number
 
 
-def one_of(value: Any, name: str, known: Iterable[str | None]) -> Any:
+def one_of(value: Any, name: str, known: Iterable[str | None], also: str = "") -> Any:
     """Give one of some names, among which may be None; another one raises ValueError, what is no str TypeError.
+
+    `also` names in the message what else the caller takes.
 
     Examples
     --------
+    >>> from cubecam._checks import one_of
     >>> one_of(b"srgb", "encode", ["srgb", None])
     Traceback (most recent call last):
     TypeError: encode: expected "srgb" or None, got b'srgb'
@@ -135,10 +143,27 @@ def one_of(value: Any, name: str, known: Iterable[str | None]) -> Any:
         return None
     if isinstance(value, str) and str(value) in allowed:
         return str(value)
-    words = ["None" if one is None else f'"{one}"' for one in allowed] or ["nothing"]
+    words = ["None" if one is None else f'"{one}"' for one in allowed]
+    words += [also] if also or not words else []
     text = " or ".join([", ".join(words[:-1]), words[-1]] if words[1:] else words)
     error = ValueError if isinstance(value, str) else TypeError
     raise error(f"{name}: expected {text}, got {text_of(value)}")
+
+
+def check_room(size: float, what: str, name: str) -> None:
+    """Raise ValueError unless the memory holds `size` bytes more, which `what` takes.
+
+    Examples
+    --------
+    >>> from cubecam._checks import check_room
+    >>> check_room(1e30, "numbers of shape (9,)", "eta")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ValueError: eta: expected what fits into ... MiB of memory (...), got numbers of shape (9,), which take ...
+    """
+    try:
+        _core._check_memory(size, what)
+    except ValueError as error:
+        raise ValueError(f"{name}:{str(error).partition(':')[2]}") from None
 
 
 def pair(value: Any, name: str) -> tuple[int, int]:
@@ -146,6 +171,7 @@ def pair(value: Any, name: str) -> tuple[int, int]:
 
     Examples
     --------
+    >>> from cubecam._checks import pair
     >>> pair([640, 480.0], "size")
     Traceback (most recent call last):
     TypeError: size: expected (width, height), got [640, 480.0]
@@ -228,7 +254,7 @@ class _Kinds:
 
 def _pair(value: Any) -> tuple[int, int] | None:
     """Give two ints as a tuple; None if the value is anything else."""
-    if isinstance(value, (str, bytes, dict, set, frozenset)):
+    if isinstance(value, (str, bytes, bytearray, memoryview, dict, set, frozenset)):
         return None
     try:
         items = [value[0], value[1]] if len(value) == 2 else []

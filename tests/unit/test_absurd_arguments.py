@@ -66,6 +66,11 @@ def lit_scene():
     return {"scene": scene, "light": light}
 
 
+@functools.cache
+def demo_scene():
+    return demo.build_scene(environment=cube(), probe_size=2)
+
+
 #: An object of a class whose methods and properties are used.
 OBJECTS: dict[str, Any] = {
     "Node": node,
@@ -80,7 +85,7 @@ OBJECTS: dict[str, Any] = {
     "ImageEffect": lambda: cc.ImageEffect(EFFECT),
     "AnimationChannel": channel,
     "Scene": animated_scene,
-    "DemoScene": lambda: demo.build_scene(environment=cube(), probe_size=2),
+    "DemoScene": lambda: demo_scene(),
 }
 
 #: The arguments without which a call has no meaning, and those that keep it small or quiet.
@@ -214,10 +219,12 @@ NEEDED: dict[str, Any] = {
     },
 }
 
-#: Calls that take long get no values of the right kind: those are tested where the callable is.
+#: Calls that take long get no values of the right kind, which are tested where the callable is, and of an argument
+#: whose annotation names other types only every fourth value.
 SLOW = (
     "demo.run", "demo.build_scene", "Scene.show", "CubeMap.show", "explore.reflection", "Renderer", "Viewer",
     "CubeView", "ReflectionView", "load_environment", "plot.", "CubeMap.save_for", "Frame.save",
+    "save_animation", "CubeMap.save",
 )  # fmt: skip
 
 
@@ -294,13 +301,10 @@ def files(tmp_path):
     cc.Scene().save(tmp_path / "scene.glb")
 
 
-def failure(place, name, value, renderer):
+def failure(place, value, renderer):
     """Say what is wrong with the answer to one value; None if it is right."""
     kinds = absurd.Kinds(place.annotation)
-    plain = kinds.plain and not kinds.arrays
-    right = kinds.allows(value)
-    if right and place.callable.startswith(SLOW):
-        return None
+    plain, right = kinds.plain, kinds.allows(value)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -316,6 +320,9 @@ def failure(place, name, value, renderer):
             if "expected" not in message or "got" not in message:
                 return f"a message without 'expected' and 'got': {type(error).__name__}: {message}"
     except BaseException as error:
+        # What an iterable or a path raises by itself goes on, as everywhere in Python.
+        if not plain and "from the object itself" in str(error):
+            return None
         return f"{type(error).__name__}: {str(error)[:300]}"
     else:
         if plain and not right:
@@ -327,8 +334,15 @@ def failure(place, name, value, renderer):
 def test_absurd_values(name, renderer, files):
     wrong = []
     for place in BY_CALLABLE[name]:
-        for word, value in absurd.values().items():
-            found = failure(place, word, value, renderer)
+        plain = absurd.Kinds(place.annotation).plain
+        for at, (word, value) in enumerate(absurd.values().items()):
+            if name.startswith(SLOW) and (
+                at % 4 if not plain else absurd.Kinds(place.annotation).allows(value)
+            ):
+                continue
+            if str(place) == "demo.run.out" and isinstance(value, str):
+                continue  # a folder of any name is right
+            found = failure(place, value, renderer)
             if found is not None:
                 wrong.append(f"{place} = {word}: {found}")
     with contextlib.suppress(Exception):

@@ -71,7 +71,7 @@ PYTHON_KNOWS = {
     "_late": set(),
     "_warnings": set(),
     "navigation": {"_core", "_checks", "_calls"},
-    "optics": {"_core", "_calls"},
+    "optics": {"_core", "_checks", "_calls"},
     "_shader_inputs": {"_core"},
     "_pickling": {"_core"},
 }

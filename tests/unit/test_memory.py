@@ -1,4 +1,4 @@
-"""How much memory there is: the machine's, the control groups', the limits of the process; and who asks before taking it.
+"""How much memory there is by the machine, control groups and limits of the process, and who asks before taking it.
 
 The files of /proc and /sys/fs/cgroup are made by the tests, after proc(5), cgroups(7) and the documentation of
 both versions of control groups.
@@ -96,7 +96,8 @@ LIMITED = """
     renderer.capture(cc.Scene(), size=8)
 
     def leave(mebibytes):
-        pages = [int(word) for word in open("/proc/self/statm").read().split()]
+        with open("/proc/self/statm") as file:
+            pages = [int(word) for word in file.read().split()]
         used = {used} * resource.getpagesize()
         resource.setrlimit(resource.{name}, (used + (mebibytes << 20), resource.RLIM_INFINITY))
         left, limit = _core._memory_left()
@@ -113,9 +114,7 @@ LIMITED = """
 """
 
 
-@pytest.mark.parametrize(
-    ("name", "used"), [("RLIMIT_AS", "pages[0]"), ("RLIMIT_DATA", "pages[5]")]
-)
+@pytest.mark.parametrize(("name", "used"), [("RLIMIT_AS", "pages[0]"), ("RLIMIT_DATA", "pages[5]")])
 def test_the_limits_of_the_process(name, used):
     """Targets of 1024 * 1024 texels, 6 faces, 20 bytes take 120 MiB, what is read 96 MiB more."""
     run_python(
@@ -123,7 +122,7 @@ def test_the_limits_of_the_process(name, used):
         + """
     leave(180)
     refused(ValueError, lambda: renderer.capture(cc.Scene(), size=1024))
-    refused(ValueError, lambda: renderer.render(cc.Scene(), cc.PerspectiveCamera(), (4096, 1024)))
+    refused(ValueError, lambda: renderer.render(cc.Scene(), cc.PerspectiveCamera(), (8192, 4096)))
     cube = cc.CubeMap(np.zeros((6, 4, 4, 1), np.float32))
     refused(ValueError, lambda: cube.resize(4096))
     refused(ValueError, lambda: cube.to_equirect(width=16384))

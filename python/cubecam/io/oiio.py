@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._checks import text_of
 from .._core import ImageError
 from .outside import calls_outside, interruptible
 from .picture_kinds import FREE_PIXELS, most_bytes
@@ -205,7 +206,7 @@ def _find_part(file: Any, kind: Kind, part: int | str | None) -> tuple[int, str 
     )
     layers = sorted({layer for item in parts for layer in item.layers if layer})
     more = f" or a layer: {', '.join(layers)}" if layers else ""
-    raise ValueError(f"part: expected one of {told}{more}; got {part!r}")
+    raise ValueError(f"part: expected one of {told}{more}; got {text_of(part)}")
 
 
 @dataclass(frozen=True)

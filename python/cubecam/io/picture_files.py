@@ -117,7 +117,7 @@ def _checked(part: object) -> Part | None:
 def _only(part: Part | None) -> None:
     if part not in (None, 0):
         raise ValueError(
-            f"part: expected 0 or None, since the file holds one picture; got {part!r}"
+            f"part: expected 0 or None, since the file holds one picture; got {text_of(part)}"
         )
 
 
@@ -197,4 +197,4 @@ def _index(part: Part | None, count: int, names: tuple[str, ...]) -> int:
     if part in names:
         return names.index(str(part))
     listed = f" or one of {', '.join(names)}" if names else ""
-    raise ValueError(f"part: expected 0 to {count - 1}{listed}, got {part!r}")
+    raise ValueError(f"part: expected 0 to {count - 1}{listed}, got {text_of(part)}")

@@ -251,7 +251,10 @@ class CubeView(LiveView):
         ValueError
             For anything but three finite numbers that are not all 0.
         """
-        r = _to_array(direction, "direction").astype(float)
+        given = _to_array(direction, "direction")
+        if given.dtype.kind not in "iuf":
+            raise TypeError(f"direction: expected three finite numbers, got {text_of(direction)}")
+        r = given.astype(float)
         if r.shape != (3,) or not np.isfinite(r).all() or not r.any():
             raise ValueError(
                 f"direction: expected three finite numbers, not all 0, got {text_of(direction)}"

@@ -157,6 +157,7 @@ class LiveView:
         *types : str
             The types of events, for example "pointer_down"; none for all.
         """
+        _check_callable(function)
         self._handlers.append((function, frozenset(types)))
         return function
 
@@ -166,6 +167,7 @@ class LiveView:
 
     def add_listener(self, function: Callable[[str, Any], object]) -> None:
         """Call function(name, value) when "text", "panel" or "closed" changes; for canvases and panels."""
+        _check_callable(function)
         self._listeners.append(function)
 
     def remove_listener(self, function: Callable[[str, Any], object]) -> None:
@@ -178,6 +180,8 @@ class LiveView:
 
         If the function fails, the error is logged, the view's text shows it, and the animation ends.
         """
+        if function is not None:
+            _check_callable(function)
         self._began = time.monotonic()
         self._animation = function
         self.changed()
@@ -417,6 +421,11 @@ class LiveView:
                 self._detach(shown.canvas)
                 if shown.only_one and not self._canvases:
                     self.close()
+
+
+def _check_callable(function: object) -> None:
+    if not callable(function):
+        raise TypeError(f"function: expected a function, got {text_of(function)}")
 
 
 def _checked_size(value: object) -> tuple[int, int]:

@@ -328,7 +328,9 @@ class Viewer(LiveView):
 
     @output.setter
     def output(self, value: Output | Probe) -> None:
-        self._output = value if isinstance(value, Probe) else one_of(value, "output", OUTPUTS)
+        self._output = (
+            value if isinstance(value, Probe) else one_of(value, "output", OUTPUTS, "a Probe")
+        )
         self._set_something()
 
     @property
