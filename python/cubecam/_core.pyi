@@ -8301,6 +8301,11 @@ def _check_pickle(format: object) -> None:
     For unpickling: raises TypeError for a format that is not this version's.
     """
 
+def _interrupt_pause(milliseconds: typing.SupportsInt | typing.SupportsIndex) -> int:
+    """
+    For tests: the time between two looks for signals in a long call; returns the one before.
+    """
+
 def _is_real_number(value: object) -> bool:
     """
     Whether a value is a number that a float can hold, and no bool.
