@@ -148,7 +148,7 @@ lamp = s.add(cc.PointLight(position=(1, 2, 1), shadow=cc.Shadow(size=32)))
 inner = cc.Scene(background=(1, 0, 0))
 screen = cc.RenderTexture(inner, cc.PerspectiveCamera(), size=(16, 16))
 s.add(cc.Mesh.box(), cc.BasicMaterial(map=screen), position=(2, 0, 0))
-s.add(cc.Mesh.box(.5), cc.BasicMaterial(opacity=.5, stencil=cc.Stencil(func="always", reference=1)), position=(-2, 0, 0))
+s.add(cc.Mesh.box(.5), cc.BasicMaterial(opacity=.5, stencil=cc.Stencil(reference=1)), position=(-2, 0, 0))
 
 def edit():
     number = int(random.integers(6))
