@@ -156,10 +156,12 @@ def environment_of(name: str, run: Run, module: Path) -> dict[str, str]:
     return made
 
 
-def sanitize(name: str, arguments: list[str]) -> int:
+def sanitize(name: str, arguments: list[str], built: bool = False) -> int:
     """Compile, find the planted faults, run the tests. Return 0 if nothing was found."""
     run = RUNS[name]
-    module = build(name, run)
+    module = build_version.module_of(ROOT / "build" / name) if built else build(name, run)
+    if module is None:
+        raise SystemExit(f"expected a module in build/{name}: run it once without --built")
     environment = environment_of(name, run, module)
     folder = module.parent.parent.parent / "reports"
     # Some kernels place memory where ThreadSanitizer does not expect it.
@@ -178,17 +180,18 @@ def sanitize(name: str, arguments: list[str]) -> int:
     for script, want in run.planted.items():
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        subprocess.run(
-            [*prefix, sys.executable, "-c", script], env=environment, capture_output=True
+        done = subprocess.run(
+            [*prefix, sys.executable, "-c", script], env=environment, capture_output=True, text=True
         )
-        if not any(want in text and "planted" in text for text in reports(folder)):
+        # UndefinedBehaviorSanitizer writes to stderr, whatever log_path says.
+        if not any(want in text and "planted" in text for text in [*reports(folder), done.stderr]):
             raise SystemExit(
-                f"expected a report of the planted fault '{want}', got {reports(folder)}"
+                f"expected a report of the planted fault '{want}', got {reports(folder)}\n{done.stderr}"
             )
         print(f"[sanitize] {name}: the planted fault '{want}' is reported", flush=True)
     shutil.rmtree(folder)
     folder.mkdir()
-    pytest = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
+    pytest = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--capture=sys"]
     chosen = arguments or [
         *run.tests,
         *(["-m", "not slow and not build"] if name == "address" else []),
@@ -205,9 +208,10 @@ def main() -> int:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("run", nargs="?", choices=[*RUNS, "all"], default="all")
+    parser.add_argument("--built", action="store_true", help="take the module of the last run")
     options, arguments = parser.parse_known_args()
     names = list(RUNS) if options.run == "all" else [options.run]
-    return max([sanitize(name, arguments) for name in names])
+    return max([sanitize(name, arguments, options.built) for name in names])
 
 
 if __name__ == "__main__":

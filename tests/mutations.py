@@ -38,6 +38,10 @@ INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
+ENDS = ("tests/gl/test_daemon_threads.py",)
+INTERRUPTS = ("tests/gl/test_interrupts.py",)
+FORKS = ("tests/gl/test_fork.py",)
+STATES = ("tests/unit/test_states.py",)
 CUBE_MAPS = ("tests/viewer/test_cube_maps.py",)
 CUBE_VIEW = ("tests/viewer/test_cube_view.py",)
 EXPLORE = ("tests/viewer/test_explore.py",)
@@ -481,14 +485,14 @@ MUTATIONS = [
         "gl/context.cpp",
         "if (impl.has_mark()) return;",
         "return;",
-        LOST,
+        FAKE_DRIVERS,
     ),
     Mutation(
         "lost context: its handle is destroyed, whose ever it is now",
         "gl/context.cpp",
         "if (!impl_->reset) impl_->raw.abandon();",
         "",
-        LOST,
+        FAKE_DRIVERS,
     ),
     Mutation(
         "lost context: manual probes stay empty",
@@ -1103,6 +1107,41 @@ MUTATIONS = [
         "values[i] == clear ? 1.0F : 1.0F - values[i]",
         "1.0F - values[i]",
         DEPTH_ORDER,
+    ),
+    Mutation(
+        "users' GLSL: a loop without an end makes the rest dead code",
+        "surface.frag",
+        "if (u_node_id >= 0) shaded = with_alpha(shade(surface));",
+        "shaded = with_alpha(shade(surface));",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: arrays without values",
+        "user_zeros.cpp",
+        'if (!following.empty()) insert(tokens[end].end, " " + following);',
+        "",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: what vertices hand on has no value",
+        "surface.vert",
+        "cubecam_zeros();",
+        "",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: lines of a byte order mark and CR",
+        "glsl_text.cpp",
+        "} else if (i + 1 == text.size() || text[i + 1] != '\\n') {",
+        "} else if (i + 1 == text.size()) {",
+        ("tests/gl/test_shader_errors.py",),
+    ),
+    Mutation(
+        "users' GLSL: buffers of macros are let through",
+        "user_text.cpp",
+        "[](const std::string&) { return false; }",
+        "[](const std::string&) { return true; }",
+        ("tests/gl/test_shader_errors.py",),
     ),
     Mutation(
         "users' outputs: left as the node before wrote them",
@@ -2449,5 +2488,47 @@ MUTATIONS = [
         "check_target_memory(context, description, result_bytes);",
         "check_target_memory(context, description);",
         MEMORY,
+    ),
+    Mutation(
+        "ends: threads unwind when the interpreter ends",
+        "unlocked.cpp",
+        "if ((actions & _UA_FORCE_UNWIND) != 0 && cubecam::bindings::interpreter_ends()) {",
+        "if (false) {",
+        ENDS,
+    ),
+    Mutation(
+        "interrupts: a signal's exception is left for later",
+        "unlocked.cpp",
+        "if (PyErr_CheckSignals() != 0) throw py::error_already_set();",
+        "if (PyErr_CheckSignals() != 0) PyErr_Clear();",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: state of a draw that was left stays",
+        "renderer.cpp",
+        "if (std::uncaught_exceptions() == exceptions) return;",
+        "return;",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: a handler draws with the renderer that it interrupts",
+        "renderer.cpp",
+        "bool Renderer::draws_here() const { return drawing_.load() == std::this_thread::get_id(); }",
+        "bool Renderer::draws_here() const { return false; }",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "forks: the child runs the exit handlers of its parent",
+        "egl.cpp",
+        "on_exit(&end_child, nullptr);",
+        "",
+        FORKS,
+    ),
+    Mutation(
+        "states: a lookup that fails shows itself",
+        "arguments.cpp",
+        "const bool wrong = PyErr_ExceptionMatches(PyExc_LookupError) != 0 ||",
+        "const bool wrong =",
+        STATES,
     ),
 ]

@@ -128,7 +128,11 @@ def _restore(thing: Any, rng: np.random.Generator, world: World) -> Any:
     state = rest[0] if rest else None
     if state is None or (rng.random() < 0.5 and arguments):
         first = arguments[:1] if arguments and isinstance(arguments[0], type) else ()
-        arguments = (*first, *_changed(arguments[len(first) :], rng, names))
+        rest_of_them = _changed(arguments[len(first) :], rng, names)
+        arguments = (
+            *first,
+            *(rest_of_them if isinstance(rest_of_them, tuple) else (rest_of_them,)),
+        )
     else:
         state = _changed(state, rng, names)
     made = function(*arguments)

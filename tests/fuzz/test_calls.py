@@ -1,14 +1,17 @@
 """A part of `make fuzz`: calls, pickles and shaders with fixed numbers, and all that was once a fault."""
 
 import ast
+import io
 import re
 
+import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.fuzz import api, glsl, hostile, pickles, runner
 from tests.fuzz.killers import KILLERS
 from tests.fuzz.targets import NAMES, target
+from tests.fuzz.world import World
 
 #: Cases of a target that the test suite tries.
 SOME = {"api": 120, "pickles": 60, "glsl": 60}
@@ -49,7 +52,7 @@ def test_programs_call_all_that_the_stubs_list():
 
 
 def test_hostile_values_are_python():
-    names = {"cc": cc, "hostile": hostile, "np": pytest.importorskip("numpy")}
+    names = {"cc": cc, "hostile": hostile, "np": np}
     for text in hostile.VALUES:
         compile(text, text, "eval")
     assert len(hostile.deep(9)) == 1
@@ -59,21 +62,21 @@ def test_hostile_values_are_python():
 
 
 def test_pickles_of_all_classes_are_broken():
-    made = {type(getattr(pickles.World(), name)).__name__ for name in pickles.THINGS}
+    made = {type(getattr(World(), name)).__name__ for name in pickles.THINGS}
     want = {name for name in api.OBJECTS if "__setstate__" in vars(getattr(cc, name, object))}
     assert want - {"Light", "Material"} <= made
 
 
 def test_an_unpickler_finds_no_other_names():
     with pytest.raises(Exception, match="not among the names"):
-        pickles.Unpickler(__import__("io").BytesIO(b"cos\nsystem\n.")).load()
+        pickles.Unpickler(io.BytesIO(b"cos\nsystem\n.")).load()
 
 
 def test_shaders_of_the_grammar_draw(renderer):
     """Most of them compile: otherwise they would try the parser alone."""
     drawn = 0
     for number in range(12):
-        rng = glsl.np.random.default_rng(number)
+        rng = np.random.default_rng(number)
         kind, _, source = glsl._made(rng).partition("\n")
         try:
             drawn += glsl.picture(renderer, kind[3:], source).shape == (5, 6, 4)

@@ -107,6 +107,40 @@ assert not renderer.closed
     )
 
 
+def test_a_handle_that_means_another_context_is_noticed(fake):
+    """A lost renderer neither draws in the context that has its handle now nor destroys it."""
+    run_fake(
+        fake,
+        """
+draw = lambda renderer: renderer.render(scene, camera, (32, 24)).color
+for close_first in (False, True):
+    lost, heir = cc.Renderer(device="software"), cc.Renderer(device="software")
+    first = draw(lost)
+    assert np.array_equal(first, draw(heir))
+    fake["one_handle"] = 1
+    destroyed = fake["contexts_destroyed"]
+    if not close_first:
+        with warned(1, "now has the handle of ours"):
+            assert np.array_equal(draw(lost), first)
+        assert fake["contexts_destroyed"] == destroyed
+    with warned(0):
+        if close_first:
+            lost.close()
+            assert fake["contexts_destroyed"] == destroyed
+        floor.position = (0, -1.1, 0)
+        moved = draw(heir)
+        if not close_first:
+            assert np.array_equal(draw(lost), moved)
+            lost.close()
+            assert fake["contexts_destroyed"] == destroyed + 1
+        floor.position = (0, -1, 0)
+        assert np.array_equal(draw(heir), first) and not np.array_equal(first, moved)
+        heir.close()
+    fake["one_handle"] = 0
+""",
+    )
+
+
 def test_a_call_that_is_done_again_counts_once(fake):
     """Probes with every_n_frames keep their rhythm through a reset."""
     run_fake(

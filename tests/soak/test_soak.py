@@ -6,6 +6,7 @@ import time
 import numpy as np
 import pytest
 
+from tests.gl import edits as random_edits
 from tests.soak import contexts, edits, threads
 from tests.soak.report import Held, Report
 
@@ -38,8 +39,8 @@ def test_a_stale_picture_is_a_fault(monkeypatch, renderer):
 
     monkeypatch.setattr(edits, "full_world", lambda rng: World())
     monkeypatch.setattr(edits, "pictures", fresh)
-    monkeypatch.setattr(edits.edits, "VALUES", {})
-    monkeypatch.setattr(edits.edits, "METHODS", {"step": step})
+    monkeypatch.setattr(random_edits, "VALUES", {})
+    monkeypatch.setattr(random_edits, "METHODS", {"step": step})
     report = Report()
     edits.one_world(renderer, renderer, 5, 12, report, draw=stale)
     assert len(report.faults) == 1

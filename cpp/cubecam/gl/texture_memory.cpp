@@ -1,5 +1,7 @@
 #include "cubecam/gl/texture_memory.hpp"
 
+#include <glad/gl.h>
+
 #include "cubecam/core/memory.hpp"
 
 #include <stdexcept>
