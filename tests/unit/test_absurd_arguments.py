@@ -367,3 +367,8 @@ def test_the_calls_are_right_without_absurd_values(name, renderer, files):
     """Otherwise an error would say nothing about the value."""
     if name in BY_CALLABLE:
         function_of(name, renderer)(**NEEDED[name]())
+
+
+def test_no_public_argument_goes_by_pybind11s_own_check_of_ints():
+    """Such an argument shows SupportsInt in the stubs, and takes 2.7 of numpy for 2."""
+    assert [str(place) for place in PLACES if "SupportsInt " in place.annotation + " "] == []

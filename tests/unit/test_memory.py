@@ -4,6 +4,7 @@ The files of /proc and /sys/fs/cgroup are made by the tests, after proc(5), cgro
 both versions of control groups.
 """
 
+import numpy as np
 import pytest
 
 import cubecam as cc
@@ -181,3 +182,23 @@ def test_pictures_of_a_viewer_are_counted():
         view.draw((1 << 20, 1 << 20))
     with pytest.raises(ValueError, match=r"^size: expected a width and a height from 1 to 1048576"):
         view.size = (10**400, 1)
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda huge: cc.brdf(huge, 0.5),
+        lambda huge: cc.reflect(huge, huge),
+        lambda huge: cc.CubeMap(huge),
+        lambda huge: cc.Image(huge),
+        lambda huge: setattr(cc.StandardMaterial(), "normal_map", huge),
+        lambda huge: cc.Mesh(huge, [[0, 1, 2]]),
+    ],
+)
+def test_arrays_that_are_larger_than_their_memory(use):
+    """An array of strides 0 has a million times a million numbers in 4 bytes."""
+    huge = np.broadcast_to(np.float32(0), (6, 1 << 20, 1 << 20, 3))
+    with pytest.raises(ValueError, match=r"MiB of memory|shape"):
+        use(huge)
+    with pytest.raises(ValueError, match="MiB of memory"):
+        cc.CubeMap(huge)

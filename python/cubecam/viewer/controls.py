@@ -258,7 +258,7 @@ def make_controls(name: str | Controls) -> Controls:
     """Make the controls of a name; an object stays as it is."""
     if isinstance(name, Controls):
         return name
-    return CONTROLS[one_of(name, "controls", CONTROLS)]()  # type: ignore[no-any-return]
+    return CONTROLS[one_of(name, "controls", CONTROLS)]()
 
 
 # ----- the camera

@@ -308,7 +308,7 @@ class Viewer(LiveView):
     def tonemap(self, value: Tonemap | None) -> None:
         from ..io.screen import CURVES
 
-        self._tonemap = one_of(value, "tonemap", (*CURVES, None))
+        self._tonemap: Tonemap | None = one_of(value, "tonemap", (*CURVES, None))
         self._set_something()
 
     @property
@@ -318,7 +318,7 @@ class Viewer(LiveView):
 
     @encode.setter
     def encode(self, value: Encode | None) -> None:
-        self._encode = one_of(value, "encode", ("srgb", None))
+        self._encode: Encode | None = one_of(value, "encode", ("srgb", None))
         self._set_something()
 
     @property
