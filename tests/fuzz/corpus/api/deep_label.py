@@ -1,0 +1,3 @@
+w.standard.map = NotImplemented
+w.group.label = hostile.deep()
+r2 = None.vendor
