@@ -10,6 +10,7 @@ WORKERS ?= auto
 PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
 FUZZ_ARGS ?=
+GPU_ARGS ?=
 SOAK_ARGS ?=
 SANITIZE_ARGS ?=
 
@@ -19,7 +20,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop dev lint format stubs bench docs gallery sdist wheel sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery sdist wheel sanitize fuzz soak mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -46,6 +47,9 @@ test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV
 	@$(PYTHON) scripts/system.py --browser
 	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
 
+test-lowest: $(VENV)/.deps $(VENV)/.deps-lowest ## build and test with the lowest versions that pyproject.toml declares; needs Python 3.10 or 3.11
+	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile $(PYTEST_ARGS)
+
 dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
 	@if git rev-parse --git-dir >/dev/null 2>&1; then $(PY) -m pre_commit install; fi
 
@@ -66,6 +70,9 @@ stubs: $(VENV)/.installed $(VENV)/.deps-dev ## write python/cubecam/_core.pyi ag
 
 bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL and py360convert, print ratios
 	@$(PY) -m benchmarks $(BENCH_ARGS)
+
+gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check
+	@$(PY) scripts/gpu_check.py $(GPU_ARGS)
 
 docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
 	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam

@@ -26,4 +26,23 @@ function(cubecam_compile_options target)
     if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
         target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:${warnings}>")
     endif()
+    cubecam_harden(${target})
+endfunction()
+
+# cubecam_harden(TARGET)
+#
+# What distributions do against the abuse of a mistake in our C and C++: guards on the stack, checked sizes of copies, and
+# addresses that are resolved at once and then read-only. Builds of other types, those with sanitizers too, do without:
+# sanitizers check more, and replace the same functions.
+function(cubecam_harden target)
+    if(NOT UNIX OR APPLE OR NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+        return()
+    endif()
+    set(hardened "$<CONFIG:Release,RelWithDebInfo,MinSizeRel>")
+    target_compile_options(${target} PRIVATE
+        "$<${hardened}:-fstack-protector-strong;-fstack-clash-protection;-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>")
+    if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+        target_compile_options(${target} PRIVATE "$<${hardened}:-fcf-protection>")
+    endif()
+    target_link_options(${target} PRIVATE "$<${hardened}:LINKER:-z,relro;LINKER:-z,now;LINKER:-z,noexecstack>")
 endfunction()

@@ -38,6 +38,7 @@ function(cubecam_add_glad target)
         set_target_properties(cubecam_glad PROPERTIES
             C_VISIBILITY_PRESET hidden
             POSITION_INDEPENDENT_CODE ON)
+        cubecam_harden(cubecam_glad)
     endif()
     target_link_libraries(${target} PUBLIC cubecam_glad)
 endfunction()

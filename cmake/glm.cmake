@@ -6,6 +6,7 @@ find_package(glm CONFIG QUIET)
 
 if(NOT TARGET glm::glm)
     set(glm_tag 1.0.1)
+    set(cubecam_glm_tag ${glm_tag})
     set(glm_sha256 9f3174561fd26904b23f0db5e560971cbf9b3cbda0b280f04d5c379d03bf234c)
     set(glm_url "https://github.com/g-truc/glm/archive/refs/tags/${glm_tag}.tar.gz")
     set(glm_archive "${CMAKE_BINARY_DIR}/glm-${glm_tag}.tar.gz")

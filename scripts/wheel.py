@@ -1,12 +1,14 @@
 """Build a wheel into dist/ and check it as its user would install it.
 
 The extension may link the C and C++ run times and nothing else: libGL, libEGL and libX11 are opened
-at run time, so that the wheel installs on a machine without them. Then the wheel goes into an empty
-environment and renders the demo.
+at run time, so that the wheel installs on a machine without them. The wheel must have the licences
+and the list (software bill of materials) of what is compiled into it, and what compilers and linkers
+do against the abuse of mistakes. Then the wheel goes into an empty environment and renders the demo.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
@@ -19,7 +21,19 @@ ROOT = Path(__file__).resolve().parent.parent
 DIST = ROOT / "dist"
 LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
 LARGEST = 5_000_000  # bytes
-EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md")
+HELPER = "cubecam/_shader_trial"  # the program that tries users' GLSL
+EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md", HELPER)
+#: A source with which Mesa's compiler crashes: only the helper may notice.
+TRIAL = """
+import cubecam as cc
+scene = cc.Scene()
+scene.add(cc.Mesh.sphere(1), cc.ShaderMaterial("vec3 shade(Surface s) { return vec3((-2147483647 - 1) / -1); }"))
+try:
+    cc.Renderer(device="software").capture(scene, size=4)
+except cc.ShaderError as error:
+    print(error)
+"""
+COMPONENTS = ("glad", "glm", "pybind11")  # compiled into the extension
 
 
 def run(*command: str | Path) -> None:
@@ -51,6 +65,40 @@ def needed_libraries(library: Path) -> list[str]:
     return re.findall(r"\(NEEDED\).*\[(.+)\]", shown)
 
 
+def check_notices(archive: zipfile.ZipFile) -> None:
+    """Check that the wheel names what is compiled into it, with versions and licences."""
+    names = archive.namelist()
+    for component in COMPONENTS:
+        if not any(
+            name.endswith(f".dist-info/licenses/licenses/{component}.txt") for name in names
+        ):
+            raise SystemExit(f"expected the licence of {component} in the wheel, got none")
+    (path,) = [name for name in names if name.endswith(".dist-info/sboms/cubecam.cdx.json")]
+    sbom = json.loads(archive.read(path))
+    listed = {part["name"].rstrip("2"): part["version"] for part in sbom["components"]}
+    print("compiled in:", ", ".join(f"{name} {version}" for name, version in listed.items()))
+    wrong = [name for name in COMPONENTS if not re.match(r"\d+\.\d+", listed.get(name, ""))]
+    if wrong or sbom["bomFormat"] != "CycloneDX":
+        raise SystemExit(f"{path}: expected versions of {', '.join(COMPONENTS)}, got {listed}")
+
+
+def missing_hardening(binary: Path) -> list[str]:
+    """Name what a shared object or program lacks of the options of cmake/compile_options.cmake."""
+    options = ["--dynamic", "--program-headers", "--dyn-syms", "--wide"]
+    shown = subprocess.run(
+        ["readelf", *options, str(binary)], check=True, stdout=subprocess.PIPE, text=True
+    ).stdout
+    stack = re.search(r"GNU_STACK\s.*", shown)
+    wanted = {
+        "BIND_NOW": re.search(r"\(FLAGS\).*BIND_NOW|\(BIND_NOW\)|\(FLAGS_1\).*NOW", shown),
+        "RELRO": "GNU_RELRO" in shown,
+        "a stack that is not executable": stack is not None and "E" not in stack[0][20:],
+        "guards on the stack": "__stack_chk_fail" in shown,
+        "checked copies": re.search(r"__\w+_chk\b(?<!stack_chk)", shown),
+    }
+    return [name for name, found in wanted.items() if not found]
+
+
 def check_contents(wheel: Path, folder: Path) -> None:
     if wheel.stat().st_size >= LARGEST:
         raise SystemExit(
@@ -64,11 +112,21 @@ def check_contents(wheel: Path, folder: Path) -> None:
         extensions = [name for name in names if name.endswith(".so")]
         if len(extensions) != 1:
             raise SystemExit(f"{wheel.name}: expected one extension module, got {extensions}")
-        needed = needed_libraries(Path(archive.extract(extensions[0], folder)))
-    print(f"{extensions[0]} links {', '.join(needed)}")
+        check_notices(archive)
+        if (archive.getinfo(HELPER).external_attr >> 16) & 0o111 == 0:
+            raise SystemExit(f"{wheel.name}: expected {HELPER} to be executable")
+        for name in (extensions[0], HELPER):
+            check_libraries(name, Path(archive.extract(name, folder)))
+
+
+def check_libraries(name: str, library: Path) -> None:
+    needed = needed_libraries(library)
+    if missing := missing_hardening(library):
+        raise SystemExit(f"{name}: expected {', '.join(missing)}")
+    print(f"{name} links {', '.join(needed)}")
     foreign = [name for name in needed if not LINKED.fullmatch(name)]
     if foreign:
-        raise SystemExit(f"expected only C and C++ run times, got {', '.join(foreign)}")
+        raise SystemExit(f"{name}: expected only C and C++ run times, got {', '.join(foreign)}")
 
 
 def try_it(wheel: Path, folder: Path) -> None:
@@ -78,6 +136,8 @@ def try_it(wheel: Path, folder: Path) -> None:
     # This is not the folder of the checkout, so that only the files of the wheel can be used.
     os.chdir(folder)
     subprocess.run([str(python), "-m", "cubecam", "demo", "--out", str(folder / "out")], check=True)
+    # A warning says that the helper cannot be started.
+    subprocess.run([str(python), "-W", "error", "-c", TRIAL], check=True)
 
 
 def main() -> int:

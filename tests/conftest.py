@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 
-from tests.helpers import DEVICE
+from tests.helpers import DEVICE, device, need_layers, on_llvmpipe, only_on_llvmpipe
 
 #: Only `make test-browser` installs what these tests need.
 collect_ignore = [] if importlib.util.find_spec("playwright") else ["browser"]
@@ -30,19 +30,6 @@ def pytest_addoption(parser):
     )
 
 
-def describe_device():
-    """Return (the name of the device, whether it is llvmpipe)."""
-    import cubecam
-
-    try:
-        with cubecam.Renderer(device=DEVICE) as renderer:
-            info = renderer.info
-            text = f"{info.renderer} ({info.vendor}), GL {info.version}, layered {info.layered}"
-            return text, info.software and "llvmpipe" in info.renderer
-    except cubecam.ContextError as error:
-        return f"none: {error}", False
-
-
 def pytest_sessionstart(session):
     module = os.environ.get("CUBECAM_EXPECT_MODULE")
     if module:  # scripts/sanitize.py
@@ -51,8 +38,8 @@ def pytest_sessionstart(session):
         if _core.__file__ != module:
             pytest.exit(f"CUBECAM_EXPECT_MODULE={module}, got {_core.__file__}", returncode=1)
     if os.environ.get("CUBECAM_EXPECT_SOFTWARE") == "1":
-        text, software = describe_device()
-        if not software:
+        text, llvmpipe = device()
+        if not llvmpipe:
             pytest.exit(f"CUBECAM_EXPECT_SOFTWARE=1, expected llvmpipe, got {text}", returncode=1)
 
 
@@ -64,8 +51,16 @@ def pytest_report_header(config):
     place = Path(cubecam.__file__).parent
     return [
         f"cubecam {cubecam.__version__} at {place}, numpy {np.__version__}",
-        f"device: {describe_device()[0]}",
+        f"device: {device()[0]}",
     ]
+
+
+@pytest.fixture(autouse=True)
+def skip_what_holds_on_llvmpipe_alone(request):
+    marker = request.node.get_closest_marker("llvmpipe")
+    if marker is not None and not on_llvmpipe():
+        (reason,) = marker.args
+        only_on_llvmpipe(reason)
 
 
 @pytest.fixture
@@ -122,12 +117,17 @@ def fresh_renderer():
 
 @pytest.fixture
 def new_renderer():
-    """A function that makes renderers with options; all of them are closed at the end."""
+    """A function that makes renderers with options; all of them are closed at the end.
+
+    With layered=True it skips the test on a device without layers.
+    """
     import cubecam
 
     made = []
 
     def make(**options):
+        if options.get("layered"):
+            need_layers()
         made.append(cubecam.Renderer(**{"device": DEVICE, **options}))
         return made[-1]
 

@@ -1,6 +1,7 @@
 """Small things that many tests share."""
 
 import copy
+import functools
 import os
 import pickle
 import subprocess
@@ -26,6 +27,55 @@ copies = pytest.mark.parametrize(
     [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy],
     ids=["pickle", "deepcopy"],
 )
+
+
+@functools.cache
+def device():
+    """(The name of the device on which tests draw, whether it is llvmpipe); (the error, False) where there is none."""
+    import cubecam
+
+    try:
+        with cubecam.Renderer(device=DEVICE) as renderer:
+            info = renderer.info
+            text = f"{info.renderer} ({info.vendor}), GL {info.version}, layered {info.layered}"
+            return text, info.software and info.renderer.startswith("llvmpipe")
+    except cubecam.ContextError as error:
+        return f"none: {error}", False
+
+
+@functools.cache
+def draws_layers():
+    """Whether the device draws all faces of a cubemap in one pass."""
+    import cubecam
+
+    with cubecam.Renderer(device=DEVICE) as renderer:
+        return renderer.info.layered
+
+
+def need_layers():
+    """Skip the running test, which compares the layered path with another one, where there is none."""
+    if not draws_layers():
+        pytest.skip(f"{device()[0]} lacks GL_ARB_shader_viewport_layer_array")
+
+
+def need_terminals():
+    """Skip the running test, which shows something in a pseudo-terminal, on a system without them (a bare chroot)."""
+    try:
+        ends = os.openpty()
+    except OSError as error:
+        pytest.skip(f"no pseudo-terminal can be opened, /dev/pts may not be mounted: {error}")
+    for end in ends:
+        os.close(end)
+
+
+def on_llvmpipe():
+    """Whether the tests draw with llvmpipe by itself, for which this suite promises bytes."""
+    return device()[1]
+
+
+def only_on_llvmpipe(reason):
+    """Skip the running test, whose assertion holds on llvmpipe alone."""
+    pytest.skip(f"holds on llvmpipe alone ({reason}); this is {device()[0]}")
 
 
 def run_python(code, timeout=120, check=True, **environment):

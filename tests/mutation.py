@@ -66,7 +66,8 @@ class Copy:
         if done.returncode != 0:
             return (done.stdout + done.stderr)[-2000:]
         (module,) = self.build.rglob("_core.*.so")
-        shutil.copy2(module, self.tree / "python" / "cubecam")
+        for built in (module, module.parent / "_shader_trial"):
+            shutil.copy2(built, self.tree / "python" / "cubecam")
         return None
 
     def has_module(self):

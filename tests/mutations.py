@@ -26,7 +26,7 @@ CAPTURE = ("tests/gl/test_capture.py",)
 FRAMES = ("tests/gl/test_frames.py",)
 LOOKUPS = ("tests/gl/test_lookups.py",)
 PHONG = ("tests/gl/test_phong.py",)
-SKYBOX = ("tests/gl/test_skybox.py",)
+SKY_RAYS = ("tests/gl/test_sky_rays.py",)
 ALPHA = ("tests/gl/test_alpha.py",)
 SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
@@ -38,6 +38,10 @@ INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
+ENDS = ("tests/gl/test_daemon_threads.py",)
+INTERRUPTS = ("tests/gl/test_interrupts.py",)
+FORKS = ("tests/gl/test_fork.py",)
+STATES = ("tests/unit/test_states.py",)
 CUBE_MAPS = ("tests/viewer/test_cube_maps.py",)
 CUBE_VIEW = ("tests/viewer/test_cube_view.py",)
 EXPLORE = ("tests/viewer/test_explore.py",)
@@ -58,6 +62,8 @@ LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
+LOST = ("tests/gl/test_lost_contexts.py",)
+FAKE_DRIVERS = ("tests/gl/test_fake_drivers.py",)
 BENT = ("tests/gl/test_deformation.py",)
 SKINS = ("tests/unit/test_skins.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
@@ -79,6 +85,8 @@ OBJ_SCENE = ("tests/unit/test_obj_scene.py",)
 STL = ("tests/unit/test_stl.py",)
 OFF = ("tests/unit/test_off.py",)
 PLY = ("tests/unit/test_ply.py",)
+ABSURD = ("tests/unit/test_absurd_arguments.py",)
+MEMORY = ("tests/unit/test_memory.py",)
 
 CUBE_FACE = "cube_face.hpp"
 DRAWN = "drawn_picture.cpp"
@@ -160,11 +168,68 @@ MUTATIONS = [
         ORIENTATION,
     ),
     Mutation(
-        "skybox: moves with the camera",
-        "view.cpp",
-        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
-        "turned[3] *= 1.0;",
-        SKYBOX,
+        "skybox: behind a camera that sees negative depth",
+        "sky_rays.cpp",
+        "(towards < 0.0 ? -1.0 : 1.0)",
+        "1.0",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: a float loses the axis of a wide view",
+        "sky_rays.cpp",
+        "const glm::dvec2 axis = shortest(rays) + half;",
+        "const glm::dvec2 axis(0.0);",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: the other side of a parallel view",
+        "sky_rays.cpp",
+        "glm::dot(glm::dvec3(rows[2]), rays[0]) * rows[3].w",
+        "glm::dot(glm::dvec3(rows[2]), rays[0]) * -rows[3].w",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: half a pixel off",
+        "skybox.frag",
+        "floor(gl_FragCoord.xy) + 0.5 - v_centre",
+        "floor(gl_FragCoord.xy) - v_centre",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "skybox: the view's own matrix is not undone",
+        "sky_rays.cpp",
+        "glm::inverse(glm::dmat3(view.view))",
+        "glm::transpose(glm::dmat3(view.view))",
+        SKY_RAYS,
+    ),
+    Mutation(
+        "shadow: what writes no depth casts none, but has bounds",
+        "shadow_picture.cpp",
+        "make_plan(scene_, views, state_.map.size, state_.map.size, casts_shadow)",
+        "make_plan(scene_, views, state_.map.size, state_.map.size,\n"
+        "        [](const NodeSnapshot& n) { return casts_shadow(n) && n.depth_write; })",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: bounds of what casts nothing",
+        "shadow_view.cpp",
+        "if (!casts_shadow(node)) continue;",
+        "if (!node.cast_shadow) continue;",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: the key of a map asks another question",
+        "shadow_picture.cpp",
+        "if (casts_shadow(node)) add_caster(key, node, lookup);",
+        "if (casts_shadow(node) && node.depth_write) add_caster(key, node, lookup);",
+        SHADOW_MAPS,
+    ),
+    Mutation(
+        "shadow: translucent surfaces cast, too",
+        "snapshot_queries.cpp",
+        "return node.cast_shadow && !node.translucent;",
+        "return node.cast_shadow;",
+        SHADOW_MAPS,
     ),
     Mutation(
         "mirror: the normal's sign",
@@ -414,6 +479,48 @@ MUTATIONS = [
         "known = !context_.probe(number_, probe).drawn() ||",
         "known = !context_.probe(number_, probe).drawn() &&",
         PROBES + INCREMENTAL,
+    ),
+    Mutation(
+        "lost context: another context with its handle is taken for it",
+        "gl/context.cpp",
+        "if (impl.has_mark()) return;",
+        "return;",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "lost context: its handle is destroyed, whose ever it is now",
+        "gl/context.cpp",
+        "if (!impl_->reset) impl_->raw.abandon();",
+        "",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "lost context: manual probes stay empty",
+        "probe_picture.cpp",
+        "if (forced_ || state_.last.lost) return true;",
+        "if (forced_) return true;",
+        LOST,
+    ),
+    Mutation(
+        "lost context: a call that is done again counts twice",
+        "probe_picture.cpp",
+        "if (state_.counted != context_.gpu.call) ++state_.calls;",
+        "++state_.calls;",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "reset: what was drawn during it is returned",
+        "render/renderer.cpp",
+        "auto result = work(state); gpu_->context.check_reset();",
+        "auto result = work(state);",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "reading: parts of the buffer are looked for where they are not",
+        "readback.cpp",
+        "offset = aligned(offset + given_bytes(parts_[i]));",
+        "offset = offset + given_bytes(parts_[i]);",
+        FAKE_DRIVERS,
     ),
     Mutation(
         "probe: filtered although it must not be",
@@ -1000,6 +1107,41 @@ MUTATIONS = [
         "values[i] == clear ? 1.0F : 1.0F - values[i]",
         "1.0F - values[i]",
         DEPTH_ORDER,
+    ),
+    Mutation(
+        "users' GLSL: a loop without an end makes the rest dead code",
+        "surface.frag",
+        "if (u_node_id >= 0) shaded = with_alpha(shade(surface));",
+        "shaded = with_alpha(shade(surface));",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: arrays without values",
+        "user_zeros.cpp",
+        'if (!following.empty()) insert(tokens[end].end, " " + following);',
+        "",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: what vertices hand on has no value",
+        "surface.vert",
+        "cubecam_zeros();",
+        "",
+        ("tests/gl/test_no_memory_shows.py",),
+    ),
+    Mutation(
+        "users' GLSL: lines of a byte order mark and CR",
+        "glsl_text.cpp",
+        "} else if (i + 1 == text.size() || text[i + 1] != '\\n') {",
+        "} else if (i + 1 == text.size()) {",
+        ("tests/gl/test_shader_errors.py",),
+    ),
+    Mutation(
+        "users' GLSL: buffers of macros are let through",
+        "user_text.cpp",
+        "[](const std::string&) { return false; }",
+        "[](const std::string&) { return true; }",
+        ("tests/gl/test_shader_errors.py",),
     ),
     Mutation(
         "users' outputs: left as the node before wrote them",
@@ -2311,5 +2453,82 @@ MUTATIONS = [
         "if (a.node->backs_first()) return false;",
         "",
         ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "arguments: a bool is an int",
+        "numbers.cpp",
+        "if (given == nullptr || PyBool_Check(given) != 0 || PyIndex_Check(given) == 0) {",
+        "if (given == nullptr || PyIndex_Check(given) == 0) {",
+        ABSURD,
+    ),
+    Mutation(
+        "arguments: a hidden value counts",
+        "numbers.cpp",
+        "return !hides_values(value);",
+        "return true;",
+        ABSURD,
+    ),
+    Mutation(
+        "arguments: True is a number",
+        "numbers.cpp",
+        "if (given == nullptr || PyBool_Check(given) != 0) return std::nullopt;\n    if (PyFloat",
+        "if (given == nullptr) return std::nullopt;\n    if (PyFloat",
+        ABSURD,
+    ),
+    Mutation(
+        "memory: the groups above are forgotten",
+        "core/memory.cpp",
+        "path = path.parent_path();",
+        "return;",
+        MEMORY,
+    ),
+    Mutation(
+        "memory: what is read back is forgotten",
+        "target_store.hpp",
+        "check_target_memory(context, description, result_bytes);",
+        "check_target_memory(context, description);",
+        MEMORY,
+    ),
+    Mutation(
+        "ends: threads unwind when the interpreter ends",
+        "unlocked.cpp",
+        "if ((actions & _UA_FORCE_UNWIND) != 0 && cubecam::bindings::interpreter_ends()) {",
+        "if (false) {",
+        ENDS,
+    ),
+    Mutation(
+        "interrupts: a signal's exception is left for later",
+        "unlocked.cpp",
+        "if (PyErr_CheckSignals() != 0) throw py::error_already_set();",
+        "if (PyErr_CheckSignals() != 0) PyErr_Clear();",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: state of a draw that was left stays",
+        "renderer.cpp",
+        "if (std::uncaught_exceptions() == exceptions) return;",
+        "return;",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: a handler draws with the renderer that it interrupts",
+        "renderer.cpp",
+        "bool Renderer::draws_here() const { return drawing_.load() == std::this_thread::get_id(); }",
+        "bool Renderer::draws_here() const { return false; }",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "forks: the child runs the exit handlers of its parent",
+        "egl.cpp",
+        "on_exit(&end_child, nullptr);",
+        "",
+        FORKS,
+    ),
+    Mutation(
+        "states: a lookup that fails shows itself",
+        "arguments.cpp",
+        "const bool wrong = PyErr_ExceptionMatches(PyExc_LookupError) != 0 ||",
+        "const bool wrong =",
+        STATES,
     ),
 ]

@@ -2,6 +2,11 @@
 
 A value passes when |got - expected| <= absolute + relative * |expected|, and the mean of the differences of all
 compared values stays below `mean`. Silhouettes are masked, never given a wider tolerance.
+
+Each entry says where it holds. Most hold on any driver. Those with `elsewhere` hold as they stand on llvmpipe alone,
+which filters with float32 weights. On another driver this share of the range of the expected values is added, and
+`mean` is not checked: GPUs weigh texels in steps of 1/256 (Direct3D and Vulkan require no finer ones). With
+`elsewhere=None` the test is skipped on another driver. docs/gpu.md describes what holds on which driver.
 """
 
 from dataclasses import dataclass
@@ -13,6 +18,13 @@ class Tolerance:
     reason: str
     relative: float = 0.0
     mean: float = float("inf")
+    elsewhere: float | None = 0.0
+    outliers: float = 0.0  # this share of the values may be off by more,
+    outlier: float = 0.0  # up to this
+
+
+#: Weights rounded to 1/256 are off by up to 1/512 in each of three directions: across, down, between levels.
+WEIGHTS = 3 / 512
 
 
 TOLERANCES = {
@@ -33,6 +45,11 @@ TOLERANCES = {
         1e-5,
         "float32 bilinear weights: s * N of a 64-texel face keeps 17 bits below the point",
         relative=1e-5,
+        elsewhere=WEIGHTS,
+    ),
+    "sky": Tolerance(
+        1e-5,
+        "directions of float32 from float64 rays, and a smooth cube of 16 texels: its slope is below 4 for a radian",
     ),
     "filtered_lookup": Tolerance(
         1e-5,
@@ -40,12 +57,14 @@ TOLERANCES = {
         "times the contrast of neighbours",
         relative=3e-4,
         mean=2e-4,
+        elsewhere=WEIGHTS,
     ),
     "turned_lookup": Tolerance(
         1e-3,
         "a matrix of float32 turns by 1e-7, which a cube of noise from 1/20 to 20 makes 1e-4 of its greatest values",
         relative=1e-3,
         mean=5e-4,
+        elsewhere=WEIGHTS,
     ),
     "resample": Tolerance(
         1e-4,
@@ -77,7 +96,7 @@ TOLERANCES = {
         relative=0.03,
         mean=2e-3,
     ),
-    "srgb_filter": Tolerance(2e-3, "llvmpipe decodes sRGB by a polynomial"),
+    "srgb_filter": Tolerance(2e-3, "llvmpipe decodes sRGB by a polynomial", elsewhere=WEIGHTS),
     "unorm5": Tolerance(
         1.0 / 31 + 0.5 / 255,
         "llvmpipe cuts 8 bits to 5 for what it shades: the level below, not the nearest",
@@ -124,5 +143,15 @@ TOLERANCES = {
     "edge": Tolerance(
         0.06, "slope of the scene over one texel: two texel centres lie apart across an edge"
     ),
-    "reference_image": Tolerance(1.0, "one count: Mesa versions round differently", mean=0.02),
+    "reference_image": Tolerance(
+        1.0, "one count: processors round differently", mean=0.02, elsewhere=None
+    ),
+    "reference_image_of_another_mesa": Tolerance(
+        1.0,
+        "pictures are promised for one version of a driver: Mesa 26 draws 9 of 16,384 values of P09 up to 3 off",
+        mean=0.02,
+        elsewhere=None,
+        outliers=1e-3,
+        outlier=4.0,
+    ),
 }

@@ -1,5 +1,9 @@
 #include "arguments.hpp"
 
+#include "numbers.hpp"
+
+#include <exception>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 
@@ -21,7 +25,7 @@ std::unordered_map<PyObject*, std::string>& function_names() {
     return names;
 }
 
-/// Replaces the text of the TypeError that is set by a shorter one, if the error is pybind11's.
+/// Replaces the TypeError that is set by one of a shorter text, if the error is pybind11's.
 void shorten_error(PyObject* function, PyObject* const* args, Py_ssize_t count, PyObject* names) {
     const py::error_already_set error;  // takes the error away from Python
     const std::string message = py::str(error.value());
@@ -40,20 +44,71 @@ void shorten_error(PyObject* function, PyObject* const* args, Py_ssize_t count, 
             named[py::handle(PyTuple_GET_ITEM(names, i))] = py::handle(args[positional + i]);
         }
         const py::object explain = py::module_::import("cubecam._arguments").attr("explain");
-        const py::object text = explain(function_names()[function], message, given, named);
-        PyErr_SetObject(PyExc_TypeError, text.ptr());
+        const py::object better = explain(function_names()[function], message, given, named);
+        PyErr_SetObject(py::type::handle_of(better).ptr(), better.ptr());
         return;
     }
     py::error_already_set(error).restore();
 }
 
+/// Whether a function makes an object from a pickle: what it gets may be anything.
+bool reads_state(const std::string& name) {
+    return name.ends_with(".__setstate__") || name == "_restore_frame";
+}
+
+/// A state that lacks a part, or has another in its place, is a wrong value: pickle's caller must
+/// not have to know by which lookup that was found.
+void explain_state(const std::string& name) {
+    const bool wrong = PyErr_ExceptionMatches(PyExc_LookupError) != 0 ||
+                       PyErr_ExceptionMatches(PyExc_AttributeError) != 0 ||
+                       PyErr_ExceptionMatches(PyExc_SystemError) != 0 ||
+                       PyErr_ExceptionMatches(PyExc_RecursionError) != 0 ||
+                       PyErr_ExceptionMatches(PyExc_UnicodeError) != 0 ||
+                       PyErr_ExceptionMatches(PyExc_OverflowError) != 0;
+    if (!wrong) return;
+    py::error_already_set error;
+    const std::string kind = name == "_restore_frame" ? "Frame" : name.substr(0, name.find('.'));
+    const std::string text = kind + ": expected the state of a pickled " + kind +
+                             ", got a broken one (" + text_of(error.value()) + ")";
+    py::raise_from(error, PyExc_ValueError, text.c_str());
+}
+
+/// pybind11's dispatcher, whose own texts of errors may fail, for example for a keyword that is no
+/// valid Unicode. A C++ exception that left it would end the process.
+PyObject* call_pybind(PyObject* function, PyObject* const* args, Py_ssize_t count,
+                      PyObject* names) {
+    try {
+        return pybind_dispatcher(function, args, count, names);
+    } catch (py::error_already_set& error) {
+        py::raise_from(error, PyExc_TypeError,
+                       (function_names()[function] +
+                        ": expected arguments as documented, got names or values that cannot be "
+                        "shown")
+                           .c_str());
+    } catch (const std::exception& error) {
+        PyErr_SetString(PyExc_TypeError, error.what());
+    }
+    return nullptr;
+}
+
 PyObject* dispatch(PyObject* function, PyObject* const* args, Py_ssize_t count, PyObject* names) {
-    PyObject* const result = pybind_dispatcher(function, args, count, names);
+    PyObject* const result = call_pybind(function, args, count, names);
+    if (result == nullptr && reads_state(function_names()[function])) {
+        try {
+            explain_state(function_names()[function]);
+        } catch (py::error_already_set& error) {
+            error.restore();
+        } catch (const std::exception& error) {
+            PyErr_SetString(PyExc_ValueError, error.what());
+        }
+    }
     if (result == nullptr && PyErr_ExceptionMatches(PyExc_TypeError) != 0) {
         try {
             shorten_error(function, args, count, names);
         } catch (py::error_already_set& error) {
             error.restore();
+        } catch (const std::exception& error) {  // no C++ exception may pass through Python
+            PyErr_SetString(PyExc_TypeError, error.what());
         }
     }
     return result;

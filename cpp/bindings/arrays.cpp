@@ -1,6 +1,10 @@
 #include "arrays.hpp"
 
+#include "numbers.hpp"
+
+#include "cubecam/core/memory.hpp"
 #include "cubecam/core/parallel.hpp"
+#include "cubecam/core/parse_name.hpp"
 
 #include <array>
 #include <cmath>
@@ -53,17 +57,6 @@ bool shape_matches(const py::array& array, std::string_view pattern) {
         if (length != expected) return false;
     }
     return true;
-}
-
-/// Whether an array is of a type that can hide values, and hides some. Such a type has a mask and
-/// the method filled(): numpy.ma.MaskedArray and its subclasses, and the masked arrays of astropy.
-/// The attributes are enough to know them, so numpy.ma is not imported.
-bool hides_values(py::handle value) {
-    // Plain arrays, which most callers pass, have no mask.
-    if (Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
-    if (!py::isinstance<py::array>(value)) return false;
-    if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return false;
-    return py::bool_(py::module_::import("numpy").attr("any")(value.attr("mask")));
 }
 
 /// Raises TypeError for an array that hides values; lists and tuples are searched as deep as numpy
@@ -142,8 +135,23 @@ void check_values(const py::array_t<T, py::array::c_style>& array, const char* n
                           " at " + index_text(array, *bad));
 }
 
+/// Raises ValueError for an array whose copy the memory cannot hold.
+void check_copy(const py::array& array, std::size_t item, const char* name) {
+    const double bytes = static_cast<double>(array.size()) * static_cast<double>(item);
+    try {
+        check_memory(bytes, "numbers of shape " + shape_text(array));
+    } catch (const std::invalid_argument& error) {
+        // The message begins with "size:", which is no argument here.
+        const std::string_view text = error.what();
+        throw py::value_error(name + std::string(text.substr(text.find(':'))));
+    }
+}
+
 template <typename T>
-ContiguousArray<T> contiguous(const py::array& array) {
+ContiguousArray<T> contiguous(const py::array& array, const char* name) {
+    // An array of strides 0 is larger than its memory.
+    const bool same = py::isinstance<ContiguousArray<T>>(array);
+    if (!same) check_copy(array, sizeof(T), name);
     auto result = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(array);
     if (!result) throw std::bad_alloc();
     return py::reinterpret_steal<ContiguousArray<T>>(result.release());
@@ -152,7 +160,7 @@ ContiguousArray<T> contiguous(const py::array& array) {
 /// Converts float64 to float32. A number that float32 cannot hold raises ValueError; numpy would
 /// only warn.
 ContiguousArray<float> narrow(const py::array& array, const char* name) {
-    const ContiguousArray<double> from = contiguous<double>(array);
+    const ContiguousArray<double> from = contiguous<double>(array, name);
     ContiguousArray<float> to(std::vector<py::ssize_t>(from.shape(), from.shape() + from.ndim()));
     const double* source = from.data();
     float* target = to.mutable_data();
@@ -170,7 +178,7 @@ ContiguousArray<float> narrow(const py::array& array, const char* name) {
 
 ContiguousArray<float> to_float32(const py::array& array, const char* name) {
     const bool wide = array.dtype().kind() == 'f' && array.itemsize() > 4;
-    return wide ? narrow(array, name) : contiguous<float>(array);
+    return wide ? narrow(array, name) : contiguous<float>(array, name);
 }
 
 template <typename Vector>
@@ -183,6 +191,14 @@ py::array readonly_values(const Vector& value, std::vector<py::ssize_t> shape) {
 
 }  // namespace
 
+bool hides_values(py::handle value) {
+    // Plain arrays, which most callers pass, have no mask.
+    if (Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
+    if (!py::isinstance<py::array>(value)) return false;
+    if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return false;
+    return py::bool_(py::module_::import("numpy").attr("any")(value.attr("mask")));
+}
+
 py::array to_array(py::handle value, const char* name) {
     check_nothing_hidden(value, name);
     if (py::isinstance<py::array>(value)) return py::reinterpret_borrow<py::array>(value);
@@ -192,9 +208,16 @@ py::array to_array(py::handle value, const char* name) {
         check_nothing_hidden(array, name);
         return py::module_::import("numpy").attr("asarray")(array);
     } catch (py::error_already_set& error) {
-        if (!error.matches(PyExc_ValueError)) throw;
-        throw py::value_error(std::string(name) +
-                              ": expected an array of numbers, got rows of unequal length");
+        if (error.matches(PyExc_ValueError)) {
+            throw py::value_error(std::string(name) +
+                                  ": expected an array of numbers, got rows of unequal length");
+        }
+        // KeyboardInterrupt and MemoryError are nobody's mistake; the rest comes from the value.
+        if (!error.matches(PyExc_Exception) || error.matches(PyExc_MemoryError)) throw;
+        const std::string text =
+            std::string(name) + ": expected an array of numbers, got " + text_of(value);
+        py::raise_from(error, PyExc_TypeError, text.c_str());
+        throw py::error_already_set();
     }
 }
 
@@ -225,7 +248,7 @@ ContiguousArray<double> double_array(py::handle value, const char* name, std::st
                                      Values values) {
     const py::array array = real_array(value, name);
     check_shape(array, name, shape);
-    auto result = contiguous<double>(array);
+    auto result = contiguous<double>(array, name);
     check_values(result, name, values);
     return result;
 }
@@ -260,8 +283,8 @@ ContiguousArray<std::uint32_t> index_array(py::handle value, const char* name,
         }
         return result;
     };
-    return kind == 'u' ? check(contiguous<std::uint64_t>(array))
-                       : check(contiguous<std::int64_t>(array));
+    return kind == 'u' ? check(contiguous<std::uint64_t>(array, name))
+                       : check(contiguous<std::int64_t>(array, name));
 }
 
 py::dtype numpy_dtype(DType dtype) {
@@ -274,12 +297,19 @@ py::dtype numpy_dtype(OutputType type) { return py::dtype(output_type_name(type)
 
 DType to_dtype(py::handle value, DType otherwise) {
     if (value.is_none()) return otherwise;
-    const py::dtype given = py::dtype::from_args(py::reinterpret_borrow<py::object>(value));
-    for (const DType dtype : {DType::uint8, DType::float16, DType::float32}) {
-        if (given.equal(numpy_dtype(dtype))) return dtype;
+    const std::string expected = "dtype: expected uint8, float16 or float32, got ";
+    std::optional<py::dtype> given;
+    try {
+        given = py::dtype::from_args(py::reinterpret_borrow<py::object>(value));
+    } catch (py::error_already_set& error) {
+        if (!error.matches(PyExc_Exception)) throw;
+        py::raise_from(error, PyExc_TypeError, (expected + text_of(value)).c_str());
+        throw py::error_already_set();
     }
-    throw py::value_error("dtype: expected uint8, float16 or float32, got " +
-                          py::str(given).cast<std::string>());
+    for (const DType dtype : {DType::uint8, DType::float16, DType::float32}) {
+        if (given->equal(numpy_dtype(dtype))) return dtype;
+    }
+    throw py::value_error(expected + shortened(py::str(*given).cast<std::string>()));
 }
 
 PixelArray pixel_array(py::handle value, const char* name, std::string_view shape, Values values) {
@@ -302,7 +332,7 @@ PixelArray pixel_array(py::handle value, const char* name, std::string_view shap
     }
 
     const auto checked = [&]() -> PixelArray {
-        if (kind == 'u') return {contiguous<std::uint8_t>(array), DType::uint8};
+        if (kind == 'u') return {contiguous<std::uint8_t>(array, name), DType::uint8};
         if (array.itemsize() > 2) return {to_float32(array, name), DType::float32};
         return {py::module_::import("numpy").attr("ascontiguousarray")(array,
                                                                        numpy_dtype(DType::float16)),

@@ -44,6 +44,11 @@ enum class Values {
 template <typename T>
 using ContiguousArray = py::array_t<T, py::array::c_style>;
 
+/// Whether an array is of a type that can hide values, and hides some. Such a type has a mask and
+/// the method filled(): numpy.ma.MaskedArray and its subclasses, and the masked arrays of astropy.
+/// The attributes are enough to know them, so numpy.ma is not imported.
+bool hides_values(py::handle value);
+
 /// The value as an array of numpy, which makes one of lists and tuples. All arguments that take an
 /// array are read by this function. Raises TypeError for a masked array that hides values, also in
 /// lists and tuples, and ValueError for rows of unequal length.

@@ -2,6 +2,7 @@
 #include "choice.hpp"
 #include "docs/animation.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/scene/animation.hpp"
@@ -100,7 +101,7 @@ void bind_channel(py::module_& module) {
         "str: \"step\", \"linear\" or \"cubic\".");
     channel.def(
         "sample",
-        [](const AnimationChannel& self, double seconds) {
+        [](const AnimationChannel& self, Real seconds) {
             expect_finite(seconds, "seconds");
             std::vector<double> value(self.keys().width);
             sample(self.keys(), seconds, value);
@@ -150,8 +151,8 @@ void bind_animation(pybind11::module_& module) {
     bind_channel(module);
     auto animation = declare<Animation>(module, "Animation", docs::animation);
     animation.def(py::init([](const OneOf<py::typing::Iterable<AnimationChannel>>& channels,
-                              std::string name) {
-                      return std::make_shared<Animation>(to_channels(channels), std::move(name));
+                              const Text& name) {
+                      return std::make_shared<Animation>(to_channels(channels), name);
                   }),
                   py::arg("channels"), py::kw_only(), py::arg("name") = "");
     animation.def_property_readonly(

@@ -1,9 +1,15 @@
 // What the Python part of cubecam shares with the bindings: how arguments that take arrays are
-// read.
+// read, and what is a whole number, a real number and a bool.
 #include "arrays.hpp"
+#include "numbers.hpp"
 #include "objects.hpp"
 
+#include "cubecam/core/memory.hpp"
+
 #include <pybind11/pybind11.h>
+#include <pybind11/typing.h>
+
+#include <string>
 
 void bind_arrays(pybind11::module_& module) {
     namespace py = pybind11;
@@ -19,4 +25,28 @@ void bind_arrays(pybind11::module_& module) {
         "The value as an array. Raises TypeError for a masked array that hides values, also in "
         "lists "
         "and tuples, and ValueError for rows of unequal length.");
+    module.def(
+        "_is_whole_number", [](const py::object& value) { return whole_number(value).has_value(); },
+        py::arg("value"), "Whether a value is an int of Python or numpy, and no bool.");
+    module.def(
+        "_is_real_number", [](const py::object& value) { return real_number(value).has_value(); },
+        py::arg("value"), "Whether a value is a number that a float can hold, and no bool.");
+    module.def(
+        "_is_truth_value", [](const py::object& value) { return truth_value(value).has_value(); },
+        py::arg("value"), "Whether a value is a bool of Python or numpy.");
+    module.def(
+        "_text_of", [](const py::object& value) { return text_of(value); }, py::arg("value"),
+        "A short text for a value in a message. It never raises an Exception.");
+    module.def(
+        "_memory_left",
+        [](const std::string& root) -> py::typing::Tuple<double, py::str> {
+            const MemoryLeft left = memory_left(root);
+            return py::make_tuple(left.bytes, left.limit);
+        },
+        py::arg("root") = "/",
+        "The bytes that this process may still take, and the name of the limit; `root` is the "
+        "folder with proc/ and sys/.");
+    module.def(
+        "_check_memory", [](double bytes, const std::string& what) { check_memory(bytes, what); },
+        py::arg("bytes"), py::arg("what"), "Raises ValueError for what the memory cannot hold.");
 }

@@ -3,6 +3,7 @@
 #include "docs/camera.hpp"
 #include "objects.hpp"
 #include "parent.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/scene/camera.hpp"
@@ -33,7 +34,7 @@ void number(Class<CameraOf<Lens>, Camera>& made, const char* name, double Lens::
             const char* doc) {
     made.def_property(
         name, [field](const CameraOf<Lens>& self) { return self.placed().lens.*field; },
-        [field](CameraOf<Lens>& self, double value) {
+        [field](CameraOf<Lens>& self, Real value) {
             self.edit_placed([&](Placed<Lens>& placed) { placed.lens.*field = value; });
         },
         doc);
@@ -124,32 +125,31 @@ void bind_placed(py::module_& module, const char* class_name, const char* class_
     using C = CameraOf<Lens>;
     auto made = declare<C, Camera>(module, class_name, class_doc);
     if constexpr (std::is_same_v<Lens, PerspectiveLens>) {
-        made.def(
-            py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
-                        const ArrayLike& up, double near, double far, const ArrayLike& shift,
-                        double pixel_aspect, const OrNone<Node>& parent) {
-                return std::make_shared<C>(Lens{size, near, far, to_shift(shift), pixel_aspect},
-                                           placement(position, target, up, parent));
-            }),
-            py::kw_only(), py::arg(opening) = Lens{}.*field,
-            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
-            py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
-            py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0),
-            py::arg("pixel_aspect") = Lens{}.pixel_aspect, py::arg("parent") = py::none());
+        made.def(py::init([](Real size, const ArrayLike& position, const OrNone<ArrayLike>& target,
+                             const ArrayLike& up, Real near, Real far, const ArrayLike& shift,
+                             Real pixel_aspect, const OrNone<Node>& parent) {
+                     return std::make_shared<C>(
+                         Lens{size, near, far, to_shift(shift), pixel_aspect},
+                         placement(position, target, up, parent));
+                 }),
+                 py::kw_only(), py::arg(opening) = Lens{}.*field,
+                 py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
+                 py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
+                 py::arg("far") = Lens{}.far, py::arg("shift") = py::make_tuple(0, 0),
+                 py::arg("pixel_aspect") = Lens{}.pixel_aspect, py::arg("parent") = py::none());
         bind_shift(made);
         number<Lens>(made, "pixel_aspect", &Lens::pixel_aspect,
                      "float: the width of a pixel over its height; 1 for pixels of every screen.");
     } else {
-        made.def(
-            py::init([](double size, const ArrayLike& position, const OrNone<ArrayLike>& target,
-                        const ArrayLike& up, double near, double far, const OrNone<Node>& parent) {
-                return std::make_shared<C>(Lens{size, near, far},
-                                           placement(position, target, up, parent));
-            }),
-            py::kw_only(), py::arg(opening) = Lens{}.*field,
-            py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
-            py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
-            py::arg("far") = Lens{}.far, py::arg("parent") = py::none());
+        made.def(py::init([](Real size, const ArrayLike& position, const OrNone<ArrayLike>& target,
+                             const ArrayLike& up, Real near, Real far, const OrNone<Node>& parent) {
+                     return std::make_shared<C>(Lens{size, near, far},
+                                                placement(position, target, up, parent));
+                 }),
+                 py::kw_only(), py::arg(opening) = Lens{}.*field,
+                 py::arg("position") = py::make_tuple(0, 0, 0), py::arg("target") = py::none(),
+                 py::arg("up") = py::make_tuple(0, 1, 0), py::arg("near") = Lens{}.near,
+                 py::arg("far") = Lens{}.far, py::arg("parent") = py::none());
     }
     number<Lens>(made, opening, field, opening_doc);
     number<Lens>(made, "near", &Lens::near, "float: the nearest depth that is drawn, world units.");
@@ -242,7 +242,7 @@ void bind_camera(pybind11::module_& module) {
             "ndarray (4, 4) float64: world to camera, read-only.")
         .def(
             "projection",
-            [](const Camera& self, double aspect) {
+            [](const Camera& self, Real aspect) {
                 return matrix_array(self.matrices(aspect).projection);
             },
             py::arg("aspect") = 1.0, docs::projection)

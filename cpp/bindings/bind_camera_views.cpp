@@ -4,6 +4,7 @@
 #include "look_target.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/geometry/mesh_bounds.hpp"
@@ -69,8 +70,8 @@ void bind_views(Class<CameraOf<Lens>, Camera> made) {
     made.def(
         "fit",
         [](CameraOf<Lens>& self, const OneOf<Scene, Node, ArrayLike>& what,
-           const OrNone<py::typing::Tuple<py::int_, py::int_>>& size, std::optional<double> aspect,
-           double margin) {
+           const OrNone<py::typing::Tuple<py::int_, py::int_>>& size,
+           Argument<std::optional<double>> aspect, Real margin) {
             const double shape = to_aspect(size, aspect);
             const Bounds bounds = bounds_of(what);
             self.edit_in_world([&](Placed<Lens>& placed) { fit(placed, bounds, shape, margin); });
@@ -100,8 +101,7 @@ glm::dmat3 to_mat3(py::handle value, const char* name) {
 std::shared_ptr<PerspectiveCamera>
 from_intrinsics(const ArrayLike& intrinsics, const SizeLike& size,
                 const OrNone<ArrayLike>& world_to_camera_cv, const OrNone<ArrayLike>& position,
-                const OrNone<ArrayLike>& target, const OrNone<ArrayLike>& up, double near,
-                double far) {
+                const OrNone<ArrayLike>& target, const OrNone<ArrayLike>& up, Real near, Real far) {
     const auto [width, height] = to_picture_size(size);
     PerspectiveLens lens = lens_of(to_mat3(intrinsics, "K"), width, height);
     lens.near = near;

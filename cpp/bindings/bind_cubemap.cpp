@@ -5,8 +5,10 @@
 #include "encodings.hpp"
 #include "objects.hpp"
 #include "unlocked.hpp"
+#include "values.hpp"
 
 #include "cubecam/core/parallel.hpp"
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
 #include "cubecam/render/resources/outputs.hpp"
@@ -41,15 +43,15 @@ using FaceLike = OneOf<Face, WholeNumber, Choice<face_words>>;
 
 Face to_face(py::handle value) {
     if (py::isinstance<py::str>(value)) return parse_face(value.cast<std::string>());
-    if (py::isinstance<py::bool_>(value) || !PyIndex_Check(value.ptr())) {
+    const auto index = whole_number(value);
+    if (!index) {
         throw py::type_error("face: expected a Face, a number from 0 to 5 or a name, got " +
-                             py::repr(value).cast<std::string>());
+                             text_of(value));
     }
-    const long index = py::int_(py::reinterpret_borrow<py::object>(value)).cast<long>();
-    if (index < 0 || index >= face_count) {
-        throw py::index_error("face: expected 0 to 5, got " + std::to_string(index));
+    if (*index < 0 || *index >= face_count) {
+        throw py::index_error("face: expected 0 to 5, got " + text_of(value));
     }
-    return static_cast<Face>(index);
+    return static_cast<Face>(*index);
 }
 
 /// Raises ValueError that names the face whose shape differs; numpy's own error names none.
@@ -73,7 +75,7 @@ void check_six_alike(py::handle value) {
     }
 }
 
-CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name, bool mipmaps,
+CubePtr make_cube(const ArrayLike& faces, const ConventionName& convention_name, Flag mipmaps,
                   const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     check_six_alike(faces);
@@ -122,7 +124,7 @@ Pixels faces_view(const CubeMap& cube) {
 }
 
 OutputArray sample(const CubeMap& cube, const ArrayLike& directions, const ArrayLike& lod,
-                   const std::string& output_name) {
+                   const Text& output_name) {
     const OutputValues* output = to_output(cube, output_name);
     const auto towards = float_array(directions, "directions", "(..., 3)");
     const auto count = static_cast<std::size_t>(towards.size() / 3);
@@ -313,7 +315,7 @@ const OutputValues* to_output(const CubeMap& cube, const std::string& name) {
         (cube.outputs().empty()
              ? ", since this cube has no output besides; Renderer.capture has outputs="
              : ", which this cube has") +
-        "; got '" + name + "'");
+        "; got '" + shortened(name) + "'");
 }
 
 py::array output_array(PixelBuffer texels, const OutputValues& output,

@@ -5,6 +5,7 @@
 #include "encodings.hpp"
 #include "numbers.hpp"
 #include "unlocked.hpp"
+#include "values.hpp"
 
 #include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_layout.hpp"
@@ -33,7 +34,7 @@ Sampling parse_sampling(std::string_view name) {
     const std::size_t place = place_of_name(sampling_names, name);
     if (place < sampling_names.size()) return sampling_names[place].second;
     throw py::value_error("sampling: expected " + quoted_names(sampling_names) + ", got '" +
-                          std::string(name) + "'");
+                          shortened(name) + "'");
 }
 
 /// Raises ValueError for a picture that memory cannot hold.
@@ -50,9 +51,9 @@ void check_no_dtype(const DTypeOrNone& dtype, const OutputValues& output) {
                           output_type_name(output.type) + ", got " + text_of(dtype));
 }
 
-PixelsOrOutput to_equirect(const CubeMap& cube, std::optional<int> width,
+PixelsOrOutput to_equirect(const CubeMap& cube, Argument<std::optional<int>> width,
                            const CenterName& center_name, const SamplingName& sampling_name,
-                           const DTypeOrNone& dtype, const std::string& output_name) {
+                           const DTypeOrNone& dtype, const Text& output_name) {
     const Center center = parse_center(center_name);
     const Sampling sampling = parse_sampling(sampling_name);
     const auto state = cube.data();
@@ -93,8 +94,8 @@ CubePtr from_equirect(const PixelArray& image, std::optional<int> size, Center c
 }
 
 CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& layout_name,
-                    const ConventionName& convention_name, std::optional<int> size,
-                    const CenterName& center_name, bool mipmaps, const DTypeOrNone& dtype,
+                    const ConventionName& convention_name, Argument<std::optional<int>> size,
+                    const CenterName& center_name, Flag mipmaps, const DTypeOrNone& dtype,
                     const EncodingName& encoding_name) {
     const Convention convention = parse_convention(convention_name);
     const Center center = parse_center(center_name);
@@ -131,7 +132,7 @@ CubePtr from_layout(const ArrayLike& value, const std::optional<LayoutName>& lay
 }
 
 PixelsOrOutput to_convention(const CubeMap& cube, const ConventionName& name,
-                             const std::string& output_name) {
+                             const Text& output_name) {
     const Convention convention = parse_convention(name);
     const auto state = cube.data();
     PixelBuffer faces;
@@ -170,7 +171,7 @@ py::array output_in_layout(const CubeMap& cube, const OutputValues& output, Layo
 
 PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
                          const ConventionName& convention_name, const DTypeOrNone& dtype,
-                         const std::string& output_name) {
+                         const Text& output_name) {
     const Layout layout = parse_layout(layout_name);
     const Convention convention = parse_convention(convention_name);
     if (layout == Layout::equirect) {
@@ -206,7 +207,7 @@ PixelsOrOutput to_layout(const CubeMap& cube, const LayoutName& layout_name,
     return owned_pixels(std::move(picture), to, {shape.height, shape.width, state->channels});
 }
 
-CubePtr resize(const CubeMap& cube, int size, const DTypeOrNone& dtype) {
+CubePtr resize(const CubeMap& cube, Int size, const DTypeOrNone& dtype) {
     to_texels(size, "size");
     const auto state = cube.data();
     const DType to = to_dtype(dtype, state->dtype);
@@ -227,7 +228,7 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
     // Two signatures of each, so that type checkers know the dtype of colours.
     cube.def(
             "to_equirect",
-            [](const CubeMap& c, std::optional<int> width, const CenterName& center,
+            [](const CubeMap& c, Argument<std::optional<int>> width, const CenterName& center,
                const SamplingName& sampling, const DTypeOrNone& dtype) -> Pixels {
                 return to_equirect(c, width, center, sampling, dtype, "color");
             },
@@ -238,8 +239,8 @@ void bind_cubemap_pictures(Class<CubeMap>& cube) {
              py::arg("dtype") = py::none(), py::arg("output") = "color", docs::to_equirect_output)
         .def_static(
             "from_equirect",
-            [](const ArrayLike& image, std::optional<int> size, const CenterName& center,
-               const SamplingName& sampling, bool mipmaps, const DTypeOrNone& dtype,
+            [](const ArrayLike& image, Argument<std::optional<int>> size, const CenterName& center,
+               const SamplingName& sampling, Flag mipmaps, const DTypeOrNone& dtype,
                const EncodingName& encoding) {
                 const PixelArray pixels = pixel_array(image, "image", "(H, W, C)");
                 return from_equirect(pixels, size, parse_center(center), mipmaps,

@@ -3,6 +3,7 @@
 #include "docs/image.hpp"
 #include "encodings.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/core/checks.hpp"
@@ -60,7 +61,7 @@ MinFilter to_min_filter(const std::optional<MinFilterWord>& name, bool mipmaps) 
     return made.min;
 }
 
-std::shared_ptr<Image> make_image(const ArrayLike& pixels, bool mipmaps, const WrapLike& wrap,
+std::shared_ptr<Image> make_image(const ArrayLike& pixels, Flag mipmaps, const WrapLike& wrap,
                                   const EncodingName& encoding, const MagFilterWord& mag_filter,
                                   const std::optional<MinFilterWord>& min_filter) {
     const Sampler sampler{to_wrap(wrap), parse_name("mag_filter", mag_filter, mag_filter_names),

@@ -3,6 +3,7 @@
 #include "objects.hpp"
 #include "parent.hpp"
 #include "shadow_like.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/scene/light.hpp"
@@ -81,7 +82,7 @@ void bind_number(Class<LightOf<Parameters>, Light>& light, const char* name,
                  Field Parameters::* member, const char* doc) {
     light.def_property(
         name, [member](const LightOf<Parameters>& self) { return self.parameters().*member; },
-        [member](LightOf<Parameters>& self, Field value) {
+        [member](LightOf<Parameters>& self, Argument<Field> value) {
             self.edit_parameters([&](Parameters& p) { p.*member = value; });
         },
         doc);
@@ -117,19 +118,18 @@ constexpr const char* range_doc =
 
 void bind_point(py::module_& module) {
     auto light = declare<PointLight, Light>(module, "PointLight", docs::point);
-    light.def(py::init([](const ArrayLike& position, const ColorLike& color, float intensity,
-                          double decay, double range, const ShadowLike& shadow,
-                          const OrNone<Node>& parent) {
-                  return with_parent(
-                      std::make_shared<PointLight>(
-                          PointParameters{to_point(position, "position"), decay, range},
-                          to_rgb(color, "color"), intensity, to_shadow(shadow)),
-                      parent);
-              }),
-              py::arg("position") = py::make_tuple(0, 0, 0), py::kw_only(),
-              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
-              py::arg("decay") = 0.0, py::arg("range") = no_range, py::arg("shadow") = py::none(),
-              py::arg("parent") = py::none());
+    light.def(
+        py::init([](const ArrayLike& position, const ColorLike& color, Strict<float> intensity,
+                    Real decay, Real range, const ShadowLike& shadow, const OrNone<Node>& parent) {
+            return with_parent(std::make_shared<PointLight>(
+                                   PointParameters{to_point(position, "position"), decay, range},
+                                   to_rgb(color, "color"), intensity, to_shadow(shadow)),
+                               parent);
+        }),
+        py::arg("position") = py::make_tuple(0, 0, 0), py::kw_only(),
+        py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
+        py::arg("decay") = 0.0, py::arg("range") = no_range, py::arg("shadow") = py::none(),
+        py::arg("parent") = py::none());
     bind_vector(light, "position", &PointParameters::position, position_text);
     bind_world_vector(light, "world_position", &PointParameters::position, world_position_text);
     bind_number(light, "decay", &PointParameters::decay, decay_text);
@@ -150,22 +150,22 @@ void bind_point(py::module_& module) {
 
 void bind_spot(py::module_& module) {
     auto light = declare<SpotLight, Light>(module, "SpotLight", docs::spot);
-    light.def(py::init([](const ArrayLike& position, const ArrayLike& direction, double angle,
-                          double penumbra, const ColorLike& color, float intensity, double decay,
-                          double range, const ShadowLike& shadow, const OrNone<Node>& parent) {
-                  return with_parent(std::make_shared<SpotLight>(
-                                         SpotParameters{to_point(position, "position"),
-                                                        to_point(direction, "direction"), angle,
-                                                        penumbra, decay, range},
-                                         to_rgb(color, "color"), intensity, to_shadow(shadow)),
-                                     parent);
-              }),
-              py::arg("position") = py::make_tuple(0, 0, 0),
-              py::arg("direction") = py::make_tuple(0, -1, 0), py::kw_only(),
-              py::arg("angle") = 30.0, py::arg("penumbra") = 0.0,
-              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
-              py::arg("decay") = 0.0, py::arg("range") = no_range, py::arg("shadow") = py::none(),
-              py::arg("parent") = py::none());
+    light.def(
+        py::init([](const ArrayLike& position, const ArrayLike& direction, Real angle,
+                    Real penumbra, const ColorLike& color, Strict<float> intensity, Real decay,
+                    Real range, const ShadowLike& shadow, const OrNone<Node>& parent) {
+            return with_parent(
+                std::make_shared<SpotLight>(SpotParameters{to_point(position, "position"),
+                                                           to_point(direction, "direction"), angle,
+                                                           penumbra, decay, range},
+                                            to_rgb(color, "color"), intensity, to_shadow(shadow)),
+                parent);
+        }),
+        py::arg("position") = py::make_tuple(0, 0, 0),
+        py::arg("direction") = py::make_tuple(0, -1, 0), py::kw_only(), py::arg("angle") = 30.0,
+        py::arg("penumbra") = 0.0, py::arg("color") = py::make_tuple(1, 1, 1),
+        py::arg("intensity") = 1.0, py::arg("decay") = 0.0, py::arg("range") = no_range,
+        py::arg("shadow") = py::none(), py::arg("parent") = py::none());
     bind_vector(light, "position", &SpotParameters::position, position_text);
     bind_vector(light, "direction", &SpotParameters::direction, direction_text);
     bind_world_vector(light, "world_position", &SpotParameters::position, world_position_text);
@@ -195,16 +195,17 @@ void bind_spot(py::module_& module) {
 
 void bind_directional(py::module_& module) {
     auto light = declare<DirectionalLight, Light>(module, "DirectionalLight", docs::directional);
-    light.def(py::init([](const ArrayLike& direction, const ColorLike& color, float intensity,
-                          const ShadowLike& shadow, const OrNone<Node>& parent) {
-                  return with_parent(std::make_shared<DirectionalLight>(
-                                         DirectionalParameters{to_point(direction, "direction")},
-                                         to_rgb(color, "color"), intensity, to_shadow(shadow)),
-                                     parent);
-              }),
-              py::arg("direction") = py::make_tuple(0, -1, 0), py::kw_only(),
-              py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
-              py::arg("shadow") = py::none(), py::arg("parent") = py::none());
+    light.def(
+        py::init([](const ArrayLike& direction, const ColorLike& color, Strict<float> intensity,
+                    const ShadowLike& shadow, const OrNone<Node>& parent) {
+            return with_parent(std::make_shared<DirectionalLight>(
+                                   DirectionalParameters{to_point(direction, "direction")},
+                                   to_rgb(color, "color"), intensity, to_shadow(shadow)),
+                               parent);
+        }),
+        py::arg("direction") = py::make_tuple(0, -1, 0), py::kw_only(),
+        py::arg("color") = py::make_tuple(1, 1, 1), py::arg("intensity") = 1.0,
+        py::arg("shadow") = py::none(), py::arg("parent") = py::none());
     bind_vector(light, "direction", &DirectionalParameters::direction, direction_text);
     bind_world_vector(light, "world_direction", &DirectionalParameters::direction,
                       world_direction_text);
@@ -224,7 +225,7 @@ void bind_directional(py::module_& module) {
 
 void bind_ambient(py::module_& module) {
     declare<AmbientLight, Light>(module, "AmbientLight", docs::ambient)
-        .def(py::init([](const ColorLike& color, float intensity) {
+        .def(py::init([](const ColorLike& color, Strict<float> intensity) {
                  return std::make_shared<AmbientLight>(AmbientParameters{}, to_rgb(color, "color"),
                                                        intensity);
              }),
@@ -258,7 +259,7 @@ void bind_light(pybind11::module_& module) {
             "ndarray (3,) float32: linear RGB, read-only.")
         .def_property(
             "intensity", [](const Light& self) { return shortest(self.value().intensity); },
-            [](Light& self, float value) {
+            [](Light& self, Strict<float> value) {
                 self.edit([&](LightValue& next) { next.intensity = value; });
             },
             "float: a factor of color.");

@@ -5,6 +5,7 @@
 #include "numbers.hpp"
 #include "unlocked.hpp"
 
+#include "cubecam/core/memory.hpp"
 #include "cubecam/cubemap/cubemap_resample.hpp"
 #include "cubecam/lighting/brdf_table.hpp"
 #include "cubecam/lighting/prefilter.hpp"
@@ -95,6 +96,16 @@ py::array_t<float> roughness_of(const CubeMap& cube) {
     return readonly_view(std::shared_ptr<const std::vector<float>>(std::move(values)), {count});
 }
 
+/// Raises ValueError for faces of n x n texels that memory cannot hold while they are made.
+void check_faces(int n, std::size_t texel_bytes) {
+    const double side = n;
+    check_memory(face_count * side * side * static_cast<double>(texel_bytes),
+                 "6 x " + std::to_string(n) + " x " + std::to_string(n) + " texels");
+}
+
+/// The bytes of a texel that is filtered: as a vec4 and in the sum of each, with smaller levels.
+constexpr std::size_t filtered_texel = 64;
+
 /// Runs work that takes a progress function, without the GIL. What the user's function raises, and
 /// KeyboardInterrupt, end the work.
 template <typename Work>
@@ -103,20 +114,15 @@ CubePtr interruptible(py::handle progress, const Work& work) {
         refuse(progress, "progress", "a function of one number, or None");
     }
     const auto report = [&](double share) {
-        const Locked locked;
-        if (PyErr_CheckSignals() != 0) return false;
         if (progress.is_none()) return true;
+        const Locked locked;
         PyObject* result = PyObject_CallFunction(progress.ptr(), "d", share);
-        Py_XDECREF(result);
-        return result != nullptr;
+        if (result == nullptr) throw py::error_already_set();
+        Py_DECREF(result);
+        return true;
     };
-    CubePtr made;
-    {
-        const Unlocked unlocked;
-        made = work(report);
-    }
-    if (!made) throw py::error_already_set();
-    return made;
+    const Unlocked unlocked;
+    return work(report);
 }
 
 CubePtr prefilter_cube(const CubeMap& cube, const WholeNumber& level_count, const SizeOrNone& size,
@@ -124,6 +130,7 @@ CubePtr prefilter_cube(const CubeMap& cube, const WholeNumber& level_count, cons
     const auto levels = static_cast<int>(to_int(level_count, "levels", 2, most_levels));
     auto state = cube.data();
     const int n = size.is_none() ? state->size : to_texels(to_int(size, "size"), "size");
+    check_faces(n, filtered_texel);
     return interruptible(progress, [&](const FilteredCube::Progress& report) {
         if (n != state->size) {
             const CubeMap resized(
@@ -138,6 +145,7 @@ CubePtr prefilter_cube(const CubeMap& cube, const WholeNumber& level_count, cons
 
 CubePtr irradiance_of(const CubeMap& cube, const WholeNumber& size, const ProgressLike& progress) {
     const int n = to_texels(to_int(size, "size"), "size");
+    check_faces(n, filtered_texel);
     const auto state = cube.data();
     return interruptible(progress, [&](const FilteredCube::Progress& report) {
         return irradiance(*state, n, report);
@@ -172,6 +180,7 @@ CubePtr cube_from_sh(const ArrayLike& value, const WholeNumber& size) {
                               std::to_string(array.shape(1)));
     }
     const int n = to_texels(to_int(size, "size"), "size");
+    check_faces(n, 2 * sizeof(float) * static_cast<std::size_t>(channels));
     const std::vector<double> coefficients = to_vector(array);
     const Unlocked unlocked;
     const Buffer<float> faces = sh_to_faces(coefficients, order, channels, n);

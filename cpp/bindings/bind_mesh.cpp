@@ -4,6 +4,7 @@
 #include "numbers.hpp"
 #include "objects.hpp"
 #include "unlocked.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 #include "vertices.hpp"
 
@@ -193,7 +194,7 @@ std::string represent(const Mesh& mesh) {
 /// A function that builds a mesh without the GIL, since a mesh of many triangles takes a while.
 template <class... Args>
 auto built_by(MeshData (*build)(Args...)) {
-    return [build](Args... args) {
+    return [build](Argument<Args>... args) {
         const Unlocked unlocked;
         return std::make_shared<Mesh>(build(args...));
     };
@@ -222,8 +223,9 @@ void bind_primitives(Class<Mesh>& mesh) {
                     docs::torus);
     mesh.def_static(
         "arrow",
-        [](double length, std::optional<double> radius, std::optional<double> head_length,
-           std::optional<double> head_radius, int segments) {
+        [](Real length, Argument<std::optional<double>> radius,
+           Argument<std::optional<double>> head_length, Argument<std::optional<double>> head_radius,
+           Int segments) {
             return std::make_shared<Mesh>(make::arrow(
                 length, radius.value_or(0.05 * length), head_length.value_or(0.25 * length),
                 head_radius.value_or(0.1 * length), segments));
@@ -353,7 +355,7 @@ void bind_mesh(pybind11::module_& module) {
         py::arg("mesh"), docs::from_trimesh);
     mesh.def(
         "resized",
-        [](const Mesh& self, double size) {
+        [](const Mesh& self, Real size) {
             const Unlocked unlocked;
             return std::make_shared<Mesh>(self.data()->centered_and_scaled(size));
         },

@@ -3,6 +3,7 @@
 #include "docs/node.hpp"
 #include "look_target.hpp"
 #include "node_state.hpp"
+#include "values.hpp"
 
 #include "cubecam/math/transform.hpp"
 #include "cubecam/scene/node.hpp"
@@ -20,7 +21,7 @@ namespace cubecam::bindings {
 
 namespace {
 
-py::array_t<double> axis_angle(const ArrayLike& axis, double degrees) {
+py::array_t<double> axis_angle(const ArrayLike& axis, Real degrees) {
     const glm::dvec3 direction = to_point(axis, "axis");
     const double length = glm::length(direction);
     expect(length > 0.0 && std::isfinite(length), "an axis of some length", describe(direction));
@@ -111,7 +112,7 @@ void bind_contents(Class<Node>& node) {
                                "output id is 0 where the background is.");
     node.def_property(
         "name", [](const Node& self) { return self.value().name; },
-        [](Node& self, const std::string& value) {
+        [](Node& self, const Text& value) {
             self.edit([&](NodeValue& next) { next.name = value; });
         },
         "str: a name for people; need not be unique.");
@@ -173,11 +174,11 @@ void bind_contents(Class<Node>& node) {
         "CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.");
     node.def_property(
         "visible", [](const Node& self) { return self.value().visible; },
-        [](Node& self, bool value) { self.edit([&](NodeValue& next) { next.visible = value; }); },
+        [](Node& self, Flag value) { self.edit([&](NodeValue& next) { next.visible = value; }); },
         "bool: False: no picture shows the node or any node below it.");
     node.def_property(
         "in_captures", [](const Node& self) { return self.value().in_captures; },
-        [](Node& self, bool value) {
+        [](Node& self, Flag value) {
             self.edit([&](NodeValue& next) { next.in_captures = value; });
         },
         "bool: False: captures and probes show neither the node nor any node below it. Frames do, "
@@ -194,14 +195,14 @@ void bind_contents(Class<Node>& node) {
         "translucent nodes; 0 by default. Nodes below this one have an order of their own.");
     node.def_property(
         "cast_shadow", [](const Node& self) { return self.value().cast_shadow; },
-        [](Node& self, bool value) {
+        [](Node& self, Flag value) {
             self.edit([&](NodeValue& next) { next.cast_shadow = value; });
         },
         "bool: False: neither the node nor any node below it casts shadows. Translucent nodes "
         "never do.");
     node.def_property(
         "receive_shadow", [](const Node& self) { return self.value().receive_shadow; },
-        [](Node& self, bool value) {
+        [](Node& self, Flag value) {
             self.edit([&](NodeValue& next) { next.receive_shadow = value; });
         },
         "bool: whether shadows show on the node's own surface.");

@@ -4,8 +4,10 @@
 #include "node_list.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/scene/node.hpp"
 #include "cubecam/scene/probe.hpp"
 
@@ -37,15 +39,13 @@ void set_update(ProbeValue& value, py::handle update) {
         value.every = 1;
         const std::size_t place = place_of_name(update_names, name);
         if (place == update_names.size()) {
-            throw py::value_error(std::string("update: expected ") + expected + ", got '" + name +
-                                  "'");
+            throw py::value_error(std::string("update: expected ") + expected + ", got '" +
+                                  shortened(name) + "'");
         }
         value.update = update_names[place].second;
         return;
     }
-    if (py::isinstance<py::bool_>(update) || !PyIndex_Check(update.ptr())) {
-        refuse(update, "update", expected);
-    }
+    if (!whole_number(update)) refuse(update, "update", expected);
     value.every = static_cast<int>(to_int(update, "update", 1, std::numeric_limits<int>::max()));
     value.update = ProbeUpdate::every_n_frames;
 }
@@ -56,12 +56,12 @@ py::object update_of(const ProbeValue& value) {
     return py::str(name.data(), name.size());
 }
 
-std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double near, double far,
-                                  const FormatName& format, bool mipmaps, int samples,
+std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near, Real far,
+                                  const FormatName& format, Flag mipmaps, Int samples,
                                   const UpdateLike& update, const Nodes& exclude,
-                                  const OrNone<Node>& parent, int faces_per_frame,
+                                  const OrNone<Node>& parent, Int faces_per_frame,
                                   const DepthFormatName& depth_format,
-                                  std::optional<bool> prefilter) {
+                                  Argument<std::optional<bool>> prefilter) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -75,7 +75,7 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, int size, double ne
     value.faces_per_frame = faces_per_frame;
     value.exclude = to_nodes(exclude, "exclude");
     value.depth_format = to_depth_format(depth_format);
-    value.prefilter = prefilter;
+    value.prefilter = value_of(prefilter);
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -83,8 +83,8 @@ template <class Field>
 void field(Class<Probe>& probe, const char* name, Field ProbeValue::* member, const char* doc) {
     probe.def_property(
         name, [member](const Probe& self) { return self.value().*member; },
-        [member](Probe& self, Field value) {
-            self.edit([&](ProbeValue& next) { next.*member = value; });
+        [member](Probe& self, Argument<Field> value) {
+            self.edit([&](ProbeValue& next) { next.*member = value_of(value); });
         },
         doc);
 }

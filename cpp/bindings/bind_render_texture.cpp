@@ -5,6 +5,7 @@
 #include "node_list.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 
 #include "cubecam/scene/camera.hpp"
 #include "cubecam/scene/cycle_collector.hpp"
@@ -56,8 +57,8 @@ void watch(const std::shared_ptr<RenderTexture>& texture) {
 
 std::shared_ptr<RenderTexture>
 make_render_texture(const OneOf<Scene>& scene, const OneOf<Camera>& camera, const SizeLike& size,
-                    const FormatName& format, const WholeNumber& samples, bool mipmaps,
-                    const WrapName& wrap, const Nodes& exclude, std::string name,
+                    const FormatName& format, const WholeNumber& samples, Flag mipmaps,
+                    const WrapName& wrap, const Nodes& exclude, const Text& name,
                     const EffectsLike& effects, const DepthFormatName& depth_format) {
     RenderTextureValue value;
     value.scene = to_shown_scene(scene);
@@ -68,7 +69,7 @@ make_render_texture(const OneOf<Scene>& scene, const OneOf<Camera>& camera, cons
     value.mipmaps = mipmaps;
     value.wrap = parse_wrap(wrap);
     value.exclude = to_nodes(exclude, "exclude");
-    value.name = std::move(name);
+    value.name = name;
     value.effects = to_effects(effects);
     value.depth_format = to_depth_format(depth_format);
     auto made = std::make_shared<RenderTexture>(std::move(value));
@@ -112,7 +113,7 @@ void bind_texture_picture(Class<RenderTexture>& made) {
         "int: samples of each texel (MSAA); 1 is none.");
     made.def_property(
         "mipmaps", [](const T& self) { return self.value().mipmaps; },
-        [](T& self, bool value) {
+        [](T& self, Flag value) {
             self.edit([&](RenderTextureValue& next) { next.mipmaps = value; });
         },
         "bool: whether lookups are trilinear.");
@@ -163,7 +164,7 @@ void bind_texture_links(Class<RenderTexture>& made) {
         "tuple of ImageEffect: passes over the picture, one after the other.");
     made.def_property(
         "name", [](const T& self) { return self.value().name; },
-        [](T& self, const std::string& value) {
+        [](T& self, const Text& value) {
             self.edit([&](RenderTextureValue& next) { next.name = value; });
         },
         "str: a name for people; need not be unique.");

@@ -9,6 +9,7 @@
 #include "numbers.hpp"
 #include "objects.hpp"
 #include "unlocked.hpp"
+#include "values.hpp"
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/render/renderer.hpp"
@@ -78,19 +79,17 @@ gl::DeviceChoice to_device(py::handle device) {
 
 std::optional<bool> to_layered(py::handle value) {
     if (value.is_none()) return std::nullopt;
-    if (!py::isinstance<py::bool_>(value))
-        throw TypeError("layered: expected True, False or None, got " + text_of(value));
-    return value.cast<bool>();
+    if (const auto layered = truth_value(value)) return layered;
+    throw TypeError("layered: expected True, False or None, got " + text_of(value));
 }
 
 std::shared_ptr<Renderer> make_renderer(const DeviceLike& device, const LayeredLike& layered,
-                                        std::int64_t cache_bytes, bool debug, bool trust_shaders) {
-    if (cache_bytes < 0) {
-        throw std::invalid_argument("cache_bytes: expected 0 or more, got " +
-                                    std::to_string(cache_bytes));
-    }
+                                        const bindings::WholeNumber& cache_bytes,
+                                        bindings::Flag debug, bindings::Flag trust_shaders) {
+    const std::int64_t kept_bytes =
+        to_int(cache_bytes, "cache_bytes", 0, std::numeric_limits<std::int64_t>::max());
     RendererOptions options{to_device(device), to_layered(layered),
-                            static_cast<std::size_t>(cache_bytes), debug, trust_shaders};
+                            static_cast<std::size_t>(kept_bytes), debug, trust_shaders};
     return bindings::with_notices([&] { return std::make_shared<Renderer>(std::move(options)); });
 }
 
@@ -102,13 +101,12 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
         ->world_value();
 }
 
-PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
-               const bindings::SizeLike& size, const OutputNames& outputs,
-               const FormatOrNone& format, const bindings::WholeNumber& samples, double exposure,
-               const std::optional<bindings::Choice<tonemap_names>>& tonemap,
-               const std::optional<bindings::Choice<encode_names>>& encode,
-               const bindings::EffectsLike& effects,
-               const bindings::DepthFormatName& depth_format) {
+PyFrame
+render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
+       const OutputNames& outputs, const FormatOrNone& format, const bindings::WholeNumber& samples,
+       bindings::Real exposure, const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+       const std::optional<bindings::Choice<encode_names>>& encode,
+       const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);
@@ -127,14 +125,13 @@ PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
     }));
 }
 
-std::shared_ptr<CubeMap> capture(Renderer& renderer, const Scene& scene,
-                                 const bindings::ArrayLike& position,
-                                 const bindings::WholeNumber& size, double near, double far,
-                                 const bindings::Nodes& exclude, const OutputNames& outputs,
-                                 const FormatOrNone& format, const bindings::WholeNumber& samples,
-                                 const bindings::OrNone<bindings::ArrayLike>& eye,
-                                 const bindings::DepthFormatName& depth_format,
-                                 const bindings::Choice<depth_order_names>& depth_order) {
+std::shared_ptr<CubeMap>
+capture(Renderer& renderer, const Scene& scene, const bindings::ArrayLike& position,
+        const bindings::WholeNumber& size, bindings::Real near, bindings::Real far,
+        const bindings::Nodes& exclude, const OutputNames& outputs, const FormatOrNone& format,
+        const bindings::WholeNumber& samples, const bindings::OrNone<bindings::ArrayLike>& eye,
+        const bindings::DepthFormatName& depth_format,
+        const bindings::Choice<depth_order_names>& depth_order) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -236,9 +233,15 @@ void bind_renderer(pybind11::module_& m) {
             "close() does nothing.")
         .def_property_readonly("closed", &Renderer::closed, "bool: whether close() was called.")
         .def_property_readonly(
-            "info", &Renderer::info, py::return_value_policy::copy,
+            "info", &Renderer::info,
             "RendererInfo: the device, driver and limits; readable after close(), too.")
-        .def_property_readonly("stats", &Renderer::stats, "Stats: what the last call drew.")
+        .def_property_readonly(
+            "stats",
+            [](const Renderer& self) {
+                const bindings::Unlocked unlocked;  // another thread may be drawing
+                return self.stats();
+            },
+            "Stats: what the last call drew.")
         .def("__enter__", [](std::shared_ptr<Renderer> self) { return self; })
         .def("__exit__",
              [](Renderer& self, const py::args&) {

@@ -3,6 +3,7 @@
 #include "near_names.hpp"
 #include "node_list.hpp"
 #include "node_state.hpp"
+#include "values.hpp"
 
 #include "cubecam/scene/scene.hpp"
 
@@ -50,8 +51,8 @@ std::shared_ptr<Node>
 add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& material,
          const OrNone<ArrayLike>& position, const OrNone<ArrayLike>& rotation,
          const OneOf<py::float_, ArrayLike, py::none>& scale, const OrNone<ArrayLike>& matrix,
-         const OrNone<Node>& parent, const CubeLike& environment, bool visible, bool in_captures,
-         std::string name, const WholeNumber& render_order, bool cast_shadow, bool receive_shadow,
+         const OrNone<Node>& parent, const CubeLike& environment, Flag visible, Flag in_captures,
+         const Text& name, const WholeNumber& render_order, Flag cast_shadow, Flag receive_shadow,
          const WholeNumber& label, const OrNone<Skin>& skin, const OrNone<ArrayLike>& weights) {
     NodeValue value{{},
                     to_mesh(mesh),
@@ -59,7 +60,7 @@ add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& materia
                     to_cube_source(environment, "environment"),
                     visible,
                     in_captures,
-                    std::move(name),
+                    name,
                     to_render_order(render_order),
                     cast_shadow,
                     receive_shadow,
@@ -99,9 +100,7 @@ std::shared_ptr<Animation> to_animation(const Scene& scene, py::handle value) {
         throw py::key_error("animation: expected the name of an animation of the scene, got " +
                             with_near_names(name, names));
     }
-    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-        refuse(value, "animation", expected);
-    }
+    if (!whole_number(value)) refuse(value, "animation", expected);
     const std::int64_t index = to_int(value, "animation");
     const auto count = static_cast<std::int64_t>(known.size());
     if (index >= count || index < -count) {
@@ -125,7 +124,8 @@ std::vector<std::string> to_names(py::handle value) {
     return names;
 }
 
-void set_variant(Scene& scene, const std::optional<std::string>& name) {
+void set_variant(Scene& scene, const Argument<std::optional<std::string>>& given) {
+    const std::optional<std::string> name = given;
     const auto known = scene.variants();
     const std::set<std::string> names(known.begin(), known.end());
     if (name && !names.contains(*name)) {
@@ -254,7 +254,7 @@ void bind_parts(Class<Scene>& scene) {
         "tuple of Animation: all animations of the scene, in order of add.");
     scene.def(
         "set_time",
-        [](const OneOf<Scene>& self, double seconds,
+        [](const OneOf<Scene>& self, Real seconds,
            const OneOf<WholeNumber, py::str, Animation>& animation) {
             auto& changed = self.cast<Scene&>();
             changed.set_time(seconds, *to_animation(changed, animation));
@@ -298,20 +298,21 @@ void bind_scene(pybind11::module_& module) {
     static_cast<void>(module);
     auto scene = declared<Scene>();
     scene.attr("__doc__") = docs::scene;
-    scene.def(
-        py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background,
-                    float environment_intensity, const OrNone<ArrayLike>& environment_rotation) {
-            auto made =
-                std::make_shared<Scene>(to_environment(environment), to_background(background));
-            made->set_environment_intensity(environment_intensity);
-            if (!environment_rotation.is_none()) {
-                made->set_environment_rotation(
-                    to_rotation(environment_rotation, "environment_rotation"));
-            }
-            return made;
-        }),
-        py::kw_only(), py::arg("environment") = py::none(), py::arg("background") = py::none(),
-        py::arg("environment_intensity") = 1.0F, py::arg("environment_rotation") = py::none());
+    scene.def(py::init([](const OrNone<CubeMap>& environment, const BackgroundLike& background,
+                          Strict<float> environment_intensity,
+                          const OrNone<ArrayLike>& environment_rotation) {
+                  auto made = std::make_shared<Scene>(to_environment(environment),
+                                                      to_background(background));
+                  made->set_environment_intensity(environment_intensity);
+                  if (!environment_rotation.is_none()) {
+                      made->set_environment_rotation(
+                          to_rotation(environment_rotation, "environment_rotation"));
+                  }
+                  return made;
+              }),
+              py::kw_only(), py::arg("environment") = py::none(),
+              py::arg("background") = py::none(), py::arg("environment_intensity") = 1.0F,
+              py::arg("environment_rotation") = py::none());
     scene.def_property(
         "environment", [](const Scene& self) { return or_none(self.environment()); },
         [](Scene& self, const OrNone<CubeMap>& value) {
@@ -327,7 +328,7 @@ void bind_scene(pybind11::module_& module) {
     scene.def_property(
         "environment_intensity",
         [](const Scene& self) { return shortest(self.environment_placing().intensity); },
-        &Scene::set_environment_intensity,
+        [](Scene& self, Strict<float> value) { self.set_environment_intensity(value); },
         "float: the factor of the light of the scene's environment, at least 0.");
     scene.def_property(
         "environment_rotation",

@@ -19,7 +19,7 @@ namespace cubecam::bindings {
 namespace {
 
 Shader shader_of(const SourceLike& fragment, const SourceLike& vertex, const UniformsLike& uniforms,
-                 const TexturesLike& textures, std::optional<float> displacement) {
+                 const TexturesLike& textures, Argument<std::optional<float>> displacement) {
     return {to_user_source(fragment, "fragment"), to_user_source(vertex, "vertex"),
             to_inputs(uniforms, textures), displacement};
 }

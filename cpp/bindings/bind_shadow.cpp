@@ -1,6 +1,7 @@
 // cubecam.Shadow
 #include "docs/shadow.hpp"
 #include "shadow_like.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include <pybind11/pybind11.h>
@@ -33,8 +34,9 @@ void bind_shadow(pybind11::module_& module) {
     namespace py = pybind11;
 
     declare<Shadow>(module, "Shadow", docs::shadow)
-        .def(py::init([](int size, double radius, double bias, double near,
-                         std::optional<double> far, std::optional<double> extent) {
+        .def(py::init([](Int size, Real radius, Real bias, Real near,
+                         Argument<std::optional<double>> far,
+                         Argument<std::optional<double>> extent) {
                  auto shadow =
                      std::make_shared<Shadow>(Shadow{size, radius, bias, near, far, extent});
                  check(*shadow);

@@ -1,6 +1,7 @@
 // cubecam.MorphTarget and cubecam.Skin
 #include "docs/skin.hpp"
 #include "node_list.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 #include "vertices.hpp"
 
@@ -36,7 +37,7 @@ std::vector<glm::vec4> to_color_displacements(py::handle colors) {
 std::shared_ptr<MorphTarget>
 make_target(const OrNone<ArrayLike>& positions, const OrNone<ArrayLike>& normals,
             const OrNone<ArrayLike>& tangents, const OrNone<ArrayLike>& uvs,
-            const OrNone<ArrayLike>& colors, const OrNone<ArrayLike>& uvs1, std::string name) {
+            const OrNone<ArrayLike>& colors, const OrNone<ArrayLike>& uvs1, const Text& name) {
     MorphTarget::Arrays arrays;
     if (!positions.is_none()) {
         arrays.positions = to_vectors<glm::vec3>(float_array(positions, "positions", "(V, 3)"));
@@ -50,7 +51,7 @@ make_target(const OrNone<ArrayLike>& positions, const OrNone<ArrayLike>& normals
     if (!uvs.is_none()) arrays.uvs = to_vectors<glm::vec2>(float_array(uvs, "uvs", "(V, 2)"));
     if (!colors.is_none()) arrays.colors = to_color_displacements(colors);
     if (!uvs1.is_none()) arrays.uvs1 = to_vectors<glm::vec2>(float_array(uvs1, "uvs1", "(V, 2)"));
-    return std::make_shared<MorphTarget>(std::move(arrays), std::move(name));
+    return std::make_shared<MorphTarget>(std::move(arrays), name);
 }
 
 void bind_morph_target(py::module_& module) {

@@ -2,6 +2,7 @@
 #include "choice.hpp"
 #include "docs/stereo.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 
 #include "cubecam/scene/stereo_camera.hpp"
 
@@ -56,7 +57,7 @@ void bind_stereo(pybind11::module_& module) {
              py::arg("left"), py::arg("right"), py::kw_only(), py::arg("layout") = "anaglyph")
         .def_static(
             "off_axis",
-            [](const Eye& camera, double separation, std::optional<double> convergence,
+            [](const Eye& camera, Real separation, Argument<std::optional<double>> convergence,
                const StereoName& layout) {
                 return stereo_of(
                     off_axis_eyes(to_eye(camera, "camera")->value(), separation, convergence),
@@ -66,7 +67,7 @@ void bind_stereo(pybind11::module_& module) {
             py::arg("convergence") = py::none(), py::arg("layout") = "anaglyph", docs::off_axis)
         .def_static(
             "toe_in",
-            [](const Eye& camera, double degrees, const StereoName& layout) {
+            [](const Eye& camera, Real degrees, const StereoName& layout) {
                 return stereo_of(toe_in_eyes(to_eye(camera, "camera")->value(), degrees), layout);
             },
             py::arg("camera"), py::kw_only(), py::arg("degrees") = 4.0,

@@ -21,18 +21,19 @@ void edit_surface(Material& material, Change change) {
 }  // namespace
 
 void bind_surface_options(Class<Material>& material) {
-    material.def_property("name", &Material::name, &Material::set_name,
-                          "str: a name for people, empty by default; no picture depends on it, and "
-                          "it need not be unique.");
+    material.def_property(
+        "name", &Material::name, [](Material& self, const Text& value) { self.set_name(value); },
+        "str: a name for people, empty by default; no picture depends on it, and "
+        "it need not be unique.");
     surface_property(
         material, "opacity", [](const SurfaceOptions& s) { return shortest(s.opacity); },
-        [](Material& self, float value) {
+        [](Material& self, Strict<float> value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.opacity = value; });
         },
         "float: from 0 to 1; multiplies the alpha of the colours.");
     surface_property(
         material, "double_sided", [](const SurfaceOptions& s) { return s.double_sided; },
-        [](Material& self, bool value) {
+        [](Material& self, Flag value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.double_sided = value; });
         },
         "bool: True shows both sides, with the normal turned to the viewer; False culls back "
@@ -60,7 +61,7 @@ void bind_surface_options(Class<Material>& material) {
         "if the blend is \"opaque\".");
     surface_property(
         material, "depth_test", [](const SurfaceOptions& s) { return s.depth_test; },
-        [](Material& self, bool value) {
+        [](Material& self, Flag value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.depth_test = value; });
         },
         "bool: False: the surface is drawn over nearer ones, too.");
@@ -86,7 +87,7 @@ void bind_surface_options(Class<Material>& material) {
         "has one. None: it does neither.");
     surface_property(
         material, "flat_shading", [](const SurfaceOptions& s) { return s.flat_shading; },
-        [](Material& self, bool value) {
+        [](Material& self, Flag value) {
             edit_surface(self, [&](SurfaceOptions& s) { s.flat_shading = value; });
         },
         "bool: True shows each triangle with the normal of its plane, as `Mesh.flat_shaded` has "

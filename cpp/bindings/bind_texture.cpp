@@ -3,6 +3,7 @@
 #include "map_source.hpp"
 #include "numbers.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/materials/placed_map.hpp"
@@ -28,7 +29,7 @@ glm::vec2 to_pair(py::handle value, const char* name) {
 Pair from_pair(const glm::vec2& pair) { return py::make_tuple(shortest(pair.x), shortest(pair.y)); }
 
 std::shared_ptr<PlacedMap> make_texture(const Source& source, const WholeNumber& uv_set,
-                                        const ArrayLike& offset, double rotation,
+                                        const ArrayLike& offset, Real rotation,
                                         const ArrayLike& scale) {
     if (source.is_none())
         refuse(source, "source", "an Image, an array (H, W, C) or a RenderTexture");

@@ -82,6 +82,7 @@ struct type_caster<cubecam::bindings::Choice<table>> {
     PYBIND11_TYPE_CASTER(Value, LiteralText<table>::name);
 
     bool load(handle from, bool convert) {
+        if (!from || PyUnicode_Check(from.ptr()) == 0) return false;  // bytes are no name
         make_caster<std::string> text;
         if (!text.load(from, convert)) return false;
         value = Value(std::string_view(cast_op<std::string&>(text)));

@@ -1,5 +1,7 @@
 #include "colors.hpp"
 
+#include "cubecam/core/parse_name.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -225,6 +227,7 @@ std::size_t edits_between(std::string_view a, std::string_view b) {
 
 /// "; did you mean 'red'?", or an empty text if no name is similar.
 std::string suggestion(std::string_view name) {
+    if (name.size() > 64) return {};  // no name is as long
     const NamedColor* nearest = nullptr;
     std::size_t least = 1 + name.size() / 3;
     for (const NamedColor& candidate : named_colors) {
@@ -250,7 +253,7 @@ glm::dvec4 parse_color(std::string_view text, const char* argument) {
         throw std::invalid_argument(
             std::string(argument) +
             ": expected \"#rgb\", \"#rgba\", \"#rrggbb\" or \"#rrggbbaa\", got '" +
-            std::string(text) + "'");
+            shortened(text) + "'");
     }
     const auto* const found =
         std::lower_bound(std::begin(named_colors), std::end(named_colors), std::string_view(plain),
@@ -258,7 +261,7 @@ glm::dvec4 parse_color(std::string_view text, const char* argument) {
     if (found == std::end(named_colors) || found->name != plain) {
         throw std::invalid_argument(std::string(argument) +
                                     ": expected numbers, a CSS name or \"#rrggbb\", got '" +
-                                    std::string(text) + "'" + suggestion(plain));
+                                    shortened(text) + "'" + suggestion(plain));
     }
     const std::uint32_t rgb = found->rgb;
     return linear_color({static_cast<int>(rgb >> 16), static_cast<int>(rgb >> 8 & 255U),

@@ -9,6 +9,7 @@
 #include "placed_map.hpp"
 #include "shader_inputs.hpp"
 #include "surface_options.hpp"
+#include "values.hpp"
 #include "vectors.hpp"
 
 #include "cubecam/materials/material.hpp"
@@ -59,28 +60,28 @@ struct Conversion<glm::vec4> {
 
 template <>
 struct Conversion<float> {
-    using Given = float;
-    static float to(float value, const char*) { return value; }
+    using Given = Strict<float>;
+    static float to(const Given& value, const char*) { return value; }
     static double from(float value) { return shortest(value); }
     static py::object initial(float value) { return py::float_(shortest(value)); }
 };
 
 template <>
 struct Conversion<bool> {
-    using Given = bool;
-    static bool to(bool value, const char*) { return value; }
+    using Given = Flag;
+    static bool to(const Given& value, const char*) { return value; }
     static bool from(bool value) { return value; }
     static py::object initial(bool value) { return py::bool_(value); }
 };
 
 template <>
 struct Conversion<std::optional<float>> {
-    using Given = std::optional<float>;
-    static Given to(Given value, const char*) { return value; }
-    static std::optional<double> from(Given value) {
+    using Given = Argument<std::optional<float>>;
+    static std::optional<float> to(const Given& value, const char*) { return value; }
+    static std::optional<double> from(std::optional<float> value) {
         return value ? std::optional(shortest(*value)) : std::nullopt;
     }
-    static py::object initial(Given value) { return py::cast(from(value)); }
+    static py::object initial(std::optional<float> value) { return py::cast(from(value)); }
 };
 
 template <>
@@ -95,8 +96,8 @@ struct Conversion<glm::vec3> {
 
 template <>
 struct Conversion<int> {
-    using Given = int;
-    static int to(int value, const char*) { return value; }
+    using Given = Int;
+    static int to(const Given& value, const char*) { return value; }
     static int from(int value) { return value; }
     static py::object initial(int value) { return py::int_(value); }
 };

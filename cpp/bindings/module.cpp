@@ -91,7 +91,7 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The compiled part of cubecam. Use `import cubecam`, which exports it.";
     module.attr("__version__") = CUBECAM_VERSION;
 
-    cubecam::bindings::install_interrupt_check();
+    cubecam::bindings::bind_interrupts(module);
     bind_pickling(module);
     bind_arrays(module);
     bind_errors(module);

@@ -1,4 +1,5 @@
-/// Whole numbers and sizes, from Python.
+/// Whole numbers, real numbers, truth values and sizes, from Python. These functions are the one
+/// check for them: the casters of values.hpp call them, and python/cubecam/_checks.py does.
 #pragma once
 
 #include "cubecam/core/error.hpp"
@@ -6,6 +7,7 @@
 #include <pybind11/pybind11.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,36 +15,32 @@ namespace cubecam {
 
 namespace py = pybind11;
 
-inline std::string text_of(py::handle value) { return py::repr(value).cast<std::string>(); }
+/// A value as messages show it: numbers, texts and short lists of them as Python writes them, but
+/// never more than about 100 letters; of other values what their repr says in one short line, or
+/// their type. An error of the value's own repr is no error here.
+std::string text_of(py::handle value);
 
-/// A whole number of Python or numpy; a bool raises TypeError. A number beyond 64 bits becomes the
-/// nearest one of 64 bits, since every caller checks limits that are narrower.
-inline std::int64_t to_int(py::handle value, const char* name) {
-    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-        throw TypeError(std::string(name) + ": expected an int, got " + text_of(value));
-    }
-    const std::int64_t number = PyNumber_AsSsize_t(value.ptr(), nullptr);
-    if (number == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
-    return number;
-}
+/// An int of Python or numpy, or another object with `__index__`. None for a bool, a float, a text,
+/// an array with axes, a masked value, and where `__index__` raises an Exception. A number beyond
+/// 64 bits becomes the nearest one of 64 bits, since every caller checks limits that are narrower.
+std::optional<std::int64_t> whole_number(py::handle value);
 
-/// A whole number within limits.
-inline std::int64_t to_int(py::handle value, const char* name, std::int64_t low,
-                           std::int64_t high) {
-    const std::int64_t number = to_int(value, name);
-    if (number >= low && number <= high) return number;
-    throw py::value_error(std::string(name) + ": expected an int from " + std::to_string(low) +
-                          " to " + std::to_string(high) + ", got " + text_of(value));
-}
+/// A real number of Python or numpy, NaN and infinities included, or another object with
+/// `__float__`. None for a bool, a complex number, a text, an array with axes, a masked value, an
+/// int that float64 cannot hold, and where `__float__` raises an Exception.
+std::optional<double> real_number(py::handle value);
+
+/// A bool of Python or numpy. None for everything else, since 0.5, "no" and nan are neither true
+/// nor false.
+std::optional<bool> truth_value(py::handle value);
+
+/// A whole number; everything else raises TypeError.
+std::int64_t to_int(py::handle value, const char* name);
+
+/// A whole number within limits; one beyond them raises ValueError.
+std::int64_t to_int(py::handle value, const char* name, std::int64_t low, std::int64_t high);
 
 /// The pair (width, height).
-inline std::pair<std::int64_t, std::int64_t> to_size(py::handle value) {
-    if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) ||
-        py::len(value) != 2) {
-        throw TypeError("size: expected (width, height) in pixels, got " + text_of(value));
-    }
-    const auto pair = py::reinterpret_borrow<py::sequence>(value);
-    return {to_int(py::object(pair[0]), "width"), to_int(py::object(pair[1]), "height")};
-}
+std::pair<std::int64_t, std::int64_t> to_size(py::handle value);
 
 }  // namespace cubecam

@@ -3,6 +3,7 @@
 
 #include "arrays.hpp"
 #include "objects.hpp"
+#include "values.hpp"
 
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/image/image.hpp"
@@ -86,21 +87,21 @@ void bind_inputs(Bound& made, Get get, Edit edit) {
         "Replace all uniforms, all textures, or both.");
     made.def(
         "_set_uniform",
-        [edit](Owner& self, const std::string& name, const py::object& value) {
+        [edit](Owner& self, const Text& name, const py::object& value) {
             const UniformValue uniform = to_uniform(value, name);
             edit(self, [&](ShaderInputs& inputs) { inputs.uniforms[name] = uniform; });
         },
         py::arg("name"), py::arg("value"));
     made.def(
         "_set_texture",
-        [edit](Owner& self, const std::string& name, const py::object& value) {
+        [edit](Owner& self, const Text& name, const py::object& value) {
             const TextureSource texture = to_texture(value, name);
             edit(self, [&](ShaderInputs& inputs) { inputs.textures[name] = texture; });
         },
         py::arg("name"), py::arg("value"));
     made.def(
         "_remove_uniform",
-        [edit](Owner& self, const std::string& name) {
+        [edit](Owner& self, const Text& name) {
             edit(self, [&](ShaderInputs& inputs) {
                 if (inputs.uniforms.erase(name) == 0) throw py::key_error(name);
             });
@@ -108,7 +109,7 @@ void bind_inputs(Bound& made, Get get, Edit edit) {
         py::arg("name"));
     made.def(
         "_remove_texture",
-        [edit](Owner& self, const std::string& name) {
+        [edit](Owner& self, const Text& name) {
             edit(self, [&](ShaderInputs& inputs) {
                 if (inputs.textures.erase(name) == 0) throw py::key_error(name);
             });

@@ -1,6 +1,7 @@
 /// The shadow of a light, from Python and back.
 #pragma once
 
+#include "numbers.hpp"
 #include "objects.hpp"
 
 #include "cubecam/scene/shadow.hpp"
@@ -17,8 +18,8 @@ using ShadowLike = OneOf<Shadow, bool, py::none>;
 /// None and False give no shadow; True gives the default shadow.
 inline std::optional<Shadow> to_shadow(py::handle value) {
     if (value.is_none()) return std::nullopt;
-    if (py::isinstance<py::bool_>(value)) {
-        return value.cast<bool>() ? std::optional(Shadow{}) : std::nullopt;
+    if (const auto cast = truth_value(value)) {
+        return *cast ? std::optional(Shadow{}) : std::nullopt;
     }
     return *to_shared<Shadow>(value, "shadow", "a Shadow, True or None");
 }

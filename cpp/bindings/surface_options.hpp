@@ -4,6 +4,7 @@
 #include "choice.hpp"
 #include "objects.hpp"
 #include "stencil.hpp"
+#include "values.hpp"
 
 #include "cubecam/materials/material.hpp"
 
@@ -21,12 +22,8 @@ using DepthWriteLike = OneOf<py::bool_, py::none>;
 using ColorWriteLike = OneOf<py::bool_, py::typing::Tuple<bool, bool, bool, bool>>;
 
 inline bool to_bool(py::handle value, const char* name, const char* expected) {
-    // Booleans of numpy are accepted, too; numbers are not, since 0.5 is neither True nor False.
-    const py::object kind = py::module_::import("numpy").attr("bool_");
-    if (!py::isinstance<py::bool_>(value) && !py::isinstance(value, kind)) {
-        refuse(value, name, expected);
-    }
-    return py::bool_(py::reinterpret_borrow<py::object>(value));
+    if (const auto truth = truth_value(value)) return *truth;
+    refuse(value, name, expected);
 }
 
 inline void set_blend(SurfaceOptions& surface, py::handle value) {
@@ -80,10 +77,10 @@ inline py::tuple from_color_write(const glm::bvec4& write) {
 template <class Kind, class... Own, class... Named>
 void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
               const Named&... named) {
-    made.def(py::init([make](Own... own, float opacity, bool double_sided, const BlendLike& blend,
-                             const DepthWriteLike& depth_write, bool depth_test,
-                             const ColorWriteLike& color_write, const OrNone<Stencil>& stencil,
-                             bool flat_shading, std::string name) {
+    made.def(py::init([make](Own... own, Strict<float> opacity, Flag double_sided,
+                             const BlendLike& blend, const DepthWriteLike& depth_write,
+                             Flag depth_test, const ColorWriteLike& color_write,
+                             const OrNone<Stencil>& stencil, Flag flat_shading, const Text& name) {
                  SurfaceOptions surface;
                  surface.opacity = opacity;
                  surface.double_sided = double_sided;
@@ -94,7 +91,7 @@ void def_init(Class<MaterialOf<Kind>, Material>& made, Kind (*make)(Own...),
                  surface.stencil = to_stencil(stencil);
                  surface.flat_shading = flat_shading;
                  auto material = std::make_shared<MaterialOf<Kind>>(make(own...), surface);
-                 material->set_name(std::move(name));
+                 material->set_name(name);
                  return material;
              }),
              named..., py::arg("opacity") = 1.0F, py::arg("double_sided") = false,

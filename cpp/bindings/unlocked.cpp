@@ -2,6 +2,7 @@
 
 #include "cubecam/core/interrupts.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -117,7 +118,7 @@ Locked::~Locked() {
     innermost = inside_;
 }
 
-void install_interrupt_check() {
+void bind_interrupts(py::module_& module) {
     const py::object main = py::module_::import("threading").attr("main_thread")();
     signal_thread = main.attr("ident").cast<unsigned long>();
     static const int at_exit = Py_AtExit(&stop_other_threads);
@@ -126,6 +127,12 @@ void install_interrupt_check() {
                     // before
     (void)at_fork;
     set_interrupt_check(&check_interrupts);
+    module.def(
+        "_interrupt_pause",
+        [](int milliseconds) { return interrupts::pause_ms.exchange(std::max(0, milliseconds)); },
+        py::arg("milliseconds"),
+        "For tests: the time between two looks for signals in a long call; returns the one "
+        "before.");
 }
 
 }  // namespace cubecam::bindings

@@ -43,7 +43,7 @@ private:
     Unlocked* const inside_;
 };
 
-/// Makes `poll_interrupts()` of the core handle signals. Called once, when the module is imported.
-void install_interrupt_check();
+/// Makes `poll_interrupts()` of the core handle signals, and defines a function for tests.
+void bind_interrupts(pybind11::module_& module);
 
 }  // namespace cubecam::bindings

@@ -6,6 +6,7 @@
 #include "objects.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/parse_name.hpp"
 
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -77,7 +78,7 @@ inline glm::vec3 to_rgb(py::handle value, const char* name) {
     const glm::dvec4 color = parse_color(text, name);
     if (color.a != 1.0) {
         throw py::value_error(std::string(name) + ": expected a colour without alpha, got '" +
-                              text + "'");
+                              shortened(text) + "'");
     }
     return glm::vec3(color);
 }

@@ -8,11 +8,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <dirent.h>
 #include <fcntl.h>
+#include <string>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
 #include <unistd.h>
+#include <vector>
 
 namespace helper {
 namespace {
@@ -25,6 +28,7 @@ using cubecam::trial::Step;
 std::atomic<Step> current{Step::start};
 std::atomic<bool> busy{true};  // until the context is there, too
 std::atomic<bool> memory_limited{false};
+std::atomic<bool> memory_short{false};  // the machine cannot grant as much as Limits says
 std::array<char, 65536> signal_stack;
 
 /// Sends a report and ends the process. It may run in a signal handler and inside malloc.
@@ -39,7 +43,7 @@ std::array<char, 65536> signal_stack;
 }
 
 void on_crash(int signal) { report_end(Outcome::crashed, signal); }
-void on_time(int) { report_end(Outcome::out_of_time, 0); }
+void on_time(int signal) { report_end(Outcome::out_of_time, signal); }
 void on_exit() { report_end(Outcome::ended, 0); }
 
 void handle(int signal, void (*handler)(int)) {
@@ -78,10 +82,37 @@ void write_file(const char* path, std::string_view text) {
     ::close(file);
 }
 
+/// Opens the states of Mesa's threads that write its disk cache: their names end in "disk$0".
+std::vector<int> open_cache_threads() {
+    std::vector<int> states;
+    DIR* tasks = opendir("/proc/self/task");
+    if (tasks == nullptr) return states;
+    while (const dirent* task = readdir(tasks)) {
+        const std::string folder = std::string("/proc/self/task/") + task->d_name;
+        const int file = ::open((folder + "/comm").c_str(), O_RDONLY | O_CLOEXEC);
+        if (file < 0) continue;
+        std::array<char, 64> name{};
+        const ssize_t got = ::read(file, name.data(), name.size() - 1);
+        ::close(file);
+        if (got <= 0 || std::strstr(name.data(), "disk$") == nullptr) continue;
+        states.push_back(::open((folder + "/stat").c_str(), O_RDONLY | O_CLOEXEC));
+    }
+    closedir(tasks);
+    return states;
+}
+
+/// Whether a thread waits for work, from its line in /proc: "1234 (name) S ...".
+bool sleeps(int state) {
+    std::array<char, 256> text{};
+    if (pread(state, text.data(), text.size() - 1, 0) <= 0) return true;
+    const char* end = std::strrchr(text.data(), ')');
+    return end == nullptr || end[1] != ' ' || end[2] == 'S';
+}
+
 }  // namespace
 
 void refuse_memory() {
-    if (memory_limited) report_end(Outcome::out_of_memory, 0);
+    if (memory_limited) report_end(Outcome::out_of_memory, memory_short ? 1 : 0);
 }
 
 void leave_owner() {
@@ -119,6 +150,7 @@ std::uint64_t limit_memory() {
     rlimit limit{};
     if (getrlimit(RLIMIT_DATA, &limit) == 0) {
         limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, before + granted);
+        memory_short = limit.rlim_cur < before + Limits::bytes;
         setrlimit(RLIMIT_DATA, &limit);
     }
     memory_limited = true;
@@ -138,6 +170,14 @@ void stop_clock() {
 }
 
 bool is_idle() { return !busy; }
+
+void wait_for_cache() {
+    static const std::vector<int> threads = open_cache_threads();
+    constexpr int most_waits = 100;
+    for (const int thread : threads) {
+        for (int waits = 0; waits < most_waits && !sleeps(thread); ++waits) usleep(500);
+    }
+}
 
 void begin(Step step) { current = step; }
 

@@ -26,6 +26,10 @@ void stop_clock();
 /// Whether no job has come for a while.
 bool is_idle();
 
+/// Waits until Mesa's thread for its disk cache has written what a job compiled: the owner, which
+/// compiles the same next, then finds it there. Does nothing with another driver.
+void wait_for_cache();
+
 void begin(cubecam::trial::Step step);
 void send(cubecam::trial::Outcome outcome, std::string_view text = {});
 

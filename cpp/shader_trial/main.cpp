@@ -63,6 +63,7 @@ void try_job(const GladGLContext& gl, const std::string& bytes) {
         helper::start_clock();
         perform(gl, job, helper::begin);
         helper::stop_clock();
+        helper::wait_for_cache();
         helper::send(Outcome::survived);
     } catch (const std::bad_alloc&) {
         helper::stop_clock();

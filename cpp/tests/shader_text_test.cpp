@@ -17,7 +17,7 @@ namespace {
 const std::array<ShaderSource, 5> sources = {{
     {"a.frag", "#include \"b.glsl\"\n#include \"c.glsl\"\nvoid main() {}\n"},
     {"b.glsl", "#include \"c.glsl\"\nint b;\n"},
-    {"c.glsl", "int c;\n", "user's file"},
+    {.name = "c.glsl", .text = "int c;\n", .title = "user's file"},
     {"lost.frag", "int x;\n#include \"nowhere.glsl\"\n"},
     {"old.frag", "#version 330\n"},
 }};

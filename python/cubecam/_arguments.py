@@ -7,11 +7,11 @@ calls `explain` after such an error (cpp/bindings/arguments.cpp); a call that su
 from __future__ import annotations
 
 import re
-import reprlib
 from typing import Any
 
 from . import _core
 from ._calls import Parameter, unknown_name, wrong_number
+from ._checks import text_of
 from ._old_names import PICKLED_ARGUMENTS, renamed_argument
 
 __all__ = ["explain"]
@@ -22,8 +22,10 @@ _OLD_PICKLE = (
 )
 
 
-def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
-    """Say what is wrong with a call.
+def explain(
+    function: str, message: str, given: tuple[Any, ...], named: dict[str, Any]
+) -> Exception:
+    """Say what is wrong with a call, by the exception that it raises.
 
     Parameters
     ----------
@@ -36,9 +38,20 @@ def explain(function: str, message: str, given: tuple[Any, ...], named: dict[str
 
     Returns
     -------
-    str
-        One line.
+    Exception
+        With one line: a ValueError for a number of the right kind that the core cannot hold, else a TypeError.
     """
+    try:
+        return TypeError(_explanation(function, message, given, named))
+    except _BeyondError as beyond:
+        return ValueError(str(beyond))
+
+
+class _BeyondError(Exception):
+    """The text about a number that the core cannot hold."""
+
+
+def _explanation(function: str, message: str, given: tuple[Any, ...], named: dict[str, Any]) -> str:
     overloads = [_parameters(text) for text in _signatures(message)]
     owner, _, member = function.rpartition(".")
     if any(parameters and parameters[0].name == "self" for parameters in overloads):
@@ -128,6 +141,9 @@ def _parameters(text: str) -> list[Parameter]:
 
 def _wrong_value(overloads: list[list[Parameter]], given: tuple[Any, ...]) -> str:
     """Say what a property expected; its setter has one parameter, whose name nobody writes."""
+    for parameters in overloads:
+        if parameters and given:
+            _refuse_beyond("", parameters[-1].kind, given[-1])
     kinds = [_readable(parameters[-1].kind) for parameters in overloads if parameters]
     return f"expected {' or '.join(kinds)}, got {_value(given[-1] if given else None)}"
 
@@ -142,7 +158,34 @@ def _wrong_type(
             return (
                 f"{call}: {parameter.name}: expected {_readable(parameter.kind)}, got {_value(got)}"
             )
+    for parameter in parameters:
+        if parameter.name in values:
+            _refuse_beyond(f"{call}: {parameter.name}: ", parameter.kind, values[parameter.name])
     return None
+
+
+def _refuse_beyond(begin: str, kind: str, value: Any) -> None:
+    """Raise _BeyondError for an int or a text that an argument of the core cannot hold."""
+    kinds = kind.split(" | ")
+    if "typing.SupportsFloat" in kinds:
+        if _core._is_whole_number(value) and not _core._is_real_number(value):
+            raise _BeyondError(
+                f"{begin}expected a number within float64's range, got {_value(value)}"
+            )
+    elif "typing.SupportsIndex" in kinds and _core._is_whole_number(value):
+        low, high = -(2**31), 2**31 - 1
+        if not low <= value <= high:
+            raise _BeyondError(f"{begin}expected an int from {low} to {high}, got {_value(value)}")
+    if isinstance(value, str) and not _is_unicode(value):
+        raise _BeyondError(f"{begin}expected text that is valid Unicode, got {_value(value)}")
+
+
+def _is_unicode(text: str) -> bool:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def _fits(kind: str, value: Any) -> bool:
@@ -156,15 +199,13 @@ def _fits_one(kind: str, value: Any) -> bool:
     if value is None:
         return kind in ("object", "typing.Any")
     if kind == "bool":
-        return type(value).__name__ in ("bool", "bool_")
+        return _core._is_truth_value(value)
     if kind == "str" or kind.startswith("typing.Literal["):
-        return isinstance(value, (str, bytes))
+        return isinstance(value, str)
     if kind == "typing.SupportsFloat":
-        return hasattr(value, "__float__")
+        return _core._is_real_number(value) or _core._is_whole_number(value)
     if kind == "typing.SupportsIndex":
-        return hasattr(value, "__index__")
-    if kind == "typing.SupportsInt":
-        return hasattr(value, "__int__") and not isinstance(value, float)
+        return _core._is_whole_number(value)
     owner = getattr(_core, kind.removeprefix("cubecam."), None)
     return isinstance(value, owner) if isinstance(owner, type) else True
 
@@ -175,10 +216,10 @@ def _readable(kind: str) -> str:
         if one.startswith("typing.Literal["):
             names += one.removeprefix("typing.Literal[").removesuffix("]").split(", ")
             continue
-        plain = {"typing.SupportsFloat": "float", "typing.SupportsInt": "int"}.get(one, one)
+        plain = {"typing.SupportsFloat": "float"}.get(one, one)
         plain = plain.removeprefix("cubecam.").removeprefix("numpy.typing.").removeprefix("typing.")
         plain = {"ArrayLike": "array_like", "SupportsIndex": "int"}.get(plain, plain)
-        if not (one == "typing.SupportsIndex" and names[-1:] in (["float"], ["int"])):
+        if not (one == "typing.SupportsIndex" and names[-1:] == ["float"]):
             names.append(plain)
     return " or ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
@@ -191,7 +232,7 @@ def _described(parameter: Parameter) -> str:
 def _value(value: Any) -> str:
     """Show a number or a str as it is, and any other value by its type."""
     plain = isinstance(value, (str, bytes, bool, int, float)) or value is None
-    return reprlib.repr(value) if plain else type(value).__name__
+    return text_of(value) if plain else type(value).__name__
 
 
 def _values(given: tuple[Any, ...], named: dict[str, Any]) -> str:

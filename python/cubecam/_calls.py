@@ -1,6 +1,7 @@
 """One line for a call with a wrong, a missing or a superfluous argument; `checked_call` for functions of Python.
 
-`_arguments` gives the same answers for the core's functions.
+`_arguments` gives the same answers for the core's functions, and `_checks` says what a bool, an int, a float and a str
+are.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
+
+from ._checks import ArgumentChecks
 
 __all__ = ["Parameter", "checked_call", "unknown_name", "wrong_number"]
 
@@ -30,11 +33,21 @@ class Parameter:
 def checked_call(function: Callable[P, R]) -> Callable[P, R]:
     """Let a function answer a call that does not fit its signature in one line, as the core's functions do.
 
-    A call that fits costs nothing but the call of a wrapper. Signature, docstring and name stay.
+    Arguments whose annotation names bool, int, float, str or a list of names must be of that type. Signature, docstring
+    and name stay.
     """
+    checks: ArgumentChecks | None = (
+        None  # made at the first call, since most functions are never called
+    )
 
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        nonlocal checks
+        if checks is None:
+            checks = ArgumentChecks(function)
+        if checks:
+            given, named = checks.checked(f"{_shown_name(call)}()", args, kwargs)
+            args, kwargs = given, named  # type: ignore[assignment]
         try:
             return function(*args, **kwargs)
         except TypeError as error:
@@ -47,6 +60,12 @@ def checked_call(function: Callable[P, R]) -> Callable[P, R]:
         raise TypeError(answer)
 
     return call
+
+
+def _shown_name(function: Callable[..., Any]) -> str:
+    """Give a function's name as it is called: a class for its `__init__`."""
+    name = function.__name__
+    return function.__qualname__.split(".")[0] if name == "__init__" else name
 
 
 def _explain(

@@ -551,16 +551,16 @@ class Probe:
         self: Probe,
         position: np.typing.ArrayLike = (0, 0, 0),
         *,
-        size: typing.SupportsInt | typing.SupportsIndex = 256,
+        size: typing.SupportsIndex = 256,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
         far: typing.SupportsFloat | typing.SupportsIndex = 1000.0,
         format: Format = "rgba16f",
         mipmaps: bool = False,
-        samples: typing.SupportsInt | typing.SupportsIndex = 1,
+        samples: typing.SupportsIndex = 1,
         update: ProbeUpdate | typing.SupportsIndex = "on_change",
         exclude: collections.abc.Iterable[Node] = (),
         parent: Node | None = None,
-        faces_per_frame: typing.SupportsInt | typing.SupportsIndex = 6,
+        faces_per_frame: typing.SupportsIndex = 6,
         depth_format: DepthFormat | None = "depth_component32f",
         prefilter: bool | None = None,
     ) -> None: ...
@@ -604,7 +604,7 @@ class Probe:
         """
 
     @faces_per_frame.setter
-    def faces_per_frame(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def faces_per_frame(self, value: typing.SupportsIndex) -> None: ...
     @property
     def far(self) -> float:
         """
@@ -668,7 +668,7 @@ class Probe:
         """
 
     @samples.setter
-    def samples(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def samples(self, value: typing.SupportsIndex) -> None: ...
     @property
     def size(self) -> int:
         """
@@ -676,7 +676,7 @@ class Probe:
         """
 
     @size.setter
-    def size(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def size(self, value: typing.SupportsIndex) -> None: ...
     @property
     def update(self) -> ProbeUpdate | int:
         """
@@ -1612,7 +1612,7 @@ class CubeMap:
     def from_equirect(
         image: np.typing.ArrayLike,
         *,
-        size: typing.SupportsInt | typing.SupportsIndex | None = None,
+        size: typing.SupportsIndex | None = None,
         center: Center = "-z",
         sampling: Sampling = "centers",
         mipmaps: bool = False,
@@ -1670,7 +1670,7 @@ class CubeMap:
         *,
         layout: Layout | None = None,
         convention: Convention = "gl",
-        size: typing.SupportsInt | typing.SupportsIndex | None = None,
+        size: typing.SupportsIndex | None = None,
         center: Center = "-z",
         mipmaps: bool = False,
         dtype: np.typing.DTypeLike | None = None,
@@ -1987,10 +1987,7 @@ class CubeMap:
         """
 
     def resize(
-        self: CubeMap,
-        size: typing.SupportsInt | typing.SupportsIndex,
-        *,
-        dtype: np.typing.DTypeLike | None = None,
+        self: CubeMap, size: typing.SupportsIndex, *, dtype: np.typing.DTypeLike | None = None
     ) -> CubeMap:
         """
         Resample the faces to another size.
@@ -2445,7 +2442,7 @@ class CubeMap:
     def to_equirect(
         self: CubeMap,
         *,
-        width: typing.SupportsInt | typing.SupportsIndex | None = None,
+        width: typing.SupportsIndex | None = None,
         center: Center = "-z",
         sampling: Sampling = "centers",
         dtype: np.typing.DTypeLike | None = None,
@@ -2492,7 +2489,7 @@ class CubeMap:
     def to_equirect(
         self: CubeMap,
         *,
-        width: typing.SupportsInt | typing.SupportsIndex | None = None,
+        width: typing.SupportsIndex | None = None,
         center: Center = "-z",
         sampling: Sampling = "centers",
         dtype: np.typing.DTypeLike | None = None,
@@ -3141,7 +3138,7 @@ class Mesh:
         radius: typing.SupportsFloat | typing.SupportsIndex | None = None,
         head_length: typing.SupportsFloat | typing.SupportsIndex | None = None,
         head_radius: typing.SupportsFloat | typing.SupportsIndex | None = None,
-        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+        segments: typing.SupportsIndex = 64,
     ) -> Mesh:
         """
         A closed arrow along +Z, from the origin to (0, 0, length): a cylinder with a cone as its head.
@@ -3218,7 +3215,7 @@ class Mesh:
     def cone(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         height: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+        segments: typing.SupportsIndex = 64,
     ) -> Mesh:
         """
         A centred, closed cone round the Y axis: base at -height/2, apex at +height/2.
@@ -3251,7 +3248,7 @@ class Mesh:
     def cylinder(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         height: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        segments: typing.SupportsInt | typing.SupportsIndex = 64,
+        segments: typing.SupportsIndex = 64,
     ) -> Mesh:
         """
         A centred, closed cylinder round the Y axis.
@@ -3321,7 +3318,7 @@ class Mesh:
     @staticmethod
     def icosphere(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        subdivisions: typing.SupportsInt | typing.SupportsIndex = 3,
+        subdivisions: typing.SupportsIndex = 3,
     ) -> Mesh:
         """
         A centred sphere of triangles of nearly equal size: a subdivided icosahedron.
@@ -3388,8 +3385,8 @@ class Mesh:
     @staticmethod
     def sphere(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
-        segments: typing.SupportsInt | typing.SupportsIndex = 64,
-        rings: typing.SupportsInt | typing.SupportsIndex = 32,
+        segments: typing.SupportsIndex = 64,
+        rings: typing.SupportsIndex = 32,
     ) -> Mesh:
         """
         A centred sphere of rings and segments, as on a globe.
@@ -3427,8 +3424,8 @@ class Mesh:
     def torus(
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         tube: typing.SupportsFloat | typing.SupportsIndex = 0.25,
-        segments: typing.SupportsInt | typing.SupportsIndex = 64,
-        sides: typing.SupportsInt | typing.SupportsIndex = 32,
+        segments: typing.SupportsIndex = 64,
+        sides: typing.SupportsIndex = 32,
     ) -> Mesh:
         """
         A centred torus round the Y axis.
@@ -4109,7 +4106,7 @@ class Material:
                             a `Blend`: by its factors.
                             None: "alpha" if any part of the material is translucent, else "opaque"
     depth_write=None        whether the surface hides farther surfaces that are drawn after it; None:
-                            True if the blend is "opaque"
+                            True if the blend is "opaque"; shadows do not depend on it
     depth_test=True         False: the surface is drawn over nearer ones, too
     color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
     stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if
@@ -4651,6 +4648,11 @@ class ShaderMaterial(Material):
     nodes that write depth write outputs. The number of the driver's draw buffers (usually 8) limits colour
     and these outputs together. Without a request the output is an ordinary variable.
 
+    A variable without a value, also one that only some ways through the source set, is 0; so are an output and what a function
+    without a ``return`` gives. A loop without an end gives black on llvmpipe, which ends it after 65,536 steps; a GPU may
+    reset itself. GLSL that takes uniforms in blocks, buffers, images or attributes of its own is refused, and so is a ``main``.
+    ``#line`` has no effect: messages count the lines of the source.
+
     The source may use the names below. Names that begin with ``u_``, ``v_``, ``a_``, ``o_``, ``gl_`` or
     ``environment_`` are reserved.
 
@@ -5058,7 +5060,7 @@ class StandardMaterial(Material):
         dispersion: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         unlit: bool = False,
         specular: SpecularMode = "levels",
-        specular_samples: typing.SupportsInt | typing.SupportsIndex = 16,
+        specular_samples: typing.SupportsIndex = 16,
         multiple_scattering: bool = True,
         opacity: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         double_sided: bool = False,
@@ -5447,7 +5449,7 @@ class StandardMaterial(Material):
         """
 
     @specular_samples.setter
-    def specular_samples(self, value: typing.SupportsInt | typing.SupportsIndex) -> None: ...
+    def specular_samples(self, value: typing.SupportsIndex) -> None: ...
     @property
     def specular_weight(self) -> float:
         """
@@ -5662,7 +5664,8 @@ class Shadow:
     How a light makes its shadow: a depth map from the light's view, and the filter of its lookups.
 
     A Shadow never changes; give a light a new one instead. All visible opaque nodes whose ``cast_shadow`` is
-    True cast shadows, in or out of a picture's view, from either side of their surface. Shadows fall on
+    True cast shadows, in or out of a picture's view, from either side of their surface, whether their material
+    writes depth and colour or not. Shadows fall on
     every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again only when
     something in its view changes.
 
@@ -5713,7 +5716,7 @@ class Shadow:
     def __init__(
         self: Shadow,
         *,
-        size: typing.SupportsInt | typing.SupportsIndex = 1024,
+        size: typing.SupportsIndex = 1024,
         radius: typing.SupportsFloat | typing.SupportsIndex = 1.0,
         bias: typing.SupportsFloat | typing.SupportsIndex = 0.0,
         near: typing.SupportsFloat | typing.SupportsIndex = 0.05,
@@ -7919,6 +7922,10 @@ class Renderer:
     may use a renderer; calls on one renderer run one after the other, and several renderers work in parallel. Use a
     renderer in a ``with`` block, or call :meth:`close`.
 
+    If the context is lost, because another library in the process ended the EGL display (VTK does) or because the GPU was
+    reset, the call makes a new context, does its work again with the same result, and gives one :class:`RendererWarning`.
+    Probes with ``update="manual"`` are drawn again from the scene as it is then.
+
     Parameters
     ----------
     device : str, int, Device or None
@@ -7935,11 +7942,21 @@ class Renderer:
         256 MiB; ``stats.pictures_not_kept`` reports how many pictures of a call are larger than that.
     debug : bool
         True: the context is a debug context, whose errors say more.
+    trust_shaders : bool
+        False: GLSL of a :class:`ShaderMaterial` or an :class:`ImageEffect` that is new goes first to a process of its own,
+        which compiles it and draws one pixel; if the driver crashes there, or takes more than 10 seconds or a GiB of memory,
+        the call raises ShaderError. True: GLSL is compiled at once, and a source with which the driver crashes ends the
+        program. docs/security.md says more.
 
     Raises
     ------
     ContextError
         If no OpenGL context can be made. The message names each device that was tried, why it failed, and what to install.
+
+    Warns
+    -----
+    RendererWarning
+        If "auto" leads to a software driver although EGL lists a GPU.
 
     Examples
     --------
@@ -7963,8 +7980,9 @@ class Renderer:
         *,
         device: str | typing.SupportsIndex | Device | None = "auto",
         layered: bool | None = None,
-        cache_bytes: typing.SupportsInt | typing.SupportsIndex = 268435456,
+        cache_bytes: typing.SupportsIndex = 268435456,
         debug: bool = False,
+        trust_shaders: bool = False,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Renderer) -> str: ...
@@ -8278,9 +8296,39 @@ def _brdf_table() -> np.typing.NDArray[np.float32]:
     The table of the shaders, (64, 64, 4) float32: roughness by N.V; scale, bias, the albedo of sheen, 0.
     """
 
+def _check_memory(bytes: typing.SupportsFloat | typing.SupportsIndex, what: str) -> None:
+    """
+    Raises ValueError for what the memory cannot hold.
+    """
+
 def _check_pickle(format: object) -> None:
     """
     For unpickling: raises TypeError for a format that is not this version's.
+    """
+
+def _interrupt_pause(milliseconds: typing.SupportsInt | typing.SupportsIndex) -> int:
+    """
+    For tests: the time between two looks for signals in a long call; returns the one before.
+    """
+
+def _is_real_number(value: object) -> bool:
+    """
+    Whether a value is a number that a float can hold, and no bool.
+    """
+
+def _is_truth_value(value: object) -> bool:
+    """
+    Whether a value is a bool of Python or numpy.
+    """
+
+def _is_whole_number(value: object) -> bool:
+    """
+    Whether a value is an int of Python or numpy, and no bool.
+    """
+
+def _memory_left(root: str = "/") -> tuple[float, str]:
+    """
+    The bytes that this process may still take, and the name of the limit; `root` is the folder with proc/ and sys/.
     """
 
 def _newest_revision() -> int:
@@ -8308,6 +8356,11 @@ def _restore_frame(state: tuple[object, ...]) -> Frame:
 def _shaded_outputs() -> list[str]:
     """
     Names of the outputs that shaders write, for the command line.
+    """
+
+def _text_of(value: object) -> str:
+    """
+    A short text for a value in a message. It never raises an Exception.
     """
 
 def _to_array(value: object, name: str) -> np.typing.NDArray[np.generic]:

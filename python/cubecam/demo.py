@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._calls import checked_call
+from ._checks import text_of
 from ._core import (
     CubeMap,
     DirectionalLight,
@@ -214,6 +215,8 @@ def run(
     for name, number in (("frames", frames), ("size", size)):
         if number < 1:
             raise ValueError(f"{name}: expected at least 1, got {number}")
+    if console is not None and not isinstance(console, Console):
+        raise TypeError(f"console: expected a rich Console or None, got {text_of(console)}")
     console = console or Console()
     folder = as_path(out)
     folder.mkdir(parents=True, exist_ok=True)

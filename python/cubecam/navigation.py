@@ -9,13 +9,13 @@ Lengths and directions are those of the world, also for a camera with a `parent`
 from __future__ import annotations
 
 import math
-import numbers
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from ._calls import checked_call
+from ._checks import finite_number
 from ._core import OrthographicCamera, PerspectiveCamera, _to_array
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def yaw(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> None:
     >>> camera.target.round(3).tolist()
     [-1.0, 1.0, -1.732]
     """
-    angle = math.radians(_number(degrees, "degrees"))
+    angle = math.radians(finite_number(degrees, "degrees"))
     if angle == 0:
         return
     standing = Standing(camera)
@@ -91,7 +91,7 @@ def pitch(camera: PerspectiveCamera | OrthographicCamera, degrees: float) -> Non
     >>> camera.target.round(3).tolist()
     [0.0, 1.5, -0.866]
     """
-    change = _number(degrees, "degrees")
+    change = finite_number(degrees, "degrees")
     if change == 0:
         return
     standing = Standing(camera)
@@ -124,7 +124,7 @@ def walk(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> Non
     ([0.0, 0.0, 3.0], [0.0, 0.0, -2.0])
     """
     standing = Standing(camera)
-    standing.move(_number(distance, "distance") * standing.direction)
+    standing.move(finite_number(distance, "distance") * standing.direction)
 
 
 @checked_call
@@ -151,7 +151,7 @@ def strafe(camera: PerspectiveCamera | OrthographicCamera, distance: float) -> N
     [0.5, 0.0, 0.0]
     """
     standing = Standing(camera)
-    standing.move(_number(distance, "distance") * standing.right)
+    standing.move(finite_number(distance, "distance") * standing.right)
 
 
 @checked_call
@@ -190,7 +190,7 @@ def orbit(
     >>> camera.position.round(3).tolist()
     [-2.0, 0.0, 3.464]
     """
-    turn, rise = _number(yaw, "yaw"), _number(pitch, "pitch")
+    turn, rise = finite_number(yaw, "yaw"), finite_number(pitch, "pitch")
     standing = Standing(camera)
     if standing.target is None:
         raise ValueError("target: expected a camera with a target to orbit, got None")
@@ -300,15 +300,6 @@ def _unit(vector: Vector) -> Vector:
     scaled = vector / np.abs(vector).max()
     unit: Vector = scaled / _length(scaled)
     return unit
-
-
-def _number(value: Any, name: str) -> float:
-    if not isinstance(value, numbers.Real) or isinstance(value, bool):
-        raise TypeError(f"{name}: expected a number, got {type(value).__name__}")
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError(f"{name}: expected a finite number, got {number}")
-    return number
 
 
 def _direction(value: Any) -> Vector:

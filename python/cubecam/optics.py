@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._calls import checked_call
+from ._checks import check_room
 from ._core import _brdf, _to_array
 
 __all__ = ["brdf", "fresnel", "reflect", "refract", "schlick"]
@@ -283,6 +284,8 @@ def _numbers(value: npt.ArrayLike, name: str, kind: npt.DTypeLike) -> Any:
     if array.dtype.kind not in "iuf":
         got = f"dtype {array.dtype}" if array.dtype.kind in "bc" else type(value).__name__
         raise TypeError(f"{name}: expected real numbers, got {got}")
+    # An array of strides 0 is larger than its memory; formulas keep a few numbers for each of it.
+    check_room(32.0 * array.size, f"numbers of shape {array.shape}", name)
     return array.astype(kind, copy=False)
 
 
@@ -293,6 +296,7 @@ def _broadcast(one: Any, other: Any, name: str) -> tuple[Any, Any]:
         raise ValueError(
             f"{name}: expected a shape that can be broadcast with {one.shape}, got {other.shape}"
         ) from error
+    check_room(32.0 * first.size, f"numbers of shape {first.shape}", name)
     return first, second
 
 

@@ -1,7 +1,7 @@
 // An ImageEffect: one pass over a finished picture in linear float. The documentation of cubecam.ImageEffect lists
 // these names: they are an interface and must not change.
 layout(binding = 0) uniform sampler2DArray u_frame;
-layout(location = 0) uniform int u_layer;
+layout(location = 1023) uniform int u_layer;  // a user's uniforms may have the low locations
 layout(location = 0) out vec4 o_color;
 
 // Width and height in pixels.
@@ -20,4 +20,8 @@ vec4 frame_pixel(ivec2 pixel) { return texelFetch(u_frame, ivec3(clamp(pixel, iv
 vec4 with_alpha(vec4 color) { return color; }
 vec4 with_alpha(vec3 color) { return vec4(color, frame_pixel(ivec2(gl_FragCoord.xy)).a); }
 
-void main() { o_color = with_alpha(effect(gl_FragCoord.xy / vec2(frame_size()))); }
+void main() {
+    cubecam_zeros();
+    o_color = vec4(0.0);
+    if (u_layer >= 0) o_color = with_alpha(effect(gl_FragCoord.xy / vec2(frame_size())));  // always: see surface.frag
+}

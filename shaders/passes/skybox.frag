@@ -1,12 +1,13 @@
 #include "include/environment.glsl"
 
-in vec4 v_near;
-in vec4 v_far;
+flat in mat3 v_rays;    // the direction at v_centre, and its steps from pixel to pixel along x and y
+flat in vec2 v_centre;  // in pixels
 layout(location = 0) out vec4 o_color;
 
 void main() {
-    // far / far.w - near / near.w without the division by far.w, which a float loses for far / near of 1e8. This also
-    // works for parallel views, where every pixel has the same direction.
-    vec3 direction = (v_far.xyz * v_near.w - v_near.xyz * v_far.w) * sign(v_near.w);
+    // Each pixel computes its direction from whole numbers: interpolated directions would be too coarse for wide views.
+    // Multisamples do not matter, since a driver may place gl_FragCoord on any of them.
+    vec2 place = floor(gl_FragCoord.xy) + 0.5 - v_centre;
+    precise vec3 direction = v_rays[0] + place.x * v_rays[1] + place.y * v_rays[2];
     o_color = vec4(environment(normalize(direction)), 1.0);
 }

@@ -48,6 +48,9 @@ OUTPUT_DECLARATIONS
 #endif
 
 void main() {
+#ifdef USER_SOURCE
+    cubecam_zeros();
+#endif
 #ifdef OUTPUT_ZEROS
     OUTPUT_ZEROS  // for the outputs that users' sources declare
 #endif
@@ -97,7 +100,14 @@ void main() {
     surface.normal_object = v_normal_object;
 #endif
 
+#ifdef USER_SOURCE
+    // The condition always holds, but compilers do not know it. Without it, all that follows a loop without an end is
+    // dead code, and the outputs show what was in memory.
+    vec4 shaded = vec4(0.0);
+    if (u_node_id >= 0) shaded = with_alpha(shade(surface));
+#else
     vec4 shaded = with_alpha(shade(surface));
+#endif
     o_color.rgb = shaded.rgb;
 #ifdef TRANSLUCENT
     o_color.a = shaded.a * v_alpha;

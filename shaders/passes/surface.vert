@@ -33,7 +33,8 @@ void main() {
 #endif
     Vertex own = Vertex(a_position, a_normal, a_uv, color);
 #ifdef HAS_USER_VERTEX
-    vertex(own);
+    cubecam_zeros();
+    if (u_node_id >= 0) vertex(own);  // always: see surface.frag
 #endif
 #define a_position own.position
 #define a_normal own.normal

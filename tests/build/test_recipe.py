@@ -38,6 +38,7 @@ def digests(tree):
         for path in tree.rglob("*")
         if path.is_file()
         and path.suffix != ".so"
+        and path.name != "_shader_trial"
         and path.relative_to(tree).parts[0] not in LEFT_OUT
         and "__pycache__" not in path.parts
     }
@@ -62,7 +63,8 @@ def build(tree):
     )
     assert built.returncode == 0, built.stdout[-3000:] + built.stderr[-3000:]
     (module,) = (tree / "build").rglob("_core.*.so")
-    shutil.copy2(module, tree / "python" / "cubecam")
+    for made in (module, module.parent / "_shader_trial"):
+        shutil.copy2(made, tree / "python" / "cubecam")
 
 
 @pytest.fixture(scope="module")

@@ -1,11 +1,14 @@
-"""Random edits of a FullWorld: one for every property with a setter in the stubs, and some method calls.
+"""Random edits of a FullWorld: each property with a setter in the stubs, of each class that has it, and method calls.
 
 `VALUES` has for each property ("Class.name", the class being the one that declares it) a function of the world, a
-random generator and the object to change, which gives a new value. If a property has
-no such function, test_incremental.py fails, so that no property can be forgotten.
+random generator and the object to change, which gives a new value. If a property has no such function,
+test_incremental.py fails, so that no property can be forgotten. `NAMES` has each property once for each class that has
+it, "MirrorMaterial.depth_write" too: what a property changes depends on the rest of the object. METHODS has
+changes by method calls, and changes of several objects between two pictures.
 """
 
 import ast
+import gc
 from pathlib import Path
 
 import numpy as np
@@ -26,17 +29,32 @@ FORMATS = ("rgba8", "rgba16f", "rgba32f", "rgb565")
 DEPTHS = ("depth_component24", "depth24_stencil8", "depth_component32f", "depth_component16", None)
 
 
+STUB_CLASSES = [node for node in ast.parse(STUB.read_text()).body if isinstance(node, ast.ClassDef)]
+
+
 def settable_properties():
     """ "Class.property" of every property with a setter, in the order of the stubs."""
     found = []
-    classes = [node for node in ast.parse(STUB.read_text()).body if isinstance(node, ast.ClassDef)]
-    for thing in classes:
+    for thing in STUB_CLASSES:
         for member in thing.body:
             decorators = getattr(member, "decorator_list", ())
             if any(isinstance(d, ast.Attribute) and d.attr == "setter" for d in decorators):
                 assert isinstance(member, ast.FunctionDef)
                 found.append(f"{thing.name}.{member.name}")
     return found
+
+
+def changing_methods():
+    """ "Class.method" of every public method of the stubs that returns nothing, so it is called for what it changes."""
+    return [
+        f"{thing.name}.{member.name}"
+        for thing in STUB_CLASSES
+        for member in thing.body
+        if isinstance(member, ast.FunctionDef)
+        and not member.name.startswith("_")
+        and not member.decorator_list
+        and ast.unparse(member.returns or ast.Constant(0)) == "None"
+    ]
 
 
 def one(rng, *choices):
@@ -418,17 +436,49 @@ def has_value(thing, attribute):
     return True
 
 
+def classes_below(kind):
+    """A class and all classes of the stubs that inherit from it, in the order of the stubs."""
+    found = [getattr(cc, node.name, None) for node in STUB_CLASSES]
+    return [c for c in found if isinstance(c, type) and issubclass(c, kind)]
+
+
+def names_of_edits():
+    """The properties as "Class.name" for each class whose objects have them; Camera computes nothing for others."""
+    for name in VALUES:
+        class_name, attribute = name.split(".")
+        kind = getattr(cc, class_name)
+        below = [kind] if kind is cc.Camera else classes_below(kind)
+        for thing in below:
+            if thing not in (cc.Material, cc.Light):  # nothing is only that
+                yield f"{thing.__name__}.{attribute}"
+
+
+NAMES = tuple(names_of_edits())
+
+
+def value_for(kind, attribute):
+    """The entry of VALUES that a class has, or inherits."""
+    return next(
+        VALUES[name]
+        for name in (f"{base.__name__}.{attribute}" for base in kind.__mro__)
+        if name in VALUES
+    )
+
+
 def edit_property(name, world, rng, draw):
     """Set a property of a random object that has it. Returns the change in words, and a function to undo it."""
     class_name, attribute = name.split(".")
     kind = getattr(cc, class_name)
     thing = some(world, rng, kind)
     if not has_value(thing, attribute):
-        thing = one(rng, *(t for t in world.things(kind) if has_value(t, attribute)))
+        able = [t for t in world.things(kind) if has_value(t, attribute)]
+        if not able:  # every node has a shear
+            return "nothing", None
+        thing = one(rng, *able)
     old = getattr(thing, attribute)
     old = dict(old) if attribute in ("uniforms", "textures") else old
-    setattr(thing, attribute, VALUES[name](world, rng, thing))
-    if name in LATE:
+    setattr(thing, attribute, value_for(kind, attribute)(world, rng, thing))
+    if f"{class_name}.{attribute}" in LATE:
         draw()
         node = random_node(world, rng)
         node.position = np.array(node.position) + rng.uniform(-0.3, 0.3, 3)
@@ -507,6 +557,168 @@ def method_move_the_camera(world, rng, draw):
         world.cameras[0].target = (0, 0, 0)
     world.cameras[0].orbit(yaw=float(rng.uniform(-30, 30)), pitch=5)
     world.cameras[0].walk(float(rng.uniform(-0.3, 0.3)))
+
+
+def random_camera_of(world, rng):
+    return one(rng, *(camera for camera in world.cameras if hasattr(camera, "target")))
+
+
+def method_move_every_way(world, rng, draw):
+    """All that moves a camera, in a random order."""
+    camera = random_camera_of(world, rng)
+    if camera.target is None:
+        camera.target = (0, 0, 0)
+    moves = [
+        lambda: camera.yaw(float(rng.uniform(-20, 20))),
+        lambda: camera.pitch(float(rng.uniform(-5, 5))),
+        lambda: camera.look(rng.normal(size=3)),
+        lambda: camera.strafe(float(rng.uniform(-0.3, 0.3))),
+        lambda: camera.look_at(rng.uniform(-0.5, 0.5, 3)),
+        lambda: camera.fit(one(rng, world.scene, np.array([[-2, -1, -2], [2, 2, 2]]))),
+    ]
+    for index in rng.permutation(len(moves))[:3]:
+        moves[index]()
+        draw()
+
+
+def method_look_at(world, rng, draw):
+    node = random_node(world, rng)
+    if not has_value(node, "rotation"):
+        node.matrix = np.eye(4)
+    above = node.parent
+    while above is not None:  # a shear above it makes a shear of any turn
+        if not has_value(above, "rotation") or len(set(np.abs(above.scale))) > 1:
+            above.matrix = np.eye(4)
+        above = above.parent
+    node.look_at(rng.uniform(-5, 5, 3))
+
+
+def some_nodes(world, rng):
+    scene = one(rng, *world.scenes)
+    return scene, [node for node in scene.nodes if rng.random() < 0.4]
+
+
+def method_set_positions(world, rng, draw):
+    scene, nodes = some_nodes(world, rng)
+    scene.set_positions(nodes, rng.uniform(-2, 2, (len(nodes), 3)))
+
+
+def method_set_matrices(world, rng, draw):
+    scene, nodes = some_nodes(world, rng)
+    made = [matrix(world, rng, node) for node in nodes]
+    scene.set_matrices(nodes, np.reshape(made, (-1, 4, 4)))
+
+
+def method_clear(world, rng, draw):
+    """A scene that a render texture may show is empty for a picture; then it has other nodes and another light."""
+    scene = world.spare
+    for texture in world.textures:
+        if texture.scene is scene:
+            texture.exclude = ()
+    scene.clear()
+    draw()
+    scene.add(cc.PointLight(rng.uniform(1, 4, 3), shadow=cc.Shadow(size=16)))
+    for height in (0.0, 1.0):
+        material = one(rng, *world.things(cc.Material))
+        scene.add(one(rng, *world.meshes), material, position=(0, height, 0))
+
+
+def method_set_face_of_each_cube(world, rng, draw):
+    for cube in world.cubes:
+        cube.set_face(cc.Face(int(rng.integers(6))), rng.random((4, 4, 3)).astype(np.float32))
+
+
+def method_play(world, rng, draw):
+    """Several nodes of a scene, joints and weights too, at several moments of an animation that stays."""
+    scene, interpolations = world.scene, ("linear", "step", "cubic")
+    for animation in scene.animations[2:]:
+        scene.remove(animation)
+    channels = []
+    for node in scene.nodes:
+        if rng.random() < 0.6 or not has_value(node, "rotation"):
+            continue
+        way = one(rng, *interpolations)
+        rows = 9 if way == "cubic" else 3
+        widths = {"translation": 3, "rotation": 4, "scale": 3}
+        if len(node.weights):
+            widths["weights"] = len(node.weights)
+        path = one(rng, *widths)
+        values = rng.uniform(0.2, 1.2, (rows, widths[path]))
+        times = np.cumsum(rng.uniform(0.1, 1, 3))
+        channels.append(cc.AnimationChannel(node, path, times, values, interpolation=way))
+    if not channels:
+        return
+    animation = scene.add(cc.Animation(channels, name="play"))
+    for seconds in rng.uniform(-0.2, 3, 3):
+        scene.set_time(float(seconds), animation)
+        draw()
+
+
+def method_show_variants(world, rng, draw):
+    """Through all variants and back, while materials of the variants change."""
+    scene = world.scene
+    scene.variants = ("day", "night")
+    nodes = [node for node in scene.nodes if node.material is not None and rng.random() < 0.3]
+    for node in nodes:
+        node.variants = {
+            name: one(rng, *world.things(cc.Material), cc.PhongMaterial(color=rng.random(3)))
+            for name in scene.variants
+        }
+    for name in ("day", "night", None):
+        scene.variant = name
+        draw()
+        for node in nodes[:2]:
+            for material in node.variants.values():
+                material.opacity = one(rng, 1, 1, 0.6)
+                material.depth_write = one(rng, None, False)
+
+
+def method_shadows_of_surfaces(world, rng, draw):
+    """What a shadow map could forget: a caster changes in several ways between pictures."""
+    nodes = [n for n in world.scene.nodes if n.mesh is not None and n.material is not None]
+    for _ in range(3 if nodes else 0):
+        node = one(rng, *nodes)
+        node.material.depth_write = one(rng, None, False, True)
+        node.material.blend = one(rng, None, None, "opaque", "additive")
+        node.material.color_write = one(rng, True, True, False)
+        if rng.random() < 0.5:
+            draw()
+        node.cast_shadow = one(rng, True, True, False)
+        node.position = rng.uniform(-2, 2, 3)
+
+
+def method_new_objects_in_old_places(world, rng, draw):
+    """Meshes and materials end, and new ones may get their addresses: nothing may be known by an address."""
+    nodes = [n for n in world.scene.nodes if n.name in ("added", "shown", "floor")]
+    for _ in range(3):
+        for node in nodes:
+            node.mesh = cc.Mesh.box(float(rng.uniform(0.2, 0.6)))
+            node.material = cc.PhongMaterial(color=rng.random(3))
+        draw()
+        for node in nodes:
+            node.mesh = node.material = None
+        gc.collect()
+
+
+def method_another_topology(world, rng, draw):
+    """Nodes of one mesh get another one, with other triangles and another number of vertices."""
+    old = one(rng, *world.meshes[1:])
+    ball = cc.Mesh.sphere(0.4, int(rng.integers(6, 14)), int(rng.integers(4, 8)))
+    for node in world.scene.nodes:
+        if node.mesh is old:
+            node.mesh = ball
+    world.meshes[world.meshes.index(old)] = ball
+
+
+def method_light_parents(world, rng, draw):
+    """Lights follow a node that then moves, of this scene or another one."""
+    followed = some_node(world, rng, None)
+    for light in world.scene.lights:
+        if hasattr(light, "parent") and rng.random() < 0.7:
+            light.parent = followed
+    draw()
+    if followed is not None:
+        followed.matrix = matrix(world, rng, followed)
 
 
 METHODS = {name[7:]: value for name, value in sorted(globals().items()) if name[:7] == "method_"}

@@ -136,3 +136,35 @@ def test_info_tells_what_was_chosen(renderer):
     assert info.limits.max_samples >= 4
     assert info.limits.max_texture_size >= 4096
     assert info.limits.max_cube_map_texture_size >= 4096
+
+
+def test_too_many_open_files_are_called_that():
+    """The driver is there, and nothing is to be installed; with files closed, it works."""
+    run_python(
+        """
+        import os, resource
+        import cubecam as cc
+        hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+        resource.setrlimit(resource.RLIMIT_NOFILE, (64, hard))
+        files = []
+        try:
+            while True:
+                files.append(os.open("/dev/null", os.O_RDONLY))
+        except OSError:
+            pass
+        for spare in range(3):  # too few for the library, or for its driver
+            try:
+                cc.Renderer()
+            except cc.ContextError as error:
+                text = str(error)
+                assert "as many files open" in text and "ulimit -n" in text, text
+                assert "apt install" not in text, text
+            else:
+                assert spare > 0
+                break
+            os.close(files.pop())
+        for file in files:
+            os.close(file)
+        assert cc.Renderer().capture(cc.Scene(), size=2).size == 2
+        """
+    )

@@ -73,6 +73,35 @@ def test_the_end_of_the_child_is_quiet():
     run_python(script, timeout=60)
 
 
+def test_exit_handlers_of_the_parent_do_not_run_in_the_child(tmp_path):
+    """A driver's handler may wait for threads that a child does not have, as Mesa 26's do: here, one waits for ever."""
+    run_python(
+        f"""
+        import atexit, ctypes, os, signal, sys
+        import cubecam as cc
+        renderer = cc.Renderer()
+        renderer.capture(cc.Scene(), size=4)
+        libc = ctypes.CDLL(None)
+        hang = ctypes.cast(libc.pause, ctypes.c_void_p)
+        assert libc.__cxa_atexit(hang, None, None) == 0
+        libc.fopen.restype = ctypes.c_void_p
+        child = os.fork()
+        if child == 0:
+            signal.alarm(60)  # a hang ends by SIGALRM, status 14
+            atexit.register(print, "python's handlers run", flush=True)
+            file = ctypes.c_void_p(libc.fopen({str(tmp_path / "a").encode()!r}, b"w"))
+            libc.fputs(b"written", file)  # into C's buffer
+            sys.exit(3)
+        status = os.waitpid(child, 0)[1]
+        assert os.waitstatus_to_exitcode(status) == 3, status
+        sys.stdout.flush()
+        os._exit(0)  # the handler would hang here, too
+        """,
+        timeout=120,
+    )
+    assert (tmp_path / "a").read_text() == "written"
+
+
 def test_cpu_work_goes_on_in_the_child():
     child = "cube = cc.CubeMap(np.ones((6, 8, 8, 3))); cube.to_equirect(); cube.resize(300); scene.add(cc.Mesh.box(1))"
     run_python(FORK.replace("{child}", child).replace("{parent}", ""), timeout=60)

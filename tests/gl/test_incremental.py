@@ -5,6 +5,7 @@ What is edited comes from the stubs: each property that can be set has an edit i
 
 import copy
 import functools
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -55,10 +56,24 @@ def test_the_world_has_something_to_set_each_property_of():
         assert world.things(getattr(cc, name.split(".")[0])), name
 
 
+def test_every_changing_method_has_an_edit():
+    """What changes no object of a scene is named here; the rest must be called somewhere in edits.py."""
+    elsewhere = {
+        "Scene.save",
+        "CubeMap.save",
+        "Frame.save",
+        "Renderer.close",
+        "Renderer.update_probes",
+    }
+    text = Path(edits.__file__).read_text()
+    for name in set(edits.changing_methods()) - elsewhere:
+        assert f".{name.split('.')[1]}(" in text, name
+
+
 def names_of_edits(seed):
     """The edits of one seed. A change of StandardMaterial compiles programs, so each seed makes a third of these."""
-    standard = [name for name in edits.VALUES if name.startswith("StandardMaterial.")]
-    others = [name for name in edits.VALUES if name not in standard]
+    standard = [name for name in edits.NAMES if name.startswith("StandardMaterial.")]
+    others = [name for name in edits.NAMES if name not in standard]
     return [*others, *standard[seed :: len(SEEDS)], *edits.METHODS]
 
 

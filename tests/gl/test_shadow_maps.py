@@ -1,5 +1,7 @@
 """What casts shadows and on what, the maps themselves, what is drawn again and what is not, and limits."""
 
+import copy
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -57,6 +59,10 @@ def show_a_card_from_below(node):
     node.rotation = cc.axis_angle((1, 0, 0), 180)
 
 
+def write_nothing(material):
+    material.depth_write = material.color_write = False
+
+
 CASTING = {
     "hidden": (lambda s, box: setattr(box, "visible", False), False),
     "parent hidden": (lambda s, box: setattr(box, "parent", s.add(visible=False)), False),
@@ -76,6 +82,10 @@ CASTING = {
     "unlit": (lambda s, box: setattr(box, "material", cc.BasicMaterial()), True),
     "mirror": (lambda s, box: setattr(box, "material", cc.MirrorMaterial()), True),
     "glass": (lambda s, box: setattr(box, "material", cc.GlassMaterial()), True),
+    "writes no depth": (lambda s, box: setattr(box.material, "depth_write", False), True),
+    "writes no colour": (lambda s, box: setattr(box.material, "color_write", False), True),
+    "writes neither": (lambda s, box: write_nothing(box.material), True),
+    "additive": (lambda s, box: setattr(box.material, "blend", "additive"), False),
     "inside out": (lambda s, box: setattr(box, "scale", (-1, 1, 1)), True),
     "a card from above": (lambda s, box: setattr(box, "mesh", cc.Mesh.plane(1, 1)), True),
     "a card from below": (
@@ -97,6 +107,59 @@ def test_what_casts(renderer, fresh_renderer, kind, change, casts):
     if not casts:
         assert (after != before).any()
     assert_identical(after, picture(fresh_renderer, scene))
+
+
+#: Every combination of what could decide whether a surface casts, and many that must not.
+SURFACES = list(
+    itertools.product(
+        (None, "opaque", "alpha", "additive"),  # blend
+        (1, 0.5),  # opacity
+        (None, False, True),  # depth_write
+        (True, False, (True, False, True, True)),  # color_write
+        (True, False),  # depth_test
+        (None, cc.Stencil(depth_pass="replace")),
+    )
+)
+
+
+def is_opaque(material):
+    return material.blend == "opaque" or (material.blend is None and material.opacity == 1)
+
+
+@kinds
+def test_a_map_does_not_depend_on_the_map_before(renderer, fresh_renderer, kind):
+    """Whatever a surface was before: it casts if it is opaque, and the map is that of another renderer.
+
+    Both boxes change, so that the bounds of a directional light's casters change, too.
+    """
+    rng = np.random.default_rng(31)
+    scene, floor, box, light = hovering(kind)
+    floor.cast_shadow = False
+    light.shadow = cc.Shadow(size=24)
+    other = scene.add(cc.Mesh.box(0.5), cc.BasicMaterial(), position=(-1.5, 0.5, 0.4))
+    outlines: dict[tuple[bool, ...], np.ndarray] = {}
+    names = ("blend", "opacity", "depth_write", "color_write", "depth_test", "stencil")
+    for choice in rng.permutation(len(SURFACES)):
+        node = (box, other)[rng.integers(2)]
+        for name, value in zip(names, SURFACES[choice], strict=True):
+            setattr(node.material, name, value)
+        got = renderer.shadow_map(scene, light)
+        again = copy.deepcopy(scene)
+        want = fresh_renderer.shadow_map(again, again.lights[0])
+        assert_identical(got, want, str(SURFACES[choice]))
+        casting = tuple(is_opaque(n.material) for n in (box, other))
+        assert np.isfinite(got).any() == any(casting)
+        assert_identical(got, outlines.setdefault(casting, got), "equal casters, equal maps")
+    assert len(outlines) == 4
+
+
+@pytest.mark.parametrize("options", [{"opacity": 0.5}, {"blend": "multiply", "depth_write": True}])
+def test_what_casts_no_shadow_does_not_widen_a_map(renderer, options):
+    """The map of a directional light is as wide as the bounds of its casters, and no wider."""
+    scene, _, _, light = hovering()
+    want = renderer.shadow_map(scene, light)
+    scene.add(cc.Mesh.box(50), cc.PhongMaterial(**options), position=(30, 3, 0))
+    assert_identical(renderer.shadow_map(scene, light), want)
 
 
 def test_what_receives(renderer):
@@ -203,7 +266,6 @@ CHANGES = {
     "turn": lambda light, box: setattr(box, "rotation", cc.axis_angle((0, 1, 0), 45)),
     "scale": lambda light, box: setattr(box, "scale", 1.3),
     "parent": lambda light, box: setattr(box, "parent", box.parent.children[-1]),
-    "depth write": lambda light, box: setattr(box.material, "depth_write", False),
 }
 
 
@@ -265,12 +327,12 @@ def test_all_kinds_of_light_layered_and_one_by_one(new_renderer):
     world = stage()
     for lamp in lamps(64).values():
         world.scene.add(lamp.ours)
-    one, other = new_renderer(), new_renderer(layered=False)
+    one, other = new_renderer(layered=True), new_renderer(layered=False)
     for options in ({}, {"samples": 4}):
         a, b = (
             r.capture(world.scene, position=(0, 1, 2), size=24, **options) for r in (one, other)
         )
-        assert_identical(a.faces, b.faces)
+        assert_identical(a.faces, b.faces, across="programs")
 
 
 # The maps themselves.

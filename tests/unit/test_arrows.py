@@ -20,6 +20,7 @@ CPP_ORDER = (
     "materials",
     "scene",
     "gl",
+    "trial",  # users' GLSL in a process of its own
     "render/resources",
     "render/passes",
     "render/graph",
@@ -27,13 +28,19 @@ CPP_ORDER = (
     "bindings",
 )
 #: Folders that may include from fewer folders than the order allows.
-CPP_KNOWS = {"gl": {"core"}, "math": {"core"}, "lighting": {"core", "math", "image", "cubemap"}}
+CPP_KNOWS = {
+    "gl": {"core"},
+    "math": {"core"},
+    "lighting": {"core", "math", "image", "cubemap"},
+    "trial": {"core", "gl"},
+}
 
 #: The parts of python/cubecam in the same kind of order; a part is a folder or a module.
 PYTHON_ORDER = (
     "_array_types",  # needs numpy
     "typing",
     "_core",
+    "_checks",  # what a bool, an int, a float and a str are
     "_calls",  # errors of wrong calls, in words
     "_late",
     "_warnings",
@@ -59,11 +66,12 @@ PYTHON_ORDER = (
     "__main__",
 )
 PYTHON_KNOWS = {
-    "_calls": set(),
+    "_checks": {"typing", "_core"},
+    "_calls": {"_checks"},
     "_late": set(),
     "_warnings": set(),
-    "navigation": {"_core", "_calls"},
-    "optics": {"_core", "_calls"},
+    "navigation": {"_core", "_checks", "_calls"},
+    "optics": {"_core", "_checks", "_calls"},
     "_shader_inputs": {"_core"},
     "_pickling": {"_core"},
 }

@@ -301,5 +301,5 @@ def test_errors_are_told(arguments, code, text, tmp_path, monkeypatch):
 def test_loading_says_what_there_is():
     with pytest.raises(ValueError, match=r"P1 textured_cube.*got 'p0'"):
         examples.load("p0")
-    with pytest.raises(TypeError, match="expected a str, got int"):
+    with pytest.raises(TypeError, match="name: expected str, got 14"):
         examples.load(14)  # type: ignore[arg-type]

@@ -1,4 +1,8 @@
-"""Thousands of nodes: they are placed together and removed one by one."""
+"""Thousands of nodes: they are placed together, removed one by one, and copied, in linear time."""
+
+import copy
+import pickle
+import time
 
 import numpy as np
 import pytest
@@ -99,3 +103,27 @@ def test_children_of_one_parent_come_and_go(rng):
     assert list(parent.children) == left
     left[0].parent = None
     assert list(parent.children) == left[1:]
+
+
+def test_removing_takes_no_longer_in_a_large_scene(rng):
+    """One of 50,000 nodes goes in microseconds of CPU; a search through all of them took .5 ms."""
+    scene, box, paint = cc.Scene(), cc.Mesh.box(1), cc.BasicMaterial()
+    nodes = [scene.add(box, paint) for _ in range(50_000)]
+    chosen = [nodes[index] for index in rng.permutation(50_000)[:1000]]
+    start = time.process_time()
+    for node in chosen:
+        scene.remove(node)
+    assert time.process_time() - start < 0.1
+    assert len(scene.nodes) == 49_000
+
+
+@pytest.mark.parametrize("copied", [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy])
+def test_a_deep_chain_is_copied_in_linear_time(copied):
+    """20,000 nodes, each the child of the one before, took 32 s of CPU; now about 1 s."""
+    scene, node = cc.Scene(), None
+    for _ in range(20_000):
+        node = scene.add(position=(0, 0, 1), parent=node)
+    start = time.process_time()
+    again = copied(scene)
+    assert time.process_time() - start < 8
+    assert again.nodes[-1].world_matrix[:3, 3].tolist() == [0, 0, 20_000]

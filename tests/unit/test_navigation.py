@@ -273,9 +273,9 @@ def test_numbers_of_any_kind(number):
 BAD = {
     "nan": (lambda c: c.yaw(np.nan), ValueError, "degrees: expected a finite number, got nan"),
     "inf": (lambda c: c.pitch(-np.inf), ValueError, "degrees: expected a finite number, got -inf"),
-    "text": (lambda c: c.walk("far"), TypeError, "distance: expected a number, got str"),
-    "bool": (lambda c: c.strafe(True), TypeError, "distance: expected a number, got bool"),
-    "None": (lambda c: c.orbit(yaw=None), TypeError, "yaw: expected a number, got NoneType"),
+    "text": (lambda c: c.walk("far"), TypeError, "distance: expected float, got 'far'"),
+    "bool": (lambda c: c.strafe(True), TypeError, "distance: expected float, got True"),
+    "None": (lambda c: c.orbit(yaw=None), TypeError, "yaw: expected float, got None"),
     "second": (
         lambda c: c.orbit(yaw=1, pitch=np.nan),
         ValueError,

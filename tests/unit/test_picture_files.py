@@ -136,7 +136,7 @@ def test_a_part_that_is_not_there_is_refused_with_those_that_are(color, depth, t
             load(path, part=2)
         with pytest.raises(ValueError, match=told + "'Depth'"):
             load(path, part="Depth")
-        with pytest.raises(ValueError, match="expected 0 or more, got -1"):
+        with pytest.raises(ValueError, match="expected an int of at least 0, got -1"):
             load(path, part=-1)
         wrong: list[Any] = [True, 1.0, ["depth"]]
         for part in wrong:

@@ -1,8 +1,15 @@
 """The project's own files: tests that assert, versions that agree, workflows that call targets which exist."""
 
 import ast
+import importlib.metadata
+import importlib.util
+import json
 import re
+import shutil
+import subprocess
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Helpers that fail a test when something is wrong.
@@ -85,3 +92,87 @@ def test_workflows_call_targets_that_exist():
         called |= {word for command in commands for word in command.split()}
     assert {"lint", "test", "test-build", "sanitize", "sdist", "wheel", "bench"} <= called
     assert called <= targets
+
+
+#: What is compiled into the wheel, by the name of its file below licenses/, and the PyPI package that brings the text.
+COMPILED_IN = {"pybind11": "pybind11", "glm": None, "glad": "glad2"}
+
+
+def words(text):
+    return " ".join(text.split())
+
+
+def test_the_licences_are_those_of_what_is_compiled_in():
+    """Each text holds that of the installed package, word for word, and every text goes into the wheel."""
+    folder = ROOT / "licenses"
+    assert {path.stem for path in folder.iterdir()} == set(COMPILED_IN)
+    assert '"licenses/*.txt"' in (ROOT / "pyproject.toml").read_text()
+    for name, package in COMPILED_IN.items():
+        text = words((folder / f"{name}.txt").read_text())
+        assert re.search(r"Copyright \(c\) [0-9]{4}", text), name
+        for file in importlib.metadata.files(package) or () if package else ():
+            if file.name.startswith("LICENSE"):
+                # pybind11 adds a sentence about contributions to itself.
+                theirs = words(file.read_text()).partition(" Please also refer to the file")[0]
+                assert theirs in text, name
+
+
+def filled_sbom():
+    text = (ROOT / "cmake" / "sbom.cdx.json.in").read_text()
+    return json.loads(re.sub(r"@(\w+)@", "1.2.3", text))
+
+
+def test_the_bill_of_materials_names_what_is_compiled_in():
+    """CycloneDX 1.6: each component has a version, a purl and a licence, and cubecam depends on all."""
+    sbom = filled_sbom()
+    assert (sbom["bomFormat"], sbom["specVersion"], sbom["version"]) == ("CycloneDX", "1.6", 1)
+    assert {part["name"] for part in sbom["components"]} == {"pybind11", "glm", "glad2"}
+    for part in [sbom["metadata"]["component"], *sbom["components"]]:
+        assert part["type"] == "library"
+        assert part["version"] == "1.2.3"
+        assert re.fullmatch(rf"pkg:(pypi|github)/[\w/-]*{part['name']}@1\.2\.3", part["purl"])
+        assert part["bom-ref"] == part["purl"]
+        (licence,) = part["licenses"]
+        assert licence.get("expression") or licence["license"]["id"]
+    (cubecam,) = sbom["dependencies"]
+    assert cubecam["ref"] == sbom["metadata"]["component"]["purl"]
+    assert cubecam["dependsOn"] == [part["purl"] for part in sbom["components"]]
+
+
+def wheel_script():
+    spec = importlib.util.spec_from_file_location("wheel_script", ROOT / "scripts" / "wheel.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+HARDENED = (
+    "-O2", "-fstack-protector-strong", "-D_FORTIFY_SOURCE=2",
+    "-Wl,-z,relro", "-Wl,-z,now", "-Wl,-z,noexecstack",
+)  # fmt: skip
+SOFT = {
+    "-fno-stack-protector": "guards on the stack",
+    "-U_FORTIFY_SOURCE": "checked copies",
+    "-Wl,-z,lazy": "BIND_NOW",
+    "-Wl,-z,norelro": "RELRO",
+    "-Wl,-z,execstack": "a stack that is not executable",
+}
+
+
+@pytest.mark.parametrize("soft", [None, *SOFT])
+def test_a_wheel_that_lacks_hardening_is_found(soft, tmp_path):
+    """`make wheel` refuses a library that was compiled or linked without one of the options."""
+    source = tmp_path / "a.c"
+    source.write_text(
+        "#include <string.h>\n"
+        "void use(char *);\n"
+        "void copy(const char *from) { char to[64]; strcpy(to, from); use(to); }\n"
+    )
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    assert compiler is not None, "expected a C compiler: make sets one up"
+    options = [*HARDENED, *([soft] if soft else [])]
+    library = tmp_path / "a.so"
+    subprocess.run([compiler, "-shared", "-fPIC", *options, source, "-o", library], check=True)
+    assert wheel_script().missing_hardening(library) == ([SOFT[soft]] if soft else [])

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 import cubecam as cc
+from tests.helpers import need_terminals
 
 SUZANNE = cc.sample_data("suzanne.glb")
 
@@ -247,6 +248,7 @@ def test_a_closed_pipe_and_a_full_disk(tmp_path):
 
 def seen_in_terminal(*arguments, **environment):
     """What the command writes to a terminal of 80 columns with 24-bit colours."""
+    need_terminals()
     owner, end = pty.openpty()
     variables = {**os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "COLUMNS": "80"}
     variables.pop("NO_COLOR", None)

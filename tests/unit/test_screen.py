@@ -100,11 +100,11 @@ def test_what_is_no_number_is_black_and_infinite_light_is_white():
             ValueError,
             'tonemap: expected "neutral", "reinhard", "aces"',
         ),
-        (FLOATS, {"tonemap": []}, ValueError, 'tonemap: expected "neutral"'),
+        (FLOATS, {"tonemap": []}, TypeError, 'tonemap: expected "reinhard"'),
         (FLOATS, {"encode": "rec709"}, ValueError, 'encode: expected "srgb" or None'),
         (FLOATS, {"exposure": np.nan}, ValueError, "exposure: expected -64 to 64"),
         (FLOATS, {"exposure": 65}, ValueError, "exposure: expected -64 to 64"),
-        (FLOATS, {"exposure": "2"}, TypeError, "exposure: expected a number"),
+        (FLOATS, {"exposure": "2"}, TypeError, "exposure: expected float, got '2'"),
     ],
 )
 def test_bad_arguments(given, options, error, message):
@@ -377,7 +377,7 @@ def test_a_curve_of_an_array_maps_what_to_screen_maps(tmp_path):
 @pytest.mark.parametrize("picture", [FLOATS[0], cc.Image(FLOATS[0]), cc.CubeMap(FLOATS)])
 @pytest.mark.parametrize("srgb", ["no", 1, "srgb"])
 def test_srgb_is_a_bool(picture, srgb, tmp_path):
-    with pytest.raises(TypeError, match="srgb: expected True, False or None, got"):
+    with pytest.raises(TypeError, match="srgb: expected bool or None, got"):
         cc.save_image(tmp_path / "a.png", picture, srgb=srgb)
 
 

@@ -309,11 +309,7 @@ CALLS = {
     ),
     "too large beside choices": (
         lambda r: cc.CubeMap([[[[0.0]]]] * 6).to_equirect(width=1 << 40),
-        (
-            "to_equirect(): expected (width: int or None, center: str, sampling: str, dtype: DTypeLike or None, "
-            "output: str), "
-            "got (width=1099511627776)"
-        ),
+        "to_equirect(): width: expected an int from -2147483648 to 2147483647, got 1099511627776",
     ),
     "number": (
         lambda r: cc.PerspectiveCamera(fov="wide"),
@@ -325,7 +321,7 @@ CALLS = {
     ),
     "too large": (
         lambda r: cc.CubeMap([[[[0.0]]]] * 6).resize(1 << 40),
-        "resize(): expected (size: int, dtype: DTypeLike or None), got (1099511627776)",
+        "resize(): size: expected an int from -2147483648 to 2147483647, got 1099511627776",
     ),
     "setter": (
         lambda r: setattr(cc.Scene().add(), "visible", "no"),
@@ -383,7 +379,8 @@ CALLS = {
 
 @pytest.mark.parametrize(("call", "message"), CALLS.values(), ids=CALLS)
 def test_one_line_tells_what_is_wrong(call, message):
-    with pytest.raises(TypeError) as caught:
+    """A number that is too large is of the right type."""
+    with pytest.raises(ValueError if "from -2147483648" in message else TypeError) as caught:
         call(cc.Renderer.__new__(cc.Renderer))
     assert str(caught.value) == message
 

@@ -19,6 +19,7 @@ from rendercanvas.offscreen import RenderCanvas
 
 import cubecam as cc
 from cubecam.viewer import canvases
+from tests.helpers import need_terminals
 
 
 @pytest.mark.parametrize(
@@ -75,6 +76,7 @@ class _Terminal:
     """A program in a pseudo-terminal of 80 x 24 characters, which answers where the cursor is, as terminals do."""
 
     def __init__(self, *command):
+        need_terminals()
         self.seen = b""
         colors = {
             "TERM": "xterm-256color",

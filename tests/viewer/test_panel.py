@@ -511,10 +511,12 @@ def test_a_color_keeps_its_alpha():
     assert material.color.tolist() == cc.BasicMaterial(color="gray").color.tolist()
 
 
-@pytest.mark.parametrize("text", ["ff0000", "#ff00", "#gg0000", "#ff000000", "", None])
+@pytest.mark.parametrize("text", ["ff0000", "#ff00", "#gg0000", "#ff000000", ""])
 def test_texts_that_are_no_color(text):
     with pytest.raises(ValueError, match=r'expected a colour as "#rrggbb", got'):
         hex_to_color(text)
+    with pytest.raises(TypeError, match="text: expected str, got None"):
+        hex_to_color(None)  # type: ignore[arg-type]
 
 
 def test_a_background_is_a_color_none_or_a_cubemap():

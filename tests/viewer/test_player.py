@@ -75,11 +75,11 @@ def test_setting_the_time_moves_the_scene_and_is_clamped(view, scene):
     assert scene.find("head")[0].position[1] == pytest.approx(2.5)
     view.time = 99
     assert view.time == 4
-    with pytest.raises(ValueError, match="time: expected a finite number of seconds, got nan"):
+    with pytest.raises(ValueError, match="time: expected a finite number, got nan"):
         view.time = np.nan
-    with pytest.raises(ValueError, match="animation: expected one of turn, lift, got 'jump'"):
+    with pytest.raises(ValueError, match=r'animation: expected "turn" or "lift", got .jump'):
         view.animation = "jump"
-    with pytest.raises(TypeError, match="playing: expected True or False"):
+    with pytest.raises(TypeError, match="playing: expected a bool"):
         view.playing = 1
 
 
@@ -123,7 +123,7 @@ def test_the_view_of_a_camera_on_a_node_follows_it_until_it_is_moved(view, scene
     for kind, x in (("pointer_down", 10), ("pointer_move", 30), ("pointer_up", 30)):
         view._handle({"event_type": kind, "x": x, "y": 20, "button": 1, "buttons": (1,), "modifiers": ()})  # fmt: skip
     assert view.scene_camera is None
-    with pytest.raises(ValueError, match="scene_camera: expected 'view', got 'side'"):
+    with pytest.raises(ValueError, match=r'scene_camera: expected "view" or None, got .side.'):
         view.scene_camera = "side"
 
 

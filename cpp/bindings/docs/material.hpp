@@ -29,7 +29,7 @@ blend=None              how the material's colour S, of alpha a, is combined wit
                         a `Blend`: by its factors.
                         None: "alpha" if any part of the material is translucent, else "opaque"
 depth_write=None        whether the surface hides farther surfaces that are drawn after it; None:
-                        True if the blend is "opaque"
+                        True if the blend is "opaque"; shadows do not depend on it
 depth_test=True         False: the surface is drawn over nearer ones, too
 color_write=True        which channels are written: one bool, or four (red, green, blue, alpha)
 stencil=None            a `Stencil`: how the surface tests and changes the stencil buffer, if

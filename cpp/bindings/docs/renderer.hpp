@@ -10,6 +10,10 @@ A renderer owns an OpenGL 4.5 context on EGL, on a GPU if there is one, else on 
 may use a renderer; calls on one renderer run one after the other, and several renderers work in parallel. Use a
 renderer in a ``with`` block, or call :meth:`close`.
 
+If the context is lost, because another library in the process ended the EGL display (VTK does) or because the GPU was
+reset, the call makes a new context, does its work again with the same result, and gives one :class:`RendererWarning`.
+Probes with ``update="manual"`` are drawn again from the scene as it is then.
+
 Parameters
 ----------
 device : str, int, Device or None
@@ -36,6 +40,11 @@ Raises
 ------
 ContextError
     If no OpenGL context can be made. The message names each device that was tried, why it failed, and what to install.
+
+Warns
+-----
+RendererWarning
+    If "auto" leads to a software driver although EGL lists a GPU.
 
 Examples
 --------

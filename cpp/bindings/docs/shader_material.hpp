@@ -54,6 +54,11 @@ layout) declares an output that ``outputs=("heat",)`` requests and that ``frame.
 nodes that write depth write outputs. The number of the driver's draw buffers (usually 8) limits colour
 and these outputs together. Without a request the output is an ordinary variable.
 
+A variable without a value, also one that only some ways through the source set, is 0; so are an output and what a function
+without a ``return`` gives. A loop without an end gives black on llvmpipe, which ends it after 65,536 steps; a GPU may
+reset itself. GLSL that takes uniforms in blocks, buffers, images or attributes of its own is refused, and so is a ``main``.
+``#line`` has no effect: messages count the lines of the source.
+
 The source may use the names below. Names that begin with ``u_``, ``v_``, ``a_``, ``o_``, ``gl_`` or
 ``environment_`` are reserved.
 

@@ -7,7 +7,8 @@ inline constexpr const char* shadow =
     R"doc(How a light makes its shadow: a depth map from the light's view, and the filter of its lookups.
 
 A Shadow never changes; give a light a new one instead. All visible opaque nodes whose ``cast_shadow`` is
-True cast shadows, in or out of a picture's view, from either side of their surface. Shadows fall on
+True cast shadows, in or out of a picture's view, from either side of their surface, whether their material
+writes depth and colour or not. Shadows fall on
 every node with a `PhongMaterial` whose ``receive_shadow`` is True. A map is drawn again only when
 something in its view changes.
 

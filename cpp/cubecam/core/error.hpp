@@ -27,6 +27,20 @@ public:
     using Error::Error;
 };
 
+/// The context can no longer be used, but a new one may be: another library ended its display, or
+/// the GPU was reset. A Renderer makes a new context and does the call again.
+class ContextLost : public ContextError {
+public:
+    explicit ContextLost(const std::string& text, bool reset = false)
+        : ContextError(text), reset_(reset) {}
+
+    /// Whether the GPU was reset. The handle of the context is then still valid.
+    bool reset() const noexcept { return reset_; }
+
+private:
+    bool reset_;
+};
+
 /// A shader did not compile or link. `what()` holds the log, with file names instead of the
 /// driver's string numbers, and the numbered source lines round each error.
 class ShaderError : public Error {

@@ -1,24 +1,44 @@
 #pragma once
 
 #include <cstddef>
-#include <stdexcept>
+#include <filesystem>
+#include <new>
 #include <string>
-#include <unistd.h>
+#include <utility>
 
 namespace cubecam {
 
-/// Refuses an allocation that cannot fit into this machine's memory: the kernel would grant it and
-/// would end the process as soon as the process writes to it.
+/// How much memory this process may still take, and what limits it.
+struct MemoryLeft {
+    double bytes;
+    std::string limit;  ///< "the free memory of this machine", "RLIMIT_AS", ...
+};
+
+/// The least of what the machine has free (MemAvailable and free swap of /proc/meminfo), of what
+/// the control groups of the process leave (versions 1 and 2, every group up to the root), and of
+/// what RLIMIT_AS and RLIMIT_DATA leave. Pages of files that a group could give back count as free.
+///
+/// @param root the folder in which proc/ and sys/ lie; tests name another one.
+MemoryLeft memory_left(const std::filesystem::path& root = "/");
+
+/// Refuses an allocation that the memory cannot hold: the kernel would grant it and would end the
+/// process as soon as the process writes to it. Less than `small_allocation` bytes always pass.
 /// @throws std::invalid_argument that names `what`, which takes `bytes`.
-inline void check_memory(double bytes, const std::string& what) {
-    const double memory =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-    if (bytes <= memory) return;
-    constexpr double mebi = 1 << 20;
-    throw std::invalid_argument("size: expected pictures that fit into " +
-                                std::to_string(static_cast<long long>(memory / mebi)) +
-                                " MiB of memory, got " + what + ", which take " +
-                                std::to_string(static_cast<long long>(bytes / mebi)) + " MiB");
-}
+void check_memory(double bytes, const std::string& what);
+
+/// Too little memory: MemoryError in Python.
+class OutOfMemory : public std::bad_alloc {
+public:
+    explicit OutOfMemory(std::string text) : text_(std::move(text)) {}
+    const char* what() const noexcept override { return text_.c_str(); }
+
+private:
+    std::string text_;
+};
+
+constexpr std::size_t small_allocation = std::size_t{32} << 20;
+
+/// The same for a piece of work of which no argument says its size. @throws OutOfMemory
+void check_room(std::size_t bytes);
 
 }  // namespace cubecam

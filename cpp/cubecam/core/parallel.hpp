@@ -2,6 +2,8 @@
 /// between two calls loses none, and no thread is left when the library is unloaded.
 #pragma once
 
+#include "cubecam/core/interrupts.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -19,10 +21,10 @@ inline std::size_t worker_count() {
 }
 
 /// Calls body(begin, end, scratch) on pieces that together cover [begin, end) once. The pieces have
-/// `grain` elements and run on all cores, including the calling thread; with one core or one piece,
-/// the calling thread does the whole range in one call. Each thread makes one `Scratch` for all its
-/// pieces. When a piece throws, the pieces that have not begun are skipped, and the first exception
-/// is thrown again here after all threads have stopped.
+/// `grain` elements and run on all cores, including the calling thread, which polls for interrupts
+/// before each of its pieces. Each thread makes one `Scratch` for all its pieces. When a piece
+/// throws, the pieces that have not begun are skipped, and the first exception is thrown again here
+/// after all threads have stopped.
 template <typename Scratch, typename Body>
 void parallel_for_with(std::size_t begin, std::size_t end, std::size_t grain, const Body& body) {
     if (begin >= end) return;
@@ -31,7 +33,11 @@ void parallel_for_with(std::size_t begin, std::size_t end, std::size_t grain, co
     const std::size_t workers = std::min(worker_count(), pieces);
     if (workers == 1) {
         Scratch scratch;
-        body(begin, end, scratch);
+        for (std::size_t piece = 0; piece < pieces; ++piece) {
+            poll_interrupts();
+            const std::size_t from = begin + piece * grain;
+            body(from, piece + 1 == pieces ? end : from + grain, scratch);
+        }
         return;
     }
 
@@ -42,6 +48,7 @@ void parallel_for_with(std::size_t begin, std::size_t end, std::size_t grain, co
         try {
             Scratch scratch;
             for (std::size_t piece = next++; piece < pieces; piece = next++) {
+                poll_interrupts();  // does nothing on the other threads
                 const std::size_t from = begin + piece * grain;
                 body(from, piece + 1 == pieces ? end : from + grain, scratch);
             }

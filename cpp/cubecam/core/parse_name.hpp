@@ -22,6 +22,15 @@ constexpr std::string_view name_of(const std::pair<std::string_view, Value>& ent
     return entry.first;
 }
 
+/// A text in a message: its beginning, if it is long, cut where a letter of UTF-8 begins.
+inline std::string shortened(std::string_view text) {
+    constexpr std::size_t most = 60;
+    if (text.size() <= most) return std::string(text);
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) --end;
+    return std::string(text.substr(0, end)) + "...";
+}
+
 /// Returns "'a', 'b' or 'c'".
 template <class Table>
 std::string quoted_names(const Table& table) {
@@ -52,7 +61,7 @@ Value parse_name(std::string_view what, std::string_view name, const NameTable<V
         expected += (expected.empty() ? "\"" : ", \"") + std::string(text) + "\"";
     }
     throw std::invalid_argument(std::string(what) + ": expected " + expected + ", got \"" +
-                                std::string(name) + "\"");
+                                shortened(name) + "\"");
 }
 
 }  // namespace cubecam

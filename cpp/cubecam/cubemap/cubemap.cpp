@@ -1,5 +1,6 @@
 #include "cubecam/cubemap/cubemap.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/parallel.hpp"
 #include "cubecam/core/revision.hpp"
 #include "cubecam/cubemap/box_filter.hpp"
@@ -130,6 +131,7 @@ PixelBuffer halve_faces(const std::byte* pixels, int size, int channels, DType d
             with_pixels(
                 dtype, pixels + face * from_values * dtype_size(dtype), [&](const auto* from) {
                     for (int y = 0; y < half; ++y) {
+                        poll_interrupts();
                         const BoxTap& down = taps[static_cast<std::size_t>(y)];
                         for (int x = 0; x < half; ++x) {
                             const BoxTap& across = taps[static_cast<std::size_t>(x)];

@@ -1,5 +1,8 @@
 #include "cubecam/cubemap/cubemap_layout.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/parse_name.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -23,7 +26,7 @@ std::string plain_name(std::string_view name) {
 
 [[noreturn]] void refuse_name(const char* what, const std::string& names, std::string_view got) {
     throw std::invalid_argument(std::string(what) + ": expected " + names + ", got '" +
-                                std::string(got) + "'");
+                                shortened(got) + "'");
 }
 
 /// Returns the value that a name stands for, whatever its letter case and its separators.
@@ -98,6 +101,7 @@ void copy_rows(const std::byte* from, std::size_t from_stride, std::byte* to, st
                int size, std::size_t texel, bool flip_columns, bool flip_rows) {
     const auto count = static_cast<std::size_t>(size);
     for (std::size_t row = 0; row < count; ++row) {
+        poll_interrupts();
         const std::byte* source = from + (flip_rows ? count - 1 - row : row) * from_stride;
         std::byte* target = to + row * to_stride;
         if (!flip_columns) {

@@ -1,4 +1,6 @@
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/memory.hpp"
 #include "cubecam/geometry/primitives.hpp"
 
 #include <algorithm>
@@ -65,6 +67,7 @@ void subdivide(Icosahedron& solid) {
     std::vector<glm::uvec3> finer;
     finer.reserve(4 * solid.triangles.size());
     for (const glm::uvec3& t : solid.triangles) {
+        poll_interrupts(finer.size() / 4);
         const std::uint32_t ab = middle(t.x, t.y);
         const std::uint32_t bc = middle(t.y, t.z);
         const std::uint32_t ca = middle(t.z, t.x);
@@ -107,11 +110,15 @@ MeshData icosphere(double radius, int subdivisions) {
     expect(subdivisions >= 0 && subdivisions <= most_subdivisions,
            "subdivisions from 0 to " + std::to_string(most_subdivisions),
            std::to_string(subdivisions));
+    // A triangle, half a vertex, and its share of the map of edges, twice where vectors grow.
+    const std::int64_t triangles = std::int64_t{20} << (2 * subdivisions);
+    check_memory(100.0 * static_cast<double>(triangles), std::to_string(triangles) + " triangles");
     Icosahedron solid = icosahedron();
     for (int i = 0; i < subdivisions; ++i) subdivide(solid);
 
     MeshData::Arrays arrays;
     for (const glm::dvec3& direction : solid.directions) {
+        poll_interrupts(arrays.positions.size());
         arrays.positions.emplace_back(radius * direction);
         arrays.normals.emplace_back(direction);
         arrays.uvs.emplace_back(uv_of(direction));
@@ -119,6 +126,7 @@ MeshData icosphere(double radius, int subdivisions) {
     // A corner whose triangle lies across the seam, or at a pole, needs a u of its own there.
     std::unordered_map<std::uint64_t, std::uint32_t> doubles;
     for (glm::uvec3 t : solid.triangles) {
+        poll_interrupts(arrays.triangles.size());
         std::array<glm::dvec3, 3> corners{};
         for (int i = 0; i < 3; ++i) corners[std::size_t(i)] = solid.directions[t[i]];
         const std::array<double, 3> us = unwrapped_us(corners);

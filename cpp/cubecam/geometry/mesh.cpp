@@ -1,5 +1,7 @@
 #include "cubecam/geometry/mesh.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+
 #include <utility>
 
 namespace cubecam {
@@ -16,6 +18,7 @@ std::shared_ptr<const MeshData> Mesh::data() const {
 template <class Make>
 std::shared_ptr<const MeshData> Mesh::kept(Form& form, std::uint64_t revision, Make&& make) const {
     const std::lock_guard lock(forms_mutex_);
+    const UninterruptedScope uninterrupted;
     if (form.data && form.of == revision) return form.data;
     auto made = std::make_shared<const MeshData>(make(form.data.get()));
     // A snapshot that was begun before an update may still be read after it.
@@ -40,6 +43,7 @@ std::shared_ptr<const MeshData> Mesh::with_tangents(const std::shared_ptr<const 
 void Mesh::update(MeshUpdate update) {
     if (update.empty()) return;
     const std::lock_guard one(updates_);
+    const UninterruptedScope uninterrupted;
     auto next = std::make_shared<const MeshData>(data()->updated(std::move(update)));
     const std::uint64_t revision = next->revision();
     {

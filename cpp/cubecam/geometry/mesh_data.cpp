@@ -1,6 +1,7 @@
 #include "cubecam/geometry/mesh_data.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/revision.hpp"
 #include "cubecam/geometry/tangents.hpp"
 #include "cubecam/geometry/vertex_checks.hpp"
@@ -29,6 +30,7 @@ void check_alpha(const std::vector<glm::vec4>& colors) {
 void check_triangles(const std::vector<glm::uvec3>& triangles, std::size_t vertices) {
     expect(!triangles.empty(), "at least one triangle", "none");
     for (std::size_t i = 0; i < triangles.size(); ++i) {
+        poll_interrupts(i);
         const glm::uvec3& t = triangles[i];
         const std::uint32_t largest = std::max({t.x, t.y, t.z});
         if (largest < vertices) continue;
@@ -55,6 +57,7 @@ void normalize_all(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>
                    const std::vector<glm::uvec3>& triangles) {
     std::vector<glm::vec3> smooth;
     for (std::size_t begin = 0; begin < normals.size(); begin += vertex_block) {
+        poll_interrupts();
         const std::size_t end = std::min(normals.size(), begin + vertex_block);
         bool unit = true;
         for (std::size_t i = begin; i < end; ++i) unit &= unit_length(normals[i]);
@@ -79,6 +82,7 @@ void check_handedness(const std::vector<glm::vec4>& tangents) {
 /// Gives every tangent unit length. Tangents of length 0 get any direction in the surface.
 void normalize_all(std::vector<glm::vec4>& tangents, const std::vector<glm::vec3>& normals) {
     for (std::size_t i = 0; i < tangents.size(); ++i) {
+        poll_interrupts(i);
         if (unit_length(glm::vec3(tangents[i]))) continue;
         const glm::dvec3 tangent(tangents[i]);
         const double length = glm::length(tangent);
@@ -502,7 +506,9 @@ MeshData MeshData::centered_and_scaled(double size) const {
 std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& positions,
                                       const std::vector<glm::uvec3>& triangles) {
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0.0));
+    std::size_t step = 0;
     for (const glm::uvec3& triangle : triangles) {
+        poll_interrupts(step++);
         glm::dvec3 corners[3];
         for (int i = 0; i < 3; ++i) corners[i] = glm::dvec3(positions[triangle[i]]);
         const glm::dvec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -518,6 +524,7 @@ std::vector<glm::vec3> smooth_normals(const std::vector<glm::vec3>& positions,
     }
     std::vector<glm::vec3> normals(positions.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
+        poll_interrupts(i);
         const double length = glm::length(sums[i]);
         normals[i] = length > 0.0 ? glm::vec3(sums[i] / length) : glm::vec3(0.0F, 1.0F, 0.0F);
     }

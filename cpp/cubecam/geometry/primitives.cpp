@@ -1,6 +1,8 @@
 #include "cubecam/geometry/primitives.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/core/memory.hpp"
 
 #include <algorithm>
 #include <array>
@@ -27,6 +29,10 @@ void expect_vertices(std::int64_t columns, std::int64_t rows) {
     expect(vertices <= most_vertices,
            "a mesh of at most " + std::to_string(most_vertices) + " vertices",
            std::to_string(vertices));
+    // Position, normal, texture coordinates, and two triangles for each vertex; vectors that grow
+    // hold their numbers twice.
+    constexpr double bytes = 2 * (3 + 3 + 2 + 2 * 3) * sizeof(float);
+    check_memory(bytes * static_cast<double>(vertices), std::to_string(vertices) + " vertices");
 }
 
 /// (sine, cosine) of step / steps of a full turn. Quarter turns are exact, and step = steps gives
@@ -45,6 +51,7 @@ glm::dvec2 turn(int step, int steps) {
 class Builder {
 public:
     std::uint32_t vertex(glm::dvec3 position, glm::dvec3 normal, glm::dvec2 uv) {
+        poll_interrupts(arrays_.positions.size());
         arrays_.positions.emplace_back(position);
         arrays_.normals.emplace_back(glm::normalize(normal));
         arrays_.uvs.emplace_back(uv);
@@ -52,6 +59,7 @@ public:
     }
 
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        poll_interrupts(arrays_.triangles.size());
         arrays_.triangles.emplace_back(a, b, c);
     }
 

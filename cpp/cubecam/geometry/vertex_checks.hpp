@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/interrupts.hpp"
 
 #include <glm/glm.hpp>
 
@@ -24,6 +25,7 @@ void check_finite(const std::vector<Vector>& values, const char* name) {
     const float* floats = values.empty() ? nullptr : &values.front()[0];
     const std::size_t count = values.size() * Vector::length();
     for (std::size_t begin = 0; begin < count; begin += vertex_block) {
+        poll_interrupts();
         const std::size_t end = std::min(count, begin + vertex_block);
         bool finite = true;
         for (std::size_t i = begin; i < end; ++i) {

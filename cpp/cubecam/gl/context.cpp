@@ -1,10 +1,14 @@
 #include "cubecam/gl/context.hpp"
 
 #include "cubecam/core/error.hpp"
+#include "cubecam/core/notices.hpp"
 #include "cubecam/gl/context_impl.hpp"
+#include "cubecam/gl/device_probe.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <new>
+#include <thread>
 #include <utility>
 
 namespace cubecam::gl {
@@ -24,8 +28,38 @@ std::string candidate_in_words(const Candidate& candidate) {
     for (std::size_t i = 0; i < list.attempts.size(); ++i) {
         text += "\n  " + std::to_string(i + 1) + ". " + list.attempts[i];
     }
-    if (list.kind != DeviceKind::gpu) text += "\n" + egl::software_hint();
+    const bool any_too_old =
+        std::any_of(list.attempts.begin(), list.attempts.end(), [](const std::string& attempt) {
+            return attempt.find(older_version) != std::string::npos;
+        });
+    if (any_too_old) throw ContextError(text + "\n" + egl::version_hint());
+    // A driver that cannot be opened for lack of descriptors is there: nothing is to be installed.
+    const std::string files = egl::descriptors_hint();
+    if (!files.empty()) throw ContextError(text + "\n" + files);
+    const std::string chosen = egl::driver_variables();
+    if (!chosen.empty()) {
+        text += "\n" + chosen + " is set: without it another driver may start.";
+    } else if (list.kind != DeviceKind::gpu) {
+        text += "\n" + egl::software_hint();
+    }
     throw ContextError(text + "\n" + egl::gpu_hint());
+}
+
+/// Adds a notice if the context renders in software although EGL lists a GPU.
+void note_fallback(const CandidateList& list, const Context::Impl& impl) {
+    if (list.kind != DeviceKind::any || !impl.software) return;
+    const Candidate* gpu = nullptr;
+    for (const Candidate& candidate : list.candidates) {
+        const bool hardware =
+            candidate.platform == egl::Platform::device && !candidate.info.software;
+        if (hardware && gpu == nullptr) gpu = &candidate;
+    }
+    if (gpu == nullptr) return;
+    std::string text = "this renderer draws in software, with " + impl.renderer +
+                       ", although EGL lists a GPU, " + candidate_in_words(*gpu) + ".";
+    for (const std::string& attempt : list.attempts) text += "\n  " + attempt;
+    add_notice(text + "\nOn a device that no GPU is expected of, device=\"software\" or "
+                      "CUBECAM_DEVICE=software gives no warning.");
 }
 
 std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
@@ -47,16 +81,20 @@ std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
             const bool disguised = impl->software && !candidate.info.software &&
                                    candidate.platform == egl::Platform::device;
             if (!by_kind && disguised) {
+                list.attempts.push_back(candidate_in_words(candidate) +
+                                        ": started, but renders in software: " + impl->renderer);
                 if (second_best == nullptr) second_best = std::move(impl);
                 continue;
             }
             if (second_best != nullptr && impl->software) break;
+            note_fallback(list, *impl);
             return impl;
         } catch (const ContextError& error) {
             list.attempts.push_back(candidate_in_words(candidate) + ": " + error.what());
         }
     }
     if (second_best == nullptr) throw_attempts(list);
+    note_fallback(list, *second_best);
     return second_best;
 }
 
@@ -87,6 +125,7 @@ Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 const GladGLContext& Context::gl() const noexcept { return impl_->gl; }
+Pace& Context::pace() const noexcept { return impl_->pace; }
 const std::string& Context::vendor() const noexcept { return impl_->vendor; }
 const std::string& Context::renderer() const noexcept { return impl_->renderer; }
 const std::string& Context::version() const noexcept { return impl_->version; }
@@ -108,8 +147,27 @@ std::vector<std::string> Context::take_debug_messages() {
     return std::exchange(impl_->messages, {});
 }
 
+void Context::check_reset() {
+    const GLenum status = impl_->reset_status();
+    if (status == GL_NO_ERROR) return;
+    impl_->reset = true;
+    // While the reset lasts, the driver goes on reporting it and makes no new context.
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(2);
+    while (impl_->reset_status() != GL_NO_ERROR && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    throw ContextLost(status == GL_GUILTY_CONTEXT_RESET
+                          ? "the GPU was reset because of what this renderer drew"
+                      : status == GL_INNOCENT_CONTEXT_RESET
+                          ? "the GPU was reset because of what another context drew"
+                          : "the GPU was reset",
+                      true);
+}
+
 void Context::abandon() noexcept {
-    impl_->raw.abandon();
+    // After a reset of the GPU the handle stays valid until the context is destroyed. In all other
+    // cases the handle may already belong to another context.
+    if (!impl_->reset) impl_->raw.abandon();
     GladGLContext& gl = impl_->gl;
     const auto no_delete_many = +[](GLsizei, const GLuint*) {};
     const auto no_delete = +[](GLuint) {};
@@ -127,10 +185,21 @@ CurrentScope::CurrentScope(const Context& context) {
     static_assert(sizeof(egl::Current) <= sizeof(saved_) &&
                   alignof(egl::Current) <= alignof(void*));
     egl::refuse_forked_child();
-    if (context.impl_ == nullptr || context.impl_->raw.abandoned()) {
-        throw ContextError("this context was given up and can no longer be made current");
+    Context::Impl& impl = *context.impl_;
+    if (impl.reset) throw ContextLost("the GPU was reset", true);
+    try {
+        new (saved_) egl::Current(impl.raw);
+    } catch (const ContextLost& lost) {
+        impl.reset = lost.reset();
+        throw;
     }
-    new (saved_) egl::Current(context.impl_->raw);
+    if (impl.has_mark()) return;
+    // After a reset a context may answer no question.
+    impl.reset = impl.reset_status() != GL_NO_ERROR;
+    std::launder(reinterpret_cast<egl::Current*>(saved_))->~Current();
+    if (impl.reset) throw ContextLost("the GPU was reset", true);
+    throw ContextLost("another library in this process has terminated the EGL display, and its "
+                      "context now has the handle of ours");
 }
 
 CurrentScope::~CurrentScope() { std::launder(reinterpret_cast<egl::Current*>(saved_))->~Current(); }

@@ -13,6 +13,8 @@ struct GladGLContext;  // <glad/gl.h>; only files that call GL include it
 
 namespace cubecam::gl {
 
+class Pace;
+
 /// Which device a context is made on:
 ///  - "auto": the environment variable CUBECAM_DEVICE if it is set, otherwise GPU devices, then
 ///    the software device, then the surfaceless platform, then the default display;
@@ -72,6 +74,9 @@ public:
     /// functions may be called only inside a CurrentScope.
     const GladGLContext& gl() const noexcept;
 
+    /// Everything that fills many pixels reports it here. Only inside a CurrentScope.
+    Pace& pace() const noexcept;
+
     const std::string& vendor() const noexcept;        ///< GL_VENDOR
     const std::string& renderer() const noexcept;      ///< GL_RENDERER
     const std::string& version() const noexcept;       ///< GL_VERSION
@@ -90,9 +95,15 @@ public:
     /// The driver's messages since the last call (debug contexts only), one line each.
     std::vector<std::string> take_debug_messages();
 
-    /// From now on destroying objects of this context, and the context, touches neither GL nor EGL.
-    /// An owner that cannot make the context current any more calls this; the GPU memory of the
-    /// objects is lost.
+    /// @throws ContextLost if the GPU was reset since the context was made: nothing that was drawn
+    /// or read in the meantime is right. The call waits, at most two seconds, for the end of the
+    /// reset, and is allowed only inside a CurrentScope. Drivers that cannot report a reset, and
+    /// software drivers, report none.
+    void check_reset();
+
+    /// From now on destroying objects of this context does not touch GL. An owner that cannot make
+    /// the context current any more calls this; the driver has freed the objects, or frees them
+    /// with the context. The context itself is destroyed only if its handle is known to be valid.
     void abandon() noexcept;
 
     struct Impl;
@@ -108,7 +119,9 @@ private:
 /// exception. Scopes can be nested.
 class CurrentScope {
 public:
-    /// Throws ContextError; the thread's current context is then unchanged.
+    /// Throws ContextLost if the context has ended, or if its handle now belongs to another
+    /// context; the thread's current context is then unchanged. Throws ContextError in a forked
+    /// child.
     explicit CurrentScope(const Context& context);
     ~CurrentScope();
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstdint>
+#include <string_view>
 #include <utility>
 
 namespace cubecam::gl {
@@ -71,6 +74,7 @@ Context::Impl::Impl(egl::RawContext made, DeviceInfo info, const egl::OpenDispla
     software = device.software;
     query_limits();
     if (debug) start_debug_output();
+    make_mark();
     // The driver may not know a query above; the caller's first check must not report that error.
     while (gl.GetError() != GL_NO_ERROR) {
     }
@@ -127,6 +131,28 @@ void Context::Impl::start_debug_output() {
     gl.Enable(GL_DEBUG_OUTPUT);
     gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     gl.DebugMessageCallback(collect_message, this);
+}
+
+GLenum Context::Impl::reset_status() const {
+    return gl.GetGraphicsResetStatus != nullptr ? gl.GetGraphicsResetStatus() : GLenum{GL_NO_ERROR};
+}
+
+void Context::Impl::make_mark() {
+    static std::atomic<std::uint64_t> count{0};
+    // The address distinguishes this copy of the library from another one in the process.
+    mark_label = "cubecam " + std::to_string(reinterpret_cast<std::uintptr_t>(&count)) + " " +
+                 std::to_string(++count);
+    gl.CreateBuffers(1, &mark);
+    gl.ObjectLabel(GL_BUFFER, mark, static_cast<GLsizei>(mark_label.size()), mark_label.data());
+}
+
+bool Context::Impl::has_mark() const {
+    // glIsBuffer causes no error in another context; the label is read only where there is one.
+    if (gl.IsBuffer(mark) == GL_FALSE) return false;
+    std::array<char, 64> label{};
+    GLsizei length = 0;
+    gl.GetObjectLabel(GL_BUFFER, mark, static_cast<GLsizei>(label.size()), &length, label.data());
+    return mark_label == std::string_view(label.data(), static_cast<std::size_t>(length));
 }
 
 std::unique_ptr<Context::Impl> start_context(const Candidate& candidate, bool debug) {

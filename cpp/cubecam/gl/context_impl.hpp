@@ -2,6 +2,7 @@
 
 #include "cubecam/gl/context.hpp"
 #include "cubecam/gl/device_choice.hpp"
+#include "cubecam/gl/pace.hpp"
 
 #include <glad/gl.h>
 
@@ -19,6 +20,14 @@ struct Context::Impl {
     void query_strings();
     void query_limits();
     void start_debug_output();
+    void make_mark();
+
+    /// GL_NO_ERROR, or how the GPU was reset since the context was made.
+    GLenum reset_status() const;
+
+    /// Whether the current context, which has our handle, is ours. Where another library ends our
+    /// display, the driver may give the address of our context to a new one.
+    bool has_mark() const;
 
     egl::RawContext raw;
     GladGLContext gl{};
@@ -32,6 +41,10 @@ struct Context::Impl {
     std::vector<std::string> extensions;
     bool software = false;
     bool debug = false;
+    bool reset = false;  ///< the GPU was reset: nothing can be drawn any more
+    GLuint mark = 0;     ///< a buffer whose label no other context of the process has
+    std::string mark_label;
+    Pace pace;
     std::mutex messages_mutex;
     std::vector<std::string> messages;
 };

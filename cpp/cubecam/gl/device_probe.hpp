@@ -19,11 +19,16 @@ void complete_from_gl(DeviceInfo& info, std::string_view vendor, std::string_vie
 /// for "4.5 (Core Profile) Mesa 22.3.6".
 std::string driver_of_version(std::string_view gl_version);
 
-/// Whether GL_RENDERER is one of Mesa's CPU rasterisers.
-bool is_software_renderer(std::string_view renderer) noexcept;
+/// Whether a GL_RENDERER draws on the CPU: Mesa's rasterisers, also below zink, SwiftShader, WARP,
+/// and virgl, unless it names a GPU of the host.
+bool is_software_renderer(std::string_view renderer);
 
-/// Makes a context of OpenGL 4.5 core on a display. Throws ContextError if there is none; its text
-/// names the version that the driver has, and `info` is completed from a context of that version.
+/// The words by which create_gl45 says that a driver works but is too old.
+inline constexpr std::string_view older_version = "the driver offers OpenGL ";
+
+/// Makes a context of OpenGL 4.5 core on a display, one that reports resets of the GPU if there is
+/// such a one. Throws ContextError if there is none; its text names the version that the driver
+/// has, and `info` is completed from a context of that version.
 egl::RawContext create_gl45(const egl::OpenDisplay& display, bool debug, DeviceInfo& info);
 
 /// Adds a frequent cause on this device to the text of a failure.

@@ -59,11 +59,20 @@ void probe_driver(DeviceInfo& info, egl::Device device) {
 
 }  // namespace
 
-bool is_software_renderer(std::string_view renderer) noexcept {
-    static constexpr std::array names{"llvmpipe", "softpipe", "swrast", "Software Rasterizer"};
-    return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
-        return renderer.find(name) != std::string_view::npos;
-    });
+bool is_software_renderer(std::string_view renderer) {
+    std::string text(renderer);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    static constexpr std::array names{"llvmpipe", "lavapipe",           "softpipe",
+                                      "swrast",   "swiftshader",        "software rasterizer",
+                                      "swr (",    "basic render driver"};
+    if (std::any_of(names.begin(), names.end(),
+                    [&](std::string_view name) { return text.find(name) != std::string::npos; })) {
+        return true;
+    }
+    // A virtual machine's driver passes its calls to the host. Newer versions name the host's
+    // driver in brackets, "virgl (AMD Radeon ...)". Without a name the host may draw on its CPU.
+    return text.starts_with("virgl") && text.find('(') == std::string::npos;
 }
 
 std::string driver_of_version(std::string_view version) {
@@ -129,6 +138,14 @@ DeviceInfo probe_extensions(egl::Device device, int index) {
 
 egl::RawContext create_gl45(const egl::OpenDisplay& display, bool debug, DeviceInfo& info) {
     std::string text;
+    // A software driver never resets. A driver that refuses a robust context may still make a plain
+    // one.
+    if (display.robust && !info.software) {
+        try {
+            return egl::RawContext(display, 4, 5, debug, true);
+        } catch (const ContextError&) {
+        }
+    }
     try {
         return egl::RawContext(display, 4, 5, debug);
     } catch (const ContextError& error) {
@@ -139,7 +156,7 @@ egl::RawContext create_gl45(const egl::OpenDisplay& display, bool debug, DeviceI
         const egl::RawContext older(display, 3, 2, false);
         const egl::Current current(older);
         complete_from_gl(info, gl_string(gl_vendor), gl_string(gl_renderer), gl_string(gl_version));
-        text += ": the driver offers OpenGL " + gl_string(gl_version) + ", 4.5 is needed";
+        text += ": " + std::string(older_version) + gl_string(gl_version) + ", 4.5 is needed";
     } catch (const ContextError&) {
         text += " (nor is there a context of OpenGL 3.2)";
     }
@@ -152,8 +169,11 @@ std::string explain_failure(const std::string& text, const DeviceInfo& device) {
                ": the user must be in its group, often \"render\")";
     }
     if (device.software && text.find("EGL_NOT_INITIALIZED") != std::string::npos) {
-        return text +
-               " (Mesa's software driver is missing: package libgl1-mesa-dri or mesa-dri-drivers)";
+        const std::string chosen = egl::driver_variables();
+        return text + (chosen.empty()
+                           ? " (Mesa's software driver is missing: package libgl1-mesa-dri or "
+                             "mesa-dri-drivers)"
+                           : " (the driver that " + chosen + " chooses does not start)");
     }
     return text;
 }

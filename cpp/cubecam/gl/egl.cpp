@@ -5,11 +5,14 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <mutex>
 #include <pthread.h>
+#include <unistd.h>
 #include <utility>
 
 namespace cubecam::gl {
@@ -20,7 +23,25 @@ namespace {
 std::atomic<bool> library_opened{false};
 std::atomic<bool> forked_after_open{false};
 
-void note_fork() noexcept { forked_after_open = library_opened.load(); }
+#ifdef __GLIBC__
+/// Ends a forked child in place of the exit handlers that were registered before the fork: those of
+/// drivers wait for threads that a child does not have (Mesa 26 does so for ever). What exit() does
+/// besides, writing out C's open files, is done here.
+void end_child(int status, void*) {
+    std::fflush(nullptr);
+    _exit(status);
+}
+#endif
+
+/// Runs in a child, in every kind of fork.
+void note_fork() noexcept {
+    if (!library_opened.load()) return;
+    forked_after_open = true;
+#ifdef __GLIBC__
+    // The handlers that are registered last run first: those of the child itself still run.
+    on_exit(&end_child, nullptr);
+#endif
+}
 
 }  // namespace
 
@@ -111,9 +132,10 @@ const Table& library() {
     if (handle == nullptr) {
         library_opened = false;
         const char* reason = dlerror();
-        throw ContextError("the EGL library " + name + " cannot be loaded: " +
-                           (reason != nullptr ? reason : "the loader gives no reason") + ". " +
-                           library_hint());
+        const std::string why = reason != nullptr ? reason : "the loader gives no reason";
+        const std::string files = descriptors_hint();
+        throw ContextError("the EGL library " + name + " cannot be loaded: " + why + ". " +
+                           (files.empty() ? library_hint() : files));
     }
     // The table is never freed: contexts may be destroyed while the process ends.
     auto* table = new Table();
@@ -121,7 +143,9 @@ const Table& library() {
         fill(*table, handle);
     } catch (const ContextError& error) {
         delete table;
-        throw ContextError(name + ": " + error.what() + ". " + library_hint());
+        const std::string files = descriptors_hint();
+        throw ContextError(name + ": " + error.what() + ". " +
+                           (files.empty() ? library_hint() : files));
     }
     opened_table.store(table, std::memory_order_release);
     return *table;
@@ -164,6 +188,35 @@ std::string software_hint() {
     return "To render in software install Mesa's drivers: apt install libegl1 libgl1-mesa-dri "
            "(Debian, Ubuntu); dnf "
            "install mesa-libEGL mesa-dri-drivers (Fedora).";
+}
+
+std::string driver_variables() {
+    std::string text;
+    for (const char* name : {"GALLIUM_DRIVER", "MESA_LOADER_DRIVER_OVERRIDE", "LIBGL_DRIVERS_PATH",
+                             "LIBGL_ALWAYS_SOFTWARE", "MESA_GL_VERSION_OVERRIDE", "EGL_PLATFORM"}) {
+        const char* value = std::getenv(name);
+        if (value == nullptr || *value == '\0') continue;
+        text += (text.empty() ? "" : " and ") + std::string(name) + "=" + value;
+    }
+    return text;
+}
+
+std::string version_hint() {
+    const std::string chosen = driver_variables();
+    return "A driver is installed and starts, but it does not offer OpenGL 4.5. " +
+           (chosen.empty() ? "A newer driver may: Mesa's llvmpipe does from version 20.3."
+                           : chosen + " is set: without it the driver may offer more.");
+}
+
+std::string descriptors_hint() {
+    const int opened = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int reason = errno;
+    if (opened >= 0) close(opened);
+    if (opened >= 0 || (reason != EMFILE && reason != ENFILE)) return "";
+    return reason == EMFILE
+               ? "This process has as many files open as it may: close some, or raise the limit "
+                 "(`ulimit -n`)."
+               : "This machine has as many files open as it can: close some.";
 }
 
 std::string gpu_hint() {

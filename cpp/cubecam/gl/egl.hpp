@@ -26,5 +26,13 @@ std::string error_name(Int error);
 /// Texts that say what to install or set if no context could be started.
 std::string software_hint();
 std::string gpu_hint();
+/// For drivers that start and offer an older OpenGL.
+std::string version_hint();
+
+/// The environment variables that are set and choose Mesa's driver or its version, such as
+/// "GALLIUM_DRIVER=softpipe"; empty if there is none.
+std::string driver_variables();
+/// What to do if this process has no file descriptors left; else empty.
+std::string descriptors_hint();
 
 }  // namespace cubecam::gl::egl

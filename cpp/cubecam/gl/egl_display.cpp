@@ -103,13 +103,14 @@ OpenDisplay open_display(Platform platform, Device device) {
                                            : std::to_string(major) + "." + std::to_string(minor);
     const char* list = egl.query_string(open.display, extensions);
     open.surfaceless = has_name(list, "EGL_KHR_surfaceless_context");
+    open.robust = has_name(list, "EGL_EXT_create_context_robustness") || major > 1 || minor >= 5;
     const bool configless = has_name(list, "EGL_KHR_no_config_context") ||
                             has_name(list, "EGL_MESA_configless_context");
     if (!configless || !open.surfaceless) open.config = choose_config(egl, open.display);
     return open;
 }
 
-RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool debug)
+RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool debug, bool robust)
     : display_(display.display) {
     const Table& egl = library();
     // The bound API belongs to the thread, and another library may depend on its own choice.
@@ -117,15 +118,15 @@ RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool de
     if (!egl.bind_api(opengl_api))
         throw_egl(egl, "eglBindAPI(EGL_OPENGL_API)", " (EGL without desktop OpenGL)");
 
-    const std::array attributes{context_major_version,
-                                major,
-                                context_minor_version,
-                                minor,
-                                context_opengl_profile_mask,
-                                context_opengl_core_profile_bit,
-                                debug ? context_flags : none,
-                                context_opengl_debug_bit,
-                                none};
+    std::vector<Int> attributes{context_major_version,       major,
+                                context_minor_version,       minor,
+                                context_opengl_profile_mask, context_opengl_core_profile_bit};
+    if (debug) attributes.insert(attributes.end(), {context_flags, context_opengl_debug_bit});
+    if (robust) {
+        attributes.insert(attributes.end(), {context_robust_access, 1, context_reset_strategy,
+                                             lose_context_on_reset});
+    }
+    attributes.push_back(none);
     context_ = egl.create_context(display_, display.config, nullptr, attributes.data());
     const Int context_error = context_ != nullptr ? success : egl.get_error();
     Int surface_error = success;
@@ -138,7 +139,8 @@ RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool de
 
     if (context_ == nullptr) {
         throw ContextError("eglCreateContext(OpenGL " + std::to_string(major) + "." +
-                           std::to_string(minor) + " core): " + error_name(context_error));
+                           std::to_string(minor) + (robust ? " core, robust): " : " core): ") +
+                           error_name(context_error));
     }
     if (surface_error != success) {
         egl.destroy_context(display_, context_);
@@ -175,13 +177,12 @@ Current::Current(const RawContext& context) : ours_(context.display()) {
         text += ": the context is current on another thread, or another window system's OpenGL "
                 "context (GLX) is current on "
                 "this one";
-    } else if (error == not_initialized || error == bad_display) {
-        text +=
-            ": another library in this process has terminated the EGL display; make a new renderer";
+    } else if (error == not_initialized || error == bad_display || error == bad_context) {
+        text += ": another library in this process has terminated the EGL display";
     } else if (error == context_lost) {
-        text += ": the GPU was reset; make a new renderer";
+        text += ": the GPU was reset";
     }
-    throw ContextError(text);
+    throw ContextLost(text, error == context_lost);
 }
 
 Current::~Current() {

@@ -18,13 +18,15 @@ const char* platform_name(Platform platform) noexcept;
 /// then gets the reason.
 std::vector<Device> query_devices(std::string* problem = nullptr);
 
-/// An initialised display. Displays are shared by the whole process (other libraries included) and
-/// never terminated.
+/// An initialised display. Displays are shared by the whole process, and never terminated here. But
+/// another library may terminate the display that it shares with us, which ends all our contexts.
 struct OpenDisplay {
     Display display = nullptr;
     Config config = nullptr;   ///< null: contexts are made without one (EGL_KHR_no_config_context)
     bool surfaceless = false;  ///< EGL_KHR_surfaceless_context
-    std::string version;       ///< EGL_VERSION
+    /// A context may be robust: it reports that the GPU was reset.
+    bool robust = false;
+    std::string version;  ///< EGL_VERSION
 };
 
 OpenDisplay open_display(Platform platform, Device device);
@@ -32,8 +34,9 @@ OpenDisplay open_display(Platform platform, Device device);
 /// Owner of an EGL context and, where contexts need one, of its 1x1 surface.
 class RawContext {
 public:
-    /// Makes a core context of at least this OpenGL version.
-    RawContext(const OpenDisplay& display, int major, int minor, bool debug);
+    /// Makes a core context of at least this OpenGL version. `robust`: it reports resets of the
+    /// GPU; a driver may refuse to make such a context.
+    RawContext(const OpenDisplay& display, int major, int minor, bool debug, bool robust = false);
     RawContext(RawContext&& other) noexcept;
     RawContext& operator=(RawContext&&) = delete;
     ~RawContext();
@@ -57,6 +60,7 @@ private:
 /// thread before.
 class Current {
 public:
+    /// Throws ContextLost; the thread's current context is then unchanged.
     explicit Current(const RawContext& context);
     ~Current();
     Current(const Current&) = delete;

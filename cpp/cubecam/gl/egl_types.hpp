@@ -24,6 +24,7 @@ using Proc = void (*)();
 inline constexpr Int success = 0x3000;
 inline constexpr Int not_initialized = 0x3001;
 inline constexpr Int bad_access = 0x3002;
+inline constexpr Int bad_context = 0x3006;
 inline constexpr Int bad_display = 0x3008;
 inline constexpr Int context_lost = 0x300E;
 inline constexpr Int none = 0x3038;
@@ -49,6 +50,11 @@ inline constexpr Int context_opengl_profile_mask = 0x30FD;
 inline constexpr Int context_opengl_core_profile_bit = 0x00000001;
 inline constexpr Int context_flags = 0x30FC;  // EGL_KHR_create_context
 inline constexpr Int context_opengl_debug_bit = 0x00000001;
+
+// EGL 1.5
+inline constexpr Int context_robust_access = 0x31B2;
+inline constexpr Int context_reset_strategy = 0x31BD;
+inline constexpr Int lose_context_on_reset = 0x31BF;
 
 inline constexpr Enum platform_device = 0x313F;       // EGL_EXT_platform_device
 inline constexpr Enum platform_surfaceless = 0x31DD;  // EGL_MESA_platform_surfaceless

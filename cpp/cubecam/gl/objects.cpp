@@ -143,6 +143,21 @@ Texture create_view_2d(const GladGLContext& gl, const Texture& array, int levels
     return view;
 }
 
+void read_layer(const GladGLContext& gl, GLuint texture, int layer, int width, int height,
+                GLenum format, GLenum type, std::size_t texel, void* to) {
+    const std::size_t row = static_cast<std::size_t>(width) * texel;
+    const int most = rows_at_once(row);
+    gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
+    auto* next = static_cast<std::byte*>(to);
+    for (int y = 0; y < height; y += most) {
+        const int rows = std::min(most, height - y);
+        const std::size_t bytes = row * static_cast<std::size_t>(rows);
+        gl.GetTextureSubImage(texture, 0, 0, y, layer, width, rows, 1, format, type,
+                              static_cast<GLsizei>(bytes), next);
+        next += bytes;
+    }
+}
+
 Buffer create_buffer(const GladGLContext& gl, std::size_t bytes, const void* data,
                      GLbitfield flags) {
     GLuint id = 0;

@@ -41,6 +41,19 @@ Texture create_view_2d(const GladGLContext& gl, const Texture& array, int levels
 /// The number of levels of a full mipmap chain: floor(log2(max)) + 1, as glTexStorage defines it.
 int mip_levels(int width, int height);
 
+/// The number of rows that can be read at once: OpenGL counts the bytes of a picture as an int.
+constexpr int rows_at_once(std::size_t bytes_of_row) {
+    constexpr std::size_t most = (std::size_t{1} << 31) - 1;
+    const std::size_t rows = bytes_of_row == 0 ? most : most / bytes_of_row;
+    return static_cast<int>(rows < 1 ? 1 : rows);
+}
+static_assert(rows_at_once(std::size_t{32768} * 4) == 16383);
+
+/// Reads one layer of level 0 of an array or a cube map, of `texel` bytes each, row by row from the
+/// bottom.
+void read_layer(const GladGLContext& gl, GLuint texture, int layer, int width, int height,
+                GLenum format, GLenum type, std::size_t texel, void* to);
+
 /// Makes a buffer of fixed size (glNamedBufferStorage). `data` may be null. A size of 0 makes a
 /// buffer of one byte, since GL refuses an empty one.
 Buffer create_buffer(const GladGLContext& gl, std::size_t bytes, const void* data = nullptr,

@@ -9,7 +9,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace cubecam::gl {
@@ -44,21 +43,9 @@ ShaderHandle compile(const GladGLContext& gl, std::string_view name, const Expan
     GLsizei written = 0;
     gl.GetShaderInfoLog(shader.id(), log_length, &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    const std::string explained = explain_shader_log(log, source);
-    // A source with a title was written by the user, who looks for this name in the message.
-    const auto own = std::find_if(
-        source.files.begin(), source.files.end(), [&explained](const ShaderSource& file) {
-            return !file.title.empty() && explained.starts_with(std::string(file.title) + ":");
-        });
-    throw ShaderError(std::string(own == source.files.end() ? name : own->title) +
-                          " does not compile:\n" + explained,
-                      log);
-}
-
-std::string joined(std::span<const std::string_view> files) {
-    std::string text;
-    for (const std::string_view file : files) text.append(text.empty() ? "" : " + ").append(file);
-    return text;
+    // A text that a user wrote has a name, which the user looks for in the message.
+    throw ShaderError(
+        shown_names({&source, 1}) + " does not compile:\n" + explain_shader_log(log, source), log);
 }
 
 }  // namespace
@@ -71,8 +58,10 @@ Program::Program(const GladGLContext& gl, std::span<const std::string_view> file
                  const ShaderOptions& options, std::span<const ShaderSource> sources)
     : handle_(gl, gl.CreateProgram()) {
     std::vector<ShaderHandle> shaders;
+    std::vector<ExpandedShader> texts;
     for (const std::string_view file : files) {
-        shaders.push_back(compile(gl, file, expand_shader(file, options, sources)));
+        texts.push_back(expand_shader(file, options, sources));
+        shaders.push_back(compile(gl, file, texts.back()));
         gl.AttachShader(id(), shaders.back().id());
     }
     gl.LinkProgram(id());
@@ -87,8 +76,10 @@ Program::Program(const GladGLContext& gl, std::span<const std::string_view> file
     GLsizei written = 0;
     gl.GetProgramInfoLog(id(), log_length, &written, log.data());
     log.resize(static_cast<std::size_t>(written));
-    while (log.ends_with('\n')) log.pop_back();
-    throw ShaderError(joined(files) + " do not link:\n" + log, log);
+    const std::string names = shown_names(texts);
+    const char* verb =
+        names.find(" + ") == std::string::npos ? " does not link:\n" : " do not link:\n";
+    throw ShaderError(names + verb + explain_link_log(log, texts), log);
 }
 
 GLint Program::location(std::string_view name) const {

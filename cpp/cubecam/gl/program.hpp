@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/error.hpp"
 #include "cubecam/gl/embedded.hpp"
 #include "cubecam/gl/handle.hpp"
 
@@ -9,6 +10,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,6 +36,7 @@ struct ExpandedShader {
     struct Line {
         std::size_t file;    ///< index into `files`, or `ahead`
         std::size_t number;  ///< from 1
+        bool after = false;  ///< added behind the file's text; `number` is the last line
     };
 
     std::string text;
@@ -54,6 +57,19 @@ ExpandedShader expand_shader(std::string_view name, const ShaderOptions& options
 /// Returns the driver's log with file names in place of string numbers, and with the numbered
 /// source lines around each error.
 std::string explain_shader_log(std::string_view log, const ExpandedShader& shader);
+
+/// Returns the driver's log of linking with the lines of the users' own texts: those that the log
+/// gives as numbers, and those of the names that it quotes.
+std::string explain_link_log(std::string_view log, std::span<const ExpandedShader> shaders);
+
+/// The names of the users' own texts in a program, or of its files: "fragment + vertex".
+std::string shown_names(std::span<const ExpandedShader> shaders);
+
+/// The error "<title> does not compile: <title>:<line>: <message>", with the lines round that one.
+ShaderError source_error(const ShaderSource& source, std::size_t line, const std::string& message);
+
+/// The line where a word of GLSL is declared, else where it first occurs outside of comments.
+std::optional<std::size_t> line_of_word(std::string_view text, std::string_view word);
 
 /// A linked program. Uniforms are set without binding it (glProgramUniform*).
 class Program {

@@ -1,18 +1,16 @@
-// The text of programs: includes, options and readable logs. This file does not use OpenGL.
+// The text of programs: includes and options. This file does not use OpenGL.
 #include "cubecam/core/error.hpp"
+#include "cubecam/gl/glsl_text.hpp"
 #include "cubecam/gl/program.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <optional>
 #include <set>
 
 namespace cubecam::gl {
 
 namespace {
-
-constexpr std::size_t context_lines = 2;  // shown before and after an error's line
 
 const ShaderSource* find_source(std::span<const ShaderSource> sources, std::string_view name) {
     const auto found =
@@ -47,6 +45,12 @@ std::string_view take_line(std::string_view& text) {
     return line;
 }
 
+std::vector<std::string_view> split_lines(std::string_view text) {
+    std::vector<std::string_view> lines;
+    while (!text.empty()) lines.push_back(take_line(text));
+    return lines;
+}
+
 class Expander {
 public:
     explicit Expander(std::span<const ShaderSource> sources) : sources_(sources) {}
@@ -58,6 +62,7 @@ public:
     }
 
     void add(const ShaderSource& source) {
+        if (source.user) return add_user_text(source);
         const std::size_t file = result.files.size();
         result.files.push_back(source);
         std::string_view rest = source.text;
@@ -65,10 +70,7 @@ public:
             const std::string_view line = take_line(rest);
             const std::string place =
                 std::string(source.shown()) + ":" + std::to_string(line_number);
-            if (directive(line, "version")) {
-                throw ShaderError(place +
-                                  ": a #version line; the version is put ahead of every shader");
-            }
+            if (directive(line, "version")) refuse_version(place);
             if (const auto include = directive(line, "include")) {
                 add_include(*include, place);
             } else {
@@ -81,6 +83,41 @@ public:
     ExpandedShader result;
 
 private:
+    [[noreturn]] static void refuse_version(const std::string& place) {
+        throw ShaderError(place + ": a #version line; the version is put ahead of every shader");
+    }
+
+    /// A user's text may contain directives within comments and on continued lines, and has no
+    /// includes. Its #line would hide where a message belongs, so the directive is left out.
+    void add_user_text(const ShaderSource& source) {
+        const std::size_t file = result.files.size();
+        result.files.push_back(source);
+        const GlslText text(source.text);
+        std::set<std::size_t> left_out;
+        for (const GlslText::Directive& found : text.directives()) {
+            if (found.word == "version") {
+                throw source_error(source, found.line,
+                                   "a #version line; the version is put ahead of every shader");
+            }
+            if (found.word != "line") continue;
+            for (std::size_t line = found.line; line <= found.last_line; ++line)
+                left_out.insert(line);
+        }
+        std::size_t number = 0;
+        for (const std::string_view line : split_lines(source.text)) {
+            ++number;
+            if (!left_out.contains(number)) result.text.append(line);
+            result.text.push_back('\n');
+            result.lines.push_back({file, number});
+        }
+        const auto add_after = [&](std::string_view line) {
+            result.text.append(line).push_back('\n');
+            result.lines.push_back({file, text.last_line(), true});
+        };
+        add_after("");  // the last line may end in a backslash
+        for (const std::string_view line : split_lines(source.after)) add_after(line);
+    }
+
     void add_include(std::string_view rest, const std::string& place) {
         const std::size_t end = rest.find('"', 1);
         if (!rest.starts_with('"') || end == std::string_view::npos) {
@@ -96,56 +133,6 @@ private:
 
     std::span<const ShaderSource> sources_;
 };
-
-struct LogPlace {
-    std::size_t line;       ///< of the expanded text
-    std::string_view rest;  ///< the text after the line number
-    std::string_view head;  ///< the text before the string number, such as "ERROR: "
-};
-
-std::optional<std::size_t> take_number(std::string_view& text) {
-    std::size_t value = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc()) return std::nullopt;
-    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
-    return value;
-}
-
-/// Mesa writes "0:12(5): error: ...", NVIDIA "0(12) : error C0000: ...", others "ERROR: 0:12: ...".
-std::optional<LogPlace> find_place(std::string_view line) {
-    std::string_view rest = line;
-    for (const std::string_view word : {"ERROR: ", "WARNING: "}) {
-        if (rest.starts_with(word)) rest.remove_prefix(word.size());
-    }
-    const std::string_view head = line.substr(0, line.size() - rest.size());
-    const auto string_number = take_number(rest);
-    if (!string_number || rest.empty() || (rest[0] != ':' && rest[0] != '(')) return std::nullopt;
-    const bool bracket = rest[0] == '(';
-    rest.remove_prefix(1);
-    const auto number = take_number(rest);
-    if (!number) return std::nullopt;
-    if (bracket && rest.starts_with(')')) rest.remove_prefix(1);
-    return LogPlace{*number, rest, head};
-}
-
-std::vector<std::string_view> split_lines(std::string_view text) {
-    std::vector<std::string_view> lines;
-    while (!text.empty()) lines.push_back(take_line(text));
-    return lines;
-}
-
-void append_excerpt(std::string& text, const ShaderSource& source, std::size_t error_line) {
-    const std::vector<std::string_view> lines = split_lines(source.text);
-    const std::size_t first = error_line > context_lines ? error_line - context_lines : 1;
-    const std::size_t last = std::min(error_line + context_lines, lines.size());
-    text.append("\n").append(source.shown()).append(":\n");
-    for (std::size_t number = first; number <= last; ++number) {
-        std::string digits = std::to_string(number);
-        digits.insert(0, digits.size() < 5 ? 5 - digits.size() : 0, ' ');
-        text += (number == error_line ? ">" : " ") + digits + " | ";
-        text.append(lines[number - 1]).push_back('\n');
-    }
-}
 
 }  // namespace
 
@@ -163,26 +150,6 @@ ExpandedShader expand_shader(std::string_view name, const ShaderOptions& options
         expander.add_ahead("#define " + macro + " " + value);
     expander.add(*source);
     return std::move(expander.result);
-}
-
-std::string explain_shader_log(std::string_view log, const ExpandedShader& shader) {
-    std::string text;
-    std::set<std::pair<std::size_t, std::size_t>> places;
-    for (const std::string_view line : split_lines(log)) {
-        const auto place = find_place(line);
-        if (!place || place->line == 0 || place->line > shader.lines.size()) {
-            text.append(line).push_back('\n');
-            continue;
-        }
-        const auto [file, number] = shader.lines[place->line - 1];
-        const bool ahead = file == ExpandedShader::ahead;
-        text.append(place->head).append(ahead ? "(put ahead)" : shader.files[file].shown());
-        text.append(":").append(std::to_string(number)).append(place->rest).push_back('\n');
-        if (!ahead) places.emplace(file, number);
-    }
-    for (const auto& [file, number] : places) append_excerpt(text, shader.files[file], number);
-    while (text.ends_with('\n')) text.pop_back();
-    return text;
 }
 
 }  // namespace cubecam::gl

@@ -1,5 +1,7 @@
 #include "cubecam/image/depth_format.hpp"
 
+#include "cubecam/core/parse_name.hpp"
+
 #include <stdexcept>
 #include <string>
 
@@ -12,7 +14,7 @@ DepthFormat parse_depth_format(std::string_view name) {
         expected += "'" + std::string(known) + "', ";
     }
     throw std::invalid_argument("expected depth_format " + expected + "or None, got '" +
-                                std::string(name) + "'");
+                                shortened(name) + "'");
 }
 
 std::string_view to_string(DepthFormat format) {

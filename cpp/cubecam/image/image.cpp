@@ -1,5 +1,6 @@
 #include "cubecam/image/image.hpp"
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/core/revision.hpp"
 
 #include <cstring>
@@ -41,7 +42,7 @@ Wrap parse_wrap(std::string_view name) {
     const std::size_t place = place_of_name(wrap_names, name);
     if (place < wrap_names.size()) return wrap_names[place].second;
     throw std::invalid_argument("expected wrap " + quoted_names(wrap_names) + ", got '" +
-                                std::string(name) + "'");
+                                shortened(name) + "'");
 }
 
 std::string_view to_string(Wrap wrap) { return wrap_names[static_cast<std::size_t>(wrap)].first; }

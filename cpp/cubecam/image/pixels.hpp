@@ -2,6 +2,8 @@
 /// value/255, as in GL's normalised formats.
 #pragma once
 
+#include "cubecam/core/memory.hpp"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +27,7 @@ constexpr const char* dtype_name(DType dtype) {
 
 /// An allocator that leaves trivial elements uninitialized. A plain vector would set them to zero
 /// on one thread before all workers fill it, which takes a third of the time of small conversions.
+/// What the memory cannot hold is refused with OutOfMemory, whatever work asks for it.
 template <typename T>
 struct UninitializedAllocator : std::allocator<T> {
     template <typename U>
@@ -34,6 +37,10 @@ struct UninitializedAllocator : std::allocator<T> {
     UninitializedAllocator() = default;
     template <typename U>
     UninitializedAllocator(const UninitializedAllocator<U>&) noexcept {}
+    T* allocate(std::size_t count) {
+        if (count <= static_cast<std::size_t>(-1) / sizeof(T)) check_room(count * sizeof(T));
+        return std::allocator<T>::allocate(count);
+    }
     template <typename U>
     void construct(U* at) noexcept {
         // GCC sets even `new Float4` to 0, so trivial elements are not constructed at all.

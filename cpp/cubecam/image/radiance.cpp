@@ -1,5 +1,7 @@
 #include "cubecam/image/radiance.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,6 +119,7 @@ RadianceScan scan_radiance(std::span<const std::uint8_t> bytes, std::size_t scan
                            std::size_t length) {
     RgbeBytes rest(bytes);
     for (std::size_t i = 0; i < scanlines; ++i) {
+        poll_interrupts();
         const RgbeFault fault = read_scanline(rest, length, nullptr);
         if (fault == RgbeFault::none) continue;
         if (fault == RgbeFault::end) {
@@ -141,6 +144,7 @@ void read_radiance(const RadianceScan& scan, std::span<float> out) {
     std::vector<Rgbe> line(scan.length);
     auto number = out.begin();
     for (std::size_t i = 0; i < scan.scanlines; ++i) {
+        poll_interrupts();
         if (read_scanline(bytes, scan.length, line.data()) != RgbeFault::none) {
             throw std::logic_error("a Radiance picture changed while it was read");
         }

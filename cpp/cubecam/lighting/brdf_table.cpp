@@ -1,5 +1,6 @@
 #include "cubecam/lighting/brdf_table.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/parallel.hpp"
 
 #include <algorithm>
@@ -166,6 +167,7 @@ glm::vec4 table_node(int row, int column) {
 }
 
 std::vector<glm::vec4> make_brdf_table() {
+    const UninterruptedScope uninterrupted;  // it initialises a static variable
     std::vector<glm::vec4> table(static_cast<std::size_t>(brdf_table_size) * brdf_table_size);
     parallel_for(0, table.size(), 64, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {

@@ -1,5 +1,6 @@
 #include "cubecam/lighting/filtered_cube.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/parallel.hpp"
 #include "cubecam/lighting/lobe_kernels.hpp"
 #include "cubecam/lighting/radiance_faces.hpp"
@@ -176,6 +177,7 @@ public:
     }
     /// Returns false if the work was cancelled.
     bool goes_on() {
+        poll_interrupts();
         if (!cancelled_ && progress_ && std::this_thread::get_id() == caller_) {
             const auto now = std::chrono::steady_clock::now();
             if (now - last_ > std::chrono::milliseconds(10)) {
@@ -210,6 +212,7 @@ void sharpen(FilteredLevel& level) {
     glm::vec4* to = level.texels.data();
     for (std::size_t face = 0; face < face_count; ++face) {
         for (int row = 0; row < n; ++row) {
+            poll_interrupts();
             const glm::vec4* from =
                 bordered.data() + (face * side + static_cast<std::size_t>(row) + 1) * side + 1;
             for (int column = 0; column < n; ++column, ++from, ++to) {

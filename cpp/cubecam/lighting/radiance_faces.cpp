@@ -1,5 +1,6 @@
 #include "cubecam/lighting/radiance_faces.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/parallel.hpp"
 #include "cubecam/math/cube_edges.hpp"
 
@@ -67,6 +68,7 @@ std::vector<glm::vec4> bordered_faces(const FilteredLevel& level) {
         };
         glm::vec4* to = result.data() + face_index(face) * side * side;
         for (int row = -1; row <= n; ++row) {
+            poll_interrupts();
             for (int column = -1; column <= n; ++column, ++to) {
                 const bool corner = (row < 0 || row == n) && (column < 0 || column == n);
                 if (!corner) {

@@ -1,5 +1,6 @@
 #include "cubecam/lighting/spherical_harmonics.hpp"
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/core/parallel.hpp"
 #include "cubecam/lighting/radiance_faces.hpp"
 #include "cubecam/lighting/radiance_tree.hpp"
@@ -83,6 +84,7 @@ std::vector<double> cube_to_sh(const CubeMapData& cube, int order) {
             std::vector<double> sum(count * channels);
             std::size_t texel = 0;
             for (int row = 0; row < n; ++row) {
+                poll_interrupts();
                 for (int column = 0; column < n; ++column, ++texel) {
                     const glm::dvec4 light =
                         angles[texel] * glm::dvec4(countable_radiance(texels[texel]));

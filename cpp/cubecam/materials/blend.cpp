@@ -1,5 +1,7 @@
 #include "cubecam/materials/blend.hpp"
 
+#include "cubecam/core/parse_name.hpp"
+
 #include <cstddef>
 #include <span>
 #include <stdexcept>
@@ -15,7 +17,8 @@ std::size_t index_of_name(std::span<const std::string_view> names, std::string_v
         if (names[i] == name) return i;
         expected.append(i == 0 ? "'" : ", '").append(names[i]).append("'");
     }
-    throw std::invalid_argument(expected.append(after).append(", got '").append(name).append("'"));
+    throw std::invalid_argument(
+        expected.append(after).append(", got '").append(shortened(name)).append("'"));
 }
 
 }  // namespace

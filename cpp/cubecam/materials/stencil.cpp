@@ -16,7 +16,7 @@ std::size_t index_of_word(const std::array<std::string_view, 8>& words, std::str
     const std::size_t place = place_of_name(words, word);
     if (place < words.size()) return place;
     throw std::invalid_argument(std::string(name) + ": expected " + quoted_names(words) +
-                                ", got '" + std::string(word) + "'");
+                                ", got '" + shortened(word) + "'");
 }
 
 }  // namespace

@@ -1,12 +1,18 @@
 #include "cubecam/render/readback.hpp"
 
+#include "cubecam/core/error.hpp"
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/resources/repack.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace cubecam {
 namespace {
@@ -40,11 +46,13 @@ Given given_output(const ShadedOutput& output) {
     }
 }
 
-/// Reads all layers of a target, one after the other.
+/// Reads all layers of a target. What `picture` and `outputs` return is filled by `finish`: all
+/// copies are requested first, and the GPU is waited for once.
 class Reader {
 public:
-    Reader(const GladGLContext& gl, Target& target, ResultPool& pool)
-        : gl_(gl), target_(target), d_(target.description()), pool_(pool) {
+    /// `buffer` is null for a driver that needs none.
+    Reader(const GladGLContext& gl, Target& target, ResultPool& pool, ReadBuffer* buffer)
+        : gl_(gl), target_(target), d_(target.description()), pool_(pool), buffer_(buffer) {
         gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
@@ -60,6 +68,15 @@ public:
             widen_565(reinterpret_cast<const std::uint16_t*>(from), n,
                       reinterpret_cast<std::uint32_t*>(to));
         });
+    }
+
+    void finish() {
+        if (buffer_ == nullptr) {
+            read_now(0);
+        } else {
+            read_through_buffer();
+        }
+        for (const auto& turn : turns_) turn();
     }
 
     OutputList outputs() {
@@ -96,13 +113,15 @@ private:
         const float clear = depth_state(d_.depth_order).clear;
         const Given given{GL_DEPTH_COMPONENT,
                           bits == 0 ? GLenum{GL_FLOAT} : GLenum{GL_UNSIGNED_INT}, 4};
-        const Result depth = read(target_.outputs(), std::nullopt, given, 4, copy_row);
-        const std::size_t count = depth->size() / 4;
-        if (bits == 0) {
-            turn_depth(reinterpret_cast<float*>(depth->data()), count, clear);
-        } else {
-            turn_fixed_depth(depth->data(), count, bits, clear);
-        }
+        Result depth = read(target_.outputs(), std::nullopt, given, 4, copy_row);
+        turns_.push_back([depth, bits, clear] {
+            const std::size_t count = depth->size() / 4;
+            if (bits == 0) {
+                turn_depth(reinterpret_cast<float*>(depth->data()), count, clear);
+            } else {
+                turn_fixed_depth(depth->data(), count, bits, clear);
+            }
+        });
         return depth;
     }
 
@@ -114,68 +133,202 @@ private:
     using Row = void (*)(const std::byte* from, std::byte* to, std::size_t texels);
     static constexpr Row copy_row = nullptr;
 
-    /// Reads one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
+    /// Some rows of one buffer of one layer.
+    struct Part {
+        GLuint framebuffer;
+        std::optional<std::size_t> slot;
+        Given given;
+        std::size_t bytes;  ///< of a texel of the result
+        Row row;
+        std::size_t first;  ///< row, from the bottom
+        std::size_t rows;
+        std::byte* to;
+    };
+
+    /// A call can be interrupted after so many bytes, which take a few milliseconds.
+    static constexpr std::size_t most_of_part = std::size_t{16} << 20;
+
+    /// Requests one buffer of all layers. `slot` is none for the depth and stencil buffer. `row`
     /// converts the driver's texels into texels of `bytes`; null: they are the same.
     Result read(Layers& layers, std::optional<std::size_t> slot, const Given& given,
                 std::size_t bytes, Row row) {
         const auto rows = static_cast<std::size_t>(d_.height);
         const auto columns = static_cast<std::size_t>(d_.width);
         const auto count = static_cast<std::size_t>(d_.layers());
-        const std::size_t given_row = columns * given.bytes;
         const std::size_t taken_row = columns * bytes;
-        const bool direct = d_.shape.has_faces() && row == copy_row;
-        Result layer;
-        if (!direct) layer = pool_.take(given_row * rows);
+        const std::size_t most =
+            std::max<std::size_t>(most_of_part / (columns * given.bytes), std::size_t{1});
         Result all = pool_.take(taken_row * rows * count);
         for (std::size_t i = 0; i < count; ++i) {
-            const GLuint framebuffer = layers.one(static_cast<int>(i));
-            if (slot) gl_.NamedFramebufferReadBuffer(framebuffer, attachment(*slot));
-            gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-            std::byte* to = all->data() + i * taken_row * rows;
-            gl_.ReadPixels(0, 0, d_.width, d_.height, given.format, given.type,
-                           direct ? to : layer->data());
-            if (direct) continue;
-            if (row == copy_row) {
-                flip_rows(layer->data(), to, taken_row, rows);
-            } else if (d_.shape.has_faces()) {
-                row(layer->data(), to, rows * columns);
-            } else {
-                for (std::size_t y = 0; y < rows; ++y) {
-                    row(layer->data() + y * given_row, to + (rows - 1 - y) * taken_row, columns);
-                }
+            std::byte* const layer = all->data() + i * taken_row * rows;
+            for (std::size_t first = 0; first < rows; first += most) {
+                const std::size_t some = std::min(most, rows - first);
+                const std::size_t above = d_.shape.has_faces() ? first : rows - first - some;
+                parts_.push_back({layers.one(static_cast<int>(i)), slot, given, bytes, row, first,
+                                  some, layer + above * taken_row});
             }
         }
         return all;
+    }
+
+    std::size_t given_bytes(const Part& part) const {
+        return part.given.bytes * static_cast<std::size_t>(d_.width) * part.rows;
+    }
+
+    /// Copies a part into `to`: an address, or an offset into the bound buffer.
+    void request(const Part& part, void* to) const {
+        if (part.slot) gl_.NamedFramebufferReadBuffer(part.framebuffer, attachment(*part.slot));
+        gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, part.framebuffer);
+        gl_.ReadPixels(0, static_cast<GLint>(part.first), d_.width, static_cast<GLsizei>(part.rows),
+                       part.given.format, part.given.type, to);
+    }
+
+    /// Reads the parts from a place of the list on, one after the other.
+    void read_now(std::size_t first) {
+        Result given;  // a part that is not read in place
+        for (std::size_t i = first; i < parts_.size(); ++i) {
+            const Part& part = parts_[i];
+            poll_interrupts();
+            if (d_.shape.has_faces() && part.row == copy_row) {
+                request(part, part.to);
+                continue;
+            }
+            const std::size_t bytes = given_bytes(part);
+            if (given == nullptr || given->size() != bytes) given = pool_.take(bytes);
+            request(part, given->data());
+            place(part, given->data());
+        }
+    }
+
+    void read_through_buffer() {
+        for (std::size_t first = 0; first < parts_.size();) {
+            poll_interrupts();
+            std::size_t bytes = given_bytes(parts_[first]);
+            std::size_t end = first + 1;
+            while (end < parts_.size() &&
+                   aligned(bytes) + given_bytes(parts_[end]) <= ReadBuffer::most_bytes) {
+                bytes = aligned(bytes) + given_bytes(parts_[end++]);
+            }
+            try {
+                buffer_->bind(gl_, bytes);
+            } catch (const GlError& error) {
+                if (error.code() != GL_OUT_OF_MEMORY) throw;
+                return read_now(first);
+            }
+            std::size_t offset = 0;
+            for (std::size_t i = first; i < end; ++i) {
+                request(parts_[i], reinterpret_cast<void*>(offset));
+                offset = aligned(offset + given_bytes(parts_[i]));
+            }
+            buffer_->read(gl_, bytes, [&](const std::byte* held) {
+                for (std::size_t i = first; i < end; ++i) {
+                    place(parts_[i], held);
+                    held += aligned(given_bytes(parts_[i]));
+                }
+            });
+            first = end;
+        }
+    }
+
+    /// An offset must be a multiple of the size of a component (GL 4.5 section 18.2.2).
+    static constexpr std::size_t aligned(std::size_t offset) { return (offset + 15) / 16 * 16; }
+
+    /// Copies a part that the driver has written to `from` into its result.
+    void place(const Part& part, const std::byte* from) const {
+        const std::size_t rows = part.rows;
+        const auto columns = static_cast<std::size_t>(d_.width);
+        const std::size_t given_row = columns * part.given.bytes;
+        const std::size_t taken_row = columns * part.bytes;
+        if (d_.shape.has_faces()) {
+            if (part.row == copy_row) {
+                std::memcpy(part.to, from, taken_row * rows);
+            } else {
+                part.row(from, part.to, rows * columns);
+            }
+        } else if (part.row == copy_row) {
+            flip_rows(from, part.to, taken_row, rows);
+        } else {
+            for (std::size_t y = 0; y < rows; ++y) {
+                part.row(from + y * given_row, part.to + (rows - 1 - y) * taken_row, columns);
+            }
+        }
     }
 
     const GladGLContext& gl_;
     Target& target_;
     const TargetDescription& d_;
     ResultPool& pool_;
+    ReadBuffer* buffer_;
+    std::vector<Part> parts_;
+    std::vector<std::function<void()>> turns_;  // of the results, once they are read
 };
+
+/// The bytes of a texel in the result, and in the memory through which frames are read.
+struct ResultTexel {
+    std::size_t result;
+    std::size_t passing;
+};
+
+ResultTexel result_texel(const ShadedOutput& output) {
+    return {output_type_size(output.type) * static_cast<std::size_t>(output.channels),
+            given_output(output).bytes};
+}
+
+ReadBuffer* needed(const gl::Context& context, ReadBuffer& buffer) {
+    return context.software() ? nullptr : &buffer;
+}
 
 }  // namespace
 
-Frame read_frame(const GladGLContext& gl, Target& target, ResultPool& pool) {
+std::size_t result_bytes(const TargetDescription& d) {
+    std::size_t texel = 0;
+    std::size_t passing = 0;  // of one layer and one buffer at a time
+    const auto add = [&](std::size_t result, std::size_t through) {
+        texel += result;
+        passing = std::max(passing, through);
+    };
+    if (d.color) {
+        const bool packed = d.format == Format::rgb565;
+        add(packed ? 4 : texel_size(d.format), texel_size(d.format));
+    }
+    for (const ShadedOutput& output : d.outputs.by_slot()) {
+        const ResultTexel bytes = result_texel(output);
+        add(bytes.result, bytes.passing);
+    }
+    for (std::size_t i = 0; i < output_table.size(); ++i) {
+        if (!d.outputs.has(i) || output_table[i].source == OutputSource::shader) continue;
+        const std::size_t bytes = output_table[i].source == OutputSource::depth ? 4 : 1;
+        add(bytes, bytes);
+    }
+    const std::size_t layer =
+        static_cast<std::size_t>(d.width) * static_cast<std::size_t>(d.height);
+    return layer * (texel * static_cast<std::size_t>(d.layers()) + passing);
+}
+
+Frame read_frame(const gl::Context& context, Target& target, ResultPool& pool, ReadBuffer& buffer) {
     const TargetDescription& d = target.description();
-    Reader reader(gl, target, pool);
+    Reader reader(context.gl(), target, pool, needed(context, buffer));
     Frame frame;
     frame.width = d.width;
     frame.height = d.height * d.layers();
     frame.format = d.format;
     if (d.color) frame.color = reader.picture();
     frame.outputs = reader.outputs();
-    gl::check_gl(gl, "reading a frame");
+    context.pace().finish(context.gl());
+    reader.finish();
+    gl::check_gl(context.gl(), "reading a frame");
     return frame;
 }
 
-std::shared_ptr<CubeMap> read_cube(const GladGLContext& gl, Target& target, ResultPool& pool,
-                                   Encoding encoding) {
+std::shared_ptr<CubeMap> read_cube(const gl::Context& context, Target& target, ResultPool& pool,
+                                   ReadBuffer& buffer, Encoding encoding) {
     const TargetDescription& d = target.description();
-    Reader reader(gl, target, pool);
+    Reader reader(context.gl(), target, pool, needed(context, buffer));
     Result color = reader.picture();
     OutputList outputs = reader.outputs();
-    gl::check_gl(gl, "reading a cubemap");
+    context.pace().finish(context.gl());
+    reader.finish();
+    gl::check_gl(context.gl(), "reading a cubemap");
     return std::make_shared<CubeMap>(d.width, 4, dtype_of(d.format), std::move(color), d.mipmaps,
                                      std::move(outputs), encoding);
 }

@@ -1,7 +1,10 @@
 #include "cubecam/render/renderer.hpp"
 
 #include "cubecam/core/error.hpp"
+#include "cubecam/core/notices.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/render/graph/frame_context.hpp"
+#include "cubecam/render/passes/raster_state.hpp"
 #include "cubecam/render/readback.hpp"
 #include "cubecam/render/requested_outputs.hpp"
 #include "cubecam/render/stereo.hpp"
@@ -13,8 +16,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace cubecam {
 namespace {
@@ -111,14 +116,26 @@ struct Renderer::Gpu {
     std::optional<RendererState> state;
 };
 
-Renderer::Renderer(RendererOptions options) {
-    gl::Context context({options.device, options.debug});
-    info_ = {context.vendor(),      context.renderer(),
-             context.version(),     context.glsl_version(),
-             context.egl_version(), context.platform(),
-             context.device(),      context.limits(),
-             context.software(),    layering(context, options) != Layering::never};
-    gpu_ = std::make_unique<Gpu>(std::move(context), options);
+Renderer::Renderer(RendererOptions options) : options_(std::move(options)) { gpu_ = make_gpu(); }
+
+std::unique_ptr<Renderer::Gpu> Renderer::make_gpu() {
+    gl::Context context({options_.device, options_.debug});
+    RendererInfo info{context.vendor(),      context.renderer(),
+                      context.version(),     context.glsl_version(),
+                      context.egl_version(), context.platform(),
+                      context.device(),      context.limits(),
+                      context.software(),    layering(context, options_) != Layering::never};
+    auto made = std::make_unique<Gpu>(std::move(context), options_);
+    const std::lock_guard lock(info_mutex_);
+    info_ = std::move(info);
+    return made;
+}
+
+RendererInfo Renderer::info() const {
+    // In a forked child a thread that does not exist there may hold the lock; nobody writes there.
+    std::unique_lock lock(info_mutex_, std::defer_lock);
+    if (!gl::in_forked_child()) lock.lock();
+    return info_;
 }
 
 Renderer::~Renderer() { close(); }
@@ -130,36 +147,121 @@ void Renderer::close() noexcept {
         (void)gpu_.release();
         return;
     }
+    closed_ = true;
+    if (draws_here()) {
+        close_after_call_ = true;
+        return;
+    }
     const std::lock_guard lock(mutex_);
+    free_gpu();
+}
+
+void Renderer::free_gpu() noexcept {
     if (gpu_ == nullptr) return;
     try {
         const gl::CurrentScope scope(gpu_->context);
         gpu_->state.reset();
     } catch (...) {
-        gpu_->context.abandon();  // the driver is lost: the process frees the rest at its end
+        gpu_->context.abandon();  // the context is lost
     }
     gpu_.reset();
 }
 
-bool Renderer::closed() const {
-    if (gl::in_forked_child()) return true;
-    const std::lock_guard lock(mutex_);
-    return gpu_ == nullptr;
-}
+bool Renderer::closed() const { return gl::in_forked_child() || closed_; }
 
 Stats Renderer::stats() const {
     if (gl::in_forked_child()) throw ContextError(forked);
+    if (draws_here()) return stats_;
     const std::lock_guard lock(mutex_);
     return stats_;
 }
 
+void Renderer::rebuild(const ContextLost& lost) {
+    const std::string reason = std::string("the OpenGL context was lost (") + lost.what() + ")";
+    const std::string device_before = info_.renderer;  // only this thread writes it
+    std::unique_ptr<Gpu> made;
+    try {
+        made = make_gpu();
+    } catch (const Error& error) {
+        throw ContextError(reason + ", and no new one can be made: " + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw ContextError(reason + ", and no new one can be made: " + error.what());
+    }
+    made->state->take_over(*gpu_->state);
+    gpu_->context.abandon();
+    gpu_ = std::move(made);
+    const bool same = info_.renderer == device_before;
+    add_notice(reason + ". The renderer made a new one" +
+               (same ? std::string() : " on " + info_.renderer + " in place of " + device_before) +
+               " and draws everything again; probes with update=\"manual\" show what is there now");
+}
+
+bool Renderer::draws_here() const { return drawing_.load() == std::this_thread::get_id(); }
+
+/// A call of a renderer: the mutex is held while it lives.
+struct Renderer::Running {
+    explicit Running(Renderer& its_renderer) : renderer(its_renderer) {
+        renderer.drawing_ = std::this_thread::get_id();
+    }
+    ~Running() {
+        renderer.drawing_ = std::thread::id();
+        if (renderer.close_after_call_) renderer.free_gpu();
+        renderer.close_after_call_ = false;
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+
+    Renderer& renderer;
+};
+
+/// The work of a call: the context is current while it lives.
+struct Renderer::Drawing {
+    explicit Drawing(const gl::Context& its_context) : context(its_context), scope(its_context) {}
+    ~Drawing() {
+        if (std::uncaught_exceptions() == exceptions) return;
+        // A draw may have been left in the middle, and passes depend on this state.
+        reset_raster_state(context.gl(), depth_state(DepthOrder::nearest));
+    }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    const int exceptions = std::uncaught_exceptions();
+    const gl::Context& context;
+    const gl::CurrentScope scope;
+};
+
 template <class Work>
 auto Renderer::run(Work&& work) {
     if (gl::in_forked_child()) throw ContextError(forked);
+    if (draws_here()) {
+        throw Error("this renderer is drawing, and a signal handler interrupted it: expected a "
+                    "call after the drawing has ended, got one from the handler");
+    }
     const std::lock_guard lock(mutex_);
     if (gpu_ == nullptr) throw ContextError("the renderer is closed: expected an open Renderer");
+    const Running running(*this);
+    ++gpu_->state->call;
+    try {
+        return attempt(work);
+    } catch (const ContextLost& lost) {
+        rebuild(lost);
+    }
+    try {
+        return attempt(work);
+    } catch (const ContextLost& lost) {
+        throw ContextError(
+            std::string("the OpenGL context was lost, and the new one was lost at once: ") +
+            lost.what() +
+            (lost.reset() ? ". Expected a picture that the GPU can draw in a few "
+                            "seconds: with a smaller size, or simpler shaders"
+                          : ""));
+    }
+}
+
+template <class Work>
+auto Renderer::attempt(Work&& work) {
     const auto start = std::chrono::steady_clock::now();
-    const gl::CurrentScope scope(gpu_->context);
+    const Drawing drawing(gpu_->context);
     RendererState& state = *gpu_->state;
     state.cache.sweep();
     state.probes.sweep();
@@ -171,18 +273,47 @@ auto Renderer::run(Work&& work) {
     gpu_->context.take_debug_messages();  // drops those of earlier calls
     try {
         auto result = work(state);
+        gpu_->context.check_reset();
         stats_.pictures_not_kept = state.targets.trim();
         const std::chrono::duration<double, std::milli> taken =
             std::chrono::steady_clock::now() - start;
         stats_.milliseconds = taken.count();
         return result;
+    } catch (const ContextLost&) {
+        throw;
     } catch (const GlError& error) {
+        gpu_->context.check_reset();
         std::string text = error.what();
         for (const std::string& message : gpu_->context.take_debug_messages()) {
             text += "\n" + message;
         }
+        if (error.code() == GL_CONTEXT_LOST) throw ContextLost(text, true);
         throw GlError(text, error.code());
+    } catch (const Error&) {
+        gpu_->context.check_reset();  // after a reset nothing that the driver reports is true
+        throw;
+    } catch (const std::invalid_argument&) {
+        gpu_->context.check_reset();
+        throw;
     }
+}
+
+template <class Object>
+void Renderer::draw_again(RendererState& gpu, const Object& object, const LostPicture& last,
+                          const char* kind) {
+    const std::shared_ptr<const Scene> scene = last.scene.lock();
+    bool drawn = false;
+    if (scene != nullptr) {
+        const std::shared_ptr<const SceneSnapshot> snapshot = scene->snapshot();
+        FrameContext frame(gpu, *snapshot);
+        drawn = frame.draw_again(object);
+        stats_ = frame.stats;
+    }
+    if (drawn) return;
+    throw ContextError(std::string(kind) +
+                       ": its picture was lost with the OpenGL context, and the scene that showed "
+                       "it does not show it any more. Expected one that this renderer has drawn "
+                       "since: render a frame that shows it");
 }
 
 Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
@@ -209,7 +340,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         };
         const PostProcess post_process = post_process_of(scene, options, encoding_as_drawn);
         set_post_process(description, post_process.effects.size(), post_process.any());
-        Target& target = gpu.targets.get(gpu.context, description);
+        Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         const double aspect =
             static_cast<double>(options.width) / static_cast<double>(options.height);
         std::vector<View> views;
@@ -219,7 +350,7 @@ Frame Renderer::render_views(const SceneSnapshot& scene, std::span<const CameraV
         FrameContext frame(gpu, scene);
         frame.draw(std::move(views), target, seen_by_all, {}, post_process);
         stats_ = frame.stats;
-        Frame drawn = read_frame(gpu.context.gl(), target, *gpu.results);
+        Frame drawn = read_frame(gpu.context, target, *gpu.results, gpu.read_buffer);
         drawn.tonemapped = post_process.tonemap != Tonemap::none;
         drawn.encoding =
             kept_encoding(target, [&] { return frame_encoding(post_process, encoding_as_drawn); });
@@ -253,7 +384,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
                                           .outputs = resolve_outputs(options.outputs, scene),
                                           .depth_format = options.depth_format,
                                           .depth_order = options.depth_order});
-        Target& target = gpu.targets.get(gpu.context, description);
+        Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         std::vector<View> views =
             cube_views(options.position, options.near, options.far, options.eye);
         FrameContext frame(gpu, scene);
@@ -265,7 +396,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
         };
         frame.draw(std::move(views), target, seen, std::move(wanted));
         stats_ = frame.stats;
-        return read_cube(gpu.context.gl(), target, *gpu.results,
+        return read_cube(gpu.context, target, *gpu.results, gpu.read_buffer,
                          kept_encoding(target, [&] { return scene_encoding(scene, 0, seen); }));
     });
 }
@@ -321,22 +452,27 @@ std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& prob
     return run([&](RendererState& gpu) {
         StatesByScene<ProbeState>* contents = gpu.probes.find(probe);
         const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
+        if (state != nullptr && state->last.lost) draw_again(gpu, *probe, state->last, "probe");
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update_probes()");
         }
-        return read_cube(gpu.context.gl(), *state->target, *gpu.results, state->encoding);
+        return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer,
+                         state->encoding);
     });
 }
 
 Frame Renderer::read_texture(const std::shared_ptr<RenderTexture>& texture) {
     return run([&](RendererState& gpu) {
         const TextureState* state = gpu.textures.find(texture);
+        if (state != nullptr && state->last.lost) {
+            draw_again(gpu, *texture, state->last, "render_texture");
+        }
         if (state == nullptr || state->target == nullptr) {
             throw std::invalid_argument("render_texture: expected one that this renderer has "
                                         "drawn; render a frame that shows it");
         }
-        return read_frame(gpu.context.gl(), *state->target, *gpu.results);
+        return read_frame(gpu.context, *state->target, *gpu.results, gpu.read_buffer);
     });
 }
 

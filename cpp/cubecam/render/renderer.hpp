@@ -11,12 +11,18 @@
 #include "cubecam/scene/scene.hpp"
 #include "cubecam/scene/stereo_camera.hpp"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <vector>
 
 namespace cubecam {
+
+class ContextLost;
+struct LostPicture;
+struct RendererState;
 
 /// The device and the driver of a renderer.
 struct RendererInfo {
@@ -44,7 +50,14 @@ struct ShadowDistances {
 ///
 /// Any thread may call it; calls on one renderer run one after the other, several renderers run in
 /// parallel. Between calls its context is current on no thread. After close(), and in a process
-/// forked after EGL was opened, every call throws ContextError.
+/// forked after EGL was opened, every call throws ContextError. A call polls for interrupts
+/// (core/interrupts.hpp); an interrupted picture counts as not drawn. Inside a poll, the same
+/// renderer draws nothing (Error), and close() takes effect when the call ends.
+///
+/// If the context is lost, since another library ended its display or the GPU was reset, the call
+/// makes a new one, adds a notice (core/notices.hpp) and is done again: everything on the GPU is
+/// derived from scenes. If the new context is lost in the same call, or none can be made, the call
+/// throws ContextError, and the next call tries again.
 class Renderer {
 public:
     /// @throws ContextError that lists every attempt, if no OpenGL 4.5 context can be created.
@@ -91,7 +104,8 @@ public:
     ShadowDistances shadow_map(const SceneSnapshot& scene, const std::shared_ptr<Light>& light);
 
     Stats stats() const;
-    const RendererInfo& info() const { return info_; }
+    /// A new context after a lost one may be on another device.
+    RendererInfo info() const;
 
     /// Frees everything on the GPU; further calls throw. Closing twice is allowed.
     void close() noexcept;
@@ -99,17 +113,38 @@ public:
 
 private:
     struct Gpu;  // the context and everything made in it
+    struct Running;
+    struct Drawing;
 
+    /// Whether a call of this thread is drawing: a signal handler runs inside it.
+    bool draws_here() const;
+    void free_gpu() noexcept;
+
+    std::unique_ptr<Gpu> make_gpu();
+    /// Makes a new context in place of the lost one. @throws ContextError if there is none.
+    void rebuild(const ContextLost& lost);
     template <class Work>
     auto run(Work&& work);
+    /// Does the work of a call. @throws ContextLost if the context is lost.
+    template <class Work>
+    auto attempt(Work&& work);
+    /// Draws a picture again that was lost with its context. `kind` names it in the error.
+    template <class Object>
+    void draw_again(RendererState& gpu, const Object& object, const LostPicture& last,
+                    const char* kind);
     /// Draws the cameras' pictures, each with the size of the options, one below the other.
     Frame render_views(const SceneSnapshot& scene, std::span<const CameraValue> cameras,
                        const FrameOptions& options);
 
+    const RendererOptions options_;
+    mutable std::mutex info_mutex_;
     RendererInfo info_;
     mutable std::mutex mutex_;
-    std::unique_ptr<Gpu> gpu_;
+    std::unique_ptr<Gpu> gpu_;         // null: closed
+    std::atomic<bool> closed_{false};  // read without waiting for a call of another thread
     Stats stats_;
+    std::atomic<std::thread::id> drawing_{};  ///< the thread whose call is drawing
+    bool close_after_call_ = false;           ///< used by that thread alone
 };
 
 }  // namespace cubecam

@@ -1,5 +1,6 @@
 #include "cubecam/render/requested_outputs.hpp"
 
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/render/passes/output_declarations.hpp"
 
 #include <map>
@@ -45,7 +46,7 @@ Outputs resolve_outputs(const RequestedOutputs& requested, const SceneSnapshot& 
                                     (declared.empty() ? ", or what the GLSL of a visible node's "
                                                         "material declares"
                                                       : "") +
-                                    ", got \"" + name + '"');
+                                    ", got \"" + shortened(name) + '"');
     }
     return outputs;
 }

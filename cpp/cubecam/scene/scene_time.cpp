@@ -1,5 +1,6 @@
 // What changes a scene as a whole: the time of its animations, and its variant.
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/scene/scene.hpp"
 
 #include <algorithm>
@@ -124,7 +125,8 @@ void Scene::set_variant(const std::optional<std::string>& name) {
     const std::lock_guard lock(graph_->mutex);
     if (name == graph_->variant) return;
     if (name && std::ranges::find(variants_, *name) == variants_.end()) {
-        throw std::invalid_argument("expected a variant of the scene, got '" + *name + "'");
+        throw std::invalid_argument("expected a variant of the scene, got '" + shortened(*name) +
+                                    "'");
     }
     outdated = show_variant(name);
 }

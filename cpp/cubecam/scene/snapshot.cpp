@@ -321,7 +321,7 @@ private:
             blend,
             surface.depth_write.value_or(blend == Blend::opaque),
             {},
-            place.cast_shadow && blend == Blend::opaque,
+            place.cast_shadow,
             value.receive_shadow,
         };
         put(snapshot, world);
@@ -423,6 +423,7 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
     }
     snapshot->seen = shared.take_seen();
     snapshot->revision = next_revision();
+    snapshot->origin = weak_from_this();
     // Render textures refer to scenes, and scenes to them: a kept snapshot must not keep them
     // alive.
     if (effects.empty() && snapshot->textures.empty() && !snapshot->follows_others) {

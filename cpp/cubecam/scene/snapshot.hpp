@@ -20,6 +20,8 @@
 
 namespace cubecam {
 
+class Scene;
+
 /// A fixed cubemap at the moment of the snapshot; `object` identifies the GPU's copy of it.
 struct CubeSnapshot {
     std::shared_ptr<CubeMap> object;
@@ -63,7 +65,7 @@ struct NodeSnapshot {
     Blend blend;       ///< the mode by which it is drawn
     bool depth_write;
     std::vector<std::int32_t> ancestors;  ///< ids of the nodes above it, nearest first
-    bool cast_shadow;                     ///< opaque, and set for it and all nodes above it
+    bool cast_shadow;                     ///< of the node and all nodes above it
     bool receive_shadow;
     std::int32_t render_order = 0;
     std::int32_t label = 0;
@@ -138,6 +140,8 @@ struct SceneSnapshot {
     std::vector<std::int32_t> joints;  ///< ids of the nodes that move skins of `nodes`, sorted
 
     // Only the first scene has the following members; in `others` they are empty.
+
+    std::weak_ptr<const Scene> origin;  ///< the scene of this snapshot
 
     std::vector<EffectSnapshot> effects;  ///< of the frame
 

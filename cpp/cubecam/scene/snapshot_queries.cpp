@@ -57,6 +57,8 @@ bool receive_shadow(const NodeSnapshot& node) {
     return node.receive_shadow && node.material.value.traits().uses_lights;
 }
 
+bool casts_shadow(const NodeSnapshot& node) { return node.cast_shadow && !node.translucent; }
+
 bool has_shadows(const SceneSnapshot& scene) {
     return std::any_of(scene.lights.begin(), scene.lights.end(),
                        [](const LightSnapshot& light) { return light.value.shadow.has_value(); });

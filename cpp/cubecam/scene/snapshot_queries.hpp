@@ -31,6 +31,15 @@ bool shows_behind(const NodeSnapshot& node);
 /// Whether a node shows shadows: its material must use the lights.
 bool receive_shadow(const NodeSnapshot& node);
 
+/// Whether a node is drawn into shadow maps. The keys of the maps, the bounds of a directional
+/// light's view and the drawing all use this one answer: if two of them differed, a map could keep
+/// a picture that is no longer right.
+///
+/// It depends neither on Material::depth_write nor on color_write or the stencil: these say how the
+/// camera's picture is put together, while a surface stops light because it is opaque (three.js
+/// decides in the same way).
+bool casts_shadow(const NodeSnapshot& node);
+
 /// Whether any light of a scene has a shadow.
 bool has_shadows(const SceneSnapshot& scene);
 

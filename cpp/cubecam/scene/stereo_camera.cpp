@@ -1,6 +1,7 @@
 #include "cubecam/scene/stereo_camera.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/core/parse_name.hpp"
 #include "cubecam/math/transform.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -100,7 +101,7 @@ StereoLayout parse_stereo_layout(std::string_view name) {
     const std::size_t place = place_of_name(stereo_layout_names, name);
     if (place < stereo_layout_names.size()) return stereo_layout_names[place].second;
     throw std::invalid_argument("layout: expected " + quoted_names(stereo_layout_names) +
-                                ", got '" + std::string(name) + "'");
+                                ", got '" + shortened(name) + "'");
 }
 
 std::string_view to_string(StereoLayout layout) {

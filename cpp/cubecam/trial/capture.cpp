@@ -99,9 +99,18 @@ void capture_attributes(const GladGLContext& gl, State& state) {
             return static_cast<std::uint32_t>(value);
         };
         if (parameter(GL_VERTEX_ATTRIB_ARRAY_ENABLED) == 0) continue;
-        state.attributes[i] = {
-            parameter(GL_VERTEX_ATTRIB_ARRAY_SIZE), parameter(GL_VERTEX_ATTRIB_ARRAY_TYPE),
-            parameter(GL_VERTEX_ATTRIB_ARRAY_INTEGER), parameter(GL_VERTEX_ATTRIB_ARRAY_DIVISOR)};
+        GLint binding = 0;
+        GLint stride = 0;
+        gl.GetVertexAttribiv(i, GL_VERTEX_ATTRIB_BINDING, &binding);
+        gl.GetIntegeri_v(GL_VERTEX_BINDING_STRIDE, static_cast<GLuint>(binding), &stride);
+        Attribute& attribute = state.attributes[i];
+        attribute.components = parameter(GL_VERTEX_ATTRIB_ARRAY_SIZE);
+        attribute.type = parameter(GL_VERTEX_ATTRIB_ARRAY_TYPE);
+        attribute.integer = parameter(GL_VERTEX_ATTRIB_ARRAY_INTEGER);
+        attribute.divisor = parameter(GL_VERTEX_ATTRIB_ARRAY_DIVISOR);
+        attribute.binding = static_cast<std::uint32_t>(binding);
+        attribute.offset = parameter(GL_VERTEX_ATTRIB_RELATIVE_OFFSET);
+        attribute.stride = static_cast<std::uint32_t>(stride);
     }
 }
 

@@ -18,6 +18,9 @@ struct Attribute {
     std::uint32_t type = 0;
     std::uint32_t integer = 0;
     std::uint32_t divisor = 0;
+    std::uint32_t binding = 0;
+    std::uint32_t offset = 0;
+    std::uint32_t stride = 0;
 };
 
 /// The state of OpenGL on which the machine code of a draw call depends. All numbers are those of

@@ -3,11 +3,12 @@
 #include "cubecam/gl/objects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <cstring>
+#include <map>
 #include <span>
 #include <string>
-#include <utility>
+#include <vector>
 
 namespace cubecam::trial {
 namespace {
@@ -146,7 +147,9 @@ void set_state(const GladGLContext& gl, const State& state) {
         gl.BlendFuncSeparate(state.blend_source, state.blend_target, state.blend_source_alpha,
                              state.blend_target_alpha);
     }
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     for (GLuint i = 0; i < most_outputs; ++i) {
+        if (state.color_formats[i] == 0) continue;
         const auto on = [&](unsigned channel) {
             return static_cast<GLboolean>((state.color_masks[i] >> channel & 1U) != 0 ? GL_TRUE
                                                                                       : GL_FALSE);
@@ -177,46 +180,57 @@ void clear_depth(const GladGLContext& gl, const State& state) {
     if (state.depth_test != 0) gl.DepthMask(state.depth_mask != 0 ? GL_TRUE : GL_FALSE);
 }
 
-/// The vertices of a triangle that covers the picture, and of instances whose matrices change
-/// nothing. Attributes 0 to 3 are those of vertices, 4 to 7 the columns of a matrix.
+/// The vertices of a triangle that covers the picture, and one instance whose matrix changes
+/// nothing. Attribute 0 is the position; attributes 4 to 7 are the columns of a matrix if they are
+/// those of an instance.
 class Vertices {
 public:
-    Vertices(const GladGLContext& gl, const State& state)
-        : array_(gl::create_vertex_array(gl)),
-          buffer_(gl::create_buffer(gl, std::span<const float>(numbers()))) {
+    Vertices(const GladGLContext& gl, const State& state) : array_(gl::create_vertex_array(gl)) {
         const GLuint array = array_.id();
+        std::map<std::uint32_t, std::vector<float>> numbers;  // by binding
         for (GLuint i = 0; i < most_attributes; ++i) {
             const Attribute& attribute = state.attributes[i];
             if (attribute.components == 0) continue;
             const auto size = static_cast<GLint>(attribute.components);
             gl.EnableVertexArrayAttrib(array, i);
             if (attribute.integer != 0) {
-                gl.VertexArrayAttribIFormat(array, i, size, attribute.type, 0);
+                gl.VertexArrayAttribIFormat(array, i, size, attribute.type, attribute.offset);
             } else {
-                gl.VertexArrayAttribFormat(array, i, size, attribute.type, GL_FALSE, 0);
+                gl.VertexArrayAttribFormat(array, i, size, attribute.type, GL_FALSE,
+                                           attribute.offset);
             }
-            gl.VertexArrayAttribBinding(array, i, i);
-            gl.VertexArrayBindingDivisor(array, i, attribute.divisor);
-            const bool column = i >= 4 && i < 8 && attribute.divisor != 0;
-            const std::size_t row = i == 0 ? 0 : column ? 3 + (i - 4) : 7;
-            gl.VertexArrayVertexBuffer(array, i, buffer_.id(),
-                                       static_cast<GLintptr>(row * 4 * sizeof(float)),
-                                       4 * sizeof(float));
+            gl.VertexArrayAttribBinding(array, i, attribute.binding);
+            gl.VertexArrayBindingDivisor(array, attribute.binding, attribute.divisor);
+            fill(i, attribute, numbers[attribute.binding]);
+        }
+        for (const auto& [binding, values] : numbers) {
+            const auto uses = [&](const Attribute& attribute) {
+                return attribute.components != 0 && attribute.binding == binding;
+            };
+            const auto* user = std::find_if(state.attributes.begin(), state.attributes.end(), uses);
+            buffers_.push_back(gl::create_buffer(gl, std::span<const float>(values)));
+            gl.VertexArrayVertexBuffer(array, binding, buffers_.back().id(), 0,
+                                       static_cast<GLsizei>(user->stride));
         }
         gl.BindVertexArray(array);
     }
 
 private:
-    static const std::array<float, 40>& numbers() {
-        static const std::array<float, 40> values = {
-            -1,   -1,   0.5F, 1, 3,    -1,   0.5F, 1, -1,   3,    0.5F, 1,              // positions
-            1,    0,    0,    0, 0,    1,    0,    0, 0,    0,    1,    0, 0, 0, 0, 1,  // columns
-            0.5F, 0.5F, 0.5F, 1, 0.5F, 0.5F, 0.5F, 1, 0.5F, 0.5F, 0.5F, 1};  // the others
-        return values;
+    static void fill(GLuint index, const Attribute& attribute, std::vector<float>& numbers) {
+        constexpr std::size_t least = 256;
+        constexpr std::array<float, 9> corners = {-1, -1, 0.5F, 3, -1, 0.5F, -1, 3, 0.5F};
+        const std::size_t begin = attribute.offset / sizeof(float);
+        const std::size_t step = attribute.stride / sizeof(float);
+        numbers.resize(std::max({numbers.size(), least, begin + 3 * step + 4}), 0.5F);
+        const bool column = index >= 4 && index < 8 && attribute.divisor != 0;
+        for (std::size_t i = 0; column && i < 4; ++i) numbers[begin + i] = i == index - 4 ? 1 : 0;
+        for (std::size_t i = 0; index == 0 && i < corners.size(); ++i) {
+            numbers[begin + i / 3 * step + i % 3] = corners[i];
+        }
     }
 
     gl::VertexArray array_;
-    gl::Buffer buffer_;
+    std::vector<gl::Buffer> buffers_;
 };
 
 /// Buffers for the program's uniform blocks: matrices change nothing, other floats are 0.5, so that

@@ -32,6 +32,8 @@ struct Report {
     std::uint32_t magic = 0;
     Outcome outcome = Outcome::failed;
     Step step = Step::start;
+    /// Of a crash; SIGPROF or SIGALRM: which time was over; out_of_memory, 1: the machine has less
+    /// memory left than Limits::bytes.
     std::uint8_t signal = 0;
     std::uint8_t reserved = 0;
     std::uint32_t text_size = 0;

@@ -85,7 +85,7 @@ void Trial::require(const Job& job, std::string_view source) {
             note_unavailable(error.what());
             return;
         }
-        if (verdict->lasting()) store.add(digest, *verdict);
+        if (verdict->known()) store.add(digest, *verdict);
     }
     if (verdict->passed()) return;
     throw ShaderError(std::string(source) + ": " + in_words(*verdict) +

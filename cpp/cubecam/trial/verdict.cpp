@@ -28,6 +28,12 @@ std::string step_in_words(Step step) {
 
 }  // namespace
 
+bool Verdict::lasting() const {
+    if (outcome == Outcome::out_of_time) return signal == SIGPROF;
+    if (outcome == Outcome::out_of_memory) return signal == 0;
+    return known();
+}
+
 std::string in_words(const Verdict& verdict) {
     const std::string step = step_in_words(verdict.step);
     switch (verdict.outcome) {
@@ -35,9 +41,17 @@ std::string in_words(const Verdict& verdict) {
             return "the driver crashed (" + signal_in_words(verdict.signal) + ")" + step;
         case Outcome::ended: return "the driver ended its process" + step;
         case Outcome::out_of_time:
+            if (verdict.signal != SIGPROF) {
+                return "the driver did not end in " + std::to_string(Limits::wall_seconds) +
+                       " seconds" + step;
+            }
             return "the driver took more than " + std::to_string(Limits::seconds) + " seconds" +
                    step;
         case Outcome::out_of_memory:
+            if (verdict.signal != 0) {
+                return "the driver needed more than half of the memory that this machine has left" +
+                       step;
+            }
             return "the driver needed more than " + std::to_string(Limits::bytes >> 20) +
                    " MiB of memory" + step;
         case Outcome::killed: return "the process that tried this source was killed twice";

@@ -145,7 +145,7 @@ void VerdictStore::add(const Sha256::Digest& job, const Verdict& verdict) {
     const std::lock_guard lock(mutex_);
     const Name name = name_of(job);
     known_[name] = verdict;
-    if (!path_.empty()) append(record_of(name, verdict));
+    if (!path_.empty() && verdict.lasting()) append(record_of(name, verdict));
 }
 
 void VerdictStore::append(const std::string& record) {

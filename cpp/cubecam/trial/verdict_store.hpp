@@ -30,6 +30,7 @@ public:
     static VerdictStore& of_process();
 
     std::optional<Verdict> find(const Sha256::Digest& job);
+    /// The file gets lasting verdicts only.
     void add(const Sha256::Digest& job, const Verdict& verdict);
 
     static constexpr std::size_t record_bytes = 32;

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import overload
 
 from .._calls import checked_call
+from .._checks import text_of
 
 __all__ = ["sample_data"]
 
@@ -92,7 +93,7 @@ def sample_data(name: str | None = None) -> tuple[str, ...] | Path:
     if name not in _FILES:
         near = difflib.get_close_matches(str(name), _FILES, n=1)
         hint = f"; did you mean {near[0]!r}?" if near else ""
-        raise ValueError(f"expected one of {', '.join(_FILES)}; got {name!r}{hint}")
+        raise ValueError(f"expected one of {', '.join(_FILES)}; got {text_of(name)}{hint}")
     return Path(__file__).with_name(name)
 
 

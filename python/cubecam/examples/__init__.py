@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from ..typing import Pixels, RenderOptions
 
 from .._calls import checked_call
+from .._checks import text_of
 
 __all__ = ["NAMES", "Example", "is_live", "load"]
 
@@ -119,7 +120,7 @@ def load(name: str) -> Example:
         if name.upper() == found.PROGRAM:
             return found
     listed = ", ".join(f"{_module(known).PROGRAM} {known}" for known in NAMES)
-    raise ValueError(f"name: expected one of {listed}; got {name!r}")
+    raise ValueError(f"name: expected one of {listed}; got {text_of(name)}")
 
 
 @checked_call

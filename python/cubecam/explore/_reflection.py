@@ -160,6 +160,7 @@ class ReflectionView(LiveView):
         """
         return self.facts.color
 
+    @checked_call
     def at(self, x: float, y: float) -> Texel | None:
         """Find the texel under a place of the picture: of the band around the room, or of the small cross.
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TypeAlias, get_args
 
+from .._checks import text_of
 from ..typing import Center, Convention, FileLayout, Layout
 from .files import PathLike, as_path
 
@@ -39,7 +40,7 @@ def layout_name(layout: str | None) -> FileLayout | None:
     for known in LAYOUTS:
         if name == known:
             return known
-    raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {layout!r}")
+    raise ValueError(f"layout: expected one of {', '.join(LAYOUTS)}, got {text_of(layout)}")
 
 
 def picture_layout(
@@ -48,11 +49,13 @@ def picture_layout(
     """Return the layout of the one picture, None for six files; raise ValueError if layout and number do not agree."""
     if six is not None:
         if layout not in (None, "faces"):
-            raise ValueError(f'layout: expected "faces" or None for six files, got {layout!r}')
+            raise ValueError(
+                f'layout: expected "faces" or None for six files, got {text_of(layout)}'
+            )
         return None
     if layout == "faces":
         raise ValueError(
-            f'layout "faces": expected six paths or a name with {{face}}, got {path!r}'
+            f'layout "faces": expected six paths or a name with {{face}}, got {text_of(path)}'
         )
     return layout
 
@@ -61,16 +64,16 @@ def check_names(convention: str | None, center: str | None) -> None:
     """Raise ValueError for unknown names, also for names that the call does not need, since they are typos."""
     if convention is not None and str(convention).lower() not in CONVENTIONS:
         raise ValueError(
-            f"convention: expected one of {', '.join(CONVENTIONS)}, got {convention!r}"
+            f"convention: expected one of {', '.join(CONVENTIONS)}, got {text_of(convention)}"
         )
     if center is not None and str(center).lower() not in CENTERS:
-        raise ValueError(f"center: expected one of {', '.join(CENTERS)}, got {center!r}")
+        raise ValueError(f"center: expected one of {', '.join(CENTERS)}, got {text_of(center)}")
 
 
 def check_openexr(convention: str | None) -> None:
     if convention not in (None, "inside"):
         raise ValueError(
-            f'an OpenEXR environment cube is "inside" by definition, got convention {convention!r}'
+            f'an OpenEXR environment cube is "inside" by definition, got convention {text_of(convention)}'
         )
 
 

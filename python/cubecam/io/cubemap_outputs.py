@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._checks import text_of
 from . import formats
 from .cubemap_names import Source, check_openexr
 from .files import as_path
@@ -43,7 +44,7 @@ def encode_output(
         if path.suffix.lower() != ".exr":
             raise ValueError(
                 f"output {output!r}: expected a file name that ends in .exr, since other kinds hold colours, "
-                f"got {path.name!r}"
+                f"got {text_of(path.name)}"
             )
     pictures: Array
     attributes: dict[str, Any] = {}
@@ -59,7 +60,7 @@ def encode_output(
         pictures = cube.to_layout(layout or "cross", convention=chosen, output=output)[None]
     if pictures.ndim == 4 and pictures.shape[-1] == 2:
         raise ValueError(
-            f"output {output!r}: expected 1, 3 or 4 channels, which picture files hold, got 2"
+            f"output {text_of(output)}: expected 1, 3 or 4 channels, which picture files hold, got 2"
         )
     if pictures.dtype == np.uint8:  # as a float of a file, such a number would be divided by 255
         pictures = pictures.astype(np.uint32)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import CubeMap
 from ..typing import Center, Compression, Convention, FileLayout, Tonemap
 from . import formats
@@ -125,11 +126,13 @@ def save_cubemap(
         raise ValueError(f"expected six different paths, got {[str(path) for path in paths]}")
     wanted = picture_layout(named, paths, path)
     if width is not None and wanted != "equirect":
-        raise ValueError(f'width: expected with layout="equirect" only, got it with {layout!r}')
+        raise ValueError(
+            f'width: expected with layout="equirect" only, got it with {text_of(layout)}'
+        )
     check_look(exposure, tonemap, srgb)
     suffix = "" if paths is not None else as_path(path).suffix.lower()
     if compression is not None and suffix != ".ktx2":
-        raise ValueError(f'compression: expected with ".ktx2" only, got {compression!r}')
+        raise ValueError(f'compression: expected with ".ktx2" only, got {text_of(compression)}')
     if suffix in (".env", ".json"):
         data = encode_env(cube) if suffix == ".env" else encode_sh(cube)
         write_files({as_path(path): data})
@@ -138,7 +141,7 @@ def save_cubemap(
         if wanted is not None or output != "color" or srgb:
             raise ValueError(
                 f"layout, output, srgb: expected none of them for {suffix} files, which hold faces in the numbers of "
-                f"the cube, got {wanted!r}, {output!r}, {srgb!r}"
+                f"the cube, got {text_of(wanted)}, {text_of(output)}, {text_of(srgb)}"
             )
         data = encode_cube(
             cube,
@@ -153,7 +156,7 @@ def save_cubemap(
     if output != "color":
         if half or exposure != 0 or srgb:
             raise ValueError(
-                f'half, exposure, srgb: expected with output="color" only, got output={output!r}, '
+                f'half, exposure, srgb: expected with output="color" only, got output={text_of(output)}, '
                 "whose numbers are written as they are"
             )
         contents = encode_output(
@@ -203,7 +206,7 @@ def save_cubemap(
     elif wanted == "openexr":
         if target.suffix.lower() != ".exr":
             raise ValueError(
-                f'layout "openexr": expected a file name that ends in .exr, got {target.name!r}'
+                f'layout "openexr": expected a file name that ends in .exr, got {text_of(target.name)}'
             )
         check_openexr(convention)
         picture = ready(source.to_layout("openexr", dtype=resampled), light)
@@ -225,7 +228,9 @@ def save_cubemap(
 def _save_levels(cube: CubeMap, name: str, **options: Any) -> None:
     """Write each filtered level under its number."""
     if options["output"] != "color":
-        raise ValueError(f'output: expected "color" for files of levels, got {options["output"]!r}')
+        raise ValueError(
+            f'output: expected "color" for files of levels, got {text_of(options["output"])}'
+        )
     for k, level in enumerate(cube.levels):
         faces = CubeMap(level, mipmaps=False, encoding=cube.encoding)
         save_cubemap(faces, name.replace("{level}", str(k)), **options)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import CubeMap, ImageError
 from ..typing import Center, Convention, FileLayout, Layout
 from . import formats
@@ -125,6 +126,7 @@ def load_cubemap(
     """
     named = layout_name(layout)
     check_names(convention, center)
+    dtype = None if dtype is None else _checked_dtype(dtype)
     paths = six_paths(path, for_reading=True)
     wanted = picture_layout(named, paths, path)
     if paths is not None:
@@ -253,6 +255,15 @@ def _is_panorama(picture: Picture) -> bool:
     )
 
 
+def _checked_dtype(dtype: npt.DTypeLike) -> np.dtype[np.generic]:
+    try:
+        return np.dtype(dtype)
+    except Exception as error:
+        raise TypeError(
+            f"dtype: expected uint8, float16 or float32, got {text_of(dtype)}"
+        ) from error
+
+
 def _one_file(path: object) -> Path:
     try:
         return existing_file(path, ImageError)
@@ -332,7 +343,7 @@ def _from_picture(
     if picture.faces is not None:
         if layout is not None:
             raise ValueError(
-                f"layout: expected None for a cubemap that holds faces, got {layout!r}"
+                f"layout: expected None for a cubemap that holds faces, got {text_of(layout)}"
             )
         made = [
             CubeMap(

@@ -9,6 +9,7 @@ from typing import get_args
 import numpy as np
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import CubeMap
 from ..typing import Center, Engine
 from .babylon_env import encode_env, light_of
@@ -111,7 +112,7 @@ def save_for(cube: CubeMap, engine: Engine, folder: PathLike) -> list[Path]:
     ['environment.exr', 'README.txt']
     """
     if engine not in ENGINES:
-        raise ValueError(f"engine: expected one of {', '.join(ENGINES)}, got {engine!r}")
+        raise ValueError(f"engine: expected one of {', '.join(ENGINES)}, got {text_of(engine)}")
     target = as_path(folder)
     target.mkdir(parents=True, exist_ok=True)
     write, readme = _WRITERS[engine]

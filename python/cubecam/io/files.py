@@ -8,6 +8,7 @@ import stat
 from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
+from .._checks import text_of
 from .._core import FileError
 
 PathLike: TypeAlias = str | os.PathLike[str]
@@ -21,7 +22,7 @@ def as_path(path: object) -> Path:
             if not name:
                 raise ValueError("expected a path, got an empty string")
             if "\0" in name:
-                raise ValueError(f"expected a path, got a name with a zero byte: {name!r}")
+                raise ValueError(f"expected a path, got a name with a zero byte: {text_of(name)}")
             return Path(os.path.expanduser(name))  # noqa: PTH111 - pathlib raises for ~nobody
     raise TypeError(f"expected a path as str or os.PathLike, got {type(path).__name__}")
 

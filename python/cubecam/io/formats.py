@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._checks import text_of
 from ..typing import Encoding, Tonemap
 from . import oiio
 from .pixels import (
@@ -130,7 +131,7 @@ def find_format(path: Path) -> tuple[str, Format]:
     extension = path.suffix.lower()
     if extension not in FORMATS:
         raise ValueError(
-            f"expected a file name that ends in {', '.join(FORMATS)}; got {path.name!r}"
+            f"expected a file name that ends in {', '.join(FORMATS)}; got {text_of(path.name)}"
         )
     return extension, FORMATS[extension]
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import CubeMap, Frame, Image
 from ..typing import FilePixels, Tonemap
 from .cubemap_save import save_cubemap
@@ -301,7 +302,7 @@ def save_animation(
         Pictures as for `save_image`, all of one size. Alpha is kept, except in a GIF. Equal frames in a row are stored
         as a single frame that lasts as long as all of them.
     fps : float
-        Frames a second, above 0 and up to 100. A GIF's frames last a whole number of hundredths of a second.
+        Frames a second, from 0.001 to 100. A GIF's frames last a whole number of hundredths of a second.
     srgb, exposure, tonemap
         As in `save_image`. Clipping warns once for all frames.
 
@@ -324,10 +325,10 @@ def save_animation(
     extension = target.suffix.lower()
     if extension not in (".png", ".apng", ".gif", ".webp"):
         raise ValueError(
-            f"expected a file name that ends in .png, .gif or .webp, got {target.name!r}"
+            f"expected a file name that ends in .png, .gif or .webp, got {text_of(target.name)}"
         )
-    if not 0 < fps <= 100:
-        raise ValueError(f"fps: expected a number above 0 and up to 100, got {fps}")
+    if not 0.001 <= fps <= 100:
+        raise ValueError(f"fps: expected a number from 0.001 to 100, got {fps}")
     pictures: list[Any] = []
     clipping = Clipping()
     like = Path("frame.png")  # every kind of animation holds pictures of 8 bits

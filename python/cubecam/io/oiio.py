@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .._checks import text_of
 from .._core import ImageError
+from .outside import calls_outside, interruptible
 from .picture_kinds import FREE_PIXELS, most_bytes
 
 if TYPE_CHECKING:
@@ -48,6 +50,8 @@ _UNBOUNDED = {
     "tiff": ("ccitt", "zstd", "webp", "lerc", "lzma", "jxl", "jp2", "jpeg2000"),
 }
 _MOST_CHANNELS = 1024
+# Bytes that take OpenImageIO a tenth of a second or more: Ctrl-C does not wait for it.
+_LARGE = 1 << 20
 _MOST_PARTS = 4096
 
 
@@ -88,16 +92,26 @@ def read(path: Path, kind: Kind, part: int | str | None = None) -> Picture:
     # For these extensions OpenImageIO makes pictures up, without looking at the file.
     if path.suffix.lower() in (".null", ".nul", ".term"):
         return read_bytes(path.read_bytes(), kind, part)
-    return _read(str(path), path.stat().st_size, kind, part)
+    length = path.stat().st_size
+    if length < _LARGE:
+        return _read(str(path), length, kind, part)
+    return interruptible(_read, str(path), length, kind, part)
 
 
 def read_bytes(data: bytes, kind: Kind, part: int | str | None = None) -> Picture:
     """Read a picture of a file that is in memory."""
+    if len(data) < _LARGE:
+        return _read_bytes(data, kind, part)
+    return interruptible(_read_bytes, data, kind, part)
+
+
+def _read_bytes(data: bytes, kind: Kind, part: int | str | None) -> Picture:
     with _MemoryFile("." + kind.name) as memory:
         memory.write(data)
         return _read(memory.name, len(data), kind, part)
 
 
+@calls_outside
 def _read(name: str, length: int, kind: Kind, part: int | str | None) -> Picture:
     import OpenImageIO as oiio
 
@@ -192,7 +206,7 @@ def _find_part(file: Any, kind: Kind, part: int | str | None) -> tuple[int, str 
     )
     layers = sorted({layer for item in parts for layer in item.layers if layer})
     more = f" or a layer: {', '.join(layers)}" if layers else ""
-    raise ValueError(f"part: expected one of {told}{more}; got {part!r}")
+    raise ValueError(f"part: expected one of {told}{more}; got {text_of(part)}")
 
 
 @dataclass(frozen=True)
@@ -251,6 +265,13 @@ def encode(
     The file is made in memory: libjpeg ends the process on a full disk and libpng says nothing, whereas
     Python's own write raises an OSError.
     """
+    if pixels.nbytes < _LARGE:
+        return _encode(extension, pixels, attributes)
+    return interruptible(_encode, extension, pixels, attributes)
+
+
+@calls_outside
+def _encode(extension: str, pixels: Array, attributes: dict[str, Any] | None) -> bytes:
     import OpenImageIO as oiio
 
     height, width, channels = pixels.shape

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import operator
 import os
 from collections.abc import Mapping
 from typing import TypeAlias
 
 import numpy as np
 
-from .._core import ImageError
+from .._checks import text_of, whole_number
+from .._core import ImageError, _is_whole_number
 from . import dds, ktx2, oiio, radiance
 from .files import as_path, open_file
 from .oiio import Picture
@@ -109,22 +109,15 @@ def _kind(start: bytes, end: bytes, suffix: str, length: int) -> Kind:
 def _checked(part: object) -> Part | None:
     if part is None or isinstance(part, str):
         return part
-    if not isinstance(part, (bool, np.bool_)):
-        try:
-            number = operator.index(part)  # type: ignore[arg-type]
-        except TypeError:
-            pass
-        else:
-            if number >= 0:
-                return number
-            raise ValueError(f"part: expected 0 or more, got {number}")
-    raise TypeError(f"part: expected a whole number or a name, got {type(part).__name__}")
+    if not _is_whole_number(part):
+        raise TypeError(f"part: expected a whole number or a name, got {text_of(part)}")
+    return whole_number(part, "part", 0)
 
 
 def _only(part: Part | None) -> None:
     if part not in (None, 0):
         raise ValueError(
-            f"part: expected 0 or None, since the file holds one picture; got {part!r}"
+            f"part: expected 0 or None, since the file holds one picture; got {text_of(part)}"
         )
 
 
@@ -204,4 +197,4 @@ def _index(part: Part | None, count: int, names: tuple[str, ...]) -> int:
     if part in names:
         return names.index(str(part))
     listed = f" or one of {', '.join(names)}" if names else ""
-    raise ValueError(f"part: expected 0 to {count - 1}{listed}, got {part!r}")
+    raise ValueError(f"part: expected 0 to {count - 1}{listed}, got {text_of(part)}")

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import numpy as np
 
 from .._calls import checked_call
+from .._checks import one_of, real_number, text_of, truth
 from .._core import CubeMap, Frame, Image
 from .._warnings import warn_user
 from ..typing import Encode, Encoding, Tonemap
@@ -99,8 +100,7 @@ def to_screen(
     [[7, 77, 177]]
     """
     check_look(exposure, tonemap)
-    if encode not in ("srgb", None):
-        raise ValueError(f'encode: expected "srgb" or None, got {encode!r}')
+    one_of(encode, "encode", ("srgb", None))
     if isinstance(picture, (Frame, CubeMap, Image)):
         pixels, encoding = numbers_of(picture)
     else:
@@ -140,16 +140,11 @@ def curve_for(picture: object, pixels: Array, tonemap: Tonemap | None) -> Tonema
 
 def check_look(exposure: float, tonemap: str | None, srgb: bool | None = None) -> None:
     """Raise ValueError or TypeError for an exposure or a curve that `to_screen` does not take, or another `srgb`."""
-    if srgb is not None and not isinstance(srgb, (bool, np.bool_)):
-        raise TypeError(f"srgb: expected True, False or None, got {srgb!r}")
-    if isinstance(exposure, bool) or not isinstance(exposure, (int, float, np.number)):
-        raise TypeError(f"exposure: expected a number of stops, got {type(exposure).__name__}")
-    if not -64 <= exposure <= 64:
-        raise ValueError(f"exposure: expected -64 to 64 stops, got {exposure}")
-    # A list cannot be looked up in a dict, hence the tuple.
-    if tonemap is not None and tonemap not in tuple(CURVES):
-        names = ", ".join(f'"{name}"' for name in CURVES)
-        raise ValueError(f"tonemap: expected {names} or None, got {tonemap!r}")
+    if srgb is not None:
+        truth(srgb, "srgb")
+    if not -64 <= real_number(exposure, "exposure") <= 64:
+        raise ValueError(f"exposure: expected -64 to 64 stops, got {text_of(exposure)}")
+    one_of(tonemap, "tonemap", (*CURVES, None))
 
 
 def screen_pixels(

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import CubeMap, Frame, Image
 from ._faces import NAMES, cells, cross_of
 from ._figure import APART, add_bar, axes_for, dark_edge, is_cube, numbers_of
@@ -84,9 +85,9 @@ def error_map(
     mean 0.0208, rms 0.102, max 0.5 at row 1, column 2
     """
     if over not in ("max", "rms"):
-        raise ValueError(f'over: expected "max" or "rms", got {over!r}')
+        raise ValueError(f'over: expected "max" or "rms", got {text_of(over)}')
     if scale not in ("linear", "log"):
-        raise ValueError(f'scale: expected "linear" or "log", got {scale!r}')
+        raise ValueError(f'scale: expected "linear" or "log", got {text_of(scale)}')
     error, cube = _errors(a, b, over)
     known = np.isfinite(error)
     ax = axes_for(ax, (8, 6) if cube else (7, 5.4))

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from .._checks import text_of
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -112,7 +114,9 @@ class Cell(NamedTuple):
 def cells(convention: Convention) -> list[Cell]:
     """List the six cells of the horizontal cross, in the order +X -X +Y -Y +Z -Z of their names."""
     if convention not in ("gl", "inside", "three"):
-        raise ValueError(f'convention: expected "gl", "inside" or "three", got {convention!r}')
+        raise ValueError(
+            f'convention: expected "gl", "inside" or "three", got {text_of(convention)}'
+        )
     middle = (1, 5, 0, 4) if convention == "inside" else (1, 4, 0, 5)
     found = []
     for slot, name in enumerate(NAMES):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from .._checks import text_of
 from .._core import CubeMap, Frame, Image, _to_array
 from ..io import screen
 
@@ -62,7 +63,7 @@ def numbers_of(thing: object) -> Array:
         )
     if isinstance(thing, (str, os.PathLike)):
         raise TypeError(
-            f"expected numbers, got the name {os.fspath(thing)!r}: cc.load_cubemap and cc.load_image read files"
+            f"expected numbers, got the name {text_of(os.fspath(thing))}: cc.load_cubemap and cc.load_image read files"
         )
     pixels = _to_array(thing, "numbers")
     if pixels.dtype.kind not in "buif":

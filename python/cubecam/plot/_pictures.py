@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import CubeMap, Image
 from ._faces import cells, cross_of, texels_of
 from ._figure import (
@@ -232,7 +233,7 @@ def _six_axes(ax: Sequence[Axes] | npt.NDArray[Any] | None, columns: int) -> npt
             raise ValueError(f"ax: expected 6 axes, got {len(axes)}")
         return axes
     if columns not in (1, 2, 3, 6):
-        raise ValueError(f"columns: expected 1, 2, 3 or 6, got {columns!r}")
+        raise ValueError(f"columns: expected 1, 2, 3 or 6, got {text_of(columns)}")
     rows = 6 // columns
     width = 2.0 if columns == 6 else 2.6
     _, made = plt.subplots(
@@ -295,7 +296,7 @@ def panorama(
     """
     names = _named_directions(center)
     if graticule is not None and not graticule > 0:
-        raise ValueError(f"graticule: expected degrees above 0 or None, got {graticule!r}")
+        raise ValueError(f"graticule: expected degrees above 0 or None, got {text_of(graticule)}")
     picture = _panorama_of(cube, center, width)
     ax = axes_for(ax, (10, 5.4))
     extent = (-180.0, 180.0, -90.0, 90.0)
@@ -325,7 +326,7 @@ _AROUND = {
 
 def _named_directions(center: Center) -> list[tuple[str, float, float]]:
     if center not in _AROUND:
-        raise ValueError(f'center: expected "-z", "+z", "+x" or "-x", got {center!r}')
+        raise ValueError(f'center: expected "-z", "+z", "+x" or "-x", got {text_of(center)}')
     around = [(name, -180.0 + 90 * i, 0.0) for i, name in enumerate(_AROUND[center])]
     return [*around, (around[0][0], 180.0, 0.0), ("+Y", 0.0, 90.0), ("-Y", 0.0, -90.0)]
 
@@ -344,7 +345,7 @@ def _panorama_of(cube: CubeMap | npt.ArrayLike, center: Center, width: int | Non
         return np.asarray(whole.to_equirect(width=width, center=center))
     columns = 4 * pixels.shape[1] if width is None else width
     if columns < 2 or columns % 2:
-        raise ValueError(f"width: expected an even number from 2, got {width!r}")
+        raise ValueError(f"width: expected an even number from 2, got {text_of(width)}")
     longitude = ((np.arange(columns) + 0.5) / columns - 0.5) * 2 * np.pi
     latitude = (0.5 - (np.arange(columns // 2) + 0.5) / (columns // 2)) * np.pi
     l, b = np.meshgrid(longitude, latitude)  # noqa: E741 - the names of docs/conventions.md

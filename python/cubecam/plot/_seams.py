@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._checks import text_of
 from ._faces import EDGE_NAMES, edge_texels
 from ._figure import axes_for, faces_of
 
@@ -191,7 +192,7 @@ def seams(
     'no seam: no edge is above 2.5x'
     """
     if scale not in (None, "linear", "log"):
-        raise ValueError(f'scale: expected "linear", "log" or None, got {scale!r}')
+        raise ValueError(f'scale: expected "linear", "log" or None, got {text_of(scale)}')
     over, beside = (_means(steps(cube)) for steps in (seam_steps, inner_steps))
     ratio = _ratios(over, beside)
     high = ratio > limit

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import Camera, CubeMap, Frame, _to_array
 from ._faces import NAMES, TABLE, cells, cross_of
 from ._figure import APART, axes_for, is_cube, numbers_of
@@ -87,7 +88,7 @@ def vectors(
     """
     values = _vectors_of(field, output)
     if every is not None and every < 0:
-        raise ValueError(f"every: expected a number of pixels from 0, got {every!r}")
+        raise ValueError(f"every: expected a number of pixels from 0, got {text_of(every)}")
     cube = is_cube(values)
     length = np.linalg.norm(values, axis=-1, keepdims=True)
     known = np.isfinite(length) & (length > 0)
@@ -122,10 +123,11 @@ def _vectors_of(field: CubeMap | Frame | npt.ArrayLike, output: str) -> npt.NDAr
         if output not in held:
             if not held:
                 raise ValueError(
-                    f"expected a picture with vectors, got one without outputs: draw it with outputs=({output!r},)"
+                    "expected a picture with vectors, got one without outputs: "
+                    f"draw it with outputs=({text_of(output)},)"
                 )
             raise ValueError(
-                f"output: expected one of {', '.join(held)} (what outputs= requested), got {output!r}"
+                f"output: expected one of {', '.join(held)} (what outputs= requested), got {text_of(output)}"
             )
         values = np.asarray(held[output])
     else:
@@ -223,17 +225,17 @@ def arrows(
         raise TypeError(
             f"vectors: expected a dict of names to vectors, got {type(vectors).__name__}"
         )
-    start = _to_array(origins, "origins").astype(float)
+    start = _numbers(origins, "origins")
     if start.shape[-1:] != (3,):
         raise ValueError(f"origins: expected shape (..., 3), got {start.shape}")
     if not start.size:
         raise ValueError("origins: expected at least one point, got none")
     unknown = [name for name in towards if name not in vectors]
     if unknown:
-        raise ValueError(f"towards: expected names of vectors, got {unknown[0]!r}")
+        raise ValueError(f"towards: expected names of vectors, got {text_of(unknown[0])}")
     pairs: dict[str, Array] = {}
     for name, values in vectors.items():
-        vector = _to_array(values, name).astype(float)
+        vector = _numbers(values, name)
         if vector.shape[-1:] != (3,):
             raise ValueError(f"{name}: expected shape (..., 3), got {vector.shape}")
         try:
@@ -292,7 +294,7 @@ def face_axes(*, gap: float = 1.2, ax: Any = None) -> Any:
     >>> ax = cc.plot.face_axes()
     """
     if not gap >= 0:
-        raise ValueError(f"gap: expected a number from 0, got {gap!r}")
+        raise ValueError(f"gap: expected a number from 0, got {text_of(gap)}")
     ax = _space(ax, (7.4, 7))
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
@@ -341,6 +343,14 @@ def _fit(ax: Any, points: Array, zoom: float = 1.0) -> None:
     for axis, center in zip("xyz", middle, strict=True):
         getattr(ax, f"set_{axis}lim")(center - half, center + half)
     ax.set_box_aspect((1, 1, 1), zoom=zoom)
+
+
+def _numbers(values: npt.ArrayLike, name: str) -> Array:
+    """Give real numbers as float64."""
+    given = _to_array(values, name)
+    if given.dtype.kind not in "iuf":
+        raise TypeError(f"{name}: expected real numbers, got dtype {given.dtype}")
+    return np.asarray(given, np.float64)
 
 
 def _draw_sphere(ax: Any, radius: float) -> None:

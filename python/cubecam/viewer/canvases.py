@@ -10,6 +10,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any
 
+from .._checks import text_of
+
 if TYPE_CHECKING:
     from .live import LiveView
     from .page.server import PageServer
@@ -78,7 +80,9 @@ def show(view: LiveView, where: str | None, *, browser: bool, block: bool | None
     """Show a view at one of `PLACES`; None chooses."""
     place = choose() if where is None else where
     if place not in PLACES:
-        raise ValueError(f"where: expected None or one of {', '.join(PLACES)}, got {where!r}")
+        raise ValueError(
+            f"where: expected None or one of {', '.join(PLACES)}, got {text_of(where)}"
+        )
     waits = not interactive() if block is None else block
     if place == "notebook":
         view._ipython_display_()

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 import numpy as np
 
 from .. import navigation
+from .._checks import one_of
 from .._core import OrthographicCamera
 
 if TYPE_CHECKING:
@@ -257,9 +258,7 @@ def make_controls(name: str | Controls) -> Controls:
     """Make the controls of a name; an object stays as it is."""
     if isinstance(name, Controls):
         return name
-    if not isinstance(name, str) or name not in CONTROLS:
-        raise ValueError(f"controls: expected {', '.join(map(repr, CONTROLS))}, got {name!r}")
-    return CONTROLS[name]()
+    return CONTROLS[one_of(name, "controls", CONTROLS)]()  # type: ignore[no-any-return]
 
 
 # ----- the camera

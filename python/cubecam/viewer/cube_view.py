@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Sequence
 from typing import Any, ClassVar
 
@@ -11,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._checks import text_of, whole_number
 from .._core import CubeMap, _to_array
 from ..typing import Center, Convention, CubeMode, Place, Theme, Tonemap
 from .cube_drawing import THEMES, Painter, draw_legend, draw_names, outline
@@ -186,12 +186,9 @@ class CubeView(LiveView):
 
     @level.setter
     def level(self, value: int) -> None:
-        if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-            raise TypeError(f"level: expected a whole number, got {type(value).__name__}")
-        if not 0 <= value < self.levels:
-            raise ValueError(f"level: expected 0 to {self.levels - 1}, got {value}")
-        if value != self._level:
-            self._level = int(value)
+        level = whole_number(value, "level", 0, self.levels - 1)
+        if level != self._level:
+            self._level = level
             self.changed()
 
     @property
@@ -214,6 +211,7 @@ class CubeView(LiveView):
             return Panorama(size, self.center, self.zoom, (2 * x, y))
         return Cross(size, self.convention, self.zoom, (4 * x, 3 * y))
 
+    @checked_call
     def at(self, x: float, y: float) -> Texel | None:
         """Find the texel at a place of the picture.
 
@@ -253,10 +251,13 @@ class CubeView(LiveView):
         ValueError
             For anything but three finite numbers that are not all 0.
         """
-        r = _to_array(direction, "direction").astype(float)
+        given = _to_array(direction, "direction")
+        if given.dtype.kind not in "iuf":
+            raise TypeError(f"direction: expected three finite numbers, got {text_of(direction)}")
+        r = given.astype(float)
         if r.shape != (3,) or not np.isfinite(r).all() or not r.any():
             raise ValueError(
-                f"direction: expected three finite numbers, not all 0, got {direction!r}"
+                f"direction: expected three finite numbers, not all 0, got {text_of(direction)}"
             )
         x, y, z = r / np.abs(r).max()
         if x or z:

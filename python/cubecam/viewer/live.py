@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -17,7 +18,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from .._core import _newest_revision
+from .._calls import checked_call
+from .._checks import pair, text_of
+from .._core import _check_memory, _newest_revision
 from ..io.files import PathLike
 from .shown import REST, Shown
 from .watcher import watch
@@ -31,6 +34,9 @@ if TYPE_CHECKING:
 __all__ = ["LiveView", "shown_at"]
 
 Self = TypeVar("Self", bound="LiveView")
+
+_LARGEST = 1 << 20  # pixels along a side
+_PIXEL = 64.0  # bytes of a pixel while it is drawn: a direction, colours, and what is computed between them
 
 
 class LiveView:
@@ -100,13 +106,7 @@ class LiveView:
 
     @size.setter
     def size(self, value: tuple[int, int]) -> None:
-        try:
-            width, height = (int(side) for side in value)
-        except (TypeError, ValueError, OverflowError):
-            width = height = 0
-        if width < 1 or height < 1:
-            raise ValueError(f"size: expected two whole numbers above 0, got {value!r}")
-        self._size = (width, height)
+        self._size = _checked_size(value)
 
     @property
     def text(self) -> str:
@@ -115,6 +115,8 @@ class LiveView:
 
     @text.setter
     def text(self, value: str) -> None:
+        if not isinstance(value, str):
+            raise TypeError(f"text: expected a str, got {text_of(value)}")
         if value != self._text:
             self._text = value
             self._tell("text", value)
@@ -129,6 +131,7 @@ class LiveView:
         """Whether pictures are drawn quickly now, because something moves."""
         return self._animation is not None or time.monotonic() < self._moving_until
 
+    @checked_call
     def changed(self, moving: bool = True) -> None:
         """Draw soon, quickly; a picture of full quality follows as soon as nothing has changed for 0.1 seconds.
 
@@ -154,6 +157,7 @@ class LiveView:
         *types : str
             The types of events, for example "pointer_down"; none for all.
         """
+        _check_callable(function)
         self._handlers.append((function, frozenset(types)))
         return function
 
@@ -163,6 +167,7 @@ class LiveView:
 
     def add_listener(self, function: Callable[[str, Any], object]) -> None:
         """Call function(name, value) when "text", "panel" or "closed" changes; for canvases and panels."""
+        _check_callable(function)
         self._listeners.append(function)
 
     def remove_listener(self, function: Callable[[str, Any], object]) -> None:
@@ -175,12 +180,15 @@ class LiveView:
 
         If the function fails, the error is logged, the view's text shows it, and the animation ends.
         """
+        if function is not None:
+            _check_callable(function)
         self._began = time.monotonic()
         self._animation = function
         self.changed()
 
     # ----- pictures
 
+    @checked_call
     def draw(self, size: tuple[int, int] | None = None) -> npt.NDArray[np.uint8]:
         """Draw in full quality now.
 
@@ -195,8 +203,9 @@ class LiveView:
         """
         with self._lock:
             self._check_open()
-            return self._picture(self.size if size is None else size, False)
+            return self._picture(self.size if size is None else _checked_size(size), False)
 
+    @checked_call
     def snapshot(self, path: PathLike | None = None) -> npt.NDArray[np.uint8]:
         """Draw in full quality; with a path write the picture to that file, too.
 
@@ -216,6 +225,7 @@ class LiveView:
             save_image(path, picture)
         return picture
 
+    @checked_call
     def record(self, path: PathLike, *, seconds: float = 4.0, fps: float = 25.0) -> None:
         """Write the animation to a film: the function of `animate` at equal steps of time, in full quality.
 
@@ -235,7 +245,7 @@ class LiveView:
         FileError
             If ffmpeg is missing or fails.
         """
-        if not (seconds > 0 and fps > 0):
+        if not (0 < seconds < math.inf and 0 < fps < math.inf):
             raise ValueError(f"expected seconds and fps above 0, got {seconds} and {fps}")
         count = max(1, round(seconds * fps))
 
@@ -263,6 +273,7 @@ class LiveView:
 
     # ----- life
 
+    @checked_call
     def show(
         self: Self,
         where: str | None = None,
@@ -410,6 +421,22 @@ class LiveView:
                 self._detach(shown.canvas)
                 if shown.only_one and not self._canvases:
                     self.close()
+
+
+def _check_callable(function: object) -> None:
+    if not callable(function):
+        raise TypeError(f"function: expected a function, got {text_of(function)}")
+
+
+def _checked_size(value: object) -> tuple[int, int]:
+    """Give (width, height) of a picture that is no larger than a texture can be, and that the memory holds."""
+    width, height = pair(value, "size")
+    if not (1 <= width <= _LARGEST and 1 <= height <= _LARGEST):
+        raise ValueError(
+            f"size: expected a width and a height from 1 to {_LARGEST}, got {text_of(value)}"
+        )
+    _check_memory(_PIXEL * width * height, f"{width} x {height} pixels")
+    return width, height
 
 
 def shown_at(view: Self, where: Place | None, browser: bool, block: bool | None) -> Self:

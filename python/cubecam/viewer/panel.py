@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._calls import checked_call
+from .._checks import text_of
 from .control import KINDS, Control, Section
 from .properties import properties
 
@@ -118,7 +119,7 @@ def _checked(control: Control, value: Any) -> Any:
     elif kind == "choice":
         if value not in control.choices and value != control.get():
             words = ", ".join(f'"{word}"' for word in control.choices)
-            raise ValueError(f"{control.name}: expected {words}, got {value!r}")
+            raise ValueError(f"{control.name}: expected {words}, got {text_of(value)}")
         fits = True
     elif kind == "color":
         fits = isinstance(value, str) or _is_numbers(value)
@@ -132,7 +133,7 @@ def _checked(control: Control, value: Any) -> Any:
     else:
         fits, value = True, None
     if not fits:
-        raise TypeError(f"{control.name}: expected {KINDS[kind]}, got {value!r}")
+        raise TypeError(f"{control.name}: expected {KINDS[kind]}, got {text_of(value)}")
     return value
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
+from .._checks import finite_number, one_of
 
 if TYPE_CHECKING:
     from .._core import Scene
@@ -54,9 +54,8 @@ class Player:
     @animation.setter
     def animation(self, value: str) -> None:
         names = self.names
-        if value not in names:
-            raise ValueError(f"animation: expected one of {', '.join(names)}, got {value!r}")
-        self._index, self._time, self._last = names.index(value), 0.0, None
+        name = one_of(value, "animation", names)
+        self._index, self._time, self._last = names.index(name), 0.0, None
         self._apply()
 
     @property
@@ -72,9 +71,8 @@ class Player:
 
     @time.setter
     def time(self, value: float) -> None:
-        if not np.isfinite(value):
-            raise ValueError(f"time: expected a finite number of seconds, got {value!r}")
-        self._time, self._last = float(np.clip(value, 0, self.duration)), None
+        seconds = finite_number(value, "time")
+        self._time, self._last = min(max(seconds, 0.0), self.duration), None
         self._apply()
 
     def tick(self, now: float) -> bool:

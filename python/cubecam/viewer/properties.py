@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._calls import checked_call
+from .._checks import text_of
 from .._core import Texture
 from ..io.pixels import srgb_decode, srgb_encode
 from .control import Control
@@ -116,7 +117,7 @@ def hex_to_color(text: str) -> npt.NDArray[np.float32]:
     [1.0, 0.215..., 0.0]
     """
     if not isinstance(text, str) or not _COLOR_DIGITS.fullmatch(text):
-        raise ValueError(f'expected a colour as "#rrggbb", got {text!r}')
+        raise ValueError(f'expected a colour as "#rrggbb", got {text_of(text)}')
     values = [int(text[i : i + 2], 16) / 255 for i in (1, 3, 5)]
     return srgb_decode(np.array(values, np.float32))
 
@@ -334,7 +335,7 @@ def _vector(one: _Property, count: int) -> Control:
 
     def set_(value: list[float]) -> None:
         if whole and any(v != int(v) for v in value):
-            raise TypeError(f"{one.name}: expected whole numbers, got {value!r}")
+            raise TypeError(f"{one.name}: expected whole numbers, got {text_of(value)}")
         one.set(tuple(int(v) for v in value) if whole else value)
 
     more = {"unit": "texels"} if "texels" in one.doc else {}

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-import numbers
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, overload
 
+from .._checks import one_of, real_number, truth
 from .panel import Control
 
 if TYPE_CHECKING:
@@ -82,9 +82,7 @@ def number(
     """
 
     def check(name: str, value: Any) -> float:
-        if isinstance(value, bool) or not isinstance(value, numbers.Real):
-            raise TypeError(f"{name}: expected a number, got {type(value).__name__}")
-        given = float(value)
+        given = real_number(value, name)
         if wraps and math.isfinite(given):
             return low + (given - low) % (high - low)
         if not low <= given <= high:  # NaN, too
@@ -99,9 +97,7 @@ def flag(doc: str) -> Setting[bool]:
     """Make a property that is True or False."""
 
     def check(name: str, value: Any) -> bool:
-        if not isinstance(value, bool):
-            raise TypeError(f"{name}: expected True or False, got {value!r}")
-        return value
+        return truth(value, name)
 
     return Setting(check, doc, kind="flag")
 
@@ -111,12 +107,6 @@ def choice(doc: str, names: Iterable[str | None]) -> Setting[Any]:
     allowed = tuple(names)
 
     def check(name: str, value: Any) -> str | None:
-        # A list cannot be compared with names that are hashed, hence the comparison one by one.
-        if not any(
-            value is known or (isinstance(value, str) and value == known) for known in allowed
-        ):
-            known = ", ".join("None" if a is None else f'"{a}"' for a in allowed)
-            raise ValueError(f"{name}: expected {known}, got {value!r}")
-        return value  # type: ignore[no-any-return]
+        return one_of(value, name, allowed)  # type: ignore[no-any-return]
 
     return Setting(check, doc, kind="choice", choices=tuple(a or "none" for a in allowed))

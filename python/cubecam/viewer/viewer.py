@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._calls import checked_call
+from .._checks import finite_number, one_of, truth, whole_number
 from .._core import (
     Frame,
     Node,
@@ -93,6 +94,7 @@ class Viewer(LiveView):
 
     __module__ = "cubecam"
 
+    @checked_call
     def __init__(
         self,
         scene: Scene,
@@ -184,9 +186,7 @@ class Viewer(LiveView):
     @scene_camera.setter
     def scene_camera(self, value: str | None) -> None:
         known = camera_names(self._scene)
-        if value is not None and value not in known:
-            names = ", ".join(map(repr, known)) or "None, in a scene without cameras"
-            raise ValueError(f"scene_camera: expected {names}, got {value!r}")
+        one_of(value, "scene_camera", (*known, None))
         with self._lock:
             self._follows = None if value is None else known[value]
             if value is not None:
@@ -229,10 +229,9 @@ class Viewer(LiveView):
 
     @playing.setter
     def playing(self, value: bool) -> None:
-        if not isinstance(value, (bool, np.bool_)):
-            raise TypeError(f"playing: expected True or False, got {value!r}")
+        playing = truth(value, "playing")
         with self._lock:
-            self._player.playing = bool(value)
+            self._player.playing = playing
         self._set_something()
 
     @property
@@ -253,10 +252,9 @@ class Viewer(LiveView):
 
     @speed.setter
     def speed(self, value: float) -> None:
-        if not np.isfinite(value):
-            raise ValueError(f"speed: expected a finite number, got {value!r}")
+        speed = finite_number(value, "speed")
         with self._lock:
-            self._player.speed = float(value)
+            self._player.speed = speed
         self._set_something()
 
     @property
@@ -288,9 +286,7 @@ class Viewer(LiveView):
 
     @samples.setter
     def samples(self, value: int) -> None:
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 1:
-            raise ValueError(f"samples: expected a whole number above 0, got {value!r}")
-        self._samples = int(value)
+        self._samples = whole_number(value, "samples", 1)
         self._set_something()
 
     @property
@@ -300,13 +296,7 @@ class Viewer(LiveView):
 
     @exposure.setter
     def exposure(self, value: float) -> None:
-        try:
-            number = float(value)
-        except (TypeError, ValueError):
-            number = np.nan
-        if not np.isfinite(number):
-            raise ValueError(f"exposure: expected a finite number of stops, got {value!r}")
-        self._exposure = number
+        self._exposure = finite_number(value, "exposure")
         self._set_something()
 
     @property
@@ -318,9 +308,7 @@ class Viewer(LiveView):
     def tonemap(self, value: Tonemap | None) -> None:
         from ..io.screen import CURVES
 
-        if value is not None and value not in CURVES:
-            raise ValueError(f"tonemap: expected None or one of {', '.join(CURVES)}, got {value!r}")
-        self._tonemap = value
+        self._tonemap = one_of(value, "tonemap", (*CURVES, None))
         self._set_something()
 
     @property
@@ -330,9 +318,7 @@ class Viewer(LiveView):
 
     @encode.setter
     def encode(self, value: Encode | None) -> None:
-        if value not in (None, "srgb"):
-            raise ValueError(f"encode: expected None or 'srgb', got {value!r}")
-        self._encode = value
+        self._encode = one_of(value, "encode", ("srgb", None))
         self._set_something()
 
     @property
@@ -342,11 +328,9 @@ class Viewer(LiveView):
 
     @output.setter
     def output(self, value: Output | Probe) -> None:
-        if not isinstance(value, Probe) and value not in OUTPUTS:
-            raise ValueError(
-                f"output: expected {', '.join(map(repr, OUTPUTS))} or a Probe, got {value!r}"
-            )
-        self._output = value
+        self._output = (
+            value if isinstance(value, Probe) else one_of(value, "output", OUTPUTS, "a Probe")
+        )
         self._set_something()
 
     @property
@@ -396,6 +380,7 @@ class Viewer(LiveView):
 
     # ----- picking
 
+    @checked_call
     def pick(self, x: float, y: float, *, size: tuple[float, float] | None = None) -> Pick | None:
         """Find what a pixel shows.
 

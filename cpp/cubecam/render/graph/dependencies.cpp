@@ -60,7 +60,7 @@ void add_shadows(const SceneSnapshot& scene, std::size_t number, Dependencies& t
 void add_caster_dependencies(const SceneSnapshot& scene, std::size_t number, Dependencies& to) {
     if (!has_shadows(scene)) return;
     for (const NodeSnapshot& node : scene.nodes) {
-        if (!node.cast_shadow) continue;
+        if (!casts_shadow(node)) continue;
         for (const std::size_t place : shadow_textures(node)) {
             add_source(number, node.textures[place], to);
         }

@@ -1,8 +1,11 @@
 #include "cubecam/render/graph/drawn_picture.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cubecam {
 namespace {
@@ -26,6 +29,20 @@ void add_light(Key& key, const LightValue& light) {
         key.add(spot->range);
     }
     key.add(light.shadow.has_value());
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double most_pixels_of_a_band = gl::Pace::chunk / 2;
+
+/// The rectangle in bands of rows, of about so many pixels each.
+std::vector<Rect> bands(const Rect& rect, double most) {
+    if (static_cast<double>(rect.area()) <= most) return {rect};
+    const int rows = std::max(1, static_cast<int>(most / rect.width()));
+    std::vector<Rect> made;
+    for (int y = rect.y0; y < rect.y1; y += rows) {
+        made.push_back({rect.x0, y, rect.x1, std::min(y + rows, rect.y1)});
+    }
+    return made;
 }
 
 /// The additional key of nodes that receive shadows.
@@ -136,9 +153,14 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     if (count == 0) return 0;
     stats.views_drawn += static_cast<std::int64_t>(count);
 
+    // Where all bands have the same bits as the whole, so that large pictures can be interrupted.
+    const bool banded = !target.multisampled() && gpu.context.software();
+    const double most_pixels = banded ? most_pixels_of_a_band : infinity;
     std::vector<Region> regions;
     for (std::size_t v = 0; v < views.size(); ++v) {
-        for (const Rect& rect : damaged[v]) regions.push_back({v, rect});
+        for (const Rect& rect : damaged[v]) {
+            for (const Rect& band : bands(rect, most_pixels)) regions.push_back({v, band});
+        }
         // Until they are drawn, the contents of these layers are not valid.
         if (!damaged[v].empty()) target.keys[v].reset();
     }
@@ -164,9 +186,13 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     const auto textures = lookup.find(post_process.effects);
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (damaged[v].empty()) continue;
+        poll_interrupts();
         if (target.multisampled()) target.resolve(static_cast<int>(v));
         if (target.description().post_processed) {
             gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), stats);
+            const double steps = 1.0 + static_cast<double>(post_process.effects.size());
+            gpu.context.pace().submitted(gpu.context.gl(),
+                                         steps * static_cast<double>(whole.area()));
         }
     }
     gl::check_gl(gpu.context.gl(), "finishing a picture");

@@ -76,6 +76,28 @@ void FrameContext::update_probes(const std::vector<std::size_t>& probes) {
     update(roots);
 }
 
+bool FrameContext::draw_again(const Probe& lost) {
+    for (std::size_t s = 0; s < contents_.size(); ++s) {
+        const std::vector<ProbeSnapshot>& probes = scenes.scene(s).probes;
+        for (std::size_t place = 0; place < probes.size(); ++place) {
+            if (probes[place].object.get() != &lost) continue;
+            probe(s, place).force();
+            update({probe_id(s, place)});
+            return true;
+        }
+    }
+    return false;
+}
+
+bool FrameContext::draw_again(const RenderTexture& lost) {
+    for (std::size_t place = 0; place < scenes.textures.size(); ++place) {
+        if (scenes.textures[place].object.get() != &lost) continue;
+        update({texture_id(place)});
+        return true;
+    }
+    return false;
+}
+
 Buffer<float> FrameContext::shadow_map(std::size_t light) {
     Dependencies roots;
     add_shadows(scenes, 0, roots);

@@ -27,7 +27,7 @@ public:
     FrameContext(const FrameContext&) = delete;
     FrameContext& operator=(const FrameContext&) = delete;
 
-    // A call uses one of these three functions.
+    // A call uses one of these functions.
 
     /// Draws `views` of the nodes for which `wanted` is true into `target`, after the pictures that
     /// they depend on.
@@ -40,6 +40,11 @@ public:
     /// Draws these probes of the first scene, whether they are due or not, after the pictures that
     /// they depend on.
     void update_probes(const std::vector<std::size_t>& probes);
+
+    /// Draw the picture of an object again that was lost with the context. Return false if no node
+    /// shows the object.
+    bool draw_again(const Probe& probe);
+    bool draw_again(const RenderTexture& texture);
 
     /// Returns the shadow map of a light of the first scene; see Renderer::shadow_map.
     Buffer<float> shadow_map(std::size_t light);

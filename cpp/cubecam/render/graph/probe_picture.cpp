@@ -42,9 +42,8 @@ std::vector<glm::vec4> ProbePicture::read_face(Face face) const {
     const GladGLContext& gl = context_.gpu.context.gl();
     const int size = state_.target->description().width;
     std::vector<glm::vec4> texels(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
-    gl.GetTextureSubImage(state_.target->color().id(), 0, 0, 0, static_cast<GLint>(face), size,
-                          size, 1, GL_RGBA, GL_FLOAT,
-                          static_cast<GLsizei>(texels.size() * sizeof(glm::vec4)), texels.data());
+    gl::read_layer(gl, state_.target->color().id(), static_cast<int>(face), size, size, GL_RGBA,
+                   GL_FLOAT, sizeof(glm::vec4), texels.data());
     gl::check_gl(gl, "reading a face of a probe");
     return texels;
 }
@@ -75,14 +74,22 @@ bool ProbePicture::sees(const NodeSnapshot& node) const {
 
 bool ProbePicture::count_and_decide() {
     const bool drawn = state_.target != nullptr;
-    if (forced_) return true;
+    // Whatever its policy is: a picture that was lost with its context is drawn again.
+    if (forced_ || state_.last.lost) return true;
     switch (probe_.value.update) {
         case ProbeUpdate::on_change: return true;
         case ProbeUpdate::once: return !drawn;
         case ProbeUpdate::manual: return false;
-        case ProbeUpdate::every_n_frames: return state_.calls++ % probe_.value.every == 0 || !drawn;
+        case ProbeUpdate::every_n_frames: return due_by_count() || !drawn;
     }
     return true;
+}
+
+/// Counts the call, unless the same call counted before its context was lost.
+bool ProbePicture::due_by_count() {
+    if (state_.counted != context_.gpu.call) ++state_.calls;
+    state_.counted = context_.gpu.call;
+    return (state_.calls - 1) % probe_.value.every == 0;
 }
 
 std::vector<PictureId> ProbePicture::dependencies() {
@@ -130,6 +137,7 @@ void ProbePicture::draw() {
     // A face that is left for a later call was drawn from elsewhere.
     if (state_.position != probe_.position) context_.gpu.contents = next_revision();
     state_.position = probe_.position;
+    state_.last = {false, context_.scenes.origin};
     state_.encoding =
         scene_encoding(context_.scenes, number_, [this](const NodeSnapshot& n) { return sees(n); });
     if (drawn == 0) return;

@@ -34,6 +34,7 @@ public:
 
 private:
     bool count_and_decide();
+    bool due_by_count();
     void draw();
     /// Filters the faces that were drawn since the last time.
     const FilteredTexture& filter();

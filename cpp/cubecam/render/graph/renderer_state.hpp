@@ -8,6 +8,7 @@
 #include "cubecam/render/resources/filtered_faces.hpp"
 #include "cubecam/render/resources/gpu_cache.hpp"
 #include "cubecam/render/resources/key.hpp"
+#include "cubecam/render/resources/read_buffer.hpp"
 #include "cubecam/render/resources/result_pool.hpp"
 #include "cubecam/render/resources/target_store.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
@@ -21,18 +22,36 @@
 
 namespace cubecam {
 
+/// What remains of a picture that was lost with its context.
+struct LostPicture {
+    bool lost = false;                 ///< there was one, and it is not drawn again yet
+    std::weak_ptr<const Scene> scene;  ///< from which it was drawn last
+};
+
 /// A renderer's state of a probe.
 struct ProbeState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     Target::Behind behind;
     std::uint64_t revision = 0;              ///< new whenever a face was drawn; 0: not drawn yet
     std::int64_t calls = 0;                  ///< calls that needed it, for every_n_frames
+    std::uint64_t counted = 0;               ///< the last of these calls (RendererState::call)
     std::size_t next_face = 0;               ///< the next face to draw with faces_per_frame
     glm::dvec3 position{0.0};                ///< the position of the last drawing, world
     Encoding encoding = Encoding::linear;    ///< of the last drawing
     FilteredFaces filtered;                  ///< empty until a surface needs it
     gl::Texture box_mipmaps;                 ///< a copy with levels; null until a surface needs it
     std::uint64_t box_mipmaps_revision = 0;  ///< `revision` when it was made
+    LostPicture last;
+
+    /// The state in a new context, after this one's context was lost.
+    ProbeState in_new_context() const {
+        ProbeState state;
+        state.calls = calls;
+        state.counted = counted;
+        state.next_face = next_face;
+        state.last = {target != nullptr || last.lost, last.scene};
+        return state;
+    }
 };
 
 /// A renderer's state of a light's shadow map.
@@ -53,6 +72,14 @@ public:
         return *states_[rank];
     }
 
+    StatesByScene in_new_context() const {
+        StatesByScene made;
+        for (const auto& state : states_) {
+            made.states_.push_back(std::make_unique<State>(state->in_new_context()));
+        }
+        return made;
+    }
+
 private:
     std::vector<std::unique_ptr<State>> states_;
 };
@@ -67,6 +94,13 @@ struct TextureState {
     Encoding encoding = Encoding::linear;  ///< of the last drawing
     gl::Texture decoded;                   ///< as maps of colours look it up; made when needed
     std::uint64_t decoded_of = 0;          ///< the revision from which `decoded` was made
+    LostPicture last;
+
+    TextureState in_new_context() const {
+        TextureState state;
+        state.last = {target != nullptr || last.lost, last.scene};
+        return state;
+    }
 };
 
 /// The parts of a renderer that live as long as its context.
@@ -77,6 +111,14 @@ struct RendererState {
           shadows(its_context, cache, surface.programs()), targets(cache_bytes),
           results(std::make_shared<ResultPool>(cache_bytes)) {}
 
+    /// Takes over what was not on the GPU from the state of a lost context. All else is drawn again
+    /// when it is needed.
+    void take_over(const RendererState& lost) {
+        call = lost.call;
+        probes.take_over(lost.probes, [](const auto& state) { return state.in_new_context(); });
+        textures.take_over(lost.textures, [](const auto& state) { return state.in_new_context(); });
+    }
+
     gl::Context& context;
     GpuCache cache;
     SurfacePass surface;
@@ -84,6 +126,7 @@ struct RendererState {
     ShadowPass shadows;
     TargetStore targets;
     std::shared_ptr<ResultPool> results;  ///< shared: results may outlive the renderer
+    ReadBuffer read_buffer;
     WeakCache<Probe, StatesByScene<ProbeState>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
@@ -93,6 +136,9 @@ struct RendererState {
     std::uint64_t views_drawn = 0;
     /// New whenever the contents of a probe, shadow map or render texture may have changed.
     std::uint64_t contents = 0;
+    /// Numbers the calls of the renderer. A call that is done again in a new context has one
+    /// number.
+    std::uint64_t call = 0;
 };
 
 }  // namespace cubecam

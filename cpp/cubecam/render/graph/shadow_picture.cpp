@@ -23,8 +23,7 @@ Key whole_key(const SceneSnapshot& scene, const ShadowView& view, TextureLookup&
     key.add(view.views.front().view_projection);
     key.add(view.views.front().position);
     for (const NodeSnapshot& node : scene.nodes) {
-        // As in the layers' keys, nodes that are drawn after the opaque ones cast no shadow.
-        if (node.cast_shadow && !node.drawn_as_transparent()) add_caster(key, node, lookup);
+        if (casts_shadow(node)) add_caster(key, node, lookup);
     }
     return key;
 }
@@ -36,12 +35,12 @@ std::vector<Key> layer_keys(const SceneSnapshot& scene, const ShadowView& view,
         keys[v].add(view.views[v].view_projection);
         keys[v].add(view.views[v].position);
     }
-    for (const PlannedNode& planned : plan.opaque) {
+    plan.for_each([&](const PlannedNode& planned) {
         const NodeSnapshot& node = scene.nodes[planned.node];
         for (const Visibility& visibility : plan.visible_in(planned)) {
             add_caster(keys[visibility.view], node, lookup);
         }
-    }
+    });
     return keys;
 }
 
@@ -78,8 +77,7 @@ void ShadowPicture::update() {
 void ShadowPicture::draw_changed(TextureLookup& lookup) {
     state_.whole.reset();
     const std::vector<View>& views = use_.view.views;
-    const DrawPlan plan = make_plan(scene_, views, state_.map.size, state_.map.size,
-                                    [](const NodeSnapshot& node) { return node.cast_shadow; });
+    const DrawPlan plan = make_plan(scene_, views, state_.map.size, state_.map.size, casts_shadow);
     std::vector<Key> keys = layer_keys(scene_, use_.view, plan, lookup);
     const ShadowInput input{scene_, use_.view, plan, [&lookup](const NodeSnapshot& node) {
                                 return lookup.find_for_shadow(node);

@@ -84,6 +84,7 @@ void TexturePicture::update() {
         // Nodes out of view change no pixel, but they may change what the numbers are.
         if (encoding != state_.encoding) state_.revision = context_.gpu.contents = next_revision();
         state_.encoding = encoding;
+        state_.last = {false, context_.scenes.origin};
         if (drawn == 0) return;
         if (description.mipmaps) {
             context_.gpu.context.gl().GenerateTextureMipmap(state_.target->picture().id());

@@ -1,7 +1,8 @@
 #include "cubecam/render/passes/output_declarations.hpp"
 
+#include "cubecam/gl/glsl_text.hpp"
+
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,92 +18,58 @@ struct Declaration {
     std::vector<NamedOutput> outputs;
 };
 
-bool is_letter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+using Tokens = std::vector<gl::GlslText::Token>;
 
-/// Overwrites comments and preprocessor lines by spaces, so that positions in the text stay the
-/// same.
-std::string without_comments(std::string text) {
-    const auto erase = [&text](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < std::min(end, text.size()); ++i) {
-            if (text[i] != '\n') text[i] = ' ';
-        }
-    };
-    bool line_start = true;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text.compare(i, 2, "//") == 0) {
-            erase(i, text.find('\n', i));
-        } else if (text.compare(i, 2, "/*") == 0) {
-            const std::size_t end = text.find("*/", i + 2);
-            erase(i, end == std::string::npos ? end : end + 2);
-        } else if (text[i] == '#' && line_start) {
-            std::size_t end = text.find('\n', i);
-            while (end != std::string::npos && text[end - 1] == '\\')
-                end = text.find('\n', end + 1);
-            erase(i, end);
-        }
-        line_start = text[i] == '\n' || (line_start && text[i] == ' ');
-    }
-    return text;
+[[noreturn]] void refuse_output(const UserSource& source, std::size_t line,
+                                const std::string& expected, const std::string& got) {
+    throw std::invalid_argument((source.path.empty() ? "fragment" : source.path) + ":" +
+                                std::to_string(line) + ": expected " + expected + ", got \"" + got +
+                                '"');
 }
 
-std::vector<std::string> tokens_of(std::string_view text) {
-    std::vector<std::string> tokens;
-    for (std::size_t i = 0; i < text.size();) {
-        std::size_t end = i + 1;
-        if (is_letter(text[i])) {
-            while (end < text.size() && is_letter(text[end])) ++end;
-        }
-        if (std::isspace(static_cast<unsigned char>(text[i])) == 0) {
-            tokens.emplace_back(text.substr(i, end - i));
-        }
-        i = end;
-    }
-    return tokens;
-}
-
-[[noreturn]] void refuse_output(const UserSource& source, const std::string& expected,
-                                const std::string& got) {
-    throw std::invalid_argument((source.path.empty() ? "fragment" : source.path) + ": expected " +
-                                expected + ", got \"" + got + '"');
-}
-
-std::vector<NamedOutput> outputs_of(const UserSource& source,
-                                    const std::vector<std::string>& tokens) {
+/// The outputs that a statement declares, whose tokens are those from `begin` up to `end`.
+std::vector<NamedOutput> outputs_of(const UserSource& source, const Tokens& tokens,
+                                    std::size_t begin, std::size_t end) {
     std::string text;
-    for (const std::string& token : tokens) text += (text.empty() ? "" : " ") + token;
-    std::size_t at = 1;
-    const auto is = [&](std::string_view word) { return at < tokens.size() && tokens[at] == word; };
+    for (std::size_t i = begin; i < end; ++i) text += (text.empty() ? "" : " ") + tokens[i].text;
+    std::size_t at = begin + 1;
+    const auto is = [&](std::string_view word) { return at < end && tokens[at].text == word; };
     if (is("lowp") || is("mediump") || is("highp")) ++at;
     int channels = 0;
     for (int count = 1; count <= 4; ++count) {
         if (is(glsl_type(count, OutputType::float32))) channels = count;
     }
     std::vector<NamedOutput> outputs;
-    for (++at; at < tokens.size(); at += 2) {
-        const bool comma = at + 1 == tokens.size() || tokens[at + 1] == ",";
-        if (!comma || !is_letter(tokens[at].front())) break;
-        outputs.push_back({tokens[at], channels});
+    std::vector<std::size_t> lines;
+    for (++at; at < end; at += 2) {
+        const bool comma = at + 1 == end || tokens[at + 1].text == ",";
+        if (!comma || !tokens[at].is_word()) break;
+        outputs.push_back({tokens[at].text, channels});
+        lines.push_back(tokens[at].line);
     }
-    const bool whole = at >= tokens.size() && tokens.back() != ",";
-    if (tokens.front() != "out" || channels == 0 || outputs.empty() || !whole) {
-        refuse_output(source, "outputs declared as `out vec4 name;`, of float, vec2, vec3 or vec4",
-                      text);
+    const bool whole = at >= end && tokens[end - 1].text != ",";
+    if (tokens[begin].text != "out" || channels == 0 || outputs.empty() || !whole) {
+        refuse_output(source, tokens[begin].line,
+                      "outputs declared as `out vec4 name;`, of float, vec2, vec3 or vec4", text);
     }
-    for (const NamedOutput& output : outputs) {
-        const auto same = [&output](std::string_view name) { return name == output.name; };
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        const auto same = [&](std::string_view name) { return name == outputs[i].name; };
         if (std::any_of(std::begin(taken_names), std::end(taken_names), same) ||
             std::any_of(output_table.begin(), output_table.end(),
                         [&same](const OutputRow& row) { return same(row.name); })) {
-            refuse_output(source, "an output of a name that is not one of " + known_outputs(),
-                          output.name);
+            refuse_output(source, lines[i],
+                          "an output of a name that is not one of " + known_outputs(),
+                          outputs[i].name);
         }
     }
     return outputs;
 }
 
+/// `source` has plain lines.
 std::vector<Declaration> find_declarations(const UserSource& source) {
     if (!mentions(source.text, "out")) return {};
-    const std::string text = without_comments(source.text);
+    const gl::GlslText text(source.text);
+    const Tokens& tokens = text.tokens();
     std::vector<Declaration> declarations;
     int braces = 0;
     int brackets = 0;
@@ -112,26 +79,26 @@ std::vector<Declaration> find_declarations(const UserSource& source) {
         named = false;
         begin = i + 1;
     };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (c == '(') ++brackets;
-        if (c == ')') --brackets;
-        if (c == '}' && --braces == 0) restart(i);
-        if (braces == 0 && brackets == 0 && (i == 0 || !is_letter(text[i - 1])) &&
-            text.compare(i, 3, "out") == 0 && (i + 3 == text.size() || !is_letter(text[i + 3]))) {
-            named = true;
-        }
-        if (braces == 0 && ((c == '{' && named) || c == ';')) {
-            while (begin < i && std::isspace(static_cast<unsigned char>(text[begin])) != 0) ++begin;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const std::string& word = tokens[i].text;
+        if (word == "(") ++brackets;
+        if (word == ")") --brackets;
+        if (word == "}" && --braces == 0) restart(i);
+        if (braces == 0 && brackets == 0 && word == "out") named = true;
+        if (braces == 0 && ((word == "{" && named) || word == ";")) {
             if (named) {
-                const auto tokens = tokens_of(std::string_view(text).substr(begin, i - begin));
-                declarations.push_back({begin, i + 1, outputs_of(source, tokens)});
+                declarations.push_back(
+                    {tokens[begin].begin, tokens[i].end, outputs_of(source, tokens, begin, i)});
             }
             restart(i);
         }
-        if (c == '{') ++braces;
+        if (word == "{") ++braces;
     }
     return declarations;
+}
+
+UserSource plain(const UserSource& source) {
+    return {gl::with_plain_lines(source.text), source.path};
 }
 
 std::string declaration_text(std::size_t slot, std::string_view type, std::string_view name) {
@@ -152,13 +119,14 @@ std::size_t slot_of(const std::vector<ShadedOutput>& outputs, std::string_view n
 
 std::vector<NamedOutput> declared_outputs(const UserSource& fragment) {
     std::vector<NamedOutput> outputs;
-    for (const Declaration& declaration : find_declarations(fragment)) {
+    for (const Declaration& declaration : find_declarations(plain(fragment))) {
         outputs.insert(outputs.end(), declaration.outputs.begin(), declaration.outputs.end());
     }
     return outputs;
 }
 
-UserSource place_outputs(const UserSource& fragment, const Outputs& outputs) {
+UserSource place_outputs(const UserSource& source, const Outputs& outputs) {
+    const UserSource fragment = plain(source);
     const std::vector<ShadedOutput> written = outputs.by_slot();
     UserSource placed{"", fragment.path};
     std::size_t done = 0;

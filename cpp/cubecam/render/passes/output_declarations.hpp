@@ -16,9 +16,10 @@ namespace cubecam {
 std::vector<NamedOutput> declared_outputs(const UserSource& fragment);
 
 /// Adapts a user's fragment source to a program that writes `outputs`: a declaration of one of
-/// these gets its location, every other one becomes a plain variable. Line numbers stay the same.
+/// these gets its location, every other one becomes a plain variable. The result has plain lines
+/// (gl::with_plain_lines), as many as before.
 /// @throws the exceptions of declared_outputs.
-UserSource place_outputs(const UserSource& fragment, const Outputs& outputs);
+UserSource place_outputs(const UserSource& source, const Outputs& outputs);
 
 /// Returns the defines by which surface.frag writes `outputs`. `declared` are the outputs that the
 /// user's own source declares; the other named outputs are written as 0.

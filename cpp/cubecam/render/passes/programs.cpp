@@ -1,5 +1,6 @@
 #include "cubecam/render/passes/programs.hpp"
 
+#include "cubecam/core/error.hpp"
 #include "cubecam/render/passes/output_declarations.hpp"
 #include "cubecam/render/passes/shadow_block.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
@@ -40,6 +41,9 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
 
 /// The file that the material's own file replaces in shaders/passes/surface.frag.
 constexpr std::string_view material_include = "include/material.glsl";
+
+constexpr std::string_view user_fragment = "include/user_fragment.glsl";
+constexpr std::string_view user_vertex = "include/user_vertex.glsl";
 
 std::string upper(std::string_view name) {
     std::string text(name);
@@ -132,7 +136,9 @@ gl::ShaderOptions Programs::layer_options() const {
 }
 
 void Programs::check_textures(const SurfaceVariant& variant, const MaterialTraits& material) const {
-    const auto maps = static_cast<std::size_t>(std::popcount(variant.textures));
+    const std::size_t maps = material.user_code
+                                 ? material.textures.size()
+                                 : static_cast<std::size_t>(std::popcount(variant.textures));
     const std::size_t environment =
         (material.uses_environment ? 1U : 0U) + variant.environment.texture_count();
     const auto shadows = static_cast<std::size_t>(variant.shadows);
@@ -201,9 +207,10 @@ const gl::Program& Programs::surface(const SurfaceVariant& variant,
     const UserSource include = include_of(*variant.kind);
     gl::ShaderOptions options = surface_options(variant, material);
     add_defines(options, output_defines(variant.outputs));
+    const ShaderPart part{material_include, &include};
     return surfaces_
         .emplace(variant, gl::Program(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                                      substituted({{material_include, "", &include}})))
+                                      substituted({&part, 1})))
         .first->second;
 }
 
@@ -214,16 +221,22 @@ UserProgram& Programs::user_surface(const SurfaceVariant& variant, const Materia
     gl::ShaderOptions options = surface_options(variant, material);
     const UserSource fragment = place_outputs(*user.fragment, variant.outputs);
     add_defines(options, output_defines(variant.outputs, declared_outputs(*user.fragment)));
-    return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
-                      {{"include/user_fragment.glsl", "fragment", &fragment},
-                       {"include/user_vertex.glsl", "vertex", user.vertex},
-                       {material_include, "", &include}},
-                      conditions, *user.inputs);
+    try {
+        return users_.get(*gl_, {"passes/surface.vert", "passes/surface.frag"}, options,
+                          {{user_fragment, &fragment, UserStage::fragment, user.fragment},
+                           {user_vertex, user.vertex, UserStage::vertex},
+                           {material_include, &include}},
+                          conditions, *user.inputs);
+    } catch (const ShaderError&) {
+        // Only the driver knows which textures the source really looks up.
+        check_textures(variant, material);
+        throw;
+    }
 }
 
 UserProgram& Programs::effect(const EffectValue& effect, DrawConditions& conditions) {
     return users_.get(*gl_, {"passes/full_screen.vert", "passes/effect.frag"}, {},
-                      {{"include/user_fragment.glsl", "fragment", &effect.fragment}}, conditions,
+                      {{user_fragment, &effect.fragment, UserStage::effect}}, conditions,
                       effect.inputs);
 }
 
@@ -248,8 +261,8 @@ UserProgram& Programs::user_shadow(const MaterialTraits& material, bool vertex_c
     gl::ShaderOptions options = surface_options(variant, material);
     std::erase_if(options.defines, [](const auto& define) { return define.first == "LAYERED"; });
     return users_.get(*gl_, {"passes/surface.vert", "passes/shadow.frag"}, options,
-                      {{"include/user_fragment.glsl", "fragment", material.user_code->fragment},
-                       {"include/user_vertex.glsl", "vertex", material.user_code->vertex}},
+                      {{user_fragment, material.user_code->fragment, UserStage::fragment},
+                       {user_vertex, material.user_code->vertex, UserStage::vertex}},
                       conditions, *material.user_code->inputs);
 }
 

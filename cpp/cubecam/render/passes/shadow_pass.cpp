@@ -1,6 +1,8 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 
-#include "cubecam/core/memory.hpp"
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
+#include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/render/resources/node_record.hpp"
@@ -85,7 +87,7 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
     const double bytes = 4.0 * size * size * count;
     const std::string what = "a shadow map of " + std::to_string(count) + " x " +
                              std::to_string(size) + " x " + std::to_string(size) + " texels";
-    if (context_->software()) check_memory(bytes, what);
+    check_texture_memory(*context_, bytes, 0.0, what);
     ShadowMap map;
     map.depth = gl::create_texture_2d_array(*gl_, map_format, size, size, count);
     const GLuint id = map.depth.id();
@@ -103,16 +105,16 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     std::map<std::pair<const MeshData*, std::uint64_t>, std::size_t> places;
     std::vector<const NodeSnapshot*> moved;
     const View& from = input.view.views[layer];
-    for (const PlannedNode& planned : input.plan.opaque) {
+    input.plan.for_each([&](const PlannedNode& planned) {
         const auto visibilities = input.plan.visible_in(planned);
         const bool seen =
             std::any_of(visibilities.begin(), visibilities.end(),
                         [layer](const Visibility& visibility) { return visibility.view == layer; });
-        if (!seen) continue;
+        if (!seen) return;
         const NodeSnapshot& node = input.scene.nodes[planned.node];
         if (moves_vertices(node)) {
             moved.push_back(&node);
-            continue;
+            return;
         }
         const std::uint64_t material = has_holes(node) ? node.material.revision : 0;
         const auto [place, added] = places.try_emplace({node.mesh.get(), material}, casters.size());
@@ -120,7 +122,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         const glm::dmat4 matrix = reverse_depth(from.view_projection * node.world);
         casters[place->second].nodes.push_back(
             make_view_record(from, matrix, from.position, layer));
-    }
+    });
     std::vector<ViewRecord> instances;
     for (const Casters& some : casters) {
         instances.insert(instances.end(), some.nodes.begin(), some.nodes.end());
@@ -142,6 +144,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
     }
     GLuint first = 0;
     for (const Casters& some : casters) {
+        poll_interrupts();
         const GpuMesh& mesh = cache_->mesh(*some.first->mesh);
         const auto count = static_cast<GLsizei>(some.nodes.size());
         bind_program(*some.first, input);
@@ -155,6 +158,7 @@ void ShadowPass::draw(const ShadowInput& input, std::size_t layer, ShadowMap& ma
         stats.triangles += std::int64_t{mesh.index_count / 3} * count;
     }
     for (const NodeSnapshot* node : moved) draw_moved(*node, input, layer, stats);
+    context_->pace().submitted(*gl_, static_cast<double>(map.size) * map.size);
 }
 
 void ShadowPass::bind_program(const NodeSnapshot& node, const ShadowInput& input) {
@@ -218,12 +222,12 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
 Buffer<float> ShadowPass::read(const ShadowUse& use) {
     const auto size = static_cast<std::size_t>(use.shadow.size);
     Buffer<float> values(use.view.views.size() * size * size);
-    gl_->PixelStorei(GL_PACK_ALIGNMENT, 1);
+    context_->pace().finish(*gl_);
     for (std::size_t layer = 0; layer < use.view.views.size(); ++layer) {
-        gl_->GetTextureSubImage(use.texture, 0, 0, 0, static_cast<GLint>(layer), use.shadow.size,
-                                use.shadow.size, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
-                                static_cast<GLsizei>(size * size * sizeof(float)),
-                                values.data() + layer * size * size);
+        poll_interrupts();
+        gl::read_layer(*gl_, use.texture, static_cast<int>(layer), use.shadow.size, use.shadow.size,
+                       GL_DEPTH_COMPONENT, GL_FLOAT, sizeof(float),
+                       values.data() + layer * size * size);
     }
     gl::check_gl(*gl_, "reading a shadow map");
     const bool parallel = use.view.kind == ShadowView::Kind::parallel;

@@ -29,7 +29,7 @@ struct ShadowMap {
 struct ShadowInput {
     const SceneSnapshot& scene;
     const ShadowView& view;
-    const DrawPlan& plan;  ///< of the casters, for the view's layers
+    const DrawPlan& plan;  ///< of all casters, for the view's layers; all of it is drawn
     /// Returns the textures on which a caster's shadow depends, in the order of its inputs.
     std::function<std::vector<BoundTexture>(const NodeSnapshot&)> look_up;
 };

@@ -3,6 +3,7 @@
 #include "cubecam/geometry/mesh_bounds.hpp"
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/math/transform.hpp"
+#include "cubecam/scene/snapshot_queries.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +85,7 @@ ShadowView view_of(const SpotParameters& light, const Shadow& shadow, const Scen
 Bounds casters_bounds(const SceneSnapshot& scene, const glm::dmat4& turn) {
     Bounds all = no_bounds();
     for (const NodeSnapshot& node : scene.nodes) {
-        if (!node.cast_shadow) continue;
+        if (!casts_shadow(node)) continue;
         // This box is tighter than one round the node's box in the world.
         all = united(all, transformed(node.mesh->bounds(), turn * node.world));
     }

@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/surface_calls.hpp"
 
+#include "cubecam/render/resources/sky_rays.hpp"
+
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
@@ -100,8 +102,9 @@ std::size_t count_calls(const SurfaceItems& items, std::size_t regions) {
 }
 
 SurfaceCallBuilder::SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items,
-                                       const glm::vec3& ambient, std::size_t alignment)
-    : input_(input), items_(items), ambient_(ambient), alignment_(alignment) {
+                                       const glm::ivec2& size, const glm::vec3& ambient,
+                                       std::size_t alignment)
+    : input_(input), items_(items), size_(size), ambient_(ambient), alignment_(alignment) {
     const glm::dvec3& origin = input.origin();
     for (const Region& region : input.regions) {
         const View& view = input.views[region.view];
@@ -170,7 +173,8 @@ void SurfaceCallBuilder::add_sky(std::size_t first_region, std::size_t count, Su
     for (std::size_t r = first_region; r < first_region + count; ++r) {
         const std::size_t layer = input_.regions[r].view;
         const View& view = input_.views[layer];
-        view_records_.push_back(make_view_record(view, view.far_to_world, input_.origin(), layer));
+        view_records_.push_back(
+            make_view_record(view, sky_rays(view, size_.x, size_.y), input_.origin(), layer));
     }
 }
 

@@ -68,9 +68,9 @@ struct SurfaceCalls {
 /// Builds draw calls, and the bytes that they read on the GPU.
 class SurfaceCallBuilder {
 public:
-    /// `ambient` is the light that falls on everything; offsets of uniform blocks are multiples of
-    /// `alignment`.
-    SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items,
+    /// `size` is that of the pictures in pixels; `ambient` is the light that falls on everything;
+    /// offsets of uniform blocks are multiples of `alignment`.
+    SurfaceCallBuilder(const SurfaceInput& input, const SurfaceItems& items, const glm::ivec2& size,
                        const glm::vec3& ambient, std::size_t alignment);
 
     /// Makes the calls for all regions at once.
@@ -93,6 +93,7 @@ private:
 
     const SurfaceInput& input_;
     const SurfaceItems& items_;
+    const glm::ivec2 size_;
     const glm::vec3 ambient_;
     const std::size_t alignment_;
     std::vector<ViewRecord> views_;  ///< of each region

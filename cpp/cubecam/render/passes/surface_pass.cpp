@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/surface_pass.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/lighting/brdf_table.hpp"
 #include "cubecam/render/passes/clear.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
@@ -18,6 +20,8 @@ constexpr GLuint lights_binding = 1;
 constexpr GLuint shadows_binding = 2;
 constexpr std::size_t unrolled_lights = 8;  // a loop of unknown length costs more for each light
 constexpr std::size_t many_triangles = 10'000;  // of one call
+
+double pixels(const Rect& rect) { return static_cast<double>(rect.area()); }
 
 /// Whether a view shows the world mirrored: GL's own projections have a negative determinant.
 bool mirrored(const View& view) { return glm::determinant(view.view_projection) > 0.0; }
@@ -72,7 +76,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
 
     const SurfaceItems items = find_items(input, *cache_);
     SurfaceCallBuilder builder(
-        input, items, lights_.ambient,
+        input, items, {description.width, description.height}, lights_.ambient,
         static_cast<std::size_t>(context_->limits().uniform_buffer_offset_alignment));
     std::vector<SurfaceCalls> calls;  // one for each region, or one for all
     if (use_layers(input, items, whole)) {
@@ -109,6 +113,7 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     const bool by_texture = description.shape.has_faces() && !(color && target.multisampled());
     if (by_texture) {
         for (const Region& region : input.regions) {
+            poll_interrupts();
             clear_layer(*gl_, target, static_cast<int>(region.view), region.rect, values);
         }
     }
@@ -124,6 +129,7 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
         writes.mirror = mirrored(input.views[region.view]);
     };
 
+    const double cost = description.samples;
     const bool layered = calls.size() < input.regions.size();
     pass_.clear();
     pass_.add_target(description, color, outputs, layered);
@@ -132,6 +138,7 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
             bind(input.regions[r]);
             look_through(input.regions[r]);
             draw_all(input, calls[r], writes, stats);
+            context_->pace().submitted(*gl_, pixels(input.regions[r].rect) * cost);
         }
         return;
     }
@@ -144,6 +151,9 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     if (all && !by_texture) clear_bound(*gl_, target, values);
     look_through(input.regions.front());
     draw_all(input, calls.front(), writes, stats);
+    for (const Region& region : input.regions) {
+        context_->pace().submitted(*gl_, pixels(region.rect) * cost);
+    }
 }
 
 bool SurfacePass::use_layers(const SurfaceInput& input, const SurfaceItems& items,
@@ -162,6 +172,8 @@ bool SurfacePass::use_layers(const SurfaceInput& input, const SurfaceItems& item
         });
     if (!one_winding || !one_scissor) return false;
     if (layering_ == Layering::always) return true;
+    // A call that fills all layers of a large picture could not be interrupted.
+    if (pixels(whole) * static_cast<double>(input.regions.size()) > gl::Pace::chunk) return false;
     // With layered drawing every node needs a call of its own.
     if (items.opaque.size() > count_calls(items, input.regions.size())) return false;
     if (!context_->software()) return true;
@@ -363,6 +375,7 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
                              Stats& stats) {
     const gl::Program* bound = nullptr;
     for (const SurfaceCall& call : calls) {
+        poll_interrupts();
         const NodeSnapshot& node = *call.item->node;
         const GpuMesh& mesh = *call.item->mesh;
         const bool instanced = !call.node_block;

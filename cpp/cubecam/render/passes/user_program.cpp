@@ -1,5 +1,7 @@
 #include "cubecam/render/passes/user_program.hpp"
 
+#include "cubecam/gl/glsl_text.hpp"
+#include "cubecam/render/passes/shader_names.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/trial/capture.hpp"
 
@@ -13,10 +15,6 @@ namespace cubecam {
 namespace {
 
 constexpr std::size_t most_programs = 64;
-
-/// Uniforms that shaders/ declares itself.
-constexpr std::array<std::string_view, 7> own_uniforms = {
-    "u_box_mipmaps", "u_brdf_table", "u_cube", "u_filtered", "u_frame", "u_layer", "u_shadow_maps"};
 
 /// A GLSL type of `rows` x `columns` numbers.
 struct Shape {
@@ -119,12 +117,25 @@ std::vector<double> fitted(const std::string& name, const UniformValue& value, c
 
 }  // namespace
 
-UserProgram::UserProgram(gl::Program program, std::string text)
-    : program_(std::move(program)), text_(std::move(text)) {
+UserProgram::UserProgram(gl::Program program, std::vector<WrittenText> texts)
+    : program_(std::move(program)), texts_(std::move(texts)) {
     find_uniforms();
 }
 
+/// Returns "fragment:3: " for a name that a text declares in its third line.
+std::string UserProgram::place_of(const std::string& name) const {
+    const std::string word = name.substr(0, name.find_first_of(".["));
+    for (const WrittenText& text : texts_) {
+        if (const auto line = gl::line_of_word(text.source.text, word)) {
+            return std::string(title_of(text.source, text.stage)) + ":" + std::to_string(*line) +
+                   ": ";
+        }
+    }
+    return "";
+}
+
 void UserProgram::find_uniforms() {
+    const auto& own = shader_names(texts_.front().stage).variables;
     const GladGLContext& gl = program_.gl();
     GLint count = 0;
     GLint longest = 0;
@@ -141,15 +152,12 @@ void UserProgram::find_uniforms() {
         if (uniform.location < 0) continue;  // in a block
         uniform.array = uniform.name.ends_with("[0]");
         if (uniform.array) uniform.name.resize(uniform.name.size() - 3);
-        if (std::find(own_uniforms.begin(), own_uniforms.end(), uniform.name) !=
-            own_uniforms.end()) {
-            continue;
-        }
+        if (own.contains(uniform.name)) continue;
         if (find_shape(uniform.type) != nullptr) {
             uniform.initial = initial_of(uniform);
             uniform.current = uniform.initial;
         } else if (sampler_name(uniform.type) == nullptr || uniform.array) {
-            refuse("uniform " + uniform.name,
+            refuse(place_of(uniform.name) + "uniform " + uniform.name,
                    "a float, int, uint or bool, a vector or square matrix of them, a sampler2D or "
                    "a samplerCube",
                    "another type, or an array of samplers");
@@ -197,7 +205,10 @@ std::vector<double> UserProgram::initial_of(const Uniform& uniform) const {
 
 void UserProgram::check_known(const std::string& name) const {
     // "lamps[2].color" is known if the source mentions "lamps".
-    if (mentions(text_, name.substr(0, name.find_first_of(".[")))) return;
+    const std::string word = name.substr(0, name.find_first_of(".["));
+    for (const WrittenText& text : texts_) {
+        if (mentions(text.source.text, word)) return;
+    }
     std::string known;
     for (const Uniform& uniform : uniforms_) known += (known.empty() ? "" : ", ") + uniform.name;
     refuse("uniform " + name,
@@ -284,14 +295,15 @@ void UserProgram::set(Uniform& uniform, const std::vector<double>& numbers) {
     uniform.current = numbers;
 }
 
-std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> parts) {
+std::vector<gl::ShaderSource> substituted(std::span<const ShaderPart> parts) {
     std::vector<gl::ShaderSource> sources(gl::embedded_shaders().begin(),
                                           gl::embedded_shaders().end());
     for (gl::ShaderSource& source : sources) {
         for (const ShaderPart& part : parts) {
             if (source.name != part.file) continue;
             source.text = part.source->text;
-            source.title = part.source->path.empty() ? part.title : part.source->path;
+            source.user = part.stage.has_value();
+            if (part.stage) source.title = title_of(*part.source, *part.stage);
         }
     }
     return sources;
@@ -300,6 +312,35 @@ std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> part
 namespace {
 
 constexpr std::size_t most_conditions = 256;  // of one program
+
+/// The texts of a program: as users wrote them, and as they are compiled.
+struct ProgramTexts {
+    std::vector<WrittenText> written;
+    std::list<PreparedText> prepared;
+    std::vector<gl::ShaderSource> sources;  ///< which refer to the others
+};
+
+/// @throws ShaderError for a text that shall not be compiled
+ProgramTexts write_texts(std::span<const ShaderPart> parts) {
+    ProgramTexts texts;
+    texts.written.reserve(parts.size());  // the sources refer to them
+    texts.sources = substituted(parts);
+    for (const ShaderPart& part : parts) {
+        if (!part.stage || part.source->text.empty()) continue;
+        const UserSource& own = part.written == nullptr ? *part.source : *part.written;
+        texts.written.push_back({{gl::with_plain_lines(own.text), own.path}, *part.stage});
+        check_user_text(texts.written.back().source, *part.stage);
+        texts.prepared.push_back(prepare_user_text(
+            {gl::with_plain_lines(part.source->text), part.source->path}, *part.stage));
+        for (gl::ShaderSource& source : texts.sources) {
+            if (source.name != part.file) continue;
+            source.text = texts.prepared.back().text;
+            source.after = texts.prepared.back().after;
+            source.written = texts.written.back().source.text;
+        }
+    }
+    return texts;
+}
 
 /// Returns what to try: the program's stages in the present state of OpenGL.
 trial::Job make_job(const GladGLContext& gl, std::initializer_list<std::string_view> files,
@@ -317,12 +358,12 @@ trial::Job make_job(const GladGLContext& gl, std::initializer_list<std::string_v
 }
 
 /// Returns what messages call the user's texts: "fragment", "water.glsl".
-std::string titles_of(std::initializer_list<ShaderPart> parts) {
+std::string titles_of(std::span<const ShaderPart> parts) {
     std::string titles;
     for (const ShaderPart& part : parts) {
-        if (part.title.empty() || part.source->text.empty()) continue;
+        if (!part.stage || part.source->text.empty()) continue;
         if (!titles.empty()) titles += " and ";
-        titles += part.source->path.empty() ? part.title : std::string_view(part.source->path);
+        titles += title_of(*part.source, *part.stage);
     }
     return titles;
 }
@@ -340,11 +381,9 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
     for (const std::string_view file : files) add(file);
     for (const std::string& extension : options.extensions) add(extension);
     for (const auto& [name, value] : options.defines) add(name + "=" + value);
-    std::string text;
     for (const ShaderPart& part : parts) {
         add(part.source->text);
         add(part.source->path);
-        if (!part.title.empty()) text += part.source->text + "\n";
     }
     const auto found = std::find_if(programs_.begin(), programs_.end(),
                                     [&key](const auto& held) { return held.first == key; });
@@ -358,10 +397,13 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
         }
     }
     const bool known = found != programs_.end();
-    if (trial_ != nullptr && !(known && found->second.survived.contains(conditions.key))) {
-        trial_->require(
-            make_job(gl, files, options, substituted(parts), std::move(textures), inputs),
-            titles_of(parts));
+    const bool tried =
+        trial_ == nullptr || (known && found->second.survived.contains(conditions.key));
+    std::optional<ProgramTexts> texts;
+    if (!known || !tried) texts = write_texts(parts);
+    if (!tried) {
+        trial_->require(make_job(gl, files, options, texts->sources, std::move(textures), inputs),
+                        titles_of(parts));
     }
     if (known) {
         programs_.splice(programs_.begin(), programs_, found);
@@ -371,7 +413,9 @@ UserProgram& UserPrograms::get(const GladGLContext& gl,
         return programs_.front().second;
     }
 
-    UserProgram made(gl::Program(gl, files, options, substituted(parts)), std::move(text));
+    gl::Program program(gl, files, options, texts->sources);
+    check_interface(gl, program.id(), texts->written);
+    UserProgram made(std::move(program), std::move(texts->written));
     if (trial_ != nullptr) made.survived.insert(conditions.key);
     if (programs_.size() == most_programs) programs_.pop_back();
     programs_.emplace_front(std::move(key), std::move(made));

@@ -3,6 +3,7 @@
 #include "cubecam/gl/program.hpp"
 #include "cubecam/materials/user_shader.hpp"
 #include "cubecam/render/passes/draw_conditions.hpp"
+#include "cubecam/render/passes/user_text.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/trial/trial.hpp"
 
@@ -10,6 +11,7 @@
 #include <initializer_list>
 #include <list>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -22,9 +24,9 @@ namespace cubecam {
 /// A program with a user's source in it, and the uniforms that the source declares.
 class UserProgram {
 public:
-    /// `text` is everything that the user wrote: an input that occurs in it but is not among the
+    /// `texts` are all that the user wrote: an input that occurs in them but is not among the
     /// uniforms was optimised away, which is no error.
-    UserProgram(gl::Program program, std::string text);
+    UserProgram(gl::Program program, std::vector<WrittenText> texts);
 
     const gl::Program& program() const { return program_; }
 
@@ -50,24 +52,25 @@ private:
 
     void find_uniforms();
     std::vector<double> initial_of(const Uniform& uniform) const;
+    std::string place_of(const std::string& name) const;
     void check_known(const std::string& name) const;
     void set(Uniform& uniform, const std::vector<double>& numbers);
 
     gl::Program program_;
-    std::string text_;
+    std::vector<WrittenText> texts_;
     std::vector<Uniform> uniforms_;  // with the samplers
 };
 
-/// A text and the file of shaders/ that it replaces. `title` is the name in messages of a user's
-/// text that was not read from a file; it is empty for a text that is not a user's.
+/// A text and the file of shaders/ that it replaces.
 struct ShaderPart {
     std::string_view file;
-    std::string_view title;
     const UserSource* source;
+    std::optional<UserStage> stage = {};  ///< of a text that a user wrote
+    const UserSource* written = nullptr;  ///< the text as the user wrote it, if `source` is another
 };
 
 /// Returns the files of shaders/ with some of them replaced by the parts.
-std::vector<gl::ShaderSource> substituted(std::initializer_list<ShaderPart> parts);
+std::vector<gl::ShaderSource> substituted(std::span<const ShaderPart> parts);
 
 /// A cache of the programs of users' sources, which drops the least recently used one: a source
 /// that is edited while it is drawn leaves many old programs.

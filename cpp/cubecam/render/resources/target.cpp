@@ -1,7 +1,7 @@
 #include "cubecam/render/resources/target.hpp"
 
 #include "cubecam/core/error.hpp"
-#include "cubecam/core/memory.hpp"
+#include "cubecam/gl/texture_memory.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -116,9 +116,17 @@ TargetDescription describe_target(const gl::Context& context, const TargetReques
     description.color = request.color;
     description.depth_format = depth_format;
     description.depth_order = request.depth_order;
-    // A software driver keeps its textures in main memory.
-    if (context.software()) check_memory(static_cast<double>(description.bytes()), got + " pixels");
     return description;
+}
+
+void check_target_memory(const gl::Context& context, const TargetDescription& description,
+                         std::size_t result_bytes) {
+    const std::string side = std::to_string(description.width);
+    const std::string what =
+        (description.shape.has_faces() ? side : side + " x " + std::to_string(description.height)) +
+        " pixels";
+    check_texture_memory(context, static_cast<double>(description.bytes()),
+                         static_cast<double>(result_bytes), what);
 }
 
 void set_post_process(TargetDescription& description, std::size_t effects, bool post_processed) {
@@ -180,6 +188,7 @@ GLuint Layers::one(int layer) {
 
 Target::Target(const gl::Context& context, const TargetDescription& description)
     : gl_(&context.gl()), description_(description) {
+    check_target_memory(context, description);
     keys.resize(static_cast<std::size_t>(description.layers()));
     revisions.resize(keys.size(), 0);
 

@@ -56,8 +56,13 @@ struct TargetRequest {
 };
 
 /// Makes the description of a target. @throws std::invalid_argument that names the limit, if the
-/// request exceeds the driver's limits or the machine's memory.
+/// request exceeds the driver's limits.
 TargetDescription describe_target(const gl::Context& context, const TargetRequest& request);
+
+/// @throws std::invalid_argument if the memory cannot hold a new target of the description and,
+/// besides, `result_bytes` of main memory for what is read from it.
+void check_target_memory(const gl::Context& context, const TargetDescription& description,
+                         std::size_t result_bytes = 0);
 
 /// Sets whether PostProcessPass processes the picture, and by how many effects. `post_processed`:
 /// whether there is a tone curve or encoding.
@@ -108,8 +113,8 @@ struct UnchangedCall {
 /// of ids has no meaning. A target without colour is never multisampled.
 class Target {
 public:
-    /// @throws GlError if there is not enough memory; std::invalid_argument that names the formats,
-    /// if the driver cannot draw into them together.
+    /// @throws GlError or std::invalid_argument if there is not enough memory;
+    /// std::invalid_argument that names the formats, if the driver cannot draw into them together.
     Target(const gl::Context& context, const TargetDescription& description);
 
     const TargetDescription& description() const { return description_; }

@@ -17,7 +17,9 @@ class TargetStore {
 public:
     explicit TargetStore(std::size_t capacity) : capacity_(capacity) {}
 
-    Target& get(const gl::Context& context, const TargetDescription& description) {
+    /// `result_bytes`: what is read from the target afterwards, which the memory must hold, too.
+    Target& get(const gl::Context& context, const TargetDescription& description,
+                std::size_t result_bytes = 0) {
         for (auto it = targets_.begin(); it != targets_.end(); ++it) {
             if ((*it)->description() != description) continue;
             targets_.splice(targets_.begin(), targets_, it);
@@ -25,6 +27,7 @@ public:
         }
         // Old targets are dropped first, so that memory never holds the old and the new one.
         trim(capacity_ > description.bytes() ? capacity_ - description.bytes() : 0);
+        check_target_memory(context, description, result_bytes);
         targets_.push_front(std::make_unique<Target>(context, description));
         return *targets_.front();
     }

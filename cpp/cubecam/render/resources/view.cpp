@@ -8,13 +8,10 @@ namespace {
 
 View make_view(const Matrices& matrices) {
     const glm::dmat4 world = glm::inverse(matrices.view);
-    glm::dmat4 turned = matrices.view;
-    turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);
-
     View view;
     view.view = matrices.view;
+    view.projection = matrices.projection;
     view.view_projection = matrices.projection * matrices.view;
-    view.far_to_world = glm::inverse(matrices.projection * turned);
     view.position = glm::dvec3(world[3]);
     view.eye = view.position;
     view.forward = -glm::normalize(glm::dvec3(world[2]));

@@ -13,8 +13,8 @@ namespace cubecam {
 /// camera has one view, a cubemap has six.
 struct View {
     glm::dmat4 view;             ///< world to camera
-    glm::dmat4 view_projection;  ///< world to GL's clip space
-    glm::dmat4 far_to_world;     ///< clip space to world without translation, for a skybox
+    glm::dmat4 projection;       ///< camera to GL's clip space
+    glm::dmat4 view_projection;  ///< world to clip space
     glm::dvec3 position;         ///< distances count from here; nodes are sorted by them
     glm::dvec3 eye;              ///< highlights and reflections are seen from here
     glm::dvec3 forward;          ///< unit vector along the camera's axis

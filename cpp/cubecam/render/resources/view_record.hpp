@@ -12,7 +12,7 @@ namespace cubecam {
 /// shaders read as vertex attributes that advance once for each instance
 /// (shaders/include/view.glsl).
 struct ViewRecord {
-    glm::mat4 matrix;    ///< world to clip with depth reversed; for a skybox, clip to world
+    glm::mat4 matrix;    ///< world to clip with depth reversed; for a skybox, see sky_rays.hpp
     glm::vec4 eye;       ///< xyz: eye, or the direction of all rays if w is 1 (parallel)
     glm::vec4 position;  ///< xyz: distance counts from here; w: parallel views' near plane
     glm::vec4 forward;   ///< xyz: the camera's axis; w: the layer

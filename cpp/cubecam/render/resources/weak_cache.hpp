@@ -27,6 +27,14 @@ public:
                                                                          : &found->second.entry;
     }
 
+    /// Takes over the objects of another cache; `remake` makes this cache's entry from the old one.
+    template <class Remake>
+    void take_over(const WeakCache& old, Remake&& remake) {
+        for (const auto& [address, held] : old.entries_) {
+            entries_.insert_or_assign(address, Held{held.object, remake(held.entry)});
+        }
+    }
+
     void sweep() {
         std::erase_if(entries_, [](const auto& item) { return item.second.object.expired(); });
     }

@@ -6,6 +6,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from ...._calls import checked_call
+from ...._checks import text_of
 from ...._core import Scene
 from ...files import PathLike, as_path
 from ...writing import write_files
@@ -63,7 +64,9 @@ def save_scene(scene: Scene, path: PathLike) -> None:
     target = as_path(path)
     kind = target.suffix.lower()
     if kind not in (".glb", ".gltf"):
-        raise ValueError(f"expected a file name that ends in .glb or .gltf; got {target.name!r}")
+        raise ValueError(
+            f"expected a file name that ends in .glb or .gltf; got {text_of(target.name)}"
+        )
     document = document_of(scene)
     if kind == ".glb":
         write_files({target: document.glb()})

@@ -1,0 +1,385 @@
+// The declarations of a GLSL source (GLSL 4.50, chapter 4). This file does not use OpenGL.
+#include "cubecam/gl/glsl_outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace cubecam::gl {
+namespace {
+
+using Tokens = std::vector<GlslText::Token>;
+
+constexpr std::array<std::string_view, 27> qualifier_words = {
+    "const",     "in",       "out",       "inout",         "uniform",    "buffer",   "shared",
+    "attribute", "varying",  "centroid",  "sample",        "patch",      "flat",     "smooth",
+    "highp",     "mediump",  "lowp",      "noperspective", "precise",    "coherent", "volatile",
+    "restrict",  "readonly", "writeonly", "invariant",     "subroutine", "layout"};
+
+/// Words that may stand before another word without being its type.
+constexpr std::array<std::string_view, 11> no_types = {
+    "return", "else", "do", "case", "struct", "precision", "goto", "if", "for", "while", "switch"};
+
+template <std::size_t n>
+bool is_in(const std::array<std::string_view, n>& words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// Returns the index after the bracket that closes the one at `open`.
+std::size_t after_bracket(const Tokens& tokens, std::size_t open, std::size_t end) {
+    int depth = 0;
+    for (std::size_t i = open; i < end; ++i) {
+        const std::string& text = tokens[i].text;
+        if (text == "(" || text == "[" || text == "{") ++depth;
+        if ((text == ")" || text == "]" || text == "}") && --depth == 0) return i + 1;
+    }
+    return end;
+}
+
+/// What stands before the name of a declaration.
+struct Head {
+    std::vector<std::string> qualifiers;
+    bool has_layout_location = false;
+    std::string type;  ///< empty: there is none
+    std::size_t dimensions = 0;
+    std::size_t next = 0;  ///< the index of the token after it
+};
+
+std::size_t skip_dimensions(const Tokens& tokens, std::size_t at, std::size_t end,
+                            std::size_t& dimensions) {
+    while (at < end && tokens[at].text == "[") {
+        ++dimensions;
+        at = after_bracket(tokens, at, end);
+    }
+    return at;
+}
+
+void read_qualifiers(const Tokens& tokens, std::size_t end, Head& head) {
+    while (head.next < end && is_in(qualifier_words, tokens[head.next].text)) {
+        const std::string& word = tokens[head.next].text;
+        head.qualifiers.push_back(word);
+        ++head.next;
+        if (head.next == end || tokens[head.next].text != "(") continue;
+        if (word != "layout" && word != "subroutine") continue;
+        const std::size_t close = after_bracket(tokens, head.next, end);
+        for (std::size_t i = head.next; i < close; ++i) {
+            if (tokens[i].text == "location") head.has_layout_location = true;
+        }
+        head.next = close;
+    }
+}
+
+Head read_head(const Tokens& tokens, std::size_t begin, std::size_t end) {
+    Head head;
+    head.next = begin;
+    read_qualifiers(tokens, end, head);
+    if (head.next == end || !tokens[head.next].is_word()) return head;
+    if (is_in(no_types, tokens[head.next].text)) return head;
+    head.type = tokens[head.next].text;
+    head.next = skip_dimensions(tokens, head.next + 1, end, head.dimensions);
+    return head;
+}
+
+GlslName name_of(const Head& head, const Tokens& tokens, std::size_t at, GlslName::Kind kind) {
+    return {kind,
+            tokens[at].text,
+            head.type,
+            head.dimensions,
+            head.qualifiers,
+            head.has_layout_location,
+            false,
+            at,
+            tokens[at].line};
+}
+
+/// Reads `name[3] = value, name, ...`.
+void read_variables(const Tokens& tokens, std::size_t at, std::size_t end, const Head& head,
+                    GlslName::Kind kind, std::vector<GlslName>& names) {
+    while (at < end && tokens[at].is_word()) {
+        GlslName name = name_of(head, tokens, at, kind);
+        at = skip_dimensions(tokens, at + 1, end, name.dimensions);
+        if (at < end && tokens[at].text == "=") {
+            name.initialised = true;
+            while (at < end && tokens[at].text != ",") {
+                const std::string& text = tokens[at].text;
+                const bool open = text == "(" || text == "[" || text == "{";
+                at = open ? after_bracket(tokens, at, end) : at + 1;
+            }
+        }
+        if (at < end && tokens[at].text != ",") return;  // no declaration
+        names.push_back(std::move(name));
+        ++at;
+    }
+}
+
+std::vector<GlslName> read_parameters(const Tokens& tokens, std::size_t begin, std::size_t end) {
+    std::vector<GlslName> names;
+    for (std::size_t at = begin; at < end;) {
+        std::size_t comma = at;
+        while (comma < end && tokens[comma].text != ",") {
+            comma = tokens[comma].text == "[" ? after_bracket(tokens, comma, end) : comma + 1;
+        }
+        const Head head = read_head(tokens, at, comma);
+        if (!head.type.empty())
+            read_variables(tokens, head.next, comma, head, GlslName::Kind::variable, names);
+        at = comma + 1;
+    }
+    return names;
+}
+
+class Outliner {
+public:
+    explicit Outliner(const GlslText& text) : text_(text), tokens_(text.tokens()) {}
+
+    GlslOutline run() {
+        const auto& directives = text_.directives();
+        std::size_t next = 0;
+        for (const GlslText::Directive& directive : directives) {
+            int braces = 0;
+            for (const GlslText::Token& token : directive.rest) {
+                braces += token.text == "{" ? 1 : token.text == "}" ? -1 : 0;
+            }
+            if (directive.word == "define" && braces != 0) found_.uncertain = true;
+        }
+        for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            for (; next < directives.size() && directives[next].before_token <= i; ++next) {
+                follow(directives[next]);
+            }
+            read(i);
+        }
+        for (; next < directives.size(); ++next) follow(directives[next]);
+        for (GlslFunction& function : found_.functions) {
+            function.close = std::min(function.close, tokens_.size());
+            function.returns =
+                std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(function.open),
+                            tokens_.begin() + static_cast<std::ptrdiff_t>(function.close),
+                            [](const GlslText::Token& token) { return token.text == "return"; });
+        }
+        if (!state_.open.empty() && !found_.uncertain) {
+            const Open& first = state_.open.front();
+            found_.open_bracket = tokens_[first.token].line;
+            found_.open_bracket_kind = tokens_[first.token].text[0];
+        }
+        return std::move(found_);
+    }
+
+private:
+    enum class Role { function, structure, block, plain };
+
+    struct Open {
+        std::string closer;
+        std::size_t token;
+        Role role;
+        std::size_t index;  ///< of the function or structure
+
+        bool operator==(const Open&) const = default;
+    };
+
+    struct State {
+        std::vector<Open> open;
+        std::size_t statement = 0;  ///< the index of its first token
+        std::string tail_of;        ///< the structure or block that the statement follows
+        std::size_t tail_index = 0;
+        std::vector<std::string> tail_qualifiers;
+    };
+
+    struct Branch {
+        State before;
+        std::optional<std::vector<Open>> first_end;
+        bool has_else = false;
+    };
+
+    /// Each branch of a condition begins with the brackets that were open before it.
+    void follow(const GlslText::Directive& directive) {
+        const std::string& word = directive.word;
+        if (word == "if" || word == "ifdef" || word == "ifndef") {
+            branches_.push_back({state_, {}, false});
+        } else if (branches_.empty()) {
+            return;
+        } else if (word == "elif" || word == "else") {
+            end_branch();
+            branches_.back().has_else |= word == "else";
+            const std::size_t statement = state_.statement;
+            state_ = branches_.back().before;
+            // The words of the branch before are no part of the statement.
+            if (state_.statement != statement || directive.before_token > state_.statement)
+                state_.statement = std::max(state_.statement, directive.before_token);
+        } else if (word == "endif") {
+            end_branch();
+            if (!branches_.back().has_else && branches_.back().before.open != state_.open)
+                found_.uncertain = true;
+            branches_.pop_back();
+        }
+    }
+
+    void end_branch() {
+        auto& first = branches_.back().first_end;
+        if (!first) first = state_.open;
+        const auto same = [](const Open& a, const Open& b) { return a.closer == b.closer; };
+        if (!std::equal(first->begin(), first->end(), state_.open.begin(), state_.open.end(), same))
+            found_.uncertain = true;
+    }
+
+    void read(std::size_t i) {
+        const std::string& text = tokens_[i].text;
+        if (text == "(" || text == "[" || text == "{") {
+            open_bracket(i);
+        } else if (text == ")" || text == "]" || text == "}") {
+            close_bracket(i);
+        } else if (text == ";" && (state_.open.empty() || state_.open.back().closer == "}")) {
+            end_statement(i);
+        }
+    }
+
+    void restart(std::size_t i) {
+        state_.statement = i;
+        state_.tail_of.clear();
+        state_.tail_qualifiers.clear();
+    }
+
+    void open_bracket(std::size_t i) {
+        const std::string& text = tokens_[i].text;
+        Open made{text == "(" ? ")" : text == "[" ? "]" : "}", i, Role::plain, 0};
+        if (text == "{" && (state_.open.empty() || state_.open.back().closer == "}")) {
+            made.role = role_at(i, made.index);
+            const std::string before = i > 0 ? tokens_[i - 1].text : "";
+            const bool list = before == "=" || before == "," || before == "{";
+            state_.open.push_back(std::move(made));
+            if (!list || state_.open.back().role != Role::plain) restart(i + 1);
+            return;
+        }
+        state_.open.push_back(std::move(made));
+    }
+
+    /// Finds out what the braces at `i` hold, and notes its name.
+    Role role_at(std::size_t i, std::size_t& index) {
+        for (std::size_t k = state_.statement; k + 1 < i + 1; ++k) {
+            if (tokens_[k].text != "struct") continue;
+            const bool named = k + 1 < i && tokens_[k + 1].is_word();
+            const std::string name = named ? tokens_[k + 1].text : "";
+            index = found_.structures.size();
+            found_.structures.push_back({name, {}, tokens_.size()});
+            if (named && state_.open.empty()) {
+                found_.names.push_back({GlslName::Kind::structure,
+                                        name,
+                                        name,
+                                        0,
+                                        {},
+                                        false,
+                                        true,
+                                        k + 1,
+                                        tokens_[k + 1].line});
+            }
+            return Role::structure;
+        }
+        if (!state_.open.empty()) return Role::plain;
+        Head head = read_head(tokens_, state_.statement, i);
+        if (i > state_.statement && tokens_[i - 1].text == ")") {
+            if (head.type.empty() || head.next + 1 >= i || tokens_[head.next + 1].text != "(")
+                return Role::plain;
+            index = found_.functions.size();
+            const GlslName name = name_of(head, tokens_, head.next, GlslName::Kind::function);
+            found_.functions.push_back({name.name, head.type, head.dimensions,
+                                        read_parameters(tokens_, head.next + 2, i - 1), i,
+                                        tokens_.size(), false, name.line});
+            found_.names.push_back(name);
+            found_.names.back().initialised = true;
+            return Role::function;
+        }
+        if (!head.qualifiers.empty() && !head.type.empty()) {
+            found_.names.push_back(name_of(head, tokens_, head.next - 1, GlslName::Kind::block));
+            block_qualifiers_ = head.qualifiers;
+            return Role::block;
+        }
+        return Role::plain;
+    }
+
+    void close_bracket(std::size_t i) {
+        if (state_.open.empty() || state_.open.back().closer != tokens_[i].text) {
+            found_.uncertain = true;
+            return;
+        }
+        const Open closed = state_.open.back();
+        state_.open.pop_back();
+        if (closed.closer != "}") return;
+        const std::string before = tokens_[closed.token == 0 ? 0 : closed.token - 1].text;
+        const bool list = before == "=" || before == "," || before == "{";
+        if (closed.role == Role::plain && list) return;
+        restart(i + 1);
+        if (closed.role == Role::function) found_.functions[closed.index].close = i;
+        if (closed.role == Role::structure) {
+            state_.tail_of = found_.structures[closed.index].name;
+            state_.tail_index = closed.index + 1;
+        }
+        if (closed.role == Role::block) state_.tail_qualifiers = block_qualifiers_;
+    }
+
+    void end_statement(std::size_t i) {
+        if (state_.open.empty()) {
+            end_global_statement(i);
+        } else if (state_.open.back().role == Role::structure) {
+            read_members(i, found_.structures[state_.open.back().index].members);
+        } else if (state_.open.back().role == Role::block) {
+            read_members(i, found_.names);
+        }
+        restart(i + 1);
+    }
+
+    void read_members(std::size_t i, std::vector<GlslName>& into) {
+        const Head head = read_head(tokens_, state_.statement, i);
+        if (head.type.empty()) return;
+        read_variables(tokens_, head.next, i, head, GlslName::Kind::member, into);
+    }
+
+    void end_global_statement(std::size_t i) {
+        Head head;
+        if (!state_.tail_of.empty() || !state_.tail_qualifiers.empty()) {
+            // `struct A { ... } a, b;` or `uniform Block { ... } name;`
+            if (state_.tail_index > 0 && !state_.tail_of.empty())
+                found_.structures[state_.tail_index - 1].end = i;
+            head.type = state_.tail_of;
+            head.qualifiers = state_.tail_qualifiers;
+            head.next = state_.statement;
+        } else {
+            head = read_head(tokens_, state_.statement, i);
+            if (head.type.empty()) return;
+        }
+        if (head.next + 1 < i && tokens_[head.next].is_word() &&
+            tokens_[head.next + 1].text == "(") {
+            found_.names.push_back(name_of(head, tokens_, head.next, GlslName::Kind::function));
+            return;
+        }
+        read_variables(tokens_, head.next, i, head, GlslName::Kind::variable, found_.names);
+    }
+
+    const GlslText& text_;
+    const Tokens& tokens_;
+    GlslOutline found_;
+    State state_;
+    std::vector<Branch> branches_;
+    std::vector<std::string> block_qualifiers_;
+};
+
+}  // namespace
+
+bool GlslName::is(std::string_view qualifier) const {
+    return std::find(qualifiers.begin(), qualifiers.end(), qualifier) != qualifiers.end();
+}
+
+GlslOutline outline(const GlslText& text) { return Outliner(text).run(); }
+
+std::vector<GlslName> declared_variables(const std::vector<GlslText::Token>& tokens,
+                                         std::size_t begin, std::size_t end) {
+    std::vector<GlslName> names;
+    Head head = read_head(tokens, begin, end);
+    if (head.next + 2 < end && tokens[head.next].text == "struct" &&
+        tokens[head.next + 2].text == "{") {
+        head.type = tokens[head.next + 1].text;
+        head.next = after_bracket(tokens, head.next + 2, end);
+    }
+    if (head.type.empty() || head.next == end || !tokens[head.next].is_word()) return names;
+    read_variables(tokens, head.next, end, head, GlslName::Kind::variable, names);
+    return names;
+}
+
+}  // namespace cubecam::gl

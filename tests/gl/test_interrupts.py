@@ -1,0 +1,303 @@
+"""Ctrl-C ends long calls at once, leaves everything consistent, and signal handlers may use cubecam."""
+
+import pytest
+
+from tests.helpers import DEVICE, run_python
+
+#: For each long call: what prepares it, and the call, which must do its whole work each time.
+LONG_CALLS = {
+    "capture": ("s = lit_scene()", "change(s); r.capture(s, size=1400)"),
+    "render": ("s = lit_scene()", "change(s); r.render(s, cam, (4000, 3000))"),
+    "samples": ("s = lit_scene()", "change(s); r.capture(s, size=700, samples=4)"),
+    "tones": ("s = lit_scene()", "change(s); r.render(s, cam, (3000, 3000), tonemap='aces')"),
+    "outputs": ("s = lit_scene()", "change(s); r.capture(s, size=800, outputs=('id', 'position'))"),
+    "shader": (
+        "s = lit_scene(cc.ShaderMaterial(SLOW, double_sided=True))",
+        "change(s); r.render(s, cam, (1200, 1200))",
+    ),
+    "many nodes": ("s = crowded_scene()", "change(s); r.capture(s, size=32)"),
+    "prefiltering": (
+        "s = cc.Scene()",
+        "s.environment = noise(300); r.render(s_of(s), cam, (8, 8))",
+    ),
+    "to_equirect": ("c = noise(900)", "c.to_equirect(width=9000)"),
+    "from_equirect": ("p = noise(600).to_equirect()", "cc.CubeMap.from_equirect(p, size=2400)"),
+    "resize": ("c = noise(700)", "c.resize(2600)"),
+    "to_layout": ("c = noise(1900)", "c.to_layout('cross', convention='three', dtype='uint8')"),
+    "sample": (
+        "c, d = noise(300, mipmaps=True), random.random((4_000_000, 3), 'f4')",
+        "c.sample(d, lod=1.5)",
+    ),
+    "prefilter": ("c = noise(256)", "c.prefilter(levels=4)"),
+    "irradiance": ("c = noise(700)", "c.irradiance(48)"),
+    "sh": ("c = noise(900)", "c.sh(4)"),
+    "from_sh": ("k = np.ones((25, 3))", "cc.CubeMap.from_sh(k, size=1200)"),
+    "Mesh": (
+        "m = cc.Mesh.sphere(1, 2500, 1200); p, i = m.positions, m.indices",
+        "cc.Mesh(p, i)",
+    ),
+    "sphere": ("pass", "cc.Mesh.sphere(1, 2500, 1500)"),
+    "icosphere": ("pass", "cc.Mesh.icosphere(1, 8)"),
+    "load_image": (
+        "cc.save_image(path + '/a.hdr', noise(900).to_equirect())",
+        "cc.load_image(path + '/a.hdr')",
+    ),
+    "load_mesh": ("write_obj(path + '/a.obj', 300)", "cc.load_mesh(path + '/a.obj')"),
+}
+
+PREPARE = """
+import os, signal, tempfile, time
+import numpy as np
+import cubecam as cc
+
+signal.signal(signal.SIGPROF, signal.default_int_handler)
+random = np.random.default_rng(1)
+random_f4 = lambda shape: random.random(shape, "f4")
+path = tempfile.mkdtemp()
+r = cc.Renderer(device={device!r})
+cam = cc.PerspectiveCamera(position=(0, 0, 3))
+SLOW = "vec4 shade(Surface s) {{ float x = 0.0; for (int i = 0; i < 300; ++i) x += sin(x + s.uv.x); return vec4(x); }}"
+
+def noise(size, **options):
+    return cc.CubeMap(random.random((6, size, size, 3), "f4"), **options)
+
+def lit_scene(material=None):
+    s = cc.Scene(environment=noise(64))
+    s.add(cc.PointLight(position=(3, 4, 3)))
+    s.add(cc.Mesh.box(10), material or cc.StandardMaterial(double_sided=True))
+    return s
+
+def crowded_scene():
+    s = lit_scene()
+    box = cc.Mesh.box(.1)
+    for i in range(2500):
+        s.add(box, cc.PhongMaterial(color=(i / 2500, 0, 0)), position=(i % 50 - 25, i // 50 - 25, -20))
+    return s
+
+def s_of(s):
+    if not s.nodes:
+        s.add(cc.Mesh.sphere(), cc.StandardMaterial(metallic=1, roughness=.3))
+    return s
+
+def change(s):
+    s.background = tuple(random.random(3))
+
+def write_obj(name, n):
+    m = cc.Mesh.sphere(1, n, n)
+    with open(name, "w") as file:
+        file.writelines("v %f %f %f\\n" % tuple(v) for v in m.positions)
+        file.writelines("f %d %d %d\\n" % tuple(t) for t in m.indices + 1)
+"""
+
+INTERRUPT = """
+def cpu(call):
+    before = time.process_time()
+    try:
+        call()
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+    return time.process_time() - before
+
+{prepare}
+def call():
+    {call}
+
+call()
+whole = min(cpu(call) for _ in range(2))
+taken = []
+for share in (.1, .3, .5):
+    before = time.process_time()
+    signal.setitimer(signal.ITIMER_PROF, share * whole)  # counts the CPU time of all threads
+    try:
+        cpu(call)
+        taken.append(None)  # no one looked for the signal
+    except KeyboardInterrupt:
+        taken.append(time.process_time() - before - share * whole)
+# Half a second of the calling thread: on two cores, twice as much of the CPUs.
+late = [t for t in taken if t is None or t > 0.5 * min(2, os.cpu_count())]
+assert not late, (whole, taken)
+assert whole > 0.25, whole  # else the test shows nothing
+{check}
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("call", LONG_CALLS)
+def test_ctrl_c_ends_a_long_call_within_half_a_second(call):
+    prepare, code = LONG_CALLS[call]
+    script = PREPARE.format(device=DEVICE) + INTERRUPT.format(
+        prepare=prepare, call=code, check="call()  # and everything still works"
+    )
+    run_python(script, timeout=600)
+
+
+CONSISTENT = """
+cc._core._interrupt_pause(0)  # every poll looks for signals
+
+class Stop(Exception): pass
+
+def stop(*_):
+    raise Stop
+
+signal.signal(signal.SIGALRM, stop)
+s = cc.Scene(environment=noise(16))
+ball = s.add(cc.Mesh.sphere(1, 12, 8), cc.StandardMaterial(metallic=1, roughness=.3))
+ball.environment = cc.Probe(size=16, prefilter=True)
+s.add(cc.Mesh.plane(4, 4), cc.PhongMaterial(opacity=.5, double_sided=True), position=(0, -1, 0))
+lamp = s.add(cc.PointLight(position=(1, 2, 1), shadow=cc.Shadow(size=32)))
+inner = cc.Scene(background=(1, 0, 0))
+screen = cc.RenderTexture(inner, cc.PerspectiveCamera(), size=(16, 16))
+s.add(cc.Mesh.box(), cc.BasicMaterial(map=screen), position=(2, 0, 0))
+s.add(cc.Mesh.box(.5), cc.BasicMaterial(opacity=.5, stencil=cc.Stencil(func="always", reference=1)), position=(-2, 0, 0))
+
+def edit():
+    number = int(random.integers(6))
+    if number == 0: ball.position = tuple(random.random(3))
+    if number == 1: lamp.position = tuple(1 + random.random(3))
+    if number == 2: inner.background = tuple(random.random(3))
+    if number == 3: s.environment = noise(16)
+    if number == 4: ball.material.roughness = .2 + .7 * float(random.random())
+    if number == 5: s.background = tuple(random.random(3))
+
+def pictures(renderer):
+    yield renderer.render(s, cam, (40, 30), format="rgba32f", outputs=("id", "distance")).color
+    yield renderer.capture(s, size=16, samples=4).faces
+    yield renderer.render(s, cam, (40, 30), tonemap="aces", samples=4).color
+    yield renderer.read_probe(ball.environment).faces
+    yield renderer.shadow_map(s, lamp)
+
+stopped = 0
+for turn in range(150):
+    for _ in range(3):
+        edit()
+        began = time.perf_counter()
+        try:
+            signal.setitimer(signal.ITIMER_REAL, 1e-5 + float(random.random()) * duration if turn else 10)
+            for _ in pictures(r): pass
+        except Stop:
+            stopped += 1
+        else:
+            duration = time.perf_counter() - began
+        finally:
+            for _ in range(2):  # a signal may arrive between the except and here
+                try: signal.setitimer(signal.ITIMER_REAL, 0)
+                except Stop: pass
+    if turn % 10 == 0:
+        with cc.Renderer(device={device!r}) as fresh:
+            for got, want in zip(pictures(r), pictures(fresh)):
+                assert np.array_equal(got, want, equal_nan=True)
+assert stopped > 20, stopped
+"""
+
+
+def test_an_interrupted_picture_counts_as_not_drawn():
+    """Signals that raise at any poll: the next picture equals that of a fresh renderer, byte for byte."""
+    run_python(PREPARE.format(device=DEVICE) + CONSISTENT.format(device=DEVICE), timeout=600)
+
+
+HANDLER = """
+cc._core._interrupt_pause(0)
+seen = []
+
+def inside(*_):
+    seen.append("handler")
+    try:
+        r.capture(s, size=4)
+    except cc.Error as error:
+        seen.append(str(error))
+    assert not r.closed
+    r.stats, r.info, repr(r)
+    with cc.Renderer(device={device!r}) as other:
+        assert other.capture(cc.Scene(background=(1, 0, 0)), size=2).faces[0, 0, 0].tolist() == [1, 0, 0, 1]
+    for light in s.lights: light.intensity = 2.0
+    c.set_face("+x", np.ones((64, 64, 3), "f4"))
+    r.close()
+    assert r.closed
+
+s = lit_scene()
+s.lights[0].shadow = cc.Shadow(size=64)
+c = noise(64)
+want = r.capture(s, size=600).faces.copy()
+change(s)
+s.background = (0, 0, 0)
+r.capture(s, size=600)
+s.background = None
+signal.signal(signal.SIGALRM, inside)
+for _ in range(100):  # until the signal arrives inside the call and not before or after it
+    if r.closed:
+        break
+    s.background = None if s.background is not None else (0, 0, 1)
+    signal.setitimer(signal.ITIMER_REAL, 0.02)
+    got = r.capture(s, size=600)
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    if any("is drawing" in text for text in seen): break
+    r = cc.Renderer(device={device!r})
+assert any("is drawing" in text for text in seen), seen
+assert got.size == 600
+assert r.closed
+try:
+    r.capture(s, size=4)
+except cc.ContextError as error:
+    assert "closed" in str(error)
+else:
+    raise AssertionError("expected a closed renderer")
+"""
+
+
+def test_a_signal_handler_may_use_cubecam_inside_a_call():
+    """The same renderer refuses to draw and is closed after the call; others draw, and scenes may be edited."""
+    run_python(PREPARE.format(device=DEVICE) + HANDLER.format(device=DEVICE), timeout=300)
+
+
+def test_threads_without_signals_are_never_interrupted():
+    """Only the main thread handles signals; a picture of another thread is drawn to its end."""
+    run_python(
+        PREPARE.format(device=DEVICE)
+        + """
+import threading
+cc._core._interrupt_pause(0)
+s = lit_scene()
+want = r.capture(s, size=300).faces.copy()
+got = []
+def work():
+    for _ in range(5):
+        with cc.Renderer(device={device!r}) as own:
+            got.append(own.capture(s, size=300).faces)
+thread = threading.Thread(target=work)
+signal.signal(signal.SIGALRM, signal.default_int_handler)
+thread.start()
+interrupts = 0
+while len(got) < 5:
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.005)
+        time.sleep(1)  # and no join(): one that a signal interrupts takes the thread for ended (Python 3.11)
+    except KeyboardInterrupt:
+        interrupts += 1
+assert interrupts > 0
+assert all((g == want).all() for g in got)
+""".replace("{device!r}", repr(DEVICE)),
+        timeout=300,
+    )
+
+
+def test_what_a_progress_function_raises_ends_the_work():
+    run_python(
+        """
+        import numpy as np
+        import cubecam as cc
+        cube = cc.CubeMap(np.ones((6, 64, 64, 3), "f4"))
+        class Stop(Exception): pass
+        calls = []
+        def progress(share):
+            calls.append(share)
+            raise Stop
+        for call in (cube.prefilter, cube.irradiance):
+            try:
+                call(progress=progress)
+            except Stop:
+                pass
+            else:
+                raise AssertionError("expected Stop")
+        assert len(calls) == 2, calls
+        """
+    )
