@@ -314,7 +314,6 @@ TARGET = Target(
     make=make,
     attempt=attempt,
     sound=lambda: [b"r0 = w.scene.add(cc.Mesh.box())", b"w.node.scale = 2"],
-    suffix="py",
     seconds=10.0,
     memory=1200 << 20,
 )

@@ -106,7 +106,7 @@ def _changed(value: Any, rng: np.random.Generator, names: dict[str, Any]) -> Any
         return made
     if isinstance(value, np.ndarray) and value.size and rng.random() < 0.6:
         flat = np.array(value)
-        place = rng.integers(flat.size)
+        place = int(rng.integers(flat.size))
         with np.errstate(all="ignore"):
             worst = [np.nan, np.inf, -1, 2**31 - 1, 1e30]
             flat.flat[place] = np.array(worst[rng.integers(len(worst))]).astype(flat.dtype)

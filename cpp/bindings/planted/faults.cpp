@@ -4,6 +4,7 @@
 
 #include <climits>
 #include <memory>
+#include <thread>
 
 namespace cubecam::bindings {
 
@@ -24,9 +25,14 @@ int planted_undefined() {
     return number + 1;
 }
 
-/// Counts without a lock: a race if two threads call it.
+/// Counts in two threads without a lock. They are started here, since the interpreter's lock would
+/// order two threads of Python that happen to run one after the other.
 void planted_race() {
-    for (int step = 0; step < 100'000; ++step) shared_count = shared_count + 1;
+    const auto count = [] { shared_count = shared_count + 1; };
+    std::thread one(count);
+    std::thread other(count);
+    one.join();
+    other.join();
 }
 
 }  // namespace
