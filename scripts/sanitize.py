@@ -130,10 +130,7 @@ def reports(folder: Path) -> list[str]:
     found = []
     for path in sorted(folder.glob("report.*")):
         text = path.read_text(encoding="utf-8", errors="replace")
-        starts = [
-            m.start()
-            for m in re.finditer(r"^.*(?:WARNING: Thread|ERROR: |runtime error)", text, re.M)
-        ]
+        starts = [m.start() for m in re.finditer(r"^.*(?:WARNING: Thread|ERROR: |runtime error)", text, re.M)]
         for start, end in zip(starts, [*starts[1:], len(text)], strict=True):
             if OWN_FRAME.search(text, start, end):
                 found.append(text[start:end].rstrip())
@@ -183,17 +180,12 @@ def sanitize(name: str, arguments: list[str]) -> int:
             [*prefix, sys.executable, "-c", script], env=environment, capture_output=True
         )
         if not any(want in text and "planted" in text for text in reports(folder)):
-            raise SystemExit(
-                f"expected a report of the planted fault '{want}', got {reports(folder)}"
-            )
+            raise SystemExit(f"expected a report of the planted fault '{want}', got {reports(folder)}")
         print(f"[sanitize] {name}: the planted fault '{want}' is reported", flush=True)
     shutil.rmtree(folder)
     folder.mkdir()
     pytest = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider"]
-    chosen = arguments or [
-        *run.tests,
-        *(["-m", "not slow and not build"] if name == "address" else []),
-    ]
+    chosen = arguments or [*run.tests, *(["-m", "not slow and not build"] if name == "address" else [])]
     status = subprocess.run([*prefix, *pytest, *chosen], cwd=ROOT, env=environment).returncode
     found = reports(folder)
     for text in found[:20]:

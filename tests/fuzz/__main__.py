@@ -24,16 +24,10 @@ def main() -> int:
     parser.add_argument("--count", type=int, help="cases of each target")
     parser.add_argument("--seed", type=int, default=0, help="another number gives other cases")
     parser.add_argument("--only", default="", help=f"targets, with commas: {','.join(NAMES)}")
-    parser.add_argument(
-        "--minutes", type=float, help="go on with other cases until then; 0: until Ctrl-C"
-    )
+    parser.add_argument("--minutes", type=float, help="go on with other cases until then; 0: until Ctrl-C")
     parser.add_argument("--keep", type=Path, default=Path("tests/failures/fuzz"))
-    parser.add_argument(
-        "--work", nargs=3, metavar=("TARGET", "FIRST", "END"), help=argparse.SUPPRESS
-    )
-    parser.add_argument(
-        "--again", nargs=2, metavar=("TARGET", "FILE"), help="try one kept case in this process"
-    )
+    parser.add_argument("--work", nargs=3, metavar=("TARGET", "FIRST", "END"), help=argparse.SUPPRESS)
+    parser.add_argument("--again", nargs=2, metavar=("TARGET", "FILE"), help="try one kept case in this process")
     options = parser.parse_args()
     if options.work:
         name, first, end = options.work
@@ -64,7 +58,9 @@ def main() -> int:
     return 1 if faults else 0
 
 
-def _one(name: str, count: int, seed: int, keep: Path, until: float) -> tuple[list[str], int]:
+def _one(
+    name: str, count: int, seed: int, keep: Path, until: float
+) -> tuple[list[str], int]:
     """Try a target and print what was found."""
     begun = time.monotonic()
     if begun > until:

@@ -85,29 +85,8 @@ ARRAYS = [
     "w.mesh.positions", "w.mesh.uvs", "np.ones((4, 8, 3), 'f4')", "np.ones((4, 4, 3), np.uint8)", "[0.5]", "(0.5, 2)",
     "np.ones((6, 4, 4, 3), np.float32)", "np.ones((4, 4, 3), np.float32)", "np.ones((9, 3))", "[0, 1]", "[[0, 0, 0], [1, 1, 1]]",
 ]  # fmt: skip
-PATHS = [
-    "'a.png'",
-    "'a.exr'",
-    "'a.hdr'",
-    "Path('a.ktx2')",
-    "'a.dds'",
-    "'a.glb'",
-    "'a.gif'",
-    "'nowhere/a.png'",
-    "'.'",
-]
-WORDS = [
-    "'color'",
-    "'a'",
-    "'id'",
-    "'distance'",
-    "'heat'",
-    "'srgb'",
-    "'studio.exr'",
-    "'tone'",
-    "'veil'",
-    "'strength'",
-]
+PATHS = ["'a.png'", "'a.exr'", "'a.hdr'", "Path('a.ktx2')", "'a.dds'", "'a.glb'", "'a.gif'", "'nowhere/a.png'", "'.'"]
+WORDS = ["'color'", "'a'", "'id'", "'distance'", "'heat'", "'srgb'", "'studio.exr'", "'tone'", "'veil'", "'strength'"]
 
 
 @dataclass(frozen=True)
@@ -163,9 +142,7 @@ def calls() -> tuple[Call, ...]:
         if isinstance(node, ast.FunctionDef):
             found.append(_of_function("", node))
         elif isinstance(node, ast.ClassDef) and node.name in OBJECTS:
-            found += [
-                _of_function(node.name, m) for m in node.body if isinstance(m, ast.FunctionDef)
-            ]
+            found += [_of_function(node.name, m) for m in node.body if isinstance(m, ast.FunctionDef)]
     for text in FUNCTIONS:
         parameters = inspect.signature(eval(text, {"cc": cc})).parameters.values()
         found.append(
@@ -179,10 +156,7 @@ def calls() -> tuple[Call, ...]:
         )
     kept = [call for call in found if call is not None]
     # What takes no argument says little; some of it is there, to be called after other lines.
-    return (
-        *(call for call in kept if call.parameters),
-        *[c for c in kept if not c.parameters][::6],
-    )
+    return (*(call for call in kept if call.parameters), *[c for c in kept if not c.parameters][::6])
 
 
 def _literals(word: str) -> list[str]:
@@ -199,17 +173,11 @@ def _fitting(annotation: str, name: str, rng: np.random.Generator) -> str:
     if name in ("path", "where") or "PathLike" in annotation:
         return _one(rng, *PATHS)
     if name in ("fragment", "vertex"):
-        return _one(
-            rng, "w.shader.fragment", "w.effect.fragment", "'void vertex(inout Vertex v) {}'"
-        )
+        return _one(rng, "w.shader.fragment", "w.effect.fragment", "'void vertex(inout Vertex v) {}'")
     for word in re.findall(r"[A-Za-z_]+", annotation):
         one = OBJECTS.get(word) or _literals(word)
         if one:
-            options.append(
-                f"[{_one(rng, *one)}]"
-                if "Iterable" in annotation or "Sequence" in annotation
-                else _one(rng, *one)
-            )
+            options.append(f"[{_one(rng, *one)}]" if "Iterable" in annotation or "Sequence" in annotation else _one(rng, *one))
     if "ArrayLike" in annotation or "Pixels" in annotation or "Color" in annotation:
         options.append(_one(rng, *ARRAYS))
     if "SupportsFloat" in annotation or "float" in annotation:
@@ -219,22 +187,11 @@ def _fitting(annotation: str, name: str, rng: np.random.Generator) -> str:
     if "bool" in annotation:
         options.append(_one(rng, "True", "False"))
     if "str" in annotation:
-        options.append(
-            _one(rng, *WORDS) if "Iterable" not in annotation else f"[{_one(rng, *WORDS)}]"
-        )
+        options.append(_one(rng, *WORDS) if "Iterable" not in annotation else f"[{_one(rng, *WORDS)}]")
     if "None" in annotation:
         options.append("None")
     if "Mapping" in annotation or "dict" in annotation:
-        options.append(
-            _one(
-                rng,
-                "{'tone': (1, 0, 0)}",
-                "{'veil': w.image}",
-                "{'strength': 1}",
-                "{}",
-                "{'a': w.phong}",
-            )
-        )
+        options.append(_one(rng, "{'tone': (1, 0, 0)}", "{'veil': w.image}", "{'strength': 1}", "{}", "{'a': w.phong}"))
     if "DType" in annotation or "dtype" in annotation:
         options.append(_one(rng, "'u1'", "'f2'", "np.float32"))
     return _one(rng, *options) if options else _absurd(rng)

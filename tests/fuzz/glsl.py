@@ -34,37 +34,8 @@ OTHER = [
     "gl_Position", "gl_Layer", "gl_SampleMask[0]", "u_frame", "o_color", "material", "shade", "vertex", "effect", "\u00e4",
 ]  # fmt: skip
 
-TYPES = [
-    "float",
-    "int",
-    "uint",
-    "bool",
-    "vec2",
-    "vec3",
-    "vec4",
-    "ivec2",
-    "ivec3",
-    "mat2",
-    "mat3",
-    "mat4",
-]
-UNARY = [
-    "sin",
-    "cos",
-    "tan",
-    "asin",
-    "exp",
-    "exp2",
-    "log",
-    "sqrt",
-    "inversesqrt",
-    "abs",
-    "sign",
-    "floor",
-    "fract",
-    "dFdx",
-    "fwidth",
-]
+TYPES = ["float", "int", "uint", "bool", "vec2", "vec3", "vec4", "ivec2", "ivec3", "mat2", "mat3", "mat4"]
+UNARY = ["sin", "cos", "tan", "asin", "exp", "exp2", "log", "sqrt", "inversesqrt", "abs", "sign", "floor", "fract", "dFdx", "fwidth"]
 BINARY = ["pow", "mod", "min", "max", "step", "atan", "reflect", "distance"]
 
 
@@ -75,9 +46,7 @@ class Grammar:
         self.rng = rng
         self.names = dict(names)  # name -> type
         self.loops = 0
-        self.unary = (
-            UNARY if "v.position" not in names else UNARY[:-2]
-        )  # vertices have no derivatives
+        self.unary = UNARY if "v.position" not in names else UNARY[:-2]  # vertices have no derivatives
 
     def one(self, *choices: str) -> str:
         return choices[self.rng.integers(len(choices))]
@@ -85,9 +54,7 @@ class Grammar:
     def number(self, kind: str) -> str:
         """A constant of a type."""
         if kind == "float":
-            return self.one(
-                "0.0", "1.0", "0.5", "-2.0", "1e30", "1e-30", f"{self.rng.normal():.4f}"
-            )
+            return self.one("0.0", "1.0", "0.5", "-2.0", "1e30", "1e-30", f"{self.rng.normal():.4f}")
         if kind == "int":
             return self.one("0", "1", "-1", "7", "2147483647", "(-2147483647 - 1)")
         if kind == "uint":
@@ -189,9 +156,7 @@ def _made(rng: np.random.Generator) -> str:
         text = grammar.block(int(rng.integers(1, 8)))
         lines = f"uniform sampler2D t; void vertex(inout Vertex v) {{ vec2 uv = v.uv; {text} v.position += {grammar.expression('vec3', 3)}; }}"
         return f"// {kind}\n{lines}"
-    grammar = Grammar(
-        rng, {**names, **({"s.normal": "vec3", "s.position": "vec3"} if kind == "fragment" else {})}
-    )
+    grammar = Grammar(rng, {**names, **({"s.normal": "vec3", "s.position": "vec3"} if kind == "fragment" else {})})
     text = grammar.block(int(rng.integers(1, 8)))
     result = grammar.expression("vec3", 4)
     if kind == "effect":
@@ -200,9 +165,7 @@ def _made(rng: np.random.Generator) -> str:
 
 
 def _mutated(rng: np.random.Generator) -> str:
-    kind, sources = [("fragment", SOURCES), ("vertex", VERTEX_SOURCES), ("effect", EFFECT_SOURCES)][
-        rng.integers(3)
-    ]
+    kind, sources = [("fragment", SOURCES), ("vertex", VERTEX_SOURCES), ("effect", EFFECT_SOURCES)][rng.integers(3)]
     text = sources[rng.integers(len(sources))]
     if rng.random() < 0.3:
         text = _made(rng)
@@ -263,12 +226,7 @@ def picture(renderer: cc.Renderer, kind: str, source: str) -> Any:
     for name, value in (("tone", (0.5, 0.6, 0.7)), ("strength", 0.5), ("time", 0.5)):
         if re.search(rf"uniform \w+ {name}\b", source):
             inputs["uniforms"][name] = value
-    for name, texture in (
-        ("t", _image()),
-        ("veil", _image()),
-        ("picture", _image()),
-        ("around", _cube()),
-    ):
+    for name, texture in (("t", _image()), ("veil", _image()), ("picture", _image()), ("around", _cube())):
         if re.search(rf"uniform sampler\w+ {name}\b", source):
             inputs["textures"][name] = texture
     scene, effects = cc.Scene(environment=_cube()), []
@@ -277,9 +235,7 @@ def picture(renderer: cc.Renderer, kind: str, source: str) -> Any:
     if kind == "effect":
         effects = [cc.ImageEffect(source, **inputs)]
     elif kind == "vertex":
-        material = cc.ShaderMaterial(
-            "vec3 shade(Surface s) { return s.normal; }", vertex=source, **inputs
-        )
+        material = cc.ShaderMaterial("vec3 shade(Surface s) { return s.normal; }", vertex=source, **inputs)
     else:
         material = cc.ShaderMaterial(source, **inputs)
     scene.add(cc.Mesh.plane(2, 2), material, rotation=cc.axis_angle((1, 0, 0), 90))

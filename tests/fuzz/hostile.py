@@ -18,9 +18,7 @@ class Raises:
     def _fail(self, *arguments: Any, **options: Any) -> Any:
         raise HostileError("hostile")
 
-    __array__ = __index__ = __int__ = __float__ = __bool__ = __len__ = __getitem__ = __iter__ = (
-        _fail
-    )
+    __array__ = __index__ = __int__ = __float__ = __bool__ = __len__ = __getitem__ = __iter__ = _fail
     __fspath__ = __eq__ = __hash__ = __str__ = __repr__ = __dlpack__ = __contains__ = _fail  # type: ignore[assignment]
 
 

@@ -18,28 +18,19 @@ def body(text: str, before: str = "") -> str:
 def calls(size: int) -> str:
     """A chain of functions, each of which calls the one before twice."""
     parts = ["float f0(float x) { return x + 1.0; }\n"]
-    parts += [
-        f"float f{i}(float x) {{ return f{i - 1}(x) + f{i - 1}(x * 0.5); }}\n"
-        for i in range(1, size)
-    ]
+    parts += [f"float f{i}(float x) {{ return f{i - 1}(x) + f{i - 1}(x * 0.5); }}\n" for i in range(1, size)]
     return body(f"return vec3(f{max(size, 1) - 1}(s.uv.x));", "".join(parts))
 
 
 def doubling(size: int) -> str:
     """Macros that double what the one before gives."""
-    lines = [
-        "#define M0 s.uv.x\n",
-        *(f"#define M{i} M{i - 1} + M{i - 1}\n" for i in range(1, size + 1)),
-    ]
+    lines = ["#define M0 s.uv.x\n", *(f"#define M{i} M{i - 1} + M{i - 1}\n" for i in range(1, size + 1))]
     return body(f"return vec3(M{size});", "".join(lines))
 
 
 def structs(size: int) -> str:
     """Structs that hold two of the one before."""
-    lines = [
-        "struct S0 { float a; };\n",
-        *(f"struct S{i} {{ S{i - 1} a; S{i - 1} b; }};\n" for i in range(1, size)),
-    ]
+    lines = ["struct S0 { float a; };\n", *(f"struct S{i} {{ S{i - 1} a; S{i - 1} b; }};\n" for i in range(1, size))]
     return body(f"S{max(size, 1) - 1} t; return vec3(s.uv, 0.0);", "".join(lines))
 
 

@@ -31,15 +31,7 @@ THINGS = [
     "stereo", "screen", "channel", "animation", "blend", "stencil", "frame",
 ]  # fmt: skip
 #: What else Python's pickle may raise for broken bytes.
-UNPICKLING = (
-    pickle.UnpicklingError,
-    EOFError,
-    ImportError,
-    OverflowError,
-    MemoryError,
-    AssertionError,
-    UnicodeError,
-)
+UNPICKLING = (pickle.UnpicklingError, EOFError, ImportError, OverflowError, MemoryError, AssertionError, UnicodeError)
 
 
 class Unpickler(pickle.Unpickler):
@@ -63,9 +55,7 @@ def _names() -> frozenset[str]:
     """All names of classes and functions that the sound pickles hold."""
     found = set()
     for data in _pickles().values():
-        words = [
-            argument for _, argument, _ in pickletools.genops(data) if isinstance(argument, str)
-        ]
+        words = [argument for _, argument, _ in pickletools.genops(data) if isinstance(argument, str)]
         found |= {word for word in words if word.isidentifier()}
     return frozenset(found)
 
@@ -166,9 +156,7 @@ def attempt(case: bytes, folder: Path) -> None:
             except RecursionError:
                 raise
             except (*UNPICKLING, Exception) as error:
-                if isinstance(error, (SystemError, RuntimeError)) and not isinstance(
-                    error, cc.Error
-                ):
+                if isinstance(error, (SystemError, RuntimeError)) and not isinstance(error, cc.Error):
                     raise
                 continue
             use(made, world)

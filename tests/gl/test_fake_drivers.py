@@ -19,9 +19,7 @@ same = lambda frame: np.array_equal(frame.color, first.color) and np.array_equal
 """
 
 
-@pytest.mark.parametrize(
-    "status", ["0x8253", "0x8254", "0x8255"], ids=["guilty", "innocent", "unknown"]
-)
+@pytest.mark.parametrize("status", ["0x8253", "0x8254", "0x8255"], ids=["guilty", "innocent", "unknown"])
 def test_a_reset_during_a_call_is_survived(fake, status):
     """The driver reports it at the end of the call; the old context is destroyed and the call is done again."""
     run_fake(

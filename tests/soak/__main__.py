@@ -28,9 +28,7 @@ def main() -> int:
     for name in names:
         begun = time.monotonic()
         report = PARTS[name](begun + 60 * options.minutes / len(names), options.seed)
-        print(
-            f"{name:8} {report}, seed {options.seed}, {time.monotonic() - begun:.0f} s", flush=True
-        )
+        print(f"{name:8} {report}, seed {options.seed}, {time.monotonic() - begun:.0f} s", flush=True)
         for text in report.faults:
             print("   ", text, flush=True)
         faults += len(report.faults)

@@ -72,9 +72,7 @@ def one_world(
             if found:
                 report.faults.append(f"edits, seed {seed}, edit {number}, {what}: {found}")
                 return
-            refused = any(
-                isinstance(x, str) and "renderer has drawn" not in x for x in got.values()
-            )
+            refused = any(isinstance(x, str) and "renderer has drawn" not in x for x in got.values())
             if undo is not None and (refused or rng.random() < 0.3):
                 undo()
                 draw(live, world)

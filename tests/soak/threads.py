@@ -100,9 +100,7 @@ def one_round(shared: Shared, seed: int, steps: int, renderers: int, report: Rep
                     continue
                 report.count("pictures", len(got))
                 if got != want[i]:
-                    step = next(
-                        n for n, (a, b) in enumerate(zip(got, want[i], strict=True)) if a != b
-                    )
+                    step = next(n for n, (a, b) in enumerate(zip(got, want[i], strict=True)) if a != b)
                     report.faults.append(
                         f"threads, seed {seed + i}, {renderers} renderers: picture {step} differs"
                     )

@@ -113,7 +113,9 @@ LIMITED = """
 """
 
 
-@pytest.mark.parametrize(("name", "used"), [("RLIMIT_AS", "pages[0]"), ("RLIMIT_DATA", "pages[5]")])
+@pytest.mark.parametrize(
+    ("name", "used"), [("RLIMIT_AS", "pages[0]"), ("RLIMIT_DATA", "pages[5]")]
+)
 def test_the_limits_of_the_process(name, used):
     """Targets of 1024 * 1024 texels, 6 faces, 20 bytes take 120 MiB, what is read 96 MiB more."""
     run_python(
