@@ -332,7 +332,8 @@ def test_pictures_after_changes_equal_pictures_from_scratch(renderer, rng):
         got = [PICTURES[kind](renderer, scene) for kind in kinds]
         with cc.Renderer(device=DEVICE) as fresh:
             for one, kind in zip(got, kinds, strict=True):
-                assert_identical(one, PICTURES[kind](fresh, scene))
+                # What changed alone may be drawn by the program of one node in place of that of many.
+                assert_identical(one, PICTURES[kind](fresh, scene), across="programs")
         assert any(not np.array_equal(one, old) for one, old in zip(got, before, strict=True))
         before = got
         for kind in kinds:

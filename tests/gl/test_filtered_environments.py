@@ -74,7 +74,7 @@ def test_a_lookup_by_roughness_lies_between_two_levels(any_path, roughness):
 def test_roughness_0_is_the_cube_itself(any_path):
     scene = cc.Scene(environment=random_cube(mipmaps=True))
     got = looked_up(any_path, scene, "environment_filtered(d, 0.0)")
-    assert_identical(got, looked_up(any_path, scene, "environment(d)"))
+    assert_identical(got, looked_up(any_path, scene, "environment(d)"), across="programs")
 
 
 def test_irradiance(any_path):
@@ -192,7 +192,7 @@ def test_users_may_name_functions_as_the_library_names_its_own(renderer, turned)
             scene, flat_camera(WIDTH, HEIGHT), (WIDTH, HEIGHT), format="rgba32f"
         )
         scene.remove(node)
-        assert_identical(frame.color[..., :3], want)
+        assert_identical(frame.color[..., :3], want, across="programs")
 
 
 # Only what changed is filtered.
@@ -455,7 +455,8 @@ def test_faces_per_frame(new_renderer, count):
         seen.append(live.stats.faces_filtered)
     assert sum(seen) == 6
     assert max(seen) == count
-    assert_identical(picture, drawn(new_renderer(), scene))
+    # One face and six are captured by different programs.
+    assert_identical(picture, drawn(new_renderer(), scene), across="programs")
 
 
 def test_policies_keep_what_they_filtered(fresh_renderer):
@@ -540,7 +541,7 @@ def test_two_renderers_layered_or_not_filter_the_same(shared_renderers):
         cc.Mesh.box(0.4), cc.GlassMaterial(roughness=0.3, tint=(1, 1, 1, 0.5)), position=(1, 1, 0)
     )
     first = shared_renderers(None).capture(scene, (0, 0, 2), 16).faces
-    assert_identical(first, shared_renderers(False).capture(scene, (0, 0, 2), 16).faces)
+    assert_identical(first, shared_renderers(False).capture(scene, (0, 0, 2), 16).faces, across="programs")
 
 
 def test_a_probe_s_prefilter_is_a_property():

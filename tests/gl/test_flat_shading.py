@@ -185,7 +185,8 @@ def test_changes_draw_what_scratch_draws(fresh_renderer, rng, materials):
         with cc.Renderer(device=DEVICE) as scratch:
             want = pictures(scratch, pickle.loads(pickle.dumps(scene)))
         for a, b in zip(got, want, strict=True):
-            assert_identical(a, b)
+            # What changed alone may be drawn by the program of one node in place of that of many.
+            assert_identical(a, b, across="programs")
         assert before is None or not np.array_equal(before, got[0])
         before = got[0]
 
