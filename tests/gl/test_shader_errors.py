@@ -42,7 +42,12 @@ FRAGMENTS = [
     ("#elif after #else", SHADE + "#if 1\n#else\n#elif 1\n#endif", 4, "got #elif"),
     ("#endif", SHADE + "\n#endif\n", 3, "expected an #if before this #endif"),
     ("#elif", SHADE + "#elif 1\n", 2, "expected an #if before this #elif"),
-    ("# within a line", "\nvec3 shade(Surface s) { return vec3(1.0); #else\n}", 2, "expected # at the"),
+    (
+        "# within a line",
+        "\nvec3 shade(Surface s) { return vec3(1.0); #else\n}",
+        2,
+        "expected # at the",
+    ),
     ("# within a macro", "#define A 1 #endif\n" + SHADE, 1, "expected # at the beginning"),
     ("#if in a comment", "/* #if 1\n*/\n#endif\n" + SHADE, 3, "expected an #if before"),
     # lines and directives
