@@ -1,5 +1,5 @@
-/// Tests what is read of a user's GLSL before a driver sees it: tokens, lines, declarations, and the
-/// values that variables get.
+/// Tests what is read of a user's GLSL before a driver sees it: tokens, lines, declarations, and
+/// the values that variables get.
 
 #include "check.hpp"
 
@@ -30,7 +30,9 @@ std::string joined(const std::vector<GlslText::Token>& tokens) {
 }
 
 void test_lines() {
-    CHECK_EQUAL(with_plain_lines("\xEF\xBB\xBF" "a\r\nb\rc\n\rd"), "a\nb\nc\n\nd");
+    CHECK_EQUAL(with_plain_lines("\xEF\xBB\xBF"
+                                 "a\r\nb\rc\n\rd"),
+                "a\nb\nc\n\nd");
     CHECK_EQUAL(with_plain_lines(""), "");
     CHECK_EQUAL(with_plain_lines("\r"), "\n");
 }
@@ -73,14 +75,14 @@ void test_outline() {
     CHECK_EQUAL(described("float f(out float x) { float y; { int z; } } int g(int);"),
                 "float f=; int g; ");
     CHECK_EQUAL(described("struct A { float x, y[2]; } a; uniform B { vec4 c; } b[3];"),
-                "A A=; A a; uniform B; vec4 c; uniform * b; ");
+                "A A=; A a; uniform B B; vec4 c; uniform * b; ");
     CHECK_EQUAL(described("float[2] a[3]; const int[] b = {1, 2};"), "float** a; const int* b=; ");
     CHECK_EQUAL(described("#if 1\nint f() {\n#else\nint g() {\n#endif\n} int h;"),
                 "int f=; int g=; int h; ");
     CHECK_EQUAL(described("#if 1\n{\n#endif\nint a;"), "?");
     CHECK_EQUAL(described("int a; void f() {\n if (1) {\n}"), "int a; void f=; 1{");
-    CHECK_EQUAL(described("precision highp float; invariant gl_Position; ; layout(std140) uniform;"),
-                "");
+    CHECK_EQUAL(
+        described("precision highp float; invariant gl_Position; ; layout(std140) uniform;"), "");
 }
 
 std::string prepared(const std::string& source, UserStage stage = UserStage::fragment) {
@@ -88,8 +90,9 @@ std::string prepared(const std::string& source, UserStage stage = UserStage::fra
 }
 
 void test_values() {
-    CHECK_EQUAL(prepared("void f() { float a, b = 1.0, c; for (int i;;) {} }"),
-                "void f() { float a = float(0), b = 1.0, c = float(0); for (int i = int(0);;) {} }");
+    CHECK_EQUAL(
+        prepared("void f() { float a, b = 1.0, c; for (int i;;) {} }"),
+        "void f() { float a = float(0), b = 1.0, c = float(0); for (int i = int(0);;) {} }");
     CHECK_EQUAL(prepared("void f() { vec3 a[2]; }"),
                 "void f() { vec3 a[2]; for (int cubecam_0 = 0; cubecam_0 < a.length(); "
                 "++cubecam_0) { a[cubecam_0] = vec3(0);} }");
@@ -140,10 +143,15 @@ void test_logs() {
     const std::array<ShaderSource, 4> sources = {{
         {"a.vert", "#include \"include/user_vertex.glsl\"\nvoid main() {}\n"},
         {"a.frag", "int own;\n#include \"include/user_fragment.glsl\"\nint end;\nvoid main() {}\n"},
-        {.name = "include/user_vertex.glsl", .text = "out vec2 way;\n", .title = "vertex",
+        {.name = "include/user_vertex.glsl",
+         .text = "out vec2 way;\n",
+         .title = "vertex",
          .user = true},
-        {.name = "include/user_fragment.glsl", .text = "in vec3 way;\n#line 7\nfloat f();\nx\n",
-         .title = "fragment", .user = true, .after = "int added;\n"},
+        {.name = "include/user_fragment.glsl",
+         .text = "in vec3 way;\n#line 7\nfloat f();\nx\n",
+         .title = "fragment",
+         .user = true,
+         .after = "int added;\n"},
     }};
     const std::vector<ExpandedShader> shaders = {expand_shader("a.vert", {}, sources),
                                                  expand_shader("a.frag", {}, sources)};
@@ -170,9 +178,9 @@ void test_logs() {
             explain_shader_log("0:" + std::to_string(behind) + "(1): error: bad", frag);
         CHECK(contains(text, "fragment:4(1): error: bad"));
     }
-    CHECK(contains(explain_shader_log("0:0(0): error: function `float f()' has static recursion",
-                                      frag),
-                   "fragment:3: f"));
+    CHECK(contains(
+        explain_shader_log("0:0(0): error: function `float f()' has static recursion", frag),
+        "fragment:3: f"));
 
     // Linkers: names, headings of stages with line numbers, and limits without a name.
     const auto linked = [&shaders](const std::string& log) {

@@ -42,6 +42,13 @@ FRAGMENTS = [
     ("#elif after #else", SHADE + "#if 1\n#else\n#elif 1\n#endif", 4, "got #elif"),
     ("#endif", SHADE + "\n#endif\n", 3, "expected an #if before this #endif"),
     ("#elif", SHADE + "#elif 1\n", 2, "expected an #if before this #elif"),
+    (
+        "# within a line",
+        "\nvec3 shade(Surface s) { return vec3(1.0); #else\n}",
+        2,
+        "expected # at the",
+    ),
+    ("# within a macro", "#define A 1 #endif\n" + SHADE, 1, "expected # at the beginning"),
     ("#if in a comment", "/* #if 1\n*/\n#endif\n" + SHADE, 3, "expected an #if before"),
     # lines and directives
     ("#line", "#line 500\n\nvec3 shade(Surface s) { return nope; }", 3, "nope"),
@@ -450,6 +457,7 @@ def test_vertices(renderer, name, vertex, fragment, line, words):
         ("\nout int heat;", 2, "expected outputs declared as"),
         ("out vec4 a,\n distance;", 2, "expected an output of a name that is not one of"),
         ("// out\r\rout mat2 x;", 3, "expected outputs declared as"),
+        ("l\u00e4yout(x) out vec4 x;", 1, "expected outputs declared as"),
     ],
 )
 def test_outputs_name_the_line(renderer, declaration, line, message):
@@ -559,7 +567,7 @@ RIGHT = [
     ),
     (
         "lists",
-        "const float a[2] = float[](1.0, 1.0);\nvec3 shade(Surface s) { float b[2] = {1.0, 1.0}; return vec3(a[1] * b[1]); }",
+        "const float a[2] = {1.0, 1.0};\nvec3 shade(Surface s) { float b[2] = {1.0, 1.0}; return vec3(a[1] * b[1]); }",
     ),
     (
         "precision",

@@ -286,7 +286,7 @@ private:
             found_.names.back().initialised = true;
             return Role::function;
         }
-        if (!head.qualifiers.empty() && !head.type.empty()) {
+        if (!head.qualifiers.empty() && !head.type.empty() && head.next == i) {
             found_.names.push_back(name_of(head, tokens_, head.next - 1, GlslName::Kind::block));
             block_qualifiers_ = head.qualifiers;
             return Role::block;

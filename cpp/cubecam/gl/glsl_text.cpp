@@ -90,6 +90,11 @@ std::size_t token_end(std::string_view text, std::size_t i) {
         while (end < text.size() && is_word_char(text[end])) ++end;
         return end;
     }
+    if (static_cast<unsigned char>(text[i]) >= 0x80) {  // one character of UTF-8
+        std::size_t end = i + 1;
+        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
+        return end;
+    }
     for (const std::string_view op : long_operators) {
         if (text.substr(i).starts_with(op)) return i + op.size();
     }

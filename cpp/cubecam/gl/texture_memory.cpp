@@ -1,8 +1,8 @@
 #include "cubecam/gl/texture_memory.hpp"
 
-#include <glad/gl.h>
-
 #include "cubecam/core/memory.hpp"
+
+#include <glad/gl.h>
 
 #include <stdexcept>
 

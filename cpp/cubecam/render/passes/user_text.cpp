@@ -40,6 +40,7 @@ public:
         check_characters();
         if (const auto line = text_.open_comment())
             refuse_line(*line, "expected a comment that ends, got one without */");
+        check_number_signs();
         check_conditions();
         check_macros();
         check_amounts();
@@ -90,11 +91,29 @@ private:
 
     void check_ascii(const gl::GlslText::Token& token) const {
         if (static_cast<unsigned char>(token.text[0]) < 128) return;
-        std::size_t end = token.end;  // the bytes of one character are tokens of their own
-        const std::string& text = source_->text;
-        while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) ++end;
-        refuse_line(token.line, "expected ASCII characters outside of comments, got \"" +
-                                    text.substr(token.begin, end - token.begin) + '"');
+        refuse_line(token.line,
+                    "expected ASCII characters outside of comments, got \"" + token.text + '"');
+    }
+
+    /// Mesa takes a '#' within a line for the beginning of a directive, too.
+    void check_number_signs() const {
+        const auto refuse_sign = [this](const gl::GlslText::Token& token) {
+            refuse_line(token.line, "expected # at the beginning of a line, got one within a line");
+        };
+        for (const gl::GlslText::Token& token : text_.tokens()) {
+            if (token.text == "#") refuse_sign(token);
+        }
+        for (const gl::GlslText::Directive& directive : text_.directives()) {
+            if (directive.word == "error" || directive.word == "pragma") continue;
+            const auto& rest = directive.rest;
+            for (std::size_t i = 0; i < rest.size(); ++i) {
+                if (rest[i].text != "#") continue;
+                const bool pasting = directive.word == "define" && i + 1 < rest.size() &&
+                                     rest[i + 1].text == "#" && rest[i].end == rest[i + 1].begin;
+                if (!pasting) refuse_sign(rest[i]);
+                ++i;
+            }
+        }
     }
 
     void check_conditions() const {
