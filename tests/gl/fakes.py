@@ -50,7 +50,8 @@ def build_fake(folder):
     compiler = os.environ.get("CXX") or shutil.which("c++") or shutil.which("g++")
     assert compiler, "expected a C++ compiler, as for the build of cubecam"
     made = Path(folder) / "libfake_egl.so"
-    command = [*compiler.split(), "-std=c++17", "-shared", "-fPIC", SOURCE, "-o", made, "-ldl"]
+    flags = ["-std=c++17", "-shared", "-fPIC", str(SOURCE), "-o", str(made), "-ldl"]
+    command = [*compiler.split(), *flags]
     subprocess.run(command, check=True, timeout=120)
     return made
 

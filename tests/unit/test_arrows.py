@@ -20,6 +20,7 @@ CPP_ORDER = (
     "materials",
     "scene",
     "gl",
+    "trial",  # users' GLSL in a process of its own
     "render/resources",
     "render/passes",
     "render/graph",
@@ -27,7 +28,12 @@ CPP_ORDER = (
     "bindings",
 )
 #: Folders that may include from fewer folders than the order allows.
-CPP_KNOWS = {"gl": {"core"}, "math": {"core"}, "lighting": {"core", "math", "image", "cubemap"}}
+CPP_KNOWS = {
+    "gl": {"core"},
+    "trial": {"core", "gl"},
+    "math": {"core"},
+    "lighting": {"core", "math", "image", "cubemap"},
+}
 
 #: The parts of python/cubecam in the same kind of order; a part is a folder or a module.
 PYTHON_ORDER = (
