@@ -58,6 +58,7 @@ LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
+SHADER_TRIAL = ("tests/gl/test_shader_trial.py",)
 BENT = ("tests/gl/test_deformation.py",)
 SKINS = ("tests/unit/test_skins.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
@@ -2311,5 +2312,40 @@ MUTATIONS = [
         "if (a.node->backs_first()) return false;",
         "",
         ("tests/gl/test_blending.py",),
+    ),
+    Mutation(
+        "trial: a file of verdicts is believed although others may write it",
+        "verdict_store.cpp",
+        "if ((state.st_mode & (S_IWGRP | S_IWOTH)) != 0) return std::nullopt;",
+        "",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: records of verdicts are not checked",
+        "verdict_store.cpp",
+        "if (sum != checksum(bytes.substr(0, checked_bytes))) continue;",
+        "",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: another blending is no other state",
+        "draw_conditions.cpp",
+        "add(node.blend);",
+        "",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: a forked child keeps the helper alive",
+        "helper_process.cpp",
+        "if (descriptor > 0) ::close(descriptor);",
+        "(void)descriptor;",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: known programs are drawn in new states without a trial",
+        "user_program.cpp",
+        "!(known && found->second.survived.contains(conditions.key))",
+        "!known",
+        SHADER_TRIAL,
     ),
 ]
