@@ -94,6 +94,10 @@ QUERIES = "snapshot_queries.cpp"
 SURFACE = "surface_pass.cpp"
 RASTER = "raster_state.cpp"
 
+SKYBOX = ("tests/gl/test_skybox.py",)
+
+SHADER_TRIAL = ("tests/gl/test_shader_trial.py",)
+
 MUTATIONS = [
     # The convention, in its one place and in those that derive from it.
     Mutation(
@@ -2530,5 +2534,47 @@ MUTATIONS = [
         "const bool wrong = PyErr_ExceptionMatches(PyExc_LookupError) != 0 ||",
         "const bool wrong =",
         STATES,
+    ),
+    Mutation(
+        "skybox: moves with the camera",
+        "view.cpp",
+        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
+        "turned[3] *= 1.0;",
+        SKYBOX,
+    ),
+    Mutation(
+        "trial: a file of verdicts is believed although others may write it",
+        "verdict_store.cpp",
+        "if ((state.st_mode & (S_IWGRP | S_IWOTH)) != 0) return std::nullopt;",
+        "",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: records of verdicts are not checked",
+        "verdict_store.cpp",
+        "if (sum != checksum(bytes.substr(0, checked_bytes))) continue;",
+        "",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: another blending is no other state",
+        "draw_conditions.cpp",
+        "add(node.blend);",
+        "",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: a forked child keeps the helper alive",
+        "helper_process.cpp",
+        "if (descriptor > 0) ::close(descriptor);",
+        "(void)descriptor;",
+        SHADER_TRIAL,
+    ),
+    Mutation(
+        "trial: known programs are drawn in new states without a trial",
+        "user_program.cpp",
+        "!(known && found->second.survived.contains(conditions.key))",
+        "!known",
+        SHADER_TRIAL,
     ),
 ]

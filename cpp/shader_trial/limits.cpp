@@ -173,7 +173,7 @@ bool is_idle() { return !busy; }
 
 void wait_for_cache() {
     static const std::vector<int> threads = open_cache_threads();
-    constexpr int most_waits = 100;
+    constexpr int most_waits = 1000;  // half a second: the thread has the lowest priority
     for (const int thread : threads) {
         for (int waits = 0; waits < most_waits && !sleeps(thread); ++waits) usleep(500);
     }

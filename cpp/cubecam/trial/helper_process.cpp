@@ -30,7 +30,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int slice = 50;  // milliseconds between two looks for an interrupt
-constexpr int start_milliseconds = 60'000;
+constexpr int start_milliseconds = 20'000;
+constexpr std::chrono::seconds start_pause{60};  // after a start that failed
 constexpr int answer_milliseconds = (Limits::wall_seconds + 10) * 1000;
 constexpr std::size_t most_text = 4096;
 
@@ -284,6 +285,17 @@ Helper& Helper::of(const HelperPlace& place) {
     return *helper;
 }
 
+std::unique_ptr<Connection> Helper::connect() {
+    if (Clock::now() < next_start_) throw Error(problem_);
+    try {
+        return std::make_unique<Connection>(place_);
+    } catch (const Error& error) {
+        problem_ = error.what();
+        next_start_ = Clock::now() + start_pause;
+        throw;
+    }
+}
+
 Verdict Helper::ask(std::string_view job, const std::string& driver) {
     std::unique_lock lock(mutex_, std::defer_lock);
     while (!lock.try_lock_for(std::chrono::milliseconds(slice))) poll_interrupts();
@@ -291,7 +303,7 @@ Verdict Helper::ask(std::string_view job, const std::string& driver) {
         // From here to the answer the connection is in use: an exception ends it and the helper.
         std::unique_ptr<Connection> connection = std::exchange(connection_, nullptr);
         const bool fresh = connection == nullptr;
-        if (fresh) connection = std::make_unique<Connection>(place_);
+        if (fresh) connection = connect();
         if (connection->driver() != driver) {
             throw Error("its driver is another one: expected " + driver + ", got " +
                         connection->driver());

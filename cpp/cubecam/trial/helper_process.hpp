@@ -2,6 +2,7 @@
 
 #include "cubecam/trial/verdict.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -72,7 +73,11 @@ public:
 private:
     std::timed_mutex mutex_;
     const HelperPlace place_;
+    std::unique_ptr<Connection> connect();
+
     std::unique_ptr<Connection> connection_;
+    std::string problem_;  ///< why the last start failed
+    std::chrono::steady_clock::time_point next_start_{};
 };
 
 /// The path of the helper's program, which lies beside the file of this code.

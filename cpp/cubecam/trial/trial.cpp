@@ -15,7 +15,7 @@ namespace cubecam::trial {
 namespace {
 
 constexpr std::size_t least_stack = std::size_t{128} << 10;
-constexpr std::size_t most_stack = std::size_t{2} << 20;
+constexpr std::size_t most_stack = std::size_t{3} << 20;
 
 /// The stack of the driver in the helper: at most half of what this thread has left, so that a
 /// source whose expressions just fit there fits here. It is rounded, since verdicts are kept for
@@ -33,7 +33,10 @@ std::size_t helper_stack() {
     }();
     const char here = 0;
     const auto left = static_cast<std::size_t>(std::max<std::ptrdiff_t>(&here - lowest, 0));
-    return std::clamp(std::bit_floor(left) / 2, least_stack, most_stack);
+    constexpr std::size_t step = std::size_t{1} << 20;
+    const std::size_t half = left / 2;
+    const std::size_t rounded = half < step ? std::bit_floor(half) : half / step * step;
+    return std::clamp(rounded, least_stack, most_stack);
 }
 
 std::atomic<bool> unavailable_noted{false};
