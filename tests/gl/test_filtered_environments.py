@@ -541,7 +541,9 @@ def test_two_renderers_layered_or_not_filter_the_same(shared_renderers):
         cc.Mesh.box(0.4), cc.GlassMaterial(roughness=0.3, tint=(1, 1, 1, 0.5)), position=(1, 1, 0)
     )
     first = shared_renderers(None).capture(scene, (0, 0, 2), 16).faces
-    assert_identical(first, shared_renderers(False).capture(scene, (0, 0, 2), 16).faces, across="programs")
+    assert_identical(
+        first, shared_renderers(False).capture(scene, (0, 0, 2), 16).faces, across="programs"
+    )
 
 
 def test_a_probe_s_prefilter_is_a_property():
