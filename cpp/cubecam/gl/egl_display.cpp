@@ -5,13 +5,18 @@
 
 #include <array>
 #include <mutex>
+#include <shared_mutex>
 #include <utility>
 
 namespace cubecam::gl::egl {
 
 namespace {
 
-std::mutex display_mutex;
+/// Displays are initialised alone, contexts are made current and let go together. Mesa (22.3 to 26)
+/// frees a display that another library has terminated when the last thread lets its context go,
+/// and takes no lock for that: a thread that initialises the display at this moment gets one whose
+/// driver is being unloaded (docs/adr/0024).
+std::shared_mutex display_mutex;
 
 [[noreturn]] void throw_egl(const Table& egl, const char* call, std::string_view note = {}) {
     throw ContextError(std::string(call) + ": " + error_name(egl.get_error()) + std::string(note));
@@ -90,7 +95,7 @@ std::vector<Device> query_devices(std::string* problem) {
 OpenDisplay open_display(Platform platform, Device device) {
     const Table& egl = library();
     OpenDisplay open;
-    const std::lock_guard lock(display_mutex);
+    const std::unique_lock lock(display_mutex);
     open.display = get_display(egl, platform, device);
     Int major = 0;
     Int minor = 0;
@@ -168,7 +173,12 @@ Current::Current(const RawContext& context) : ours_(context.display()) {
     draw_ = egl.get_current_surface(draw);
     read_ = egl.get_current_surface(read);
     egl.bind_api(opengl_api);
-    if (egl.make_current(ours_, context.surface(), context.surface(), context.context())) return;
+    // The context that was current is let go, and may be the last one of a terminated display.
+    const auto make_current = [&] {
+        const std::shared_lock lock(display_mutex);
+        return egl.make_current(ours_, context.surface(), context.surface(), context.context());
+    };
+    if (make_current()) return;
 
     const Int error = egl.get_error();
     restore();
@@ -191,6 +201,7 @@ Current::~Current() {
 
 void Current::restore() const noexcept {
     const Table& egl = library();  // open since the constructor: cannot throw
+    const std::shared_lock lock(display_mutex);
     if (context_ == nullptr || !egl.make_current(display_, draw_, read_, context_)) {
         // No context was current before, or it has been destroyed since: ours must not stay
         // current.
