@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <dlfcn.h>
+#include <string>
 #include <vector>
 
 namespace {
@@ -16,6 +17,7 @@ constexpr std::int32_t none = 0x3038;
 constexpr std::int32_t extensions = 0x3055;
 constexpr std::int32_t robust_access = 0x31B2;
 constexpr std::int32_t reset_strategy = 0x31BD;
+constexpr std::int32_t track_references = 0x3352;
 constexpr unsigned gl_renderer = 0x1F01;
 constexpr unsigned max_texture_image_units = 0x8872;
 constexpr unsigned link_status = 0x8B82;
@@ -29,12 +31,15 @@ int reset_status = 0x8254;   // GL_INNOCENT_CONTEXT_RESET
 int current_fails = 0;       // so many eglMakeCurrent of a context fail
 int current_error = 0x300E;  // EGL_CONTEXT_LOST
 int no_contexts = 0;         // eglCreateContext fails
+int refuses_counting = 0;    // displays that count their users are listed, and refused
 // What a test reads, by fake_get.
 int robust_contexts = 0;
 int contexts_destroyed = 0;
 int direct_reads = 0;
 int buffered_reads = 0;
 int pack_buffers = 0;
+int counted_displays = 0;
+int plain_displays = 0;
 
 // 1: from now on the handle of the context made before the last one means the last one, as where a
 // driver gave the memory of an ended context to a new one.
@@ -176,6 +181,16 @@ void* get_platform_display(unsigned platform, void* device, const std::int32_t* 
         pending_error = 0x3003;  // EGL_BAD_ALLOC
         return nullptr;
     }
+    if (attributes != nullptr && attributes[0] == track_references) {
+        if (refuses_counting != 0) {
+            pending_error = 0x3004;  // EGL_BAD_ATTRIBUTE
+            return nullptr;
+        }
+        ++counted_displays;
+        attributes = nullptr;  // Mesa has no such displays
+    } else {
+        ++plain_displays;
+    }
     return real_gl<void* (*)(unsigned, void*, const std::int32_t*)>("eglGetPlatformDisplayEXT")(
         platform, device, attributes);
 }
@@ -189,18 +204,15 @@ int* fake_number(const char* name) {
         const char* name;
         int* place;
     };
-    static const Number numbers[] = {{"reset_answers", &reset_answers},
-                                     {"resets", &resets},
-                                     {"reset_status", &reset_status},
-                                     {"current_fails", &current_fails},
-                                     {"current_error", &current_error},
-                                     {"no_contexts", &no_contexts},
-                                     {"one_handle", &one_handle},
-                                     {"robust_contexts", &robust_contexts},
-                                     {"contexts_destroyed", &contexts_destroyed},
-                                     {"direct_reads", &direct_reads},
-                                     {"buffered_reads", &buffered_reads},
-                                     {"pack_buffers", &pack_buffers}};
+    static const Number numbers[] = {
+        {"reset_answers", &reset_answers},       {"resets", &resets},
+        {"reset_status", &reset_status},         {"current_fails", &current_fails},
+        {"current_error", &current_error},       {"no_contexts", &no_contexts},
+        {"refuses_counting", &refuses_counting}, {"counted_displays", &counted_displays},
+        {"plain_displays", &plain_displays},     {"one_handle", &one_handle},
+        {"robust_contexts", &robust_contexts},   {"contexts_destroyed", &contexts_destroyed},
+        {"direct_reads", &direct_reads},         {"buffered_reads", &buffered_reads},
+        {"pack_buffers", &pack_buffers}};
     for (const Number& number : numbers) {
         if (std::strcmp(number.name, name) == 0) return number.place;
     }
@@ -278,7 +290,12 @@ unsigned eglInitialize(void* display, std::int32_t* major, std::int32_t* minor) 
     return real("eglInitialize", &eglInitialize)(display, major, minor);
 }
 const char* eglQueryString(void* display, std::int32_t name) {
-    return real("eglQueryString", &eglQueryString)(display, name);
+    const char* text = real("eglQueryString", &eglQueryString)(display, name);
+    if (display == nullptr && name == extensions && variable("FAKE_COUNTED") != nullptr) {
+        static const std::string longer = std::string(text) + " EGL_KHR_display_reference";
+        return longer.c_str();
+    }
+    return text;
 }
 unsigned eglBindAPI(unsigned api) { return real("eglBindAPI", &eglBindAPI)(api); }
 unsigned eglQueryAPI() { return real("eglQueryAPI", &eglQueryAPI)(); }

@@ -7,6 +7,7 @@ import warnings
 import cubecam as cc
 
 DEVICE_PLATFORM, SURFACELESS = 0x313F, 0x31DD
+EXTENSIONS, VERSION, TRACK_REFERENCES, NONE = 0x3055, 0x3054, 0x3352, 0x3038
 
 
 def load_egl(name="libEGL.so.1"):
@@ -21,6 +22,8 @@ def load_egl(name="libEGL.so.1"):
     }.items():
         getattr(egl, function).argtypes = arguments
         getattr(egl, function).restype = pointer
+    egl.eglQueryString.argtypes = [pointer, number]
+    egl.eglQueryString.restype = ctypes.c_char_p
     egl.eglInitialize.argtypes = [pointer] * 3
     egl.eglTerminate.argtypes = [pointer]
     egl.eglMakeCurrent.argtypes = [pointer] * 4
@@ -34,23 +37,30 @@ def load_egl(name="libEGL.so.1"):
 EGL = load_egl()
 
 
-def displays():
-    """Return the displays of all devices and of the surfaceless platform."""
+def displays(kind=None):
+    """Return the displays of all devices and of the surfaceless platform; `kind` is a list of attributes."""
     query = ctypes.CFUNCTYPE(ctypes.c_uint, ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(
         EGL.eglGetProcAddress(b"eglQueryDevicesEXT")
     )
     devices, count = (ctypes.c_void_p * 16)(), ctypes.c_int()
     assert query(16, devices, ctypes.byref(count))
-    found = [EGL.eglGetPlatformDisplay(SURFACELESS, None, None)]
+    found = [EGL.eglGetPlatformDisplay(SURFACELESS, None, kind)]
     for device in devices[: count.value]:
-        found.append(EGL.eglGetPlatformDisplay(DEVICE_PLATFORM, device, None))
+        found.append(EGL.eglGetPlatformDisplay(DEVICE_PLATFORM, device, kind))
     return [display for display in found if display]
 
 
 def end_displays():
-    """Terminate every display that cubecam may use, as VTK does when a plot is closed."""
+    """Terminate every display that cubecam may use, as VTK does when a plot is closed.
+
+    A display that counts its users ends when it was terminated as often as it was initialised.
+    """
     for display in displays():
         EGL.eglTerminate(display)
+    if b"EGL_KHR_display_reference" in EGL.eglQueryString(None, EXTENSIONS).split():
+        for display in displays((ctypes.c_ssize_t * 3)(TRACK_REFERENCES, 1, NONE)):
+            while EGL.eglQueryString(display, VERSION) is not None:
+                EGL.eglTerminate(display)
 
 
 @contextlib.contextmanager

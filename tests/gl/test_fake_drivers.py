@@ -350,3 +350,29 @@ def test_a_chosen_driver_that_does_not_start_is_named(fake):
     assert "MESA_LOADER_DRIVER_OVERRIDE=swrast is set" in text
     for wrong in ("apt install", "is missing"):
         assert wrong not in text
+
+
+@pytest.mark.parametrize("refused", [False, True], ids=["known", "refused"])
+def test_the_display_counts_its_users_where_the_driver_has_such_displays(fake, refused):
+    """EGL_KHR_display_reference; the list of extensions may be another driver's, which then refuses the attribute."""
+    run_fake(
+        fake,
+        f"""
+fake["refuses_counting"] = {int(refused)}
+with warned(0):
+    cc.Renderer(device="software").render(scene, camera, (32, 24))
+counted, plain = fake["counted_displays"], fake["plain_displays"]
+assert (counted, plain) == ((0, 1) if {refused} else (1, 0)), (counted, plain)
+""",
+        FAKE_COUNTED=1,
+    )
+
+
+def test_the_display_is_a_plain_one_where_no_driver_counts(fake):
+    run_fake(
+        fake,
+        """
+cc.Renderer(device="software").render(scene, camera, (32, 24))
+assert (fake["counted_displays"], fake["plain_displays"]) == (0, 1)
+""",
+    )

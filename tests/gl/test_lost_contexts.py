@@ -239,6 +239,7 @@ for step in range(8):
 
 
 def test_threads_draw_on_while_another_library_ends_the_display():
+    """The driver frees an ended display when its last context is let go; a display made at that moment must live."""
     run_python(
         ROOM
         + """
@@ -258,7 +259,7 @@ for made in mine:
 threads = [threading.Thread(target=work, args=(i, (renderer, renderer, *mine)[i])) for i in range(4)]
 for thread in threads:
     thread.start()
-for _ in range(10):
+for _ in range(20):
     before = list(drawn)
     end_displays()
     while not wrong and any(a < b + 2 for a, b in zip(drawn, before)):

@@ -34,6 +34,20 @@ Config choose_config(const Table& egl, Display display) {
     return config;
 }
 
+/// Gets a display that counts its users where the driver has such displays: another library that
+/// terminates its own use of the device then leaves our contexts alone.
+Display get_counted_display(const Table& egl, const char* client, Enum platform, void* native) {
+    if (has_name(client, "EGL_KHR_display_reference")) {
+        const std::array<Int, 3> counted{track_references, 1, none};
+        Display display = egl.get_platform_display(platform, native, counted.data());
+        if (display != nullptr) return display;
+        // Where several drivers are installed, the list has the extensions of all of them, and the
+        // driver of this device may not know the attribute.
+        egl.get_error();
+    }
+    return egl.get_platform_display(platform, native, nullptr);
+}
+
 Display get_display(const Table& egl, Platform platform, Device device) {
     const char* client = egl.query_string(nullptr, extensions);
     const auto need = [&](const char* extension) {
@@ -45,11 +59,11 @@ Display get_display(const Table& egl, Platform platform, Device device) {
     switch (platform) {
         case Platform::device:
             need("EGL_EXT_platform_device");
-            display = egl.get_platform_display(platform_device, device, nullptr);
+            display = get_counted_display(egl, client, platform_device, device);
             break;
         case Platform::surfaceless:
             need("EGL_MESA_platform_surfaceless");
-            display = egl.get_platform_display(platform_surfaceless, nullptr, nullptr);
+            display = get_counted_display(egl, client, platform_surfaceless, nullptr);
             break;
         case Platform::fallback: display = egl.get_display(nullptr); break;
     }

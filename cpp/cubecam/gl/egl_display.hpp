@@ -19,7 +19,8 @@ const char* platform_name(Platform platform) noexcept;
 std::vector<Device> query_devices(std::string* problem = nullptr);
 
 /// An initialised display. Displays are shared by the whole process, and never terminated here. But
-/// another library may terminate the display that it shares with us, which ends all our contexts.
+/// another library may terminate the display that it shares with us, which ends all our contexts,
+/// unless the driver has displays that count their users (EGL_KHR_display_reference).
 struct OpenDisplay {
     Display display = nullptr;
     Config config = nullptr;   ///< null: contexts are made without one (EGL_KHR_no_config_context)

@@ -59,6 +59,8 @@ inline constexpr Int lose_context_on_reset = 0x31BF;
 inline constexpr Enum platform_device = 0x313F;       // EGL_EXT_platform_device
 inline constexpr Enum platform_surfaceless = 0x31DD;  // EGL_MESA_platform_surfaceless
 
+inline constexpr Int track_references = 0x3352;  // EGL_KHR_display_reference
+
 inline constexpr Int drm_device_file = 0x3233;       // EGL_EXT_device_drm
 inline constexpr Int drm_render_node_file = 0x3377;  // EGL_EXT_device_drm_render_node
 inline constexpr Int cuda_device = 0x323A;           // EGL_NV_device_cuda
