@@ -64,6 +64,7 @@ STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
 FLAT = ("tests/gl/test_flat_shading.py",)
 LOST = ("tests/gl/test_lost_contexts.py",)
 FAKE_DRIVERS = ("tests/gl/test_fake_drivers.py",)
+VERTEX_SOURCES = ("tests/unit/test_vertex_sources.py",)
 BENT = ("tests/gl/test_deformation.py",)
 SKINS = ("tests/unit/test_skins.py",)
 OUTPUT_MAPS = ("tests/unit/test_output_maps.py",)
@@ -518,6 +519,27 @@ MUTATIONS = [
         "auto result = work(state); gpu_->context.check_reset();",
         "auto result = work(state);",
         FAKE_DRIVERS,
+    ),
+    Mutation(
+        "display: one that counts its users is not wanted",
+        "gl/egl_display.cpp",
+        'if (has_name(client, "EGL_KHR_display_reference")) {',
+        "if (false) {",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "display: none where the driver refuses to count its users",
+        "gl/egl_display.cpp",
+        "if (display != nullptr) return display;",
+        "return display;",
+        FAKE_DRIVERS,
+    ),
+    Mutation(
+        "vertices: two programs may give a normal other last bits",
+        "passes/surface.vert",
+        "invariant v_normal;",
+        "",
+        VERTEX_SOURCES,
     ),
     Mutation(
         "reading: parts of the buffer are looked for where they are not",

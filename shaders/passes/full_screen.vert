@@ -1,1 +1,3 @@
+invariant gl_Position;
+
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0, 0.0, 1.0); }

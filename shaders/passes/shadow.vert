@@ -13,6 +13,12 @@ layout(location = 3) in vec4 a_color;
 #endif
 #endif
 
+// A caster covers the same texels whether it has holes or not.
+invariant gl_Position;
+#ifdef UNIT_MASK
+invariant v_uv;
+#endif
+
 void main() {
     gl_Position = a_view_matrix * vec4(a_position, 1.0);
 #ifdef UNIT_MASK

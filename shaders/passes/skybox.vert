@@ -7,6 +7,8 @@ layout(location = 0) uniform float u_depth;  // the clear value of the depth buf
 flat out mat3 v_rays;
 flat out vec2 v_centre;
 
+invariant gl_Position;
+
 void main() {
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     v_rays = mat3(a_view_matrix);

@@ -1,5 +1,4 @@
-// Draws every mesh for every view. With one source and an invariant position, layered drawing and drawing view by view
-// give equal bytes.
+// Draws every mesh for every view.
 #define STAGE out
 #define VERTEX_STAGE
 #include "include/view.glsl"
@@ -21,7 +20,21 @@ layout(location = 14) in vec4 a_tangent;
 layout(location = 15) in vec2 a_uv1;
 #endif
 
+// Variants of this source draw the same node: layered or view by view, alone or as an instance, with outputs or without.
+// What they compute for a vertex must be equal bit for bit: `invariant` and `precise` keep a compiler from changing the
+// order of the operations, and from joining some of them, in one variant and not in another. The other values are copies.
 invariant gl_Position;
+invariant v_position;
+invariant v_normal;
+#ifdef SHADOW_COUNT
+invariant v_height;
+#endif
+#ifdef USES_TANGENT
+invariant v_tangent;
+#endif
+#ifdef VOLUME
+invariant v_scale;
+#endif
 
 #include "include/scene.glsl"
 
@@ -41,7 +54,7 @@ void main() {
 #define a_uv own.uv
 #define a_color own.color
 #endif
-    vec4 position_world = u_model * vec4(a_position, 1.0);
+    precise vec4 position_world = u_model * vec4(a_position, 1.0);
     gl_Position = a_view_matrix * position_world;
     route_to_layer();
     v_position = position_world.xyz;

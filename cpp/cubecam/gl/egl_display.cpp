@@ -12,7 +12,7 @@ namespace cubecam::gl::egl {
 
 namespace {
 
-/// Displays are initialised alone, contexts are made current and let go together. Mesa (22.3 to 26)
+/// Displays are initialised alone, contexts are made current and let go together. Mesa 22.3
 /// frees a display that another library has terminated when the last thread lets its context go,
 /// and takes no lock for that: a thread that initialises the display at this moment gets one whose
 /// driver is being unloaded (docs/adr/0024).
