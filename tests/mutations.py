@@ -2536,13 +2536,6 @@ MUTATIONS = [
         STATES,
     ),
     Mutation(
-        "skybox: moves with the camera",
-        "view.cpp",
-        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
-        "turned[3] *= 1.0;",
-        SKYBOX,
-    ),
-    Mutation(
         "trial: a file of verdicts is believed although others may write it",
         "verdict_store.cpp",
         "if ((state.st_mode & (S_IWGRP | S_IWOTH)) != 0) return std::nullopt;",
