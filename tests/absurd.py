@@ -184,7 +184,9 @@ ABSURD = list(values())
 
 def is_whole(value: object) -> bool:
     if isinstance(value, (bool, np.bool_)) or type(value).__name__ == "Oddindex":
-        return type(value).__name__ == "Oddindex" and operator.index(value) == 2  # type: ignore[arg-type]
+        return type(value).__name__ == "Oddindex" and bool(
+            vars(type(value))["__index__"](value) == 2
+        )
     if isinstance(value, np.ndarray):
         hidden = isinstance(value, np.ma.MaskedArray)
         return value.ndim == 0 and value.dtype.kind in "iu" and not hidden
@@ -198,7 +200,7 @@ def is_real(value: object) -> bool:
         hidden = isinstance(value, np.ma.MaskedArray)
         return value.ndim == 0 and value.dtype.kind == "f" and not hidden
     if type(value).__name__ == "Oddfloat":
-        return float(value) == 0.5  # type: ignore[arg-type]
+        return bool(vars(type(value))["__float__"](value) == 0.5)
     return isinstance(value, (float, np.floating, fractions.Fraction, decimal.Decimal))
 
 
