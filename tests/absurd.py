@@ -10,6 +10,7 @@ import decimal
 import enum
 import fractions
 import inspect
+import operator
 import pathlib
 import typing
 from collections.abc import Callable, Iterator
@@ -183,7 +184,9 @@ ABSURD = list(values())
 
 def is_whole(value: object) -> bool:
     if isinstance(value, (bool, np.bool_)) or type(value).__name__ == "Oddindex":
-        return type(value).__name__ == "Oddindex" and value.__index__() == 2  # type: ignore[attr-defined]
+        return type(value).__name__ == "Oddindex" and bool(
+            vars(type(value))["__index__"](value) == 2
+        )
     if isinstance(value, np.ndarray):
         hidden = isinstance(value, np.ma.MaskedArray)
         return value.ndim == 0 and value.dtype.kind in "iu" and not hidden
@@ -192,12 +195,12 @@ def is_whole(value: object) -> bool:
 
 def is_real(value: object) -> bool:
     if is_whole(value):
-        return abs(value.__index__()) < 2**1024  # type: ignore[attr-defined]
+        return abs(operator.index(value)) < 2**1024  # type: ignore[arg-type]
     if isinstance(value, np.ndarray):
         hidden = isinstance(value, np.ma.MaskedArray)
         return value.ndim == 0 and value.dtype.kind == "f" and not hidden
     if type(value).__name__ == "Oddfloat":
-        return value.__float__() == 0.5  # type: ignore[attr-defined]
+        return bool(vars(type(value))["__float__"](value) == 0.5)
     return isinstance(value, (float, np.floating, fractions.Fraction, decimal.Decimal))
 
 

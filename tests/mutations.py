@@ -2558,13 +2558,6 @@ MUTATIONS = [
         STATES,
     ),
     Mutation(
-        "skybox: moves with the camera",
-        "view.cpp",
-        "turned[3] = glm::dvec4(0.0, 0.0, 0.0, 1.0);",
-        "turned[3] *= 1.0;",
-        SKYBOX,
-    ),
-    Mutation(
         "trial: a file of verdicts is believed although others may write it",
         "verdict_store.cpp",
         "if ((state.st_mode & (S_IWGRP | S_IWOTH)) != 0) return std::nullopt;",
@@ -2595,8 +2588,8 @@ MUTATIONS = [
     Mutation(
         "trial: known programs are drawn in new states without a trial",
         "user_program.cpp",
-        "!(known && found->second.survived.contains(conditions.key))",
-        "!known",
+        "(known && found->second.survived.contains(conditions.key))",
+        "known",
         SHADER_TRIAL,
     ),
 ]

@@ -157,7 +157,7 @@ def test_every_change_of_light_is_seen(renderer, fresh_renderer, change):
 
 OPTIONS = {
     "near": {"near": 2.9},
-    "far": {"far": 2.9},
+    "far": {"far": 2.7},
     "position": {"position": (0.2, 0, 0)},
     "samples": {"samples": 4},
     "eye": {"eye": (0, 5, 0)},

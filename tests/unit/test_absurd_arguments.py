@@ -35,7 +35,7 @@ LONGEST = 1500  # letters of a message, for a list of many names
 
 FACES = np.full((6, 2, 2, 3), 0.5, np.float32)
 PICTURE = np.full((2, 4, 3), 0.5, np.float32)
-TRIANGLE = {"positions": np.eye(3), "indices": [[0, 1, 2]]}
+TRIANGLE: dict[str, Any] = {"positions": np.eye(3), "indices": [[0, 1, 2]]}
 SHADE = "vec3 shade(Surface s) { return vec3(1.0); }"
 EFFECT = "vec4 effect(vec2 uv) { return frame(uv); }"
 

@@ -172,7 +172,7 @@ BAD = {
     "uint16": (np.uint16, ValueError, "got uint16"),
     "big-endian": (">f4", ValueError, "got >f4"),
     "text": ("pixels", TypeError, "pixels"),
-    "number": (8, TypeError, "data type"),
+    "number": (8, TypeError, "expected uint8, float16 or float32, got 8"),
 }
 
 

@@ -1,12 +1,21 @@
 """The values of Shadow, of the lights that have a shadow, of SpotLight and of the flags of nodes."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 import cubecam as cc
 from tests.helpers import copies
 
-FIELDS = {"size": 512, "radius": 2.5, "bias": 0.01, "near": 0.1, "far": 30.0, "extent": 8.0}
+FIELDS: dict[str, Any] = {
+    "size": 512,
+    "radius": 2.5,
+    "bias": 0.01,
+    "near": 0.1,
+    "far": 30.0,
+    "extent": 8.0,
+}
 LIGHTS = [cc.PointLight, cc.DirectionalLight, cc.SpotLight]
 
 
