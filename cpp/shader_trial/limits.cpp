@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 #include <vector>
 
@@ -44,6 +45,20 @@ std::array<char, 65536> signal_stack;
 
 void on_crash(int signal) { report_end(Outcome::crashed, signal); }
 void on_time(int signal) { report_end(Outcome::out_of_time, signal); }
+
+std::int64_t cpu_milliseconds() {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return used.tv_sec * std::int64_t{1000} + used.tv_nsec / 1'000'000;
+}
+
+std::atomic<std::int64_t> cpu_before{0};  // of the last look
+
+/// On a busy machine a driver that works gets little time: what counts is whether it works.
+void on_look(int signal) {
+    const std::int64_t now = cpu_milliseconds();
+    if (now - cpu_before.exchange(now) < Limits::least_milliseconds) on_time(signal);
+}
 void on_exit() { report_end(Outcome::ended, 0); }
 
 void handle(int signal, void (*handler)(int)) {
@@ -60,6 +75,8 @@ void set_clock(int seconds, int wall_seconds) {
     setitimer(ITIMER_PROF, &cpu, nullptr);
     itimerval wall{};
     wall.it_value.tv_sec = wall_seconds;
+    wall.it_interval = wall.it_value;
+    cpu_before = cpu_milliseconds();
     setitimer(ITIMER_REAL, &wall, nullptr);
 }
 
@@ -136,7 +153,7 @@ void catch_crashes() {
         handle(signal, on_crash);
     }
     handle(SIGPROF, on_time);
-    handle(SIGALRM, on_time);
+    handle(SIGALRM, on_look);
     std::atexit(on_exit);
 }
 
