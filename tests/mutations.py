@@ -2573,8 +2573,8 @@ MUTATIONS = [
     Mutation(
         "trial: known programs are drawn in new states without a trial",
         "user_program.cpp",
-        "!(known && found->second.survived.contains(conditions.key))",
-        "!known",
+        "(known && found->second.survived.contains(conditions.key))",
+        "known",
         SHADER_TRIAL,
     ),
 ]

@@ -187,6 +187,24 @@ assert count() == len(images)
     )
 
 
+def test_the_helpers_machine_code_is_that_of_the_program(tmp_path):
+    """Mesa's disk cache hands it over, also after pictures in which vertex arrays changed."""
+    run_states(
+        """
+import time
+def seconds(renderer, number):
+    begin = time.process_time()
+    draw(renderer, shade(f"return vec3(s.uv, {number}.0 / 7.0);"))
+    return time.process_time() - begin
+trusting = cc.Renderer(device="software", trust_shaders=True)
+tried = sorted(seconds(renderer, i) for i in range(9))[4]
+trusted = sorted(seconds(trusting, i) for i in range(9))[4]
+assert tried < 0.4 * trusted, (tried, trusted)
+""",
+        tmp_path,
+    )
+
+
 def test_programs_of_cubecam_are_not_tried(tmp_path):
     run_states(
         """
