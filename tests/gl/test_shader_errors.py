@@ -510,6 +510,13 @@ RIGHT = [
     ("directives in comments", '/*\n#version 1\n#include "x"\n#if\n*/ // #endif\n' + SHADE),
     ("#line", "#line 3\n" + SHADE),
     ("macros for types", "#define vec3 vec4\nvec4 shade(Surface s) { return vec3(1.0); }"),
+    (
+        "macros of declarations",
+        (
+            "#define HALF(f, g) float f(float x) { return 0.5 * g(x); }\n#define K const float k = 4.0;\n"
+            "HALF(a, float)\nHALF(b, a)\nK\nvec3 shade(Surface s) { return vec3(b(k)); }"
+        ),
+    ),
     ("macro for nothing", "#define void\n#define float int\n" + SHADE),
     (
         "macros of statements",

@@ -18,6 +18,7 @@ from tests.gl.trials import (
     DEADLY,
     ENDLESS,
     LOOPS,
+    OBVIOUS,
     RECORD,
     SLOW,
     draw,
@@ -51,13 +52,24 @@ def test_a_source_that_ends_the_driver(source, words, software, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.parametrize(("source", "words"), OBVIOUS.values(), ids=OBVIOUS)
+def test_amounts_in_plain_sight_never_reach_a_driver(source, words, software):
+    check_draws(software)
+    (helper,) = helpers()
+    with pytest.raises(
+        cc.ShaderError, match=rf"^fragment does not compile:\nfragment:\d+: .*{words}"
+    ):
+        draw(software, source)
+    assert helpers() == [helper]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("source", ENDLESS.values(), ids=ENDLESS)
 def test_a_source_that_takes_minutes(source, software):
-    begin = time.monotonic()
-    with pytest.raises(cc.ShaderError, match=r"10 seconds|30 seconds|1024 MiB|crashed"):
+    begin = time.process_time()
+    with pytest.raises(cc.ShaderError, match=r"10 seconds|1024 MiB|crashed"):
         draw(software, source)
-    assert time.monotonic() - begin < 45
+    assert time.process_time() - begin < 5  # the helper's time, not that of the user's process
     check_draws(software)
 
 
@@ -175,6 +187,24 @@ assert count() == len(images)
     )
 
 
+def test_the_helpers_machine_code_is_that_of_the_program(tmp_path):
+    """Mesa's disk cache hands it over, also after pictures in which vertex arrays changed."""
+    run_states(
+        """
+import time
+def seconds(renderer, number):
+    begin = time.process_time()
+    draw(renderer, shade(f"return vec3(s.uv, {number}.0 / 7.0);"))
+    return time.process_time() - begin
+trusting = cc.Renderer(device="software", trust_shaders=True)
+tried = sorted(seconds(renderer, i) for i in range(9))[4]
+trusted = sorted(seconds(trusting, i) for i in range(9))[4]
+assert tried < 0.4 * trusted, (tried, trusted)
+""",
+        tmp_path,
+    )
+
+
 def test_programs_of_cubecam_are_not_tried(tmp_path):
     run_states(
         """
@@ -280,7 +310,7 @@ def test_a_helper_that_is_killed_at_work(software):
     killer.start()
     try:
         with pytest.raises(cc.ShaderError, match="killed twice"):
-            draw(software, shade(f"return vec3({SLOW});"))
+            draw(software, SLOW)
     finally:
         stop.set()
         killer.join()
@@ -375,15 +405,15 @@ def test_the_end_of_the_process_ends_a_helper_at_work():
         """
         import os, threading, time
         import cubecam as cc
-        from tests.gl.trials import SLOW, draw, helpers, shade
+        from tests.gl.trials import SLOW, draw, helpers
         def end():
             while not helpers():
                 time.sleep(0.1)
             time.sleep(1)
             print(*helpers(), flush=True)
             os._exit(0)
-        threading.Thread(target=end).start()
-        draw(cc.Renderer(device="software"), shade(f"return vec3({SLOW});"))
+        threading.Thread(target=end, daemon=True).start()
+        draw(cc.Renderer(device="software"), SLOW)
         """
     )
     (helper,) = map(int, done.stdout.split())
@@ -449,11 +479,10 @@ def test_a_thread_with_a_small_stack_gets_a_helper_with_a_smaller_one():
         """
         import threading
         import cubecam as cc
-        from tests.gl.trials import draw, shade
-        source = shade("return vec3(" + " + ".join(["s.uv.x"] * 2500) + ");")
+        from tests.gl.trials import LONG_SUM, draw
         def work(name):
             try:
-                draw(cc.Renderer(device="software"), source)
+                draw(cc.Renderer(device="software"), LONG_SUM)
                 print(name, "drawn", flush=True)
             except cc.ShaderError as error:
                 print(name, "refused", flush=True)
@@ -484,7 +513,7 @@ def test_ctrl_c_ends_a_trial():
             os.kill(os.getpid(), signal.SIGINT)
         threading.Thread(target=interrupt).start()
         try:
-            draw(renderer, shade(f"return vec3({SLOW});"))
+            draw(renderer, SLOW)
         except KeyboardInterrupt:
             print(time.monotonic() - sent[0])
         assert wait_until(lambda: not is_running(helper), 5)
@@ -492,7 +521,8 @@ def test_ctrl_c_ends_a_trial():
         assert (frame.color[..., 0] == 0.5).all()
         """
     )
-    assert float(done.stdout) < 0.5
+    # 0.1 seconds on an idle machine; the trial takes 10 seconds of CPU.
+    assert float(done.stdout) < 5
 
 
 def test_the_helper_is_in_the_package():

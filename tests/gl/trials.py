@@ -20,13 +20,21 @@ def _chain(count, call):
     return "\n".join(lines)
 
 
-#: Sources that end the driver at once: what the message says about it.
+def _repeated(name, text, between, count):
+    """Macros whose last, `name`, is a text 1,000 times `count`: no line of them is long."""
+    macros = [f"#define {name}0 {text}"]
+    macros += [f"#define {name}{i} {between.join([f'{name}{i - 1}'] * 10)}" for i in (1, 2, 3)]
+    return "\n".join([*macros, f"#define {name} {between.join([f'{name}3'] * count)}"])
+
+
+#: Sources that end the driver at once: what the message says about it. Macros and products hide the amounts of the
+#: last ones from cubecam's own limits, which read the text.
 DEADLY = {
     "division": (shade("return vec3(float((-2147483647 - 1) / -1));"), "SIGFPE.* compiled"),
     "remainder": (shade("return vec3(float((-2147483647 - 1) % -1));"), "SIGFPE.* compiled"),
-    "sum": (shade(f"return vec3({'+'.join(['s.uv.x'] * 20_000)});"), "SIGSEGV.* compiled"),
+    "sum": (shade("return vec3(SUM);", _repeated("SUM", "s.uv.x", "+", 20)), "SIGSEGV.* compiled"),
     "array": (
-        shade("float a[1000000000]; a[int(s.uv.x)] = 1.0; return vec3(a[int(s.uv.y)]);"),
+        shade("float a[1000 * 1000000]; a[int(s.uv.x)] = 1.0; return vec3(a[int(s.uv.y)]);"),
         "1024 MiB of memory",
     ),
 }
@@ -34,20 +42,36 @@ DEADLY = {
 _MACROS = "\n".join(
     ["#define A0 s.uv.x + s.uv.y", *(f"#define A{i} A{i - 1} + A{i - 1}" for i in range(1, 26))]
 )
-_CASES = " ".join(f"case {i}: x += sin(x * {i}.5); break;" for i in range(20_000))
+_CASE = "#define CASE(i) case i: x += sin(x * float(i)); break;"
+_FUNCTION = "#define NEXT(f, g) float f(float x) { return g(x) * 1.01 + 1.0; }"
 
 #: Sources that take the driver minutes, or more memory than there is.
 ENDLESS = {
     "array": shade(
-        "float a[1000000]; for (int i = 0; i < 1000000; ++i) a[i] = float(i);"
+        "float a[1000 * 1000]; for (int i = 0; i < 1000000; ++i) a[i] = float(i);"
         "return vec3(a[int(s.uv.x * 1e5)]);"
     ),
     "macros": shade("return vec3(A25);", _MACROS),
     "cases": shade(
-        f"float x = 0.0; switch (int(s.uv.x * 2e4)) {{ {_CASES} }} return vec3(x);",
+        "float x = 0.0; switch (int(s.uv.x * 2e4)) {"
+        + "\n".join(f"CASE({i})" for i in range(20_000))
+        + "} return vec3(x);",
+        _CASE,
     ),
-    "chain": shade("return vec3(f4999(s.uv.x));", _chain(5000, "{0}(x) * 1.01 + 1.0")),
+    "chain": shade(
+        "return vec3(f4999(s.uv.x));",
+        "\n".join([_FUNCTION, _chain(1, ""), *(f"NEXT(f{i}, f{i - 1})" for i in range(1, 5000))]),
+    ),
     "tree": shade("return vec3(f29(s.uv.x));", _chain(30, "{0}(x) + {0}(x + 1.0)")),
+}
+
+#: The same amounts in plain sight: cubecam's own limits refuse them, and no driver sees them.
+OBVIOUS = {
+    "sum": (shade(f"return vec3({'+'.join(['s.uv.x'] * 2_500)});"), "2000 operators"),
+    "array": (shade("float a[1000000]; return vec3(a[int(s.uv.y)]);"), "65536 elements"),
+    "chain": (shade("return vec3(1);", _chain(5000, "{0}(x) * 1.01 + 1.0")), "1000 functions"),
+    "brackets": (shade(f"return vec3({'(' * 5000}1.0{')' * 5000});"), "200 brackets"),
+    "words": (shade(f"float x = 0.0; {'x += 1.0; ' * 30_000} return vec3(x);"), "100000 words"),
 }
 
 #: Loops that never end: llvmpipe cuts them.
@@ -60,8 +84,14 @@ LOOPS = {
     ),
 }
 
+#: A source that a stack of some 100 KB is too small for, and one of 1 MB is not.
+LONG_SUM = shade("return vec3(SUM);", _repeated("SUM", "s.uv.x", "+", 2))
+
 #: A source that keeps the helper busy for the whole limit.
-SLOW = "s.uv.x > 0.5 ? " * 3000 + "1.0" + " : s.uv.y" * 3000
+SLOW = shade(
+    "return vec3(IF 1.0 ELSE);",
+    _repeated("IF", "s.uv.x > 0.5 ?", " ", 3) + "\n" + _repeated("ELSE", ": s.uv.y", " ", 3),
+)
 
 
 def helpers(owner=None):

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <set>
 #include <utility>
 
 namespace cubecam::gl {
@@ -139,7 +141,10 @@ public:
             for (const GlslText::Token& token : directive.rest) {
                 braces += token.text == "{" ? 1 : token.text == "}" ? -1 : 0;
             }
-            if (directive.word == "define" && braces != 0) found_.uncertain = true;
+            if (directive.word != "define" || directive.rest.empty()) continue;
+            const std::string& last = directive.rest.back().text;
+            if (last == ";" || last == "}") whole_.insert(directive.rest[0].text);
+            if (braces != 0) found_.uncertain = true;
         }
         for (std::size_t i = 0; i < tokens_.size(); ++i) {
             for (; next < directives.size() && directives[next].before_token <= i; ++next) {
@@ -251,6 +256,20 @@ private:
         state_.open.push_back(std::move(made));
     }
 
+    /// Returns where the declaration of a global statement begins. Macros that end with
+    /// a declaration, as in `LAMP(red) vec3 shade(...)`, need no semicolon behind them.
+    std::size_t after_macros(std::size_t end) const {
+        std::size_t at = state_.statement;
+        const auto is_word = [&](std::size_t i) { return i < end && tokens_[i].is_word(); };
+        while (is_word(at) && whole_.contains(tokens_[at].text)) {
+            const bool call = at + 1 < end && tokens_[at + 1].text == "(";
+            const std::size_t next = call ? after_bracket(tokens_, at + 1, end) : at + 1;
+            if (!is_word(next) || (!call && !is_word(next + 1))) break;
+            at = next;
+        }
+        return at;
+    }
+
     /// Finds out what the braces at `i` hold, and notes its name.
     Role role_at(std::size_t i, std::size_t& index) {
         for (std::size_t k = state_.statement; k + 1 < i + 1; ++k) {
@@ -273,7 +292,7 @@ private:
             return Role::structure;
         }
         if (!state_.open.empty()) return Role::plain;
-        Head head = read_head(tokens_, state_.statement, i);
+        Head head = read_head(tokens_, after_macros(i), i);
         if (i > state_.statement && tokens_[i - 1].text == ")") {
             if (head.type.empty() || head.next + 1 >= i || tokens_[head.next + 1].text != "(")
                 return Role::plain;
@@ -341,7 +360,7 @@ private:
             head.qualifiers = state_.tail_qualifiers;
             head.next = state_.statement;
         } else {
-            head = read_head(tokens_, state_.statement, i);
+            head = read_head(tokens_, after_macros(i), i);
             if (head.type.empty()) return;
         }
         if (head.next + 1 < i && tokens_[head.next].is_word() &&
@@ -357,6 +376,7 @@ private:
     GlslOutline found_;
     State state_;
     std::vector<Branch> branches_;
+    std::set<std::string, std::less<>> whole_;  ///< macros that end with a declaration
     std::vector<std::string> block_qualifiers_;
 };
 

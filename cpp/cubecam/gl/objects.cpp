@@ -182,6 +182,18 @@ VertexArray create_vertex_array(const GladGLContext& gl) {
     return VertexArray(gl, id);
 }
 
+void settle_vertex_array(const GladGLContext& gl, GLuint array, GLuint binding, GLuint buffer,
+                         std::size_t stride) {
+    constexpr int enough = 8;
+    constexpr GLintptr other_offset = 16;
+    gl.BindVertexArray(array);
+    for (int i = 1; i <= enough; ++i) {
+        gl.VertexArrayVertexBuffer(array, binding, buffer, i % 2 * other_offset,
+                                   static_cast<GLsizei>(stride));
+        gl.DrawArrays(GL_TRIANGLES, 0, 0);
+    }
+}
+
 void check_framebuffer(const GladGLContext& gl, const Framebuffer& framebuffer,
                        std::string_view what) {
     const GLenum status = gl.CheckNamedFramebufferStatus(framebuffer.id(), GL_FRAMEBUFFER);

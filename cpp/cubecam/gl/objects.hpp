@@ -66,6 +66,14 @@ Buffer create_buffer(const GladGLContext& gl, std::span<T, Extent> data, GLbitfi
 
 Framebuffer create_framebuffer(const GladGLContext& gl);
 VertexArray create_vertex_array(const GladGLContext& gl);
+/// Changes the buffer of a binding so often that Mesa takes the array for one that changes.
+///
+/// Mesa begins with the buffers of a vertex array as few as they can be, and gives each attribute a
+/// buffer of its own when the array has changed some times. llvmpipe then compiles every vertex
+/// shader again. An array whose buffer is another one in each picture had better begin with that.
+/// It stays bound; no draw call draws anything.
+void settle_vertex_array(const GladGLContext& gl, GLuint array, GLuint binding, GLuint buffer,
+                         std::size_t stride);
 
 /// Throws GlError that names `what` and the decoded status unless the framebuffer is complete.
 void check_framebuffer(const GladGLContext& gl, const Framebuffer& framebuffer,

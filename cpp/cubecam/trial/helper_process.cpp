@@ -32,7 +32,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int slice = 50;  // milliseconds between two looks for an interrupt
 constexpr int start_milliseconds = 20'000;
 constexpr std::chrono::seconds start_pause{60};  // after a start that failed
-constexpr int answer_milliseconds = (Limits::wall_seconds + 10) * 1000;
+constexpr int answer_milliseconds = (Limits::most_seconds + 10) * 1000;
 constexpr std::size_t most_text = 4096;
 
 /// The descriptors of connections. A forked child closes its copies: as long as one is open, the

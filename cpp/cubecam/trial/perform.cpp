@@ -211,6 +211,7 @@ public:
             buffers_.push_back(gl::create_buffer(gl, std::span<const float>(values)));
             gl.VertexArrayVertexBuffer(array, binding, buffers_.back().id(), 0,
                                        static_cast<GLsizei>(user->stride));
+            gl::settle_vertex_array(gl, array, binding, buffers_.back().id(), user->stride);
         }
         gl.BindVertexArray(array);
     }

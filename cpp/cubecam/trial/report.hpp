@@ -21,8 +21,13 @@ enum class Outcome : std::uint8_t {
 
 /// What the helper may take for one source.
 struct Limits {
-    static constexpr int seconds = 10;       ///< of CPU time
-    static constexpr int wall_seconds = 30;  ///< of the clock, if the driver waits for something
+    static constexpr int seconds = 10;  ///< of CPU time
+    /// Of the clock, if the driver waits for something: in each such span it has to take
+    /// least_milliseconds of CPU time. So a busy machine makes no source fail.
+    static constexpr int wall_seconds = 30;
+    static constexpr int least_milliseconds = 500;
+    /// After so many seconds one of the two limits has struck.
+    static constexpr int most_seconds = wall_seconds * (1000 * seconds / least_milliseconds + 1);
     static constexpr std::uint64_t bytes = std::uint64_t{1} << 30;
     static constexpr std::uint32_t job_bytes = 8U << 20;  ///< text and state
 };

@@ -42,7 +42,7 @@ std::string in_words(const Verdict& verdict) {
         case Outcome::ended: return "the driver ended its process" + step;
         case Outcome::out_of_time:
             if (verdict.signal != SIGPROF) {
-                return "the driver did not end in " + std::to_string(Limits::wall_seconds) +
+                return "the driver waited for " + std::to_string(Limits::wall_seconds) +
                        " seconds" + step;
             }
             return "the driver took more than " + std::to_string(Limits::seconds) + " seconds" +

@@ -381,9 +381,16 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         const bool instanced = !call.node_block;
         const SurfaceVariant variant = variant_of(*call.item, instanced, outputs);
         const GLuint array = instanced ? mesh.instanced.id() : mesh.array.id();
-        gl_->VertexArrayVertexBuffer(
-            array, vertex_buffer::records, instanced ? node_records_.id() : view_records_.id(), 0,
-            static_cast<GLsizei>(instanced ? sizeof(NodeRecord) : sizeof(ViewRecord)));
+        const GLuint records = instanced ? node_records_.id() : view_records_.id();
+        const std::size_t record_bytes = instanced ? sizeof(NodeRecord) : sizeof(ViewRecord);
+        // The machine code of a trial is that of an array that changes with each picture.
+        bool& settled = instanced ? mesh.instanced_settled : mesh.array_settled;
+        if (!settled && context_->software() && node.material.value.traits().user_code) {
+            gl::settle_vertex_array(*gl_, array, vertex_buffer::records, records, record_bytes);
+            settled = true;
+        }
+        gl_->VertexArrayVertexBuffer(array, vertex_buffer::records, records, 0,
+                                     static_cast<GLsizei>(record_bytes));
         gl_->BindVertexArray(array);
         set_raster_state(*gl_, node, mirror, depth_);
         // A node that writes no depth need not be the nearest, so it writes no outputs.

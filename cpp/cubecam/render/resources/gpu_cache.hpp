@@ -58,6 +58,9 @@ struct GpuStream {
 struct GpuMesh {
     gl::VertexArray array;      ///< with the attributes of a view
     gl::VertexArray instanced;  ///< with the attributes of a node
+    // Whether gl::settle_vertex_array() has seen them.
+    mutable bool array_settled = false;
+    mutable bool instanced_settled = false;
     gl::Buffer indices;
     GLenum index_type = GL_UNSIGNED_SHORT;
     GLsizei index_count = 0;
