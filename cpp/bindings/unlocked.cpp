@@ -12,6 +12,7 @@
 #include <thread>
 #include <unistd.h>
 #include <unwind.h>
+#include <utility>
 
 namespace py = pybind11;
 
@@ -39,6 +40,9 @@ constinit std::atomic<unsigned long> signal_thread{0};
     pthread_sigmask(SIG_BLOCK, &all, nullptr);
     for (;;) pause();
 }
+
+/// What a test wants to be called at each look for signals; null if nothing.
+constinit PyObject* test_function = nullptr;
 
 PyThreadState* leave_lock() {
     ++running;  // first: the end of the interpreter must not come in between
@@ -79,6 +83,7 @@ void check_interrupts() {
     }
     if (!handles_signals()) return;
     const Locked locked;
+    if (test_function != nullptr) py::reinterpret_borrow<py::object>(test_function)();
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
@@ -133,6 +138,15 @@ void bind_interrupts(py::module_& module) {
         py::arg("milliseconds"),
         "For tests: the time between two looks for signals in a long call; returns the one "
         "before.");
+    module.def(
+        "_at_interrupt_check",
+        [](const py::object& function) {
+            PyObject* const next = function.is_none() ? nullptr : function.inc_ref().ptr();
+            py::reinterpret_steal<py::object>(std::exchange(test_function, next));
+        },
+        py::arg("function"),
+        "For tests: a function without arguments that is called at each look for signals in a "
+        "long call of the main thread; None: no function.");
 }
 
 }  // namespace cubecam::bindings

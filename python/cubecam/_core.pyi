@@ -8283,6 +8283,11 @@ class Renderer:
         Stats: what the last call drew.
         """
 
+def _at_interrupt_check(function: object) -> None:
+    """
+    For tests: a function without arguments that is called at each look for signals in a long call of the main thread; None: no function.
+    """
+
 def _brdf(
     n_dot_v: typing.Annotated[np.typing.ArrayLike, np.float32],
     roughness: typing.Annotated[np.typing.ArrayLike, np.float32],

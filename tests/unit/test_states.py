@@ -2,6 +2,8 @@
 
 import contextlib
 import pickle
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,31 +12,31 @@ import cubecam as cc
 from tests.fuzz.pickles import THINGS
 from tests.fuzz.world import World
 
-DEEP: list = []
+DEEP: list[Any] = []
 for _ in range(100_000):
     DEEP = [DEEP]
 
 #: What takes the place of a part.
-OTHERS = (
+OTHERS: tuple[Any, ...] = (
     None, "x", "\ud800", {"\ud800": 1}, ["\ud800"], 10**400, -1, 2**40, True, 1.5, float("nan"), object(), {}, (), [],
     b"a", np.zeros((2, 2)), DEEP,
 )  # fmt: skip
 
 
-def changed(part, depth=0):
+def changed(part: Any, depth: int = 0) -> Iterator[Any]:
     """Yield versions of a state with one part replaced, left out or added, at every depth."""
     yield from OTHERS
     yield [part]
     if depth > 4:
         return
     if isinstance(part, tuple | list):
-        kind = type(part)
+        kind: Any = type(part)
         for i in range(min(len(part), 6)):
             yield part[:i]
-            yield part[:i] + part[i + 1 :]
+            yield kind([*part[:i], *part[i + 1 :]])
             for other in changed(part[i], depth + 1):
-                yield part[:i] + kind([other]) + part[i + 1 :]
-        yield part + kind([1])
+                yield kind([*part[:i], other, *part[i + 1 :]])
+        yield kind([*part, 1])
     if isinstance(part, dict):
         for key in part:
             yield {other: value for other, value in part.items() if other != key}
@@ -70,36 +72,40 @@ def refuses(call):
 
 @pytest.mark.parametrize("name", THINGS)
 def test_any_state_is_taken_or_refused_as_a_value(world, name):
-    thing = getattr(world, name)
+    thing: Any = getattr(world, name)
     reduced = thing.__reduce_ex__(2)
     if len(reduced) < 3 or reduced[2] is None or not hasattr(thing, "__setstate__"):
-        kind, arguments = reduced[0], reduced[1]  # a function makes it from its parts
+        make, arguments = reduced[0], reduced[1]  # a function makes it from its parts
         wrong = 0
         for other in changed(arguments):
             if not isinstance(other, tuple):
                 continue
             # operator.methodcaller, of something that has no such method, raises AttributeError.
             with contextlib.suppress(AttributeError):
-                wrong += refuses(lambda other=other: kind(*other))
+                wrong += refuses(lambda other=other: make(*other))
         assert wrong > 0
         return
     wrong = 0
     for state in states_of(thing):
-        made = type(thing).__new__(type(thing))
+        kind: Any = type(thing)
+        made = kind.__new__(kind)
         wrong += refuses(lambda made=made, state=state: made.__setstate__(state))
     assert wrong > 20
 
 
+def state_of(thing: Any) -> Any:
+    return thing.__reduce_ex__(2)[2]
+
+
 def test_the_error_names_the_class_and_what_is_wrong():
-    scene = cc.Scene()
-    form, state = scene.__reduce_ex__(2)[2]
+    form, state = state_of(cc.Scene())
     del state["background"]
     with pytest.raises(
         ValueError, match=r"Scene: expected the state of a pickled Scene.*KeyError.*background"
     ) as caught:
         cc.Scene().__setstate__((form, state))
     assert isinstance(caught.value.__cause__, KeyError)
-    form, state = cc.Scene().__reduce_ex__(2)[2]
+    form, state = state_of(cc.Scene())
     with pytest.raises(ValueError, match="Scene: expected the state of a pickled Scene"):
         cc.Scene().__setstate__(
             (form, {**state, "nodes": [1]})

@@ -213,7 +213,11 @@ PixelBuffer faces_to_picture(const std::byte* faces, int size, std::size_t texel
     const std::size_t face_stride = static_cast<std::size_t>(size) * texel;
     const std::size_t stride = static_cast<std::size_t>(picture.width) * texel;
     const std::size_t face_bytes = face_stride * static_cast<std::size_t>(size);
-    PixelBuffer result(stride * static_cast<std::size_t>(picture.height), std::byte{0});
+    PixelBuffer result(stride * static_cast<std::size_t>(picture.height));
+    for (std::size_t first = 0; first < result.size(); first += stride) {
+        poll_interrupts();
+        std::memset(result.data() + first, 0, stride);
+    }
     for (const Cell& cell : layout_cells(layout, convention)) {
         copy_rows(faces + face_index(cell.face) * face_bytes, face_stride,
                   result.data() + static_cast<std::size_t>(cell.row * size) * stride +

@@ -1,5 +1,7 @@
 #include "cubecam/render/stereo.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
@@ -22,6 +24,7 @@ void put_side_by_side(std::shared_ptr<PixelBuffer>& stacked, std::size_t rows) {
     const std::size_t row = stacked->size() / (2 * rows);  // bytes of a row of one eye
     auto pair = std::make_shared<PixelBuffer>(stacked->size());
     for (std::size_t y = 0; y < rows; ++y) {
+        poll_interrupts();
         for (std::size_t eye = 0; eye < 2; ++eye) {
             std::memcpy(pair->data() + (2 * y + eye) * row,
                         stacked->data() + (eye * rows + y) * row, row);
@@ -48,6 +51,7 @@ PixelBuffer mix(const PixelBuffer& stacked, Greater&& most) {
     const auto* right = reinterpret_cast<const Channel*>(stacked.data() + bytes);
     auto* to = reinterpret_cast<Channel*>(mixed.data());
     for (std::size_t i = 0; i < bytes / sizeof(Channel); i += 4) {
+        poll_interrupts(i / 4);
         to[i] = left[i];
         to[i + 1] = right[i + 1];
         to[i + 2] = right[i + 2];

@@ -1,14 +1,20 @@
 """The command `cubecam`: info, demo, render, bake, convert, capture, example, view.
 
-Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 141 if the program that
-reads the output has ended, as in `cubecam info | head -1`.
+Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 130 for Ctrl-C, which
+leaves no unfinished file; 141 if the program that reads the output has ended, as in `cubecam info | head -1`.
 """
 
 from __future__ import annotations
 
+import os
+import signal
+from collections.abc import Callable
+from typing import NoReturn
+
 import click
 
 from .. import __version__
+from ..io.outside import calls_run
 from .bake import bake
 from .capture import capture
 from .common import FILE, WholeNumber, device_option, failures_reported, parse_device
@@ -22,6 +28,9 @@ from .terminal import guard_streams
 from .view import view
 
 __all__ = ["app", "main"]
+
+#: What a shell reports for a program that SIGINT ended: 128 and the signal's number.
+INTERRUPTED = 130
 
 
 @click.group(cls=Group, context_settings={"max_content_width": 100})
@@ -62,6 +71,22 @@ def main() -> None:
     """Run the command; the entry point of the console script."""
     finish = guard_streams()
     try:
-        app(prog_name="cubecam")
+        raise SystemExit(app.main(prog_name="cubecam", standalone_mode=False))
+    except click.ClickException as error:
+        error.show()
+        raise SystemExit(error.exit_code) from None
+    except (click.Abort, KeyboardInterrupt):
+        _end_interrupted(finish)
     finally:
         finish()
+
+
+def _end_interrupted(finish: Callable[[], None]) -> NoReturn:
+    """End after Ctrl-C; click has ended the line in which the terminal wrote ^C."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # pressed again, it would show a traceback
+    finish()
+    if calls_run():
+        os._exit(
+            INTERRUPTED
+        )  # the interpreter's end would wait for the thread that reads or writes
+    raise SystemExit(INTERRUPTED) from None

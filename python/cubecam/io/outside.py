@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["calls_outside", "interruptible"]
+__all__ = ["calls_outside", "calls_run", "interruptible"]
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -64,6 +64,11 @@ atexit.register(lambda: _calls.end())
 os.register_at_fork(after_in_child=_forget_other_threads)
 
 
+def calls_run() -> bool:
+    """Whether a call is inside such a library: the end of the interpreter would wait for it."""
+    return _calls.running > 0
+
+
 def calls_outside(function: Callable[P, T]) -> Callable[P, T]:
     """Make the interpreter wait at its end for calls of a function that calls such a library."""
 
@@ -96,7 +101,10 @@ def interruptible(function: Callable[P, T], *args: P.args, **kwargs: P.kwargs) -
             done.set()
 
     threading.Thread(target=work, daemon=True, name="cubecam").start()
-    done.wait()
+    while not done.wait(
+        0.1
+    ):  # a signal that the system gives to another thread does not end a wait
+        pass
     if errors:
         raise errors[0]
     return results[0]

@@ -156,14 +156,15 @@ class _Draft:
 
     def _give_name(self) -> None:
         # A link cannot take the place of a file, so the draft has a name of its own until `os.replace`.
-        name = self._hidden_name(self._target.parent)
+        contents, name = self.name, self._hidden_name(self._target.parent)
         folder = os.open(name.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        # Before there is a link: Ctrl-C right after os.link would leave it in the folder.
+        self.name, self._named = name, True
         try:
             # With `src_dir_fd` Python calls linkat with AT_SYMLINK_FOLLOW: it links the file, not the name in /proc.
-            os.link(self.name, name, src_dir_fd=folder)
+            os.link(contents, name, src_dir_fd=folder)
         finally:
             os.close(folder)
-        self.name, self._named = name, True
 
 
 def _takes_after(number: int, target: Path, old: os.stat_result) -> bool:

@@ -189,10 +189,8 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         poll_interrupts();
         if (target.multisampled()) target.resolve(static_cast<int>(v));
         if (target.description().post_processed) {
-            gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), stats);
-            const double steps = 1.0 + static_cast<double>(post_process.effects.size());
-            gpu.context.pace().submitted(gpu.context.gl(),
-                                         steps * static_cast<double>(whole.area()));
+            gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), gpu.context,
+                                  stats);
         }
     }
     gl::check_gl(gpu.context.gl(), "finishing a picture");

@@ -1,8 +1,10 @@
 #include "cubecam/render/passes/post_process_pass.hpp"
 
+#include "cubecam/gl/pace.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
 #include "cubecam/render/passes/texture_units.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace cubecam {
@@ -16,7 +18,8 @@ void add_grading(Key& key, const PostProcess& post_process) {
 
 void PostProcessPass::draw(const PostProcess& post_process,
                            const std::vector<std::vector<BoundTexture>>& textures, Target& target,
-                           int layer, Stats& stats) {
+                           int layer, const gl::Context& context, Stats& stats) {
+    const Place place{target.description().width, target.description().height, layer, context};
     set_full_screen_state(*gl_);
     gl_->Viewport(0, 0, target.description().width, target.description().height);
     GLuint source = target.color().id();
@@ -26,14 +29,14 @@ void PostProcessPass::draw(const PostProcess& post_process,
         const GLuint framebuffer = target.scratch_pass(to).one(layer);
         UserProgram& program = program_of(effect, textures[i], framebuffer, target);
         program.use(effect.inputs, textures[i]);
-        draw_quad(framebuffer, source, program.program(), layer, stats);
+        draw_quad(framebuffer, source, program.program(), place, stats);
         source = target.scratch(to).id();
     }
     const gl::Program& grade =
         programs_->grade(post_process.tonemap, post_process.encode, post_process.decode);
     grade.use();
     grade.set("u_gain", post_process.gain);
-    draw_quad(target.post_processed_pass().one(layer), source, grade, layer, stats);
+    draw_quad(target.post_processed_pass().one(layer), source, grade, place, stats);
 }
 
 UserProgram& PostProcessPass::program_of(const EffectValue& effect,
@@ -54,12 +57,25 @@ UserProgram& PostProcessPass::program_of(const EffectValue& effect,
 }
 
 void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,
-                                int layer, Stats& stats) {
+                                const Place& place, Stats& stats) {
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     program.use();
-    program.set("u_layer", layer);
+    program.set("u_layer", place.layer);
     gl_->BindTextureUnit(0, source);
-    draw_full_screen(*gl_, *cache_, {}, stats);
+    const int most = static_cast<int>(gl::Pace::chunk / 2 / place.width);
+    const int rows = place.context.software() ? std::max(1, most) : place.height;
+    // The scissor test is on since the scene was drawn, and its rectangle is the whole picture.
+    const struct WholeScissor {
+        const GladGLContext& gl;
+        const Place& place;
+        ~WholeScissor() { gl.Scissor(0, 0, place.width, place.height); }
+    } at_end{*gl_, place};
+    for (int y = 0; y < place.height; y += rows) {
+        const int height = std::min(rows, place.height - y);
+        gl_->Scissor(0, y, place.width, height);
+        draw_full_screen(*gl_, *cache_, {}, stats);
+        place.context.pace().submitted(*gl_, static_cast<double>(place.width) * height);
+    }
 }
 
 }  // namespace cubecam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/gl/context.hpp"
 #include "cubecam/render/passes/programs.hpp"
 #include "cubecam/render/passes/tonemap.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
@@ -36,17 +37,22 @@ public:
     PostProcessPass(const GladGLContext& gl, GpuCache& cache, Programs& programs)
         : gl_(&gl), cache_(&cache), programs_(&programs) {}
 
-    /// Processes one layer. `textures` are the textures that each effect looks up.
+    /// Processes one layer. `textures` are the textures that each effect looks up. Draws large
+    /// pictures in bands of rows in software, so that they can be interrupted.
     void draw(const PostProcess& post_process,
               const std::vector<std::vector<BoundTexture>>& textures, Target& target, int layer,
-              Stats& stats);
+              const gl::Context& context, Stats& stats);
 
 private:
     /// The program of an effect, tried in the state in which draw_quad() will draw.
     UserProgram& program_of(const EffectValue& effect, const std::vector<BoundTexture>& textures,
                             GLuint framebuffer, const Target& target);
-    void draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program, int layer,
-                   Stats& stats);
+    struct Place {
+        int width, height, layer;
+        const gl::Context& context;
+    };
+    void draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,
+                   const Place& place, Stats& stats);
 
     const GladGLContext* gl_;
     GpuCache* cache_;
