@@ -2,7 +2,9 @@
 
 import importlib.util
 import os
+import signal
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +18,13 @@ collect_ignore = [] if importlib.util.find_spec("playwright") else ["browser"]
 
 # Plots are drawn without a window, whatever the machine has.
 os.environ.setdefault("MPLBACKEND", "agg")
+
+# A shell starts what runs in its background with Ctrl-C ignored, and so would every process that a test starts.
+if (
+    signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+    and threading.current_thread() is threading.main_thread()
+):
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Every run uses the same examples, so that a failure can be repeated.
 settings.register_profile("cubecam", derandomize=True, deadline=None, database=None)
