@@ -85,7 +85,7 @@ def test_ctrl_c_ends_a_command_without_a_traceback_and_half_files(command, folde
         for name in want:
             (folder / "out" / name).write_bytes(b"old")
         done = run(arguments, max(1, int(share * looks)), folder)
-        # While the command waits it looks as well, so that a run may have fewer looks than the slower one before. Such a
+        # While the command waits it looks as well, so that a run may have fewer looks than a slower one before. Such a
         # run has ended before its signal came; its own number is the better one.
         for _ in range(8):
             if not done.stderr.startswith("looks"):
