@@ -22,8 +22,10 @@ import numpy as np
 import cubecam as cc
 import cubecam.typing
 from cubecam import demo, explore, navigation, plot
+from cubecam._checks import union_parts
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
+from tests.fuzz.hostile import deep, own
 
 STUB = pathlib.Path(cc.__file__).with_name("_core.pyi")
 
@@ -49,19 +51,6 @@ class Color(enum.IntEnum):
 
 class Word(str):
     """A subclass of str."""
-
-
-def deep_list(depth: int = 20_000) -> list[Any]:
-    made: list[Any] = []
-    for _ in range(depth):
-        made = [made]
-    return made
-
-
-def endless_list() -> list[Any]:
-    made: list[Any] = [1.0]
-    made.append(made)
-    return made
 
 
 def numpy_scalars() -> dict[str, Any]:
@@ -143,8 +132,8 @@ def values() -> dict[str, Any]:
         "Ellipsis": ...,
         "NotImplemented": NotImplemented,
         "object": object(),
-        "a deep list": deep_list(),
-        "an endless list": endless_list(),
+        "a deep list": deep(20_000),
+        "an endless list": own(),
         "a long list": [0.5] * 10_000,
         "masked": np.ma.masked,
         "a masked int": np.ma.masked_array(2, mask=True),
@@ -218,7 +207,7 @@ class Kinds:
         self.names: set[str] = set()
         self.words: set[str] = set()
         self.plain = True
-        for part in union(annotation):
+        for part in union_parts(annotation):
             self._add(part.removeprefix("typing.").removeprefix("cubecam.typing."))
 
     def _add(self, part: str) -> None:
@@ -255,17 +244,6 @@ class Kinds:
         return any(judges[word](value) for word in self.words) or (
             isinstance(value, str) and value in self.names
         )
-
-
-def union(annotation: str) -> list[str]:
-    parts, depth = [""], 0
-    for letter in annotation:
-        depth += (letter in "[(") - (letter in "])")
-        if letter == "|" and depth == 0:
-            parts.append("")
-        else:
-            parts[-1] += letter
-    return [part.strip() for part in parts]
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,14 @@
 
 import copy
 import functools
+import importlib.util
 import os
 import pickle
 import subprocess
 import sys
 import textwrap
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -27,6 +30,17 @@ copies = pytest.mark.parametrize(
     [lambda x: pickle.loads(pickle.dumps(x)), copy.deepcopy],
     ids=["pickle", "deepcopy"],
 )
+
+
+def load_script(name: str) -> Any:
+    """Import scripts/<name>.py, which is in no package, as a module of its own."""
+    path = Path(__file__).resolve().parents[1] / "scripts" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 @functools.cache

@@ -1164,7 +1164,7 @@ MUTATIONS = [
     ),
     Mutation(
         "users' GLSL: buffers of macros are let through",
-        "user_text.cpp",
+        "user_interface.cpp",
         "[](const std::string&) { return false; }",
         "[](const std::string&) { return true; }",
         ("tests/gl/test_shader_errors.py",),

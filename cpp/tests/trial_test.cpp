@@ -82,7 +82,7 @@ void test_jobs() {
 Sha256::Digest number(std::uint32_t value) { return hash_of(std::to_string(value), 100); }
 
 void test_store() {
-    std::string folder = "/tmp/cubecam-verdicts-XXXXXX";
+    std::string folder = std::filesystem::temp_directory_path() / "cubecam-verdicts-XXXXXX";
     CHECK(mkdtemp(folder.data()) != nullptr);
     const std::string path = folder + "/new/verdicts";
     {

@@ -11,7 +11,7 @@ from typing import Any
 
 from . import _core
 from ._calls import Parameter, unknown_name, wrong_number
-from ._checks import text_of
+from ._checks import listed, text_of
 from ._old_names import PICKLED_ARGUMENTS, renamed_argument
 
 __all__ = ["explain"]
@@ -221,7 +221,7 @@ def _readable(kind: str) -> str:
         plain = {"ArrayLike": "array_like", "SupportsIndex": "int"}.get(plain, plain)
         if not (one == "typing.SupportsIndex" and names[-1:] == ["float"]):
             names.append(plain)
-    return " or ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+    return listed(names)
 
 
 def _described(parameter: Parameter) -> str:

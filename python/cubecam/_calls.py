@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ParamSpec, TypeVar
 
-from ._checks import ArgumentChecks
+from ._checks import ArgumentChecks, listed
 
 __all__ = ["Parameter", "checked_call", "unknown_name", "wrong_number"]
 
@@ -119,5 +119,4 @@ def wrong_number(
     missing = [p.name for p in parameters if p.required and p.name not in have]
     if not missing:
         return None
-    words = " and ".join([", ".join(missing[:-1]), missing[-1]] if missing[1:] else missing)
-    return f"{call} needs {words}"
+    return f"{call} needs {listed(missing, 'and')}"

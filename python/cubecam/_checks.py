@@ -22,16 +22,32 @@ __all__ = [
     "ArgumentChecks",
     "check_room",
     "finite_number",
+    "listed",
     "one_of",
     "pair",
     "real_number",
     "text_of",
     "truth",
+    "union_parts",
     "whole_number",
 ]
 
 #: A short text for a value in a message: numbers, texts and short lists as Python writes them, all else by its type.
 text_of: Callable[[object], str] = _core._text_of
+
+
+def listed(words: Sequence[str], last: str = "or") -> str:
+    """Join words for a sentence.
+
+    Examples
+    --------
+    >>> from cubecam._checks import listed
+    >>> listed(["int", "float", "None"])
+    'int, float or None'
+    >>> listed(["K", "size"], "and")
+    'K and size'
+    """
+    return f" {last} ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
 def whole_number(value: Any, name: str, low: int | None = None, high: int | None = None) -> int:
@@ -145,9 +161,8 @@ def one_of(value: Any, name: str, known: Iterable[str | None], also: str = "") -
         return str(value)
     words = ["None" if one is None else f'"{one}"' for one in allowed]
     words += [also] if also or not words else []
-    text = " or ".join([", ".join(words[:-1]), words[-1]] if words[1:] else words)
     error = ValueError if isinstance(value, str) else TypeError
-    raise error(f"{name}: expected {text}, got {text_of(value)}")
+    raise error(f"{name}: expected {listed(words)}, got {text_of(value)}")
 
 
 def check_room(size: float, what: str, name: str) -> None:
@@ -249,7 +264,7 @@ class _Kinds:
         words = [f'"{name}"' for name in self._names]
         words += [word for word in ("bool", "int", "float", "str") if word in self._parts]
         words += ["(width, height)"] * ("pair" in self._parts) + ["None"] * ("None" in self._parts)
-        return " or ".join([", ".join(words[:-1]), words[-1]] if words[1:] else words)
+        return listed(words)
 
 
 def _pair(value: Any) -> tuple[int, int] | None:
@@ -268,7 +283,7 @@ def _pair(value: Any) -> tuple[int, int] | None:
 def _kinds_of(annotation: str) -> _Kinds | None:
     """Read "Tonemap | Literal['auto'] | None"; None if a part of it is no plain value."""
     parts, names = [], []
-    for part in _union(annotation):
+    for part in union_parts(annotation):
         if part in ("None", "bool", "int", "float", "str"):
             parts.append(part)
         elif part == "tuple[int, int]":
@@ -282,8 +297,15 @@ def _kinds_of(annotation: str) -> _Kinds | None:
     return _Kinds(parts, names)
 
 
-def _union(annotation: str) -> list[str]:
-    """Cut at the bars that stand in no brackets."""
+def union_parts(annotation: str) -> list[str]:
+    """Cut an annotation at the bars that stand in no brackets.
+
+    Examples
+    --------
+    >>> from cubecam._checks import union_parts
+    >>> union_parts("dict[str, int | float] | None")
+    ['dict[str, int | float]', 'None']
+    """
     parts, depth = [""], 0
     for letter in annotation:
         depth += (letter in "[(") - (letter in "])")

@@ -487,6 +487,14 @@ def edit_property(name, world, rng, draw):
     return f"{name} of {thing!r}", lambda: setattr(thing, attribute, old)
 
 
+def edit(name, world, rng, draw):
+    """Make the edit of a name of NAMES, VALUES or METHODS. Returns it in words, and a function to undo it or None."""
+    if name in METHODS:
+        METHODS[name](world, rng, draw)
+        return name, None
+    return edit_property(name, world, rng, draw)
+
+
 def method_set_face(world, rng, draw):
     cube = one(rng, *world.cubes)
     cube.set_face(int(rng.integers(6)), rng.random((4, 4, 3)).astype(np.float32))

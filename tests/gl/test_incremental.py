@@ -93,13 +93,7 @@ def test_random_edits(new_renderer, seed):
     names = names_of_edits(seed)
     seen, refused = 0, 0
     for name in rng.permutation(names):
-        undo = None
-        draw = functools.partial(pictures, live, world)
-        if name in edits.METHODS:
-            what = name
-            edits.METHODS[name](world, rng, draw)
-        else:
-            what, undo = edits.edit_property(name, world, rng, draw)
+        what, undo = edits.edit(name, world, rng, functools.partial(pictures, live, world))
         got = pictures(live, world)
         same(got, pictures(scratch, copy.deepcopy(world)), f"after {what}")
         seen += is_changed(before, got)

@@ -121,7 +121,7 @@ def wait_until(condition, seconds=10):
 
 
 def is_running(process):
-    """Whether a process exists and is more than an entry that nobody has asked for yet."""
+    """Whether a process runs. One that has ended stays in the table of processes until its parent reads its status."""
     try:
         text = Path(f"/proc/{process}/stat").read_text()
     except OSError:

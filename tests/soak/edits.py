@@ -66,13 +66,7 @@ def one_world(
         if time.monotonic() > until:
             return
         name = names[rng.integers(len(names))]
-        undo = None
-        between = functools.partial(pictures, live, world)
-        if name in edits.METHODS:
-            what = name
-            edits.METHODS[name](world, rng, between)
-        else:
-            what, undo = edits.edit_property(name, world, rng, between)
+        what, undo = edits.edit(name, world, rng, functools.partial(pictures, live, world))
         got = draw(live, world)
         found = difference(got, pictures(scratch, copy.deepcopy(world)))
         report.count("edits")

@@ -1,6 +1,5 @@
 """scripts/compare_versions.py: what the script calls equal, a tie or a difference; a run against a changed copy."""
 
-import importlib.util
 import shutil
 import subprocess
 import sys
@@ -10,18 +9,14 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from tests.helpers import load_script
 
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "compare_versions.py"
 
 
 @pytest.fixture(scope="module")
 def script():
-    spec = importlib.util.spec_from_file_location("compare_versions", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load_script("compare_versions")
 
 
 def picture():

@@ -1,26 +1,17 @@
 """scripts/gpu_check.py: the parts on this machine's device, what a bad part does, what a report counts."""
 
 import argparse
-import importlib.util
 import json
 import os
-from pathlib import Path
 
 import pytest
 
-from tests.helpers import DEVICE
-
-SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "gpu_check.py"
+from tests.helpers import DEVICE, load_script
 
 
 @pytest.fixture(scope="module")
 def script():
-    spec = importlib.util.spec_from_file_location("gpu_check", SCRIPT)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return load_script("gpu_check")
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 import ast
 import importlib.metadata
-import importlib.util
 import json
 import re
 import shutil
@@ -10,6 +9,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
+from tests.helpers import load_script
 
 ROOT = Path(__file__).resolve().parents[2]
 #: Helpers that fail a test when something is wrong.
@@ -139,15 +140,6 @@ def test_the_bill_of_materials_names_what_is_compiled_in():
     assert cubecam["dependsOn"] == [part["purl"] for part in sbom["components"]]
 
 
-def wheel_script():
-    spec = importlib.util.spec_from_file_location("wheel_script", ROOT / "scripts" / "wheel.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 HARDENED = (
     "-O2", "-fstack-protector-strong", "-D_FORTIFY_SOURCE=2",
     "-Wl,-z,relro", "-Wl,-z,now", "-Wl,-z,noexecstack",
@@ -175,4 +167,4 @@ def test_a_wheel_that_lacks_hardening_is_found(soft, tmp_path):
     options = [*HARDENED, *([soft] if soft else [])]
     library = tmp_path / "a.so"
     subprocess.run([compiler, "-shared", "-fPIC", *options, source, "-o", library], check=True)
-    assert wheel_script().missing_hardening(library) == ([SOFT[soft]] if soft else [])
+    assert load_script("wheel").missing_hardening(library) == ([SOFT[soft]] if soft else [])

@@ -1,6 +1,5 @@
 """The sample files: what there is, what their documents say of them, and how large they are."""
 
-import importlib.util
 import re
 from pathlib import Path
 from typing import Any
@@ -9,6 +8,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from tests.helpers import load_script
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = cc.sample_data("bunny.obj").parent
@@ -57,11 +57,7 @@ def test_photographs_hold_what_the_documents_say(name):
 
 
 def test_the_scene_is_what_its_script_makes():
-    spec = importlib.util.spec_from_file_location("gallery", ROOT / "scripts" / "gallery.py")
-    assert spec is not None
-    assert spec.loader is not None
-    script = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(script)
+    script = load_script("gallery")
     made, read = script.build(), cc.load_scene(cc.sample_data(SCENE))
     assert [node.name for node in read.nodes] == [node.name for node in made.nodes]
     for one, other in zip(read.nodes, made.nodes, strict=True):

@@ -144,13 +144,16 @@ MemoryLeft memory_left(const fs::path& root) {
     return left;
 }
 
+void refuse_size(double left, const std::string& of, double bytes, const std::string& what) {
+    throw std::invalid_argument("size: expected what fits into " + megabytes(left) + " of " + of +
+                                ", got " + what + ", which take " + megabytes(bytes));
+}
+
 void check_memory(double bytes, const std::string& what) {
     if (bytes < static_cast<double>(small_allocation)) return;
     const MemoryLeft left = memory_left();
     if (bytes <= left.bytes) return;
-    throw std::invalid_argument("size: expected what fits into " + megabytes(left.bytes) +
-                                " of memory (" + left.limit + "), got " + what + ", which take " +
-                                megabytes(bytes));
+    refuse_size(left.bytes, "memory (" + left.limit + ")", bytes, what);
 }
 
 void check_room(std::size_t bytes) {

@@ -21,6 +21,10 @@ struct MemoryLeft {
 /// @param root the folder in which proc/ and sys/ lie; tests name another one.
 MemoryLeft memory_left(const std::filesystem::path& root = "/");
 
+/// Refuses a size, since `left` bytes are less than `what` takes; `of` says of what they are left.
+[[noreturn]] void refuse_size(double left, const std::string& of, double bytes,
+                              const std::string& what);
+
 /// Refuses an allocation that the memory cannot hold: the kernel would grant it and would end the
 /// process as soon as the process writes to it. Less than `small_allocation` bytes always pass.
 /// @throws std::invalid_argument that names `what`, which takes `bytes`.

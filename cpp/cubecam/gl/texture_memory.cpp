@@ -4,8 +4,6 @@
 
 #include <glad/gl.h>
 
-#include <stdexcept>
-
 namespace cubecam {
 namespace {
 
@@ -39,12 +37,7 @@ void check_texture_memory(const gl::Context& context, double texture_bytes, doub
         left = free_video_memory(context);
     }
     if (left && texture_bytes > *left) {
-        constexpr double mebi = 1 << 20;
-        throw std::invalid_argument("size: expected what fits into " +
-                                    std::to_string(static_cast<long long>(*left / mebi)) +
-                                    " MiB of free video memory, got " + what + ", which take " +
-                                    std::to_string(static_cast<long long>(texture_bytes / mebi)) +
-                                    " MiB");
+        refuse_size(*left, "free video memory", texture_bytes, what);
     }
     check_memory(main_bytes, what);
 }

@@ -263,17 +263,6 @@ private:
     std::vector<std::function<void()>> turns_;  // of the results, once they are read
 };
 
-/// The bytes of a texel in the result, and in the memory through which frames are read.
-struct ResultTexel {
-    std::size_t result;
-    std::size_t passing;
-};
-
-ResultTexel result_texel(const ShadedOutput& output) {
-    return {output_type_size(output.type) * static_cast<std::size_t>(output.channels),
-            given_output(output).bytes};
-}
-
 ReadBuffer* needed(const gl::Context& context, ReadBuffer& buffer) {
     return context.software() ? nullptr : &buffer;
 }
@@ -292,8 +281,8 @@ std::size_t result_bytes(const TargetDescription& d) {
         add(packed ? 4 : texel_size(d.format), texel_size(d.format));
     }
     for (const ShadedOutput& output : d.outputs.by_slot()) {
-        const ResultTexel bytes = result_texel(output);
-        add(bytes.result, bytes.passing);
+        add(output_type_size(output.type) * static_cast<std::size_t>(output.channels),
+            given_output(output).bytes);
     }
     for (std::size_t i = 0; i < output_table.size(); ++i) {
         if (!d.outputs.has(i) || output_table[i].source == OutputSource::shader) continue;

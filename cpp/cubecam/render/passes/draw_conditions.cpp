@@ -1,10 +1,18 @@
 #include "cubecam/render/passes/draw_conditions.hpp"
 
+#include "cubecam/render/passes/texture_units.hpp"
 #include "cubecam/trial/capture.hpp"
 
 #include <cstddef>
 
 namespace cubecam {
+
+void DrawConditions::add_textures(std::span<const BoundTexture> own) {
+    GLuint unit = texture_unit::first_of_material;
+    for (const BoundTexture& texture : own) {
+        textures.push_back({unit++, texture.texture, texture.revision});
+    }
+}
 
 void DrawConditions::add_target(const TargetDescription& target, bool color, bool outputs,
                                 bool layered) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/render/resources/target.hpp"
 #include "cubecam/scene/snapshot.hpp"
 #include "cubecam/trial/job.hpp"
@@ -8,6 +9,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -44,6 +46,8 @@ struct DrawConditions {
         std::memcpy(bytes, &value, sizeof(Value));
         key.append(bytes, sizeof(Value));
     }
+    /// The user's textures, in the units from `texture_unit::first_of_material` on.
+    void add_textures(std::span<const BoundTexture> own);
     /// The parts of a pass: `color` and `outputs` say what is written.
     void add_target(const TargetDescription& target, bool color, bool outputs, bool layered);
     /// The parts of a node: blending, tests, the streams of its mesh.

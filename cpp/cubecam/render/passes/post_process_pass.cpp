@@ -48,10 +48,7 @@ UserProgram& PostProcessPass::program_of(const EffectValue& effect,
         gl_->BindVertexArray(cache_->views_only().id());
         conditions.add(target.description().shape.kind);
         conditions.textures.push_back({texture_unit::frame, target.color().id(), 0});
-        GLuint unit = texture_unit::first_of_material;
-        for (const BoundTexture& texture : textures) {
-            conditions.textures.push_back({unit++, texture.texture, texture.revision});
-        }
+        conditions.add_textures(textures);
     }
     return programs_->effect(effect, conditions);
 }

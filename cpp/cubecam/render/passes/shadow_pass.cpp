@@ -202,10 +202,7 @@ void ShadowPass::draw_moved(const NodeSnapshot& node, const ShadowInput& input, 
     DrawConditions conditions;
     if (programs_->tries()) {
         conditions.add_node(node);
-        GLuint unit = texture_unit::first_of_material;
-        for (const BoundTexture& texture : own) {
-            conditions.textures.push_back({unit++, texture.texture, texture.revision});
-        }
+        conditions.add_textures(own);
     }
     UserProgram& program =
         programs_->user_shadow(material, node.mesh->colors() != nullptr, conditions);

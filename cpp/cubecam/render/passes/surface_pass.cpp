@@ -286,15 +286,12 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
     conditions_.key = pass_.key;
     conditions_.add(outputs);
     conditions_.add_node(*item.node);
+    const MaterialTraits& material = item.node->material.value.traits();
+    conditions_.add_textures(
+        std::span(item.textures->textures).subspan(material.user_code->first_texture));
     const auto add = [this](GLuint unit, GLuint texture, std::uint64_t revision) {
         conditions_.textures.push_back({unit, texture, revision});
     };
-    const MaterialTraits& material = item.node->material.value.traits();
-    const auto own = std::span(item.textures->textures).subspan(material.user_code->first_texture);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        add(texture_unit::first_of_material + static_cast<GLuint>(i), own[i].texture,
-            own[i].revision);
-    }
     const Environment& environment = item.textures->environment;
     const bool reflects = environment.cube.texture != 0;
     add(texture_unit::cube, reflects ? environment.cube.texture : black_.id(),

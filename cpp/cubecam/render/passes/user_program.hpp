@@ -3,7 +3,7 @@
 #include "cubecam/gl/program.hpp"
 #include "cubecam/materials/user_shader.hpp"
 #include "cubecam/render/passes/draw_conditions.hpp"
-#include "cubecam/render/passes/user_text.hpp"
+#include "cubecam/render/passes/user_interface.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/trial/trial.hpp"
 

@@ -1,10 +1,8 @@
 #pragma once
 
-#include "cubecam/gl/handle.hpp"
 #include "cubecam/materials/user_shader.hpp"
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -20,17 +18,6 @@ std::string_view title_of(const UserSource& source, UserStage stage);
 /// what would make it use much memory or time. `source` has plain lines.
 /// @throws ShaderError that quotes the user's own line.
 void check_user_text(const UserSource& source, UserStage stage);
-
-/// A text as its user wrote it, with plain lines.
-struct WrittenText {
-    UserSource source;
-    UserStage stage;
-};
-
-/// Refuses the blocks, buffers and vertex attributes of a linked program that shaders/ does not
-/// declare: macros can hide declarations from check_user_text(). `texts` are those of the program.
-/// @throws ShaderError
-void check_interface(const GladGLContext& gl, GLuint program, std::span<const WrittenText> texts);
 
 /// A user's text in the form in which it is compiled.
 struct PreparedText {
