@@ -183,10 +183,9 @@ def sanitize(name: str, arguments: list[str], built: bool = False) -> int:
     shutil.rmtree(folder)
     folder.mkdir()
     pytest = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--capture=sys"]
-    chosen = arguments or [
-        *run.tests,
-        *(["-m", "not slow and not build"] if name == "address" else []),
-    ]
+    workers = str(len(os.sched_getaffinity(0)))
+    parallel = ["-n", workers, "--dist", "loadfile", "-m", "not slow and not build"]
+    chosen = arguments or [*run.tests, *(parallel if name == "address" else [])]
     status = subprocess.run([*prefix, *pytest, *chosen], cwd=ROOT, env=environment).returncode
     found = reports(folder)
     for text in found[:20]:

@@ -72,6 +72,12 @@ def need_layers():
         pytest.skip(f"{device()[0]} lacks GL_ARB_shader_viewport_layer_array")
 
 
+def need_own_memory():
+    """Skip the running test, which measures the memory of the process, under a sanitizer, which keeps freed memory."""
+    if "CUBECAM_EXPECT_MODULE" in os.environ:
+        pytest.skip("a sanitizer keeps freed memory, and its own counts")
+
+
 def need_terminals():
     """Skip the running test, which shows something in a pseudo-terminal, on a system without them (a bare chroot)."""
     try:

@@ -12,7 +12,7 @@ import pytest
 import cubecam as cc
 from tests.compare import assert_identical
 from tests.gl.world import room
-from tests.helpers import run_python
+from tests.helpers import need_own_memory, run_python
 
 CAMERA: dict[str, Any] = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
 CALLS = {
@@ -103,6 +103,7 @@ def test_a_reference_cycle_is_collected():
 @pytest.mark.slow
 def test_two_hundred_contexts_leave_nothing():
     """Contexts are closed or left to the garbage collector: they leave no file descriptor, thread or memory."""
+    need_own_memory()
     done = run_python(
         """
         import gc, psutil, numpy as np, cubecam as cc
@@ -135,6 +136,7 @@ def test_two_hundred_contexts_leave_nothing():
 
 def test_gpu_copies_go_with_their_objects(new_renderer):
     """Cache entries hold weak references and are swept at each call: many scenes in a row do not fill the memory."""
+    need_own_memory()
     renderer = new_renderer()
     me = psutil.Process()
 

@@ -22,7 +22,7 @@ from tests.gl.flat import (
     tiles,
 )
 from tests.gl.world import World, inner, perspective, triangles_of
-from tests.helpers import DEVICE, run_python
+from tests.helpers import DEVICE, need_own_memory, run_python
 from tests.reference.sampling import sample_image
 
 PICTURE = random_picture(1)
@@ -627,6 +627,7 @@ def test_each_edit_equals_a_drawing_from_scratch(new_renderer, edit):
 
 def test_contents_go_with_their_texture(new_renderer):
     """A stream of textures of 512 x 512 floats, 5 MB each, does not fill the memory."""
+    need_own_memory()
     renderer = new_renderer()
     me = psutil.Process()
 

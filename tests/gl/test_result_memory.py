@@ -11,7 +11,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.helpers import run_python
+from tests.helpers import need_own_memory, run_python
 
 SIZE = 128  # 1.5 MiB of float32
 CAMERA = cc.PerspectiveCamera()
@@ -162,6 +162,8 @@ def test_a_forked_process_may_let_results_go():
 
 
 def test_many_renderers_leave_no_memory():
+    need_own_memory()
+
     def round_trip():
         with cc.Renderer(device=os.environ.get("CUBECAM_TEST_DEVICE", "software")) as renderer:
             faces = renderer.capture(cc.Scene(), size=256).faces

@@ -11,6 +11,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
+from tests.helpers import need_own_memory
 
 HEIGHT, WIDTH = 6, 12
 DTYPES = {0: "<u4", 1: "<f2", 2: "<f4"}
@@ -343,6 +344,7 @@ def test_headers_cannot_claim_more_than_the_bytes_hold(name, tmp_path):
 
 def test_refused_claims_take_no_memory(tmp_path):
     """A process that may hold 1 GiB reads them all: the largest claims 14 GB."""
+    need_own_memory()
     paths = []
     for name, data in CLAIMS.items():
         paths.append(tmp_path / name)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.helpers import copies, run_python
+from tests.helpers import copies, need_own_memory, run_python
 
 
 def camera():
@@ -229,6 +229,7 @@ def test_a_monitor_in_its_room_keeps_neither_for_ever():
 
     The test runs in its own process, because other objects of a process change when the next search for cycles runs.
     """
+    need_own_memory()
     done = run_python(
         """
         import numpy as np, psutil
