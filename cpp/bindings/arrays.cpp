@@ -191,11 +191,20 @@ py::array readonly_values(const Vector& value, std::vector<py::ssize_t> shape) {
 
 }  // namespace
 
+bool has_attribute(py::handle object, const char* name) {
+    const auto found =
+        py::reinterpret_steal<py::object>(PyObject_GetAttrString(object.ptr(), name));
+    if (found) return true;
+    if (!PyErr_ExceptionMatches(PyExc_Exception)) throw py::error_already_set();
+    PyErr_Clear();
+    return false;
+}
+
 bool hides_values(py::handle value) {
     // Plain arrays, which most callers pass, have no mask.
     if (Py_TYPE(value.ptr()) == py::detail::npy_api::get().PyArray_Type_) return false;
     if (!py::isinstance<py::array>(value)) return false;
-    if (!py::hasattr(value, "mask") || !py::hasattr(value, "filled")) return false;
+    if (!has_attribute(value, "mask") || !has_attribute(value, "filled")) return false;
     return py::bool_(py::module_::import("numpy").attr("any")(value.attr("mask")));
 }
 

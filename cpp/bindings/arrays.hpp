@@ -44,6 +44,11 @@ enum class Values {
 template <typename T>
 using ContiguousArray = py::array_t<T, py::array::c_style>;
 
+/// Reports whether an object has an attribute. An attribute that raises is not there, as for
+/// `getattr` with a default, but for what ends a program, such as KeyboardInterrupt; Python 3.13
+/// would print what `py::hasattr` meets.
+bool has_attribute(py::handle object, const char* name);
+
 /// Whether an array is of a type that can hide values, and hides some. Such a type has a mask and
 /// the method filled(): numpy.ma.MaskedArray and its subclasses, and the masked arrays of astropy.
 /// The attributes are enough to know them, so numpy.ma is not imported.

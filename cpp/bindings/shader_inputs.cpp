@@ -50,7 +50,7 @@ UserSource to_user_source(py::handle value, const char* name) {
         }
         return {std::move(text), {}};
     }
-    if (!py::hasattr(value, "__fspath__")) {
+    if (!has_attribute(value, "__fspath__")) {
         refuse(value, name, "GLSL as a str, or a pathlib.Path of a file");
     }
     return read_source(value);

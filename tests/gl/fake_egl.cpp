@@ -20,6 +20,8 @@ constexpr std::int32_t reset_strategy = 0x31BD;
 constexpr std::int32_t track_references = 0x3352;
 constexpr unsigned gl_renderer = 0x1F01;
 constexpr unsigned max_texture_image_units = 0x8872;
+constexpr unsigned free_memory_nvx = 0x9049;
+constexpr unsigned free_memory_ati = 0x87FC;
 constexpr unsigned link_status = 0x8B82;
 constexpr unsigned active_uniforms = 0x8B86;
 constexpr unsigned pixel_pack_buffer_binding = 0x88ED;
@@ -111,6 +113,8 @@ void get_integer(unsigned name, int* value) {
         *value = std::atoi(units);
         return;
     }
+    const bool memory = name == free_memory_nvx || name == free_memory_ati;
+    if (memory && variable("FAKE_RENDERER") != nullptr) return;  // that GPU does not tell
     real_gl<void (*)(unsigned, int*)>("glGetIntegerv")(name, value);
 }
 

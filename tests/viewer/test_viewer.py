@@ -104,7 +104,7 @@ def test_a_change_of_the_scene_is_seen_and_nothing_is_drawn_while_nothing_change
     time.sleep(0.3)
     assert requests == []
     ball.position = (0, 0.5, 0)
-    deadline = time.monotonic() + 5
+    deadline = time.monotonic() + 60
     while not requests and time.monotonic() < deadline:
         time.sleep(0.01)
     assert requests != []
@@ -323,7 +323,7 @@ def test_closing_leaves_nothing_behind():
     assert renderer.closed
     left = weakref.ref(viewer)
     del viewer
-    deadline = time.monotonic() + 5
+    deadline = time.monotonic() + 60
     while any(t.name == "cubecam views" for t in threading.enumerate()):
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -432,7 +432,7 @@ def test_a_change_that_only_full_quality_shows_is_shown(new_renderer):
     assert_identical(viewer._picture(shown._quality.reduced((64, 64)), True), quick)
     assert (after != before).any()
     canvas.draw()
-    deadline = time.monotonic() + 5
+    deadline = time.monotonic() + 60
     while time.monotonic() < deadline and not np.array_equal(canvas._last_image, after):
         time.sleep(0.05)
         canvas.draw()
@@ -464,7 +464,7 @@ def test_one_broken_view_does_not_stop_the_others(shown, caplog):
             raise ArithmeticError("a control")
 
         broken.controls.tick = fail  # type: ignore[method-assign]
-        deadline = time.monotonic() + 5
+        deadline = time.monotonic() + 60
         while not caplog.records and time.monotonic() < deadline:
             time.sleep(0.02)
         time.sleep(0.1)
