@@ -40,6 +40,18 @@ LONG_CALLS = {
         "m = cc.Mesh.sphere(1, 2500, 1200); p, i = m.positions, m.indices",
         "cc.Mesh(p, i)",
     ),
+    "update": (
+        "m = cc.Mesh.sphere(1, 2500, 1500); p, n = m.positions, m.normals",
+        "m.update(positions=p[::-1])",
+    ),
+    "update twice": (
+        "m = cc.Mesh.sphere(1, 2500, 1500); p, n, u = m.positions, m.normals, m.uvs",
+        "m.normals = None; m.update(positions=p, uvs=u[::-1])",
+    ),
+    "Mesh.with_tangents": (
+        "m = cc.Mesh.sphere(1, 900, 500); u = m.uvs",
+        "m.update(uvs=u + np.float32(random.random())); m.with_tangents()",
+    ),
     "sphere": ("pass", "cc.Mesh.sphere(1, 2500, 1500)"),
     "icosphere": ("pass", "cc.Mesh.icosphere(1, 8)"),
     "load_image": (
@@ -337,4 +349,42 @@ def test_what_a_progress_function_raises_ends_the_work():
                 raise AssertionError("expected Stop")
         assert len(calls) == 2, calls
         """
+    )
+
+
+def test_a_handler_may_update_the_mesh_that_an_update_works_on():
+    """Neither update is lost, whichever ends first; a handler may also draw a mesh of which a form is being made."""
+    run_python(
+        PREPARE.format(device=DEVICE)
+        + """
+cc._core._interrupt_pause(0)
+m = cc.Mesh.sphere(1, 900, 500)
+n = len(m.positions)
+positions, uvs, normals = m.positions * 2, random_f4((n, 2)), m.normals[::-1].copy()
+s = s_of(cc.Scene(background=(1, 1, 1)))
+s.nodes[0].mesh = m
+calls = []
+
+def inside():
+    cc._core._at_interrupt_check(None)
+    calls.append(1)
+    for number in range(5): m.update(uvs=uvs)
+    r.render(s, cam, (8, 8))
+
+both = dict(positions=positions, normals=normals)
+for change in (dict(positions=positions), both, dict(normals=normals), dict(uvs=uvs)):
+    m.update(positions=positions / 2, uvs=uvs * 0)
+    m.normals = None
+    cc._core._at_interrupt_check(inside)
+    m.update(**change)
+    cc._core._at_interrupt_check(None)
+    fresh = cc.Mesh(change.get("positions", m.positions), m.indices, normals=change.get("normals"), uvs=uvs)
+    for name in ("positions", "normals", "uvs"):
+        assert np.array_equal(getattr(m, name), getattr(fresh, name)), (name, list(change))
+    cc._core._at_interrupt_check(inside)
+    assert np.array_equal(m.with_tangents().tangents, fresh.with_tangents().tangents)
+    cc._core._at_interrupt_check(None)
+assert len(calls) == 8, len(calls)
+""",
+        timeout=300,
     )
