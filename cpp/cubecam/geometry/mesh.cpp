@@ -51,15 +51,16 @@ std::shared_ptr<const MeshData> Mesh::data() const {
 /// make one form at once; then both get the one that was ready first.
 template <class Make>
 std::shared_ptr<const MeshData> Mesh::kept(Form& form, std::uint64_t revision, Make&& make) const {
+    const auto there = [&] { return form.data && form.of == revision; };
     std::shared_ptr<const MeshData> before;
     {
         const std::lock_guard lock(forms_mutex_);
-        if (form.data && form.of == revision) return form.data;
+        if (there()) return form.data;
         before = form.data;
     }
     auto made = std::make_shared<const MeshData>(make(before.get()));
     const std::lock_guard lock(forms_mutex_);
-    if (form.data && form.of == revision) return form.data;
+    if (there()) return form.data;
     // A snapshot that was begun before an update may still be read after it.
     if (revision > form.of) form = {made, revision};
     return made;
