@@ -1484,8 +1484,8 @@ MUTATIONS = [
     Mutation(
         "flat shading: an update goes unseen",
         "geometry/mesh.cpp",
-        "if (form.data && form.of == revision) return form.data;",
-        "if (form.data) return form.data;",
+        "{ return form.data && form.of == revision; }",
+        "{ return form.data != nullptr; }",
         FLAT,
     ),
     Mutation(

@@ -22,7 +22,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-std::string joined(const std::vector<GlslText::Token>& tokens) {
+std::string joined_texts(const std::vector<GlslText::Token>& tokens) {
     std::string text;
     for (const GlslText::Token& token : tokens)
         text += token.text + "@" + std::to_string(token.line) + " ";
@@ -39,17 +39,18 @@ void test_lines() {
 
 void test_tokens() {
     const GlslText text("a+=1.5e-3f; // b\n/* c\n */ x_1 <<= 0x1F\n# define A(x) \\\n x ## 2\ny");
-    CHECK_EQUAL(joined(text.tokens()), "a@1 +=@1 1.5e-3f@1 ;@1 x_1@3 <<=@3 0x1F@3 y@6 ");
+    CHECK_EQUAL(joined_texts(text.tokens()), "a@1 +=@1 1.5e-3f@1 ;@1 x_1@3 <<=@3 0x1F@3 y@6 ");
     CHECK_EQUAL(text.directives().size(), 1U);
     CHECK_EQUAL(text.directives()[0].word, "define");
-    CHECK_EQUAL(joined(text.directives()[0].rest), "A@4 (@4 x@4 )@4 x@5 #@5 #@5 2@5 ");
+    CHECK_EQUAL(joined_texts(text.directives()[0].rest), "A@4 (@4 x@4 )@4 x@5 #@5 #@5 2@5 ");
     CHECK_EQUAL(text.directives()[0].last_line, 5U);
     CHECK_EQUAL(text.directives()[0].before_token, 7U);
     CHECK_EQUAL(text.last_line(), 6U);
     CHECK(!text.open_comment());
     CHECK_EQUAL(GlslText("a\n/* /* */ b\n  /*\n*").open_comment().value_or(0), 3U);
     // A word over two lines, a comment that a backslash continues, a directive in a comment.
-    CHECK_EQUAL(joined(GlslText("ma\\\nin // \\\n x\n/*\n#if\n*/ #else").tokens()), "main@1 ");
+    CHECK_EQUAL(joined_texts(GlslText("ma\\\nin // \\\n x\n/*\n#if\n*/ #else").tokens()),
+                "main@1 ");
     CHECK_EQUAL(GlslText("/*\n#if\n*/ # else").directives()[0].word, "else");
     CHECK(GlslText("").tokens().empty());
     CHECK(GlslText("#").directives()[0].word.empty());
@@ -103,6 +104,17 @@ void test_values() {
                 "struct P { int a; }; void f() { P p; p.a = int(0); }");
     CHECK_EQUAL(prepared("#define real float\nvoid f() { real x; }"),
                 "#define real float\nvoid f() { real x = real(0); }");
+    CHECK_EQUAL(prepared("float[3] f() { if (a) return b; }"),
+                "float[3] f() { if (a) return b;  return float[](float(0),float(0),float(0)); }");
+    CHECK_EQUAL(prepared("vec2[N] f() { if (a) return b; }"),
+                "vec2[N] f() { if (a) return b;  { vec2 [ N ] cubecam_result; for (int cubecam_0 "
+                "= 0; cubecam_0 < cubecam_result.length(); ++cubecam_0) { "
+                "cubecam_result[cubecam_0] = vec2(0);} return cubecam_result; } }");
+    CHECK_EQUAL(prepared("#define T float[2]\nT f() {\n#if A\nreturn b;\n#endif\n}"),
+                "#define T float[2]\nT f() {\n#if A\nreturn b;\n#endif\n return "
+                "float[](float(0),float(0)); }");
+    CHECK_EQUAL(prepared("float[3] f() { if (a) return b; return c; }"),
+                "float[3] f() { if (a) return b; return c; }");
     for (const std::string same :
          {"float a; uniform int b; void f() { return; }", "void f() { const int a; x y; }",
           "void f() { a = b; c(d); if (e) float g; sampler2D h; }", "float f();",
@@ -118,6 +130,83 @@ void test_values() {
     CHECK(after.find("#else") < after.find("w[cubecam_0] = float(0);"));
     CHECK(after.find("#undef A") < after.find("#define A 2"));
     CHECK(after.ends_with("}\n#undef A\n"));
+}
+
+/// What macros hide: the text behind the #define lines.
+void test_values_by_macros() {
+    const auto behind = [](const std::string& macros, const std::string& source) {
+        const std::string text = prepared(macros + source);
+        return text.starts_with(macros) ? text.substr(macros.size()) : text;
+    };
+    const std::string f = "#define F(n) float n\n";
+    CHECK_EQUAL(behind(f, "void f() { F(x); g(x); }"), "void f() { F(x); x = float(0); g(x); }");
+    CHECK_EQUAL(behind(f, "void f() { F(x), y, z = 1.0; }"),
+                "void f() { F(x), y, z = 1.0; x = float(0);y = float(0); }");
+    CHECK_EQUAL(behind(f, "void f() { for (F(x);;) {} }"),
+                "void f() { for (F(x) = float(0);;) {} }");
+    CHECK_EQUAL(behind("#define HI highp\n", "void f() { HI vec2 x; }"),
+                "void f() { HI vec2 x; x = vec2(0); }");
+    CHECK_EQUAL(behind("#define ALL float a, b\n", "void f() { ALL; }"),
+                "void f() { ALL; a = float(0);b = float(0); }");
+    CHECK_EQUAL(behind("#define D(t, n) t n##1;\n", "void f() { D(vec2, x) g(x1); }"),
+                "void f() { D(vec2, x) x1 = vec2(0); g(x1); }");
+    CHECK_EQUAL(behind("#define T float[2]\n", "void f() { T x; }"),
+                "void f() { T x; for (int cubecam_0 = 0; cubecam_0 < x.length(); ++cubecam_0) { "
+                "x[cubecam_0] = float(0);} }");
+    CHECK_EQUAL(behind("#define O out\n", "void f(O int x) {}"), "void f(O int x) { x = int(0);}");
+    CHECK_EQUAL(behind("#define R return\n", "int f() { if (a) R 1; }"),
+                "int f() { if (a) R 1;  return int(0); }");
+    CHECK_EQUAL(behind("#define FN(n) float n(float x)\n", "FN(f) { float y; return y; }"),
+                "FN(f) { float y = float(0); return y;  return float(0); }");
+    CHECK_EQUAL(behind("#define HI highp\n", "struct P { HI float a; }; void f() { P p; }"),
+                "struct P { HI float a; }; void f() { P p; p.a = float(0); }");
+    CHECK_EQUAL(behind("#define S struct P { float a; };\n", "S void f() { P p; }"),
+                "S void f() { P p; p.a = float(0); }");
+    // Statements that do other things, and macros that mean different types.
+    for (const std::string same : {"F(x) = 2.0;", "g(F);", "G(x);", "V(x);"}) {
+        CHECK_EQUAL(behind("#define F(n) float n\n#define G(n) n = 1.0\n#if 1\n#define V(n) int n\n"
+                           "#else\n#define V(n) vec2 n\n#endif\n",
+                           "void f() { " + same + " }"),
+                    "void f() { " + same + " }");
+    }
+    const PreparedText global = prepare_user_text({f + "F(x); float y;", ""}, UserStage::effect);
+    CHECK_EQUAL(global.text, f + "F(x); float y;");
+    CHECK(contains(global.after, "x = float(0);\ny = float(0);"));
+    // Macros inside each other end at a limit.
+    std::string deep = "#define A0 float x; float y;\n";
+    for (int i = 1; i < 64; ++i) {
+        const std::string last = " A" + std::to_string(i - 1);
+        deep += "#define A" + std::to_string(i) + last + last + "\n";
+    }
+    CHECK(contains(prepared(deep + "void f() { A63; float z; }"),
+                   "\nvoid f() { A63; float z = float(0); }"));
+}
+
+/// A label that is reached past a declaration.
+void test_values_in_switch() {
+    CHECK_EQUAL(
+        prepared("void f() { switch (i) { case 0: float a = 1.0; break; case 1: g(a); } }"),
+        "void f() { { bool cubecam_passed_0 = false; switch (i) { case 0: float a = 1.0; "
+        "cubecam_passed_0 = true; break; case 1: if (!cubecam_passed_0) { a = float(0); } g(a); } "
+        "} }");
+    CHECK_EQUAL(prepared("void f() { if (b) switch (i) { case 0: int a, b; default: g(b); } }"),
+                "void f() { if (b) { bool cubecam_passed_0 = false; switch (i) { case 0: int a = "
+                "int(0), b = int(0); cubecam_passed_0 = true; default: if (!cubecam_passed_0) { b "
+                "= int(0); } g(b); } } }");
+    for (const std::string same :
+         {"switch (i) { case 0: int a = 1; g(a); break; case 1: g(b); }",
+          "switch (i) { case 0: { int a = 1; } case 1: g(a); }",
+          "switch (i) { case 0: for (int a = 1; a < 2; ++a) g(a); case 1: g(a); }",
+          "switch (i) { case 0: const int a = 1; case 1: g(a); }",
+          "switch (i) { case 0: a = 1; case 1: g(a); int a = 1; }"}) {
+        CHECK_EQUAL(prepared("void f() { " + same + " }"), "void f() { " + same + " }");
+    }
+    CHECK(
+        contains(prepared("#define U g(a)\nvoid f() { switch (i) { case 0: int a; case 1: U; } }"),
+                 "case 1: if (!cubecam_passed_0) { a = int(0); } U;"));
+    CHECK(contains(
+        prepared("#define D(n) int n\nvoid f() { switch (i) { case 0: D(a); case 1: a; } }"),
+        "D(a); cubecam_passed_0 = true; a = int(0); case 1: if (!cubecam_passed_0) {"));
 }
 
 std::string refusal(const std::string& source, UserStage stage = UserStage::fragment) {
@@ -213,6 +302,8 @@ int main() {
     test_lines();
     test_tokens();
     test_outline();
+    test_values_by_macros();
+    test_values_in_switch();
     test_values();
     test_refusals();
     test_logs();

@@ -9,6 +9,10 @@ LONG_CALLS = {
     "capture": ("s = lit_scene()", "change(s); r.capture(s, size=1400)"),
     "render": ("s = lit_scene()", "change(s); r.render(s, cam, (4000, 3000))"),
     "samples": ("s = lit_scene()", "change(s); r.capture(s, size=700, samples=4)"),
+    "large samples": (
+        "s = lit_scene()",
+        "change(s); r.render(s, cam, (5000, 3000), samples=4)",
+    ),
     "tones": ("s = lit_scene()", "change(s); r.render(s, cam, (3000, 3000), tonemap='aces')"),
     "outputs": ("s = lit_scene()", "change(s); r.capture(s, size=800, outputs=('id', 'position'))"),
     "shader": (
@@ -36,6 +40,18 @@ LONG_CALLS = {
         "m = cc.Mesh.sphere(1, 2500, 1200); p, i = m.positions, m.indices",
         "cc.Mesh(p, i)",
     ),
+    "update": (
+        "m = cc.Mesh.sphere(1, 2500, 1500); p, n = m.positions, m.normals",
+        "m.update(positions=p[::-1])",
+    ),
+    "update twice": (
+        "m = cc.Mesh.sphere(1, 2500, 1500); p, n, u = m.positions, m.normals, m.uvs",
+        "m.normals = None; m.update(positions=p, uvs=u[::-1])",
+    ),
+    "Mesh.with_tangents": (
+        "m = cc.Mesh.sphere(1, 900, 500); u = m.uvs",
+        "m.update(uvs=u + np.float32(random.random())); m.with_tangents()",
+    ),
     "sphere": ("pass", "cc.Mesh.sphere(1, 2500, 1500)"),
     "icosphere": ("pass", "cc.Mesh.icosphere(1, 8)"),
     "load_image": (
@@ -46,7 +62,9 @@ LONG_CALLS = {
 }
 
 #: Calls with a part that the driver does at once: the curve of a picture; the scene's snapshot of many nodes.
-ONE_PART = ("tones", "many nodes")
+ONE_PART = {"tones": 0.9, "many nodes": 0.9}
+#: Calls without a part of this share of the work; the picture of large samples was one part.
+SMALL_PARTS = {"large samples": 0.2}
 
 PREPARE = """
 import os, signal, tempfile, time
@@ -156,7 +174,7 @@ def test_ctrl_c_ends_a_long_call_within_half_a_second(call):
     script = PREPARE.format(device=DEVICE) + INTERRUPT.format(
         prepare=prepare,
         call=code,
-        most=0.9 if call in ONE_PART else 0.7,
+        most=(ONE_PART | SMALL_PARTS).get(call, 0.7),
         check="call()  # everything still works",
     )
     print(run_python(script, timeout=600).stdout)
@@ -331,4 +349,42 @@ def test_what_a_progress_function_raises_ends_the_work():
                 raise AssertionError("expected Stop")
         assert len(calls) == 2, calls
         """
+    )
+
+
+def test_a_handler_may_update_the_mesh_that_an_update_works_on():
+    """Neither update is lost, whichever ends first; a handler may also draw a mesh of which a form is being made."""
+    run_python(
+        PREPARE.format(device=DEVICE)
+        + """
+cc._core._interrupt_pause(0)
+m = cc.Mesh.sphere(1, 900, 500)
+n = len(m.positions)
+positions, uvs, normals = m.positions * 2, random_f4((n, 2)), m.normals[::-1].copy()
+s = s_of(cc.Scene(background=(1, 1, 1)))
+s.nodes[0].mesh = m
+calls = []
+
+def inside():
+    cc._core._at_interrupt_check(None)
+    calls.append(1)
+    for number in range(5): m.update(uvs=uvs)
+    r.render(s, cam, (8, 8))
+
+both = dict(positions=positions, normals=normals)
+for change in (dict(positions=positions), both, dict(normals=normals), dict(uvs=uvs)):
+    m.update(positions=positions / 2, uvs=uvs * 0)
+    m.normals = None
+    cc._core._at_interrupt_check(inside)
+    m.update(**change)
+    cc._core._at_interrupt_check(None)
+    fresh = cc.Mesh(change.get("positions", m.positions), m.indices, normals=change.get("normals"), uvs=uvs)
+    for name in ("positions", "normals", "uvs"):
+        assert np.array_equal(getattr(m, name), getattr(fresh, name)), (name, list(change))
+    cc._core._at_interrupt_check(inside)
+    assert np.array_equal(m.with_tangents().tangents, fresh.with_tangents().tangents)
+    cc._core._at_interrupt_check(None)
+assert len(calls) == 8, len(calls)
+""",
+        timeout=300,
     )

@@ -137,6 +137,42 @@ LEFT_UNDONE = {
         "real x2, y2[300]; highp real z2; return vec3(x2, y2[int(s.uv.x * 299.0)], z2);",
         constant(*BLACK),
     ),
+    "array of a function": (
+        "float[9] a = half_array(s.uv.x); return vec3(a[int(s.uv.x * 8.9)], a[0], a[8]);",
+        where(RIGHT, (1, 1, 1, 1), BLACK),
+    ),
+    "past a declaration": (
+        "switch (int(s.uv.x * 2.0)) { case 0: float y = 5.0; break; case 1: return vec3(y); } return vec3(0.0);",
+        constant(*BLACK),
+    ),
+    "past no declaration": (
+        (
+            "switch (int(s.uv.x * 2.0)) { case 0: float y = 5.0; vec2 z; case 1: z.y += 1.0; return vec3(y, z); }"
+            " return vec3(0.0);"
+        ),
+        where(RIGHT, (0, 0, 1, 1), (5, 0, 1, 1)),
+    ),
+    "past an array": (
+        (
+            "float t = 0.0; for (int i = 0; i < 3; ++i) switch (int(s.uv.x * 2.0) + i) {"
+            " case 0: float y[9]; y[3] = 5.0; case 1: t += y[3]; y[3] = 7.0; break; case 2: t += y[3]; }"
+            " return vec3(t, 0.0, 0.0);"
+        ),
+        where(RIGHT, (0, 0, 0, 1), (5, 0, 0, 1)),
+    ),
+    "hidden by macros": (
+        "FLOAT(a1), b1; HIGH float c1; TABLE d1; return vec3(a1 + b1, c1, d1[int(s.uv.x * 299.0)]);",
+        constant(*BLACK),
+    ),
+    "return of a macro": (
+        "return vec3(half_macro(s.uv.x));",
+        where(RIGHT, (2, 2, 2, 1), BLACK),
+    ),
+    "structure of macros": (
+        "Made m; Held h; return vec3(m.a, h.a, h.many[int(s.uv.x * 99.0)]);",
+        constant(*BLACK),
+    ),
+    "global of a macro": ("return vec3(gm, gn[int(s.uv.x * 8.9)], gn[0]);", constant(*BLACK)),
     "declared by a macro": ("DECLARE return vec3(d1, d2.x, 0.0);", constant(*BLACK)),
     "integers": (
         "int i; uint j; bool b; return vec3(float(i), float(j), b ? 1.0 : 0.0);",
@@ -158,6 +194,17 @@ LEFT_UNDONE = {
 AHEAD = """
 #define real float
 #define DECLARE float d1; vec3 d2;
+#define FLOAT(name) float name
+#define HIGH highp
+#define TABLE float[300]
+#define GIVE(x) return x
+#define MAKE struct Made { float a; };
+MAKE
+FLOAT(gm);
+HIGH float gn[9];
+struct Held { HIGH float a, many[100]; };
+float[9] half_array(float x) { if (x > 0.5) return float[9](1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0); }
+float half_macro(float x) { if (x > 0.5) GIVE(2.0); }
 struct Pair { float a; vec2 b; vec3 many[100]; };
 Pair gp;
 vec3 g;

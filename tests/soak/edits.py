@@ -1,7 +1,7 @@
 """Random edits of random worlds: after each, every picture equals one that is drawn from scratch.
 
-The edits are those of tests/gl/edits.py, one for each property that can be set. A fault names the seed of its world and
-the number of its edit: the same seed makes the same edits.
+The edits are those of tests/gl/edits.py, one for each property that can be set and each class that has it. A fault
+names the seed of its world and the number of its edit: the same seed makes the same edits.
 """
 
 from __future__ import annotations
@@ -45,6 +45,11 @@ def difference(got: dict[str, Any], want: dict[str, Any]) -> str | None:
     return None
 
 
+def names() -> list[str]:
+    """Return the edits, each once for each class that has it: a property of all materials is drawn for each kind."""
+    return [*edits.NAMES, *edits.METHODS]
+
+
 def one_world(
     live: cc.Renderer,
     scratch: cc.Renderer,
@@ -60,12 +65,12 @@ def one_world(
     """
     rng = np.random.default_rng([seed, 14])
     world = full_world(rng)
-    names = [*edits.VALUES, *edits.METHODS]
+    all_names = names()
     draw(live, world)
     for number in range(count):
         if time.monotonic() > until:
             return
-        name = names[rng.integers(len(names))]
+        name = all_names[rng.integers(len(all_names))]
         what, undo = edits.edit(name, world, rng, functools.partial(pictures, live, world))
         got = draw(live, world)
         found = difference(got, pictures(scratch, copy.deepcopy(world)))

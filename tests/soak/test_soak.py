@@ -39,12 +39,30 @@ def test_a_stale_picture_is_a_fault(monkeypatch, renderer):
 
     monkeypatch.setattr(edits, "full_world", lambda rng: World())
     monkeypatch.setattr(edits, "pictures", fresh)
-    monkeypatch.setattr(random_edits, "VALUES", {})
+    monkeypatch.setattr(random_edits, "NAMES", ())
     monkeypatch.setattr(random_edits, "METHODS", {"step": step})
     report = Report()
     edits.one_world(renderer, renderer, 5, 12, report, draw=stale)
     assert len(report.faults) == 1
     assert report.faults[0].startswith("edits, seed 5, edit 3, step: frame: ")
+
+
+def test_each_kind_of_material_is_edited_as_often(monkeypatch, renderer):
+    """What a property changes depends on the kind, so a property that several kinds inherit is drawn for each."""
+    drawn = []
+
+    def note(name, *_):
+        drawn.append(name)
+        return name, None
+
+    monkeypatch.setattr(edits, "full_world", lambda rng: None)
+    monkeypatch.setattr(edits, "pictures", lambda *_: {})
+    monkeypatch.setattr(random_edits, "edit", note)
+    edits.one_world(renderer, renderer, 1, 20_000, Report(), draw=lambda *_: {})
+    counts = [drawn.count(name) for name in {*random_edits.NAMES, *random_edits.METHODS}]
+    mean = 20_000 / len(counts)
+    assert "MirrorMaterial.depth_write" in drawn
+    assert mean / 2.5 < min(counts) <= max(counts) < 2.5 * mean, (min(counts), max(counts), mean)
 
 
 def test_differences_are_told():

@@ -5,6 +5,38 @@
 #include <utility>
 
 namespace cubecam {
+namespace {
+
+/// Which arrays an update has, all of them empty.
+MeshUpdate parts_of(const MeshUpdate& update) {
+    MeshUpdate parts;
+    if (update.positions) parts.positions.emplace();
+    if (update.normals) parts.normals.emplace();
+    if (update.uvs) parts.uvs.emplace();
+    if (update.colors) parts.colors.emplace();
+    if (update.uvs1) parts.uvs1.emplace();
+    if (update.tangents) parts.tangents.emplace();
+    if (update.influences) parts.influences.emplace();
+    if (update.targets) parts.targets.emplace();
+    return parts;
+}
+
+/// Gives an update the arrays that it had before it was applied.
+void fill(MeshUpdate& parts, const MeshData& updated) {
+    const auto copy = [](auto& to, const auto& from) {
+        if (to && from) *to = *from;
+    };
+    copy(parts.positions, updated.positions());
+    if (!updated.smooth()) copy(parts.normals, updated.normals());
+    copy(parts.uvs, updated.uvs());
+    copy(parts.colors, updated.colors());
+    copy(parts.uvs1, updated.uvs1());
+    copy(parts.tangents, updated.tangents());
+    if (parts.influences) *parts.influences = updated.influences();
+    copy(parts.targets, updated.targets());
+}
+
+}  // namespace
 
 Mesh::Mesh(MeshData data) : data_(std::make_shared<const MeshData>(std::move(data).of_new_mesh())) {
     revision_.set(data_->revision());
@@ -15,12 +47,20 @@ std::shared_ptr<const MeshData> Mesh::data() const {
     return data_;
 }
 
+/// While a form is made no lock is held, since a signal handler may draw the mesh. Two threads may
+/// make one form at once; then both get the one that was ready first.
 template <class Make>
 std::shared_ptr<const MeshData> Mesh::kept(Form& form, std::uint64_t revision, Make&& make) const {
+    const auto there = [&] { return form.data && form.of == revision; };
+    std::shared_ptr<const MeshData> before;
+    {
+        const std::lock_guard lock(forms_mutex_);
+        if (there()) return form.data;
+        before = form.data;
+    }
+    auto made = std::make_shared<const MeshData>(make(before.get()));
     const std::lock_guard lock(forms_mutex_);
-    const UninterruptedScope uninterrupted;
-    if (form.data && form.of == revision) return form.data;
-    auto made = std::make_shared<const MeshData>(make(form.data.get()));
+    if (there()) return form.data;
     // A snapshot that was begun before an update may still be read after it.
     if (revision > form.of) form = {made, revision};
     return made;
@@ -42,9 +82,17 @@ std::shared_ptr<const MeshData> Mesh::with_tangents(const std::shared_ptr<const 
 
 void Mesh::update(MeshUpdate update) {
     if (update.empty()) return;
+    MeshUpdate again = parts_of(update);
+    std::shared_ptr<const MeshData> base = data();
+    // No lock is held: a signal handler may update this mesh.
+    auto next = std::make_shared<const MeshData>(base->updated(std::move(update)));
     const std::lock_guard one(updates_);
-    const UninterruptedScope uninterrupted;
-    auto next = std::make_shared<const MeshData>(data()->updated(std::move(update)));
+    if (data() != base) {  // another thread or a handler was faster
+        const UninterruptedScope uninterrupted;
+        base = data();
+        fill(again, *next);
+        next = std::make_shared<const MeshData>(base->updated(std::move(again)));
+    }
     const std::uint64_t revision = next->revision();
     {
         const std::lock_guard lock(mutex_);

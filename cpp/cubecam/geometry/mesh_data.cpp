@@ -20,6 +20,7 @@ namespace {
 
 void check_alpha(const std::vector<glm::vec4>& colors) {
     for (std::size_t i = 0; i < colors.size(); ++i) {
+        poll_interrupts(i);
         const glm::vec4& c = colors[i];
         if (c.a >= 0.0F && c.a <= 1.0F) continue;
         throw std::invalid_argument("expected colors with an alpha from 0 to 1, got " +
@@ -73,6 +74,7 @@ void normalize_all(std::vector<glm::vec3>& normals, const std::vector<glm::vec3>
 
 void check_handedness(const std::vector<glm::vec4>& tangents) {
     for (std::size_t i = 0; i < tangents.size(); ++i) {
+        poll_interrupts(i);
         if (std::abs(tangents[i].w) == 1.0F) continue;
         throw std::invalid_argument("expected tangents with a fourth number of 1 or -1, got " +
                                     describe(tangents[i]) + " at vertex " + std::to_string(i));
@@ -126,6 +128,7 @@ std::vector<T> unshared(const std::vector<T>& values, const std::vector<glm::uve
     std::vector<T> corners;
     corners.reserve(3 * triangles.size());
     for (const glm::uvec3& triangle : triangles) {
+        poll_interrupts(corners.size() / 3);
         for (int i = 0; i < 3; ++i) corners.push_back(values[triangle[i]]);
     }
     return corners;

@@ -1,5 +1,7 @@
 #include "cubecam/geometry/tangents.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -55,13 +57,16 @@ std::vector<std::uint32_t> welded(const std::vector<glm::vec3>& positions,
     };
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0U);
+    std::size_t step = 0;
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        poll_interrupts(step++);
         const auto left = values(a);
         const auto right = values(b);
         return left != right ? left < right : a < b;
     });
     std::vector<std::uint32_t> first(order.size());
     for (std::size_t i = 0; i < order.size(); ++i) {
+        poll_interrupts(i);
         const bool same = i > 0 && values(order[i]) == values(order[i - 1]);
         first[order[i]] = same ? first[order[i - 1]] : order[i];
     }
@@ -95,17 +100,23 @@ void find_neighbors(std::vector<MappedTriangle>& triangles) {
     std::vector<Edge> edges;
     edges.reserve(3 * triangles.size());
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        poll_interrupts(t);
         for (std::uint32_t c = 0; c < 3; ++c) {
             const std::uint32_t from = triangles[t].corners[c];
             const std::uint32_t to = triangles[t].corners[(c + 1) % 3];
             if (from != to) edges.push_back({std::min(from, to), std::max(from, to), t, c});
         }
     }
-    std::sort(edges.begin(), edges.end());
+    std::size_t step = 0;
+    std::sort(edges.begin(), edges.end(), [&step](const Edge& a, const Edge& b) {
+        poll_interrupts(step++);
+        return a < b;
+    });
     const auto start_of = [&](const Edge& edge) {
         return triangles[edge.triangle].corners[edge.corner];
     };
     for (std::size_t begin = 0; begin < edges.size();) {
+        poll_interrupts(step++);
         std::size_t end = begin + 1;
         while (end < edges.size() && edges[end].low == edges[begin].low &&
                edges[end].high == edges[begin].high) {
@@ -163,6 +174,7 @@ TangentSpace find_tangents(const std::vector<glm::vec3>& positions,
     std::vector<MappedTriangle> faces;
     faces.reserve(triangles.size());
     for (const glm::uvec3& t : triangles) {
+        poll_interrupts(faces.size());
         const auto position = [&](int i) { return glm::dvec3(positions[t[i]]); };
         const auto uv = [&](int i) { return glm::dvec2(uvs[t[i]]); };
         faces.push_back(mapped({position(0), position(1), position(2)}, {uv(0), uv(1), uv(2)}));
@@ -172,6 +184,7 @@ TangentSpace find_tangents(const std::vector<glm::vec3>& positions,
 
     std::vector<TangentGroup> groups;
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        poll_interrupts(f);
         if (faces[f].pliable) continue;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             if (faces[f].groups[corner] != no_one) continue;
@@ -180,7 +193,9 @@ TangentSpace find_tangents(const std::vector<glm::vec3>& positions,
             fill_group(faces, f, groups.back(), number);
         }
     }
+    std::size_t step = 0;
     for (const MappedTriangle& face : faces) {
+        poll_interrupts(step++);
         if (face.pliable) continue;
         for (std::size_t corner = 0; corner < 3; ++corner) {
             TangentGroup& group = groups[face.groups[corner]];
@@ -219,6 +234,7 @@ TangentSpace find_tangents(const std::vector<glm::vec3>& positions,
     std::vector<bool> known(positions.size(), false);
     std::vector<std::uint32_t> next(positions.size(), no_one);  // the next copy of the same vertex
     for (std::size_t f = 0; f < triangles.size(); ++f) {
+        poll_interrupts(f);
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint32_t vertex = triangles[f][corner];
             const glm::vec4 tangent =

@@ -1,6 +1,8 @@
 // The declarations of a GLSL source (GLSL 4.50, chapter 4). This file does not use OpenGL.
 #include "cubecam/gl/glsl_outline.hpp"
 
+#include "cubecam/gl/glsl_macros.hpp"
+
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -25,17 +27,6 @@ constexpr std::array<std::string_view, 11> no_types = {
 template <std::size_t n>
 bool is_in(const std::array<std::string_view, n>& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-/// Returns the index after the bracket that closes the one at `open`.
-std::size_t after_bracket(const Tokens& tokens, std::size_t open, std::size_t end) {
-    int depth = 0;
-    for (std::size_t i = open; i < end; ++i) {
-        const std::string& text = tokens[i].text;
-        if (text == "(" || text == "[" || text == "{") ++depth;
-        if ((text == ")" || text == "]" || text == "}") && --depth == 0) return i + 1;
-    }
-    return end;
 }
 
 /// What stands before the name of a declaration.
@@ -131,7 +122,7 @@ std::vector<GlslName> read_parameters(const Tokens& tokens, std::size_t begin, s
 
 class Outliner {
 public:
-    explicit Outliner(const GlslText& text) : text_(text), tokens_(text.tokens()) {}
+    explicit Outliner(const GlslText& text) : text_(text), tokens_(text.tokens()), macros_(text) {}
 
     GlslOutline run() {
         const auto& directives = text_.directives();
@@ -153,12 +144,15 @@ public:
             read(i);
         }
         for (; next < directives.size(); ++next) follow(directives[next]);
+        const auto returning = macros_.holding("return");
         for (GlslFunction& function : found_.functions) {
             function.close = std::min(function.close, tokens_.size());
             function.returns =
                 std::any_of(tokens_.begin() + static_cast<std::ptrdiff_t>(function.open),
                             tokens_.begin() + static_cast<std::ptrdiff_t>(function.close),
-                            [](const GlslText::Token& token) { return token.text == "return"; });
+                            [&returning](const GlslText::Token& token) {
+                                return token.text == "return" || returning.contains(token.text);
+                            });
         }
         if (!state_.open.empty() && !found_.uncertain) {
             const Open& first = state_.open.front();
@@ -270,6 +264,73 @@ private:
         return at;
     }
 
+    /// Skips such macros, and notes what they declare.
+    std::size_t read_macros(std::size_t end) {
+        const std::size_t at = after_macros(end);
+        if (at > state_.statement) {
+            if (auto found = understood("", state_.statement, at, "")) add(std::move(*found));
+        }
+        return at;
+    }
+
+    /// What the tokens [begin, end) declare when macros are expanded, between other text. None if
+    /// there is no macro, or if that depends on a condition.
+    std::optional<GlslOutline> understood(const std::string& head, std::size_t begin,
+                                          std::size_t end, const std::string& tail) const {
+        if (!macros_.any_in(tokens_, begin, end)) return {};
+        std::optional<GlslOutline> all;
+        for (const Tokens& expanded : macros_.expanded(tokens_, begin, end)) {
+            const GlslText text(head + joined(expanded) + tail);
+            GlslOutline found = Outliner(text).run();
+            if (found.uncertain || found.open_bracket) return {};
+            if (all && !same(*all, found)) return {};
+            all = std::move(found);
+        }
+        return all;
+    }
+
+    static bool same(const std::vector<GlslName>& a, const std::vector<GlslName>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                          [](const GlslName& x, const GlslName& y) {
+                              return x.kind == y.kind && x.name == y.name && x.type == y.type &&
+                                     x.dimensions == y.dimensions && x.qualifiers == y.qualifiers;
+                          });
+    }
+
+    static bool same(const GlslOutline& a, const GlslOutline& b) {
+        return same(a.names, b.names) &&
+               std::equal(a.structures.begin(), a.structures.end(), b.structures.begin(),
+                          b.structures.end(),
+                          [](const GlslStructure& x, const GlslStructure& y) {
+                              return same(x.members, y.members);
+                          }) &&
+               std::equal(a.functions.begin(), a.functions.end(), b.functions.begin(),
+                          b.functions.end(), [](const GlslFunction& x, const GlslFunction& y) {
+                              return x.result_text == y.result_text &&
+                                     same(x.parameters, y.parameters);
+                          });
+    }
+
+    /// Adds what the macros of the statement declare, except for names that are there.
+    void add(GlslOutline found, std::size_t first_name = std::string::npos) {
+        const std::size_t first = std::min(first_name, found_.names.size());
+        const std::vector<GlslName> there(found_.names.begin() + static_cast<std::ptrdiff_t>(first),
+                                          found_.names.end());
+        for (GlslName& name : found.names) {
+            const bool again = std::any_of(there.begin(), there.end(), [&](const GlslName& held) {
+                return held.name == name.name;
+            });
+            if (again) continue;
+            name.token = state_.statement;
+            name.line = tokens_[state_.statement].line;
+            found_.names.push_back(std::move(name));
+        }
+        for (GlslStructure& structure : found.structures) {
+            structure.end = tokens_.size();
+            found_.structures.push_back(std::move(structure));
+        }
+    }
+
     /// Finds out what the braces at `i` hold, and notes its name.
     Role role_at(std::size_t i, std::size_t& index) {
         for (std::size_t k = state_.statement; k + 1 < i + 1; ++k) {
@@ -292,18 +353,11 @@ private:
             return Role::structure;
         }
         if (!state_.open.empty()) return Role::plain;
-        Head head = read_head(tokens_, after_macros(i), i);
+        const std::size_t begin = read_macros(i);
+        Head head = read_head(tokens_, begin, i);
         if (i > state_.statement && tokens_[i - 1].text == ")") {
-            if (head.type.empty() || head.next + 1 >= i || tokens_[head.next + 1].text != "(")
-                return Role::plain;
             index = found_.functions.size();
-            const GlslName name = name_of(head, tokens_, head.next, GlslName::Kind::function);
-            found_.functions.push_back({name.name, head.type, head.dimensions,
-                                        read_parameters(tokens_, head.next + 2, i - 1), i,
-                                        tokens_.size(), false, name.line});
-            found_.names.push_back(name);
-            found_.names.back().initialised = true;
-            return Role::function;
+            return read_function(head, begin, i) ? Role::function : Role::plain;
         }
         if (!head.qualifiers.empty() && !head.type.empty() && head.next == i) {
             found_.names.push_back(name_of(head, tokens_, head.next - 1, GlslName::Kind::block));
@@ -311,6 +365,55 @@ private:
             return Role::block;
         }
         return Role::plain;
+    }
+
+    /// Reads the head of a function, from `begin` to the brace at `i`.
+    bool read_function(const Head& head, std::size_t begin, std::size_t i) {
+        auto expanded = understood("", begin, i, "{ }");
+        if (expanded && expanded->functions.size() != 1) expanded.reset();
+        const bool plain = !head.type.empty() && head.next + 1 < i &&
+                           tokens_[head.next].is_word() && tokens_[head.next + 1].text == "(";
+        if (!plain && !expanded) return false;
+        GlslFunction function;
+        if (plain) {
+            const GlslName name = name_of(head, tokens_, head.next, GlslName::Kind::function);
+            function = {name.name,
+                        head.type,
+                        head.dimensions,
+                        read_parameters(tokens_, head.next + 2, i - 1),
+                        name,
+                        "",
+                        i,
+                        tokens_.size(),
+                        false,
+                        name.line};
+            function.result_text =
+                joined(Tokens(tokens_.begin() + static_cast<std::ptrdiff_t>(begin),
+                              tokens_.begin() + static_cast<std::ptrdiff_t>(head.next)));
+        }
+        if (expanded) {
+            GlslFunction& found = expanded->functions.front();
+            if (plain) {
+                function.parameters = std::move(found.parameters);
+                function.result = std::move(found.result);
+                function.result_text = std::move(found.result_text);
+            } else {
+                function = std::move(found);
+                function.line = tokens_[begin].line;
+                function.open = i;
+                function.close = tokens_.size();
+            }
+        }
+        GlslName name = function.result;
+        name.name = function.name;
+        name.type = function.type;
+        name.dimensions = function.dimensions;
+        name.initialised = true;
+        name.token = plain ? head.next : begin;
+        name.line = function.line;
+        found_.names.push_back(std::move(name));
+        found_.functions.push_back(std::move(function));
+        return true;
     }
 
     void close_bracket(std::size_t i) {
@@ -346,8 +449,19 @@ private:
 
     void read_members(std::size_t i, std::vector<GlslName>& into) {
         const Head head = read_head(tokens_, state_.statement, i);
-        if (head.type.empty()) return;
-        read_variables(tokens_, head.next, i, head, GlslName::Kind::member, into);
+        const std::size_t before = into.size();
+        if (!head.type.empty())
+            read_variables(tokens_, head.next, i, head, GlslName::Kind::member, into);
+        auto expanded = understood("struct cubecam_any { ", state_.statement, i + 1, " };");
+        if (!expanded || expanded->structures.size() != 1) return;
+        auto& members = expanded->structures.front().members;
+        if (members.size() <= into.size() - before) return;
+        into.erase(into.begin() + static_cast<std::ptrdiff_t>(before), into.end());
+        for (GlslName& member : members) {
+            member.token = state_.statement;
+            member.line = tokens_[state_.statement].line;
+            into.push_back(std::move(member));
+        }
     }
 
     void end_global_statement(std::size_t i) {
@@ -360,9 +474,19 @@ private:
             head.qualifiers = state_.tail_qualifiers;
             head.next = state_.statement;
         } else {
-            head = read_head(tokens_, after_macros(i), i);
-            if (head.type.empty()) return;
+            const std::size_t begin = read_macros(i);
+            const std::size_t first = found_.names.size();
+            head = read_head(tokens_, begin, i);
+            if (!head.type.empty()) read_global(head, i);
+            auto expanded = understood("", begin, i + 1, "");
+            if (expanded && expanded->names.size() > found_.names.size() - first)
+                add(std::move(*expanded), first);
+            return;
         }
+        read_global(head, i);
+    }
+
+    void read_global(const Head& head, std::size_t i) {
         if (head.next + 1 < i && tokens_[head.next].is_word() &&
             tokens_[head.next + 1].text == "(") {
             found_.names.push_back(name_of(head, tokens_, head.next, GlslName::Kind::function));
@@ -373,6 +497,7 @@ private:
 
     const GlslText& text_;
     const Tokens& tokens_;
+    GlslMacros macros_;
     GlslOutline found_;
     State state_;
     std::vector<Branch> branches_;
@@ -387,6 +512,22 @@ bool GlslName::is(std::string_view qualifier) const {
 }
 
 GlslOutline outline(const GlslText& text) { return Outliner(text).run(); }
+
+std::size_t after_bracket(const Tokens& tokens, std::size_t open, std::size_t end) {
+    int depth = 0;
+    for (std::size_t i = open; i < end; ++i) {
+        const std::string& text = tokens[i].text;
+        if (text == "(" || text == "[" || text == "{") ++depth;
+        if ((text == ")" || text == "]" || text == "}") && --depth == 0) return i + 1;
+    }
+    return end;
+}
+
+std::string joined(const std::vector<GlslText::Token>& tokens) {
+    std::string text;
+    for (const GlslText::Token& token : tokens) text += (text.empty() ? "" : " ") + token.text;
+    return text;
+}
 
 std::vector<GlslName> declared_variables(const std::vector<GlslText::Token>& tokens,
                                          std::size_t begin, std::size_t end) {

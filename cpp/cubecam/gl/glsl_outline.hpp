@@ -32,10 +32,12 @@ struct GlslFunction {
     std::string name;
     std::string type;                  ///< what it returns
     std::size_t dimensions = 0;        ///< of what it returns
-    std::vector<GlslName> parameters;  ///< without those that have no name
+    std::vector<GlslName> parameters;  ///< without those that have no name; macros are expanded
+    GlslName result;                   ///< what it returns, with macros expanded
+    std::string result_text;           ///< the type of a variable for it, such as "float [ 3 ]"
     std::size_t open;                  ///< the index of the token '{'
     std::size_t close;                 ///< of its '}', or the number of tokens
-    bool returns = false;              ///< there is a `return` in the body
+    bool returns = false;              ///< there is a `return` in the body, perhaps of a macro
     std::size_t line;
 };
 
@@ -45,8 +47,9 @@ struct GlslStructure {
     std::size_t end;  ///< the index of the ';' that ends the declaration
 };
 
-/// What a source declares outside of functions, found by its brackets and semicolons. Macros are
-/// not expanded, and all branches of conditions are read.
+/// What a source declares outside of functions, found by its brackets and semicolons. All branches
+/// of conditions are read. Macros are expanded only in statements that cannot be read otherwise;
+/// the token of a name from there is the first of its statement.
 struct GlslOutline {
     std::vector<GlslName> names;
     std::vector<GlslFunction> functions;
@@ -60,6 +63,13 @@ struct GlslOutline {
 };
 
 GlslOutline outline(const GlslText& text);
+
+/// The index after the bracket that closes the one at `open`; `end` if nothing closes it.
+std::size_t after_bracket(const std::vector<GlslText::Token>& tokens, std::size_t open,
+                          std::size_t end);
+
+/// The tokens as a text that reads the same.
+std::string joined(const std::vector<GlslText::Token>& tokens);
 
 /// The variables that a statement declares, the first token of which is `begin`; empty if the
 /// statement is no declaration. It ends before the token `end`.

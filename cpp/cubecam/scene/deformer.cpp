@@ -20,16 +20,18 @@ plain_form(const Mesh& mesh, const std::shared_ptr<const MeshData>& base, const 
     return form.tangents < 0 ? plain : mesh.with_tangents(plain, form.tangents, form.flat);
 }
 
-/// The form of a mesh with weights.
+/// The form of a mesh with weights. The weights are noted last, so that an exception leaves nothing
+/// that counts as finished.
 std::shared_ptr<const MeshData> morphed_form(Deformation& kept, std::vector<float> weights) {
     if (!kept.morphed || kept.weights != weights) {
+        kept.weights.clear();
         kept.morphed = shared(kept.base->morphed(weights, kept.morphed.get()));
-        kept.weights = std::move(weights);
         if (kept.form.flat) kept.flat = shared(kept.morphed->flat_shaded(kept.flat.get()));
         if (kept.form.tangents >= 0) {
             const auto& plain = kept.form.flat ? kept.flat : kept.morphed;
             kept.tangents = shared(plain->with_tangents(kept.form.tangents, kept.tangents.get()));
         }
+        kept.weights = std::move(weights);
     }
     if (kept.form.tangents >= 0) return kept.tangents;
     return kept.form.flat ? kept.flat : kept.morphed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/geometry/deformation.hpp"
 #include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/materials/material.hpp"
@@ -80,6 +81,7 @@ private:
     bool fits(const Skin& skin, const MeshData& mesh) const;
 
     const NodeGraph& graph_;
+    const UninterruptedScope uninterrupted_;  ///< a handler may need the graph, which is locked
     std::function<glm::dmat4(const Node&)> world_of_;
     std::map<Look, std::shared_ptr<Deformation>> made_;
 };

@@ -154,12 +154,12 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     stats.views_drawn += static_cast<std::int64_t>(count);
 
     // Where all bands have the same bits as the whole, so that large pictures can be interrupted.
-    const bool banded = !target.multisampled() && gpu.context.software();
-    const double most_pixels = banded ? most_pixels_of_a_band : infinity;
+    const double most_pixels = gpu.context.software() ? most_pixels_of_a_band : infinity;
+    const double most_drawn = target.multisampled() ? infinity : most_pixels;
     std::vector<Region> regions;
     for (std::size_t v = 0; v < views.size(); ++v) {
         for (const Rect& rect : damaged[v]) {
-            for (const Rect& band : bands(rect, most_pixels)) regions.push_back({v, band});
+            for (const Rect& band : bands(rect, most_drawn)) regions.push_back({v, band});
         }
         // Until they are drawn, the contents of these layers are not valid.
         if (!damaged[v].empty()) target.keys[v].reset();
@@ -183,11 +183,15 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
                          target, stats);
         regions = std::move(rest);
     }
+    // llvmpipe waits for all samples in the call that begins to resolve them, without looking for
+    // signals.
+    if (target.multisampled() && gpu.context.software())
+        gpu.context.pace().finish(gpu.context.gl());
     const auto textures = lookup.find(post_process.effects);
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (damaged[v].empty()) continue;
         poll_interrupts();
-        if (target.multisampled()) target.resolve(static_cast<int>(v));
+        if (target.multisampled()) resolve(target, static_cast<int>(v), bands(whole, most_pixels));
         if (target.description().post_processed) {
             gpu.post_process.draw(post_process, textures, target, static_cast<int>(v), gpu.context,
                                   stats);
@@ -200,6 +204,14 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
         target.revisions[v] = ++gpu.views_drawn;
     }
     return budget ? last : count;
+}
+
+void DrawnPicture::resolve(Target& target, int layer, const std::vector<Rect>& rects) {
+    const double cost = target.description().samples;
+    for (const Rect& rect : rects) {
+        target.resolve(layer, rect);
+        gpu.context.pace().submitted(gpu.context.gl(), static_cast<double>(rect.area()) * cost);
+    }
 }
 
 }  // namespace cubecam

@@ -36,6 +36,7 @@ private:
     std::vector<NodeTextures> look_up_all();
     std::vector<PictureKey> keys_of(const std::vector<NodeTextures>& lookups,
                                     const Outputs& outputs);
+    void resolve(Target& target, int layer, const std::vector<Rect>& rects);
 };
 
 }  // namespace cubecam

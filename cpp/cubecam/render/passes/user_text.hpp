@@ -27,7 +27,9 @@ struct PreparedText {
 
 /// Gives every variable without a value the value 0, since a driver would leave there what another
 /// program had in this memory. Variables outside of functions get it in cubecam_zeros(), which
-/// main() calls first. `source` has passed check_user_text() and place_outputs().
+/// main() calls first. Variables that a macro with several definitions declares with different
+/// types, and those that a switch with conditions inside jumps past, get none. `source` has passed
+/// check_user_text() and place_outputs().
 /// @throws ShaderError if that needs too much text.
 PreparedText prepare_user_text(const UserSource& source, UserStage stage);
 

@@ -1,11 +1,13 @@
 // Values for the variables of a user's GLSL that have none.
 #include "cubecam/core/error.hpp"
+#include "cubecam/gl/glsl_macros.hpp"
 #include "cubecam/gl/glsl_outline.hpp"
 #include "cubecam/render/passes/shader_names.hpp"
 #include "cubecam/render/passes/user_text.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
@@ -19,8 +21,10 @@ using gl::GlslFunction;
 using gl::GlslName;
 using gl::GlslStructure;
 using gl::GlslText;
+using Tokens = gl::GlslMacros::Tokens;
 
 constexpr std::size_t most_added_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_listed = 1024;
 constexpr int most_depth = 32;  ///< of structures and macros inside each other
 constexpr const char* zeros_function = "void cubecam_zeros()";
 
@@ -44,14 +48,17 @@ bool is_numeric(std::string_view type) {
 class Zeros {
 public:
     Zeros(const UserSource& source, UserStage stage)
-        : source_(&source), stage_(stage), text_(source.text), outline_(gl::outline(text_)) {
+        : source_(&source), stage_(stage), text_(source.text), outline_(gl::outline(text_)),
+          expander_(text_) {
         for (const GlslStructure& structure : shader_names(stage).structures)
             structures_[structure.name] = &structure;
         for (const GlslStructure& structure : outline_.structures) {
             const bool again = declared_.insert(structure.name).second == false;
             if (again) ambiguous_.insert(structure.name);
             structures_[structure.name] = &structure;
+            if (structure.end >= text_.tokens().size()) closed_.insert(structure.name);
         }
+        std::erase_if(closed_, [this](const auto& name) { return !ambiguous_.contains(name); });
         for (const GlslText::Directive& directive : text_.directives()) {
             if (directive.word != "define" || directive.rest.empty()) continue;
             macros_.insert(directive.rest[0].text);
@@ -91,7 +98,7 @@ private:
     /// A type without the macros that hide it; empty if it is not known or holds textures.
     std::string resolved(const std::string& type, int depth = 0) const {
         if (is_numeric(type)) return type;
-        if (depth > most_depth) return {};
+        if (depth > most_depth || closed_.contains(type)) return {};
         if (const auto found = structures_.find(type); found != structures_.end())
             return is_complete(*found->second, depth + 1) ? type : std::string();
         const auto found = aliases_.find(type);
@@ -153,13 +160,17 @@ private:
         if (!text.empty()) insertions_.emplace_back(position, std::move(text));
     }
 
+    static bool needs_value(const GlslName& name) {
+        return !name.initialised && !name.is("const") && !name.is("uniform");
+    }
+
     /// Gives values to the variables that `names` declares; they end at the token `end`, a ';'.
     void fill_declared(const std::vector<GlslName>& names,
                        const std::vector<GlslText::Token>& tokens, std::size_t end,
                        bool can_follow) {
         std::string following;
         for (const GlslName& name : names) {
-            if (name.initialised || name.is("const") || name.is("uniform")) continue;
+            if (!needs_value(name)) continue;
             const std::string real = resolved(name.type);
             if (real.empty()) continue;
             if (name.dimensions == 0 && is_numeric(real)) {
@@ -178,36 +189,250 @@ private:
             insert(tokens[function.open].end,
                    " " + zero(parameter.name, parameter.type, parameter.dimensions));
         }
-        std::vector<std::string> open;
+        std::size_t after_macro = 0;
         for (std::size_t i = function.open + 1; i < function.close; ++i) {
-            const std::string& before = tokens[i - 1].text;
-            const bool in_for = before == "(" && tokens[i - 2].text == "for";
-            const bool begins = before == ";" || before == "{" || before == "}" || before == ":";
+            if (tokens[i].text == "switch") guard_switch(i, function.close);
+            const bool in_for = tokens[i - 1].text == "(" && tokens[i - 2].text == "for";
+            const bool begins = begins_statement(tokens, i) || i == after_macro;
             if ((!begins && !in_for) || !tokens[i].is_word()) continue;
-            std::size_t end = i;
-            int depth = 0;
-            while (end < function.close && (depth > 0 || tokens[end].text != ";")) {
-                const std::string& text = tokens[end].text;
-                if (text == "(" || text == "[" || text == "{") ++depth;
-                if (text == ")" || text == "]" || text == "}") --depth;
-                if (depth < 0) break;
-                ++end;
+            if (begins) {
+                const std::size_t after = fill_whole_macro(i, function.close);
+                if (after > i) {
+                    after_macro = after;
+                    i = after - 1;
+                    continue;
+                }
             }
-            if (end == function.close || depth != 0) continue;
-            fill_declared(gl::declared_variables(tokens, i, end), tokens, end, !in_for);
+            const std::size_t end = end_of_statement(i, function.close);
+            if (end == function.close) continue;
+            const std::vector<GlslName> plain = gl::declared_variables(tokens, i, end);
+            fill_declared(plain, tokens, end, !in_for);
+            fill_hidden(plain, i, end, !in_for);
             if (tokens[i].text == "struct") i = end;  // its members are no variables
         }
         if (outline_.uncertain || !function.returns || function.close >= tokens.size()) return;
-        if (function.type == "void" || resolved(function.type).empty()) return;
+        const GlslName& made = function.result;
+        const std::string numeric = resolved(made.type);
+        if (made.type == "void" || numeric.empty()) return;
+        // llvmpipe copies arrays wherever a function could return.
+        if (made.dimensions > 0 && ends_with_return(function)) return;
+        insert(tokens[function.close].begin, " " + return_of_zero(function) + " ");
+    }
+
+    std::string return_of_zero(const GlslFunction& function) {
+        const GlslName& made = function.result;
+        const bool numeric = is_numeric(resolved(made.type));
+        if (numeric && made.dimensions == 0) return "return " + made.type + "(0);";
+        // A list of numbers is less work for llvmpipe than a loop.
+        const std::size_t open = function.result_text.find('[');
+        const std::size_t length =
+            numeric && made.dimensions == 1
+                ? static_cast<std::size_t>(std::atoi(function.result_text.c_str() + open + 2))
+                : 0;
+        const std::string head = function.result_text.substr(0, open);
+        const std::string plain = "[ " + std::to_string(length) + " ]";
+        if (length > 0 && length <= most_listed && head + plain == function.result_text) {
+            std::string values;
+            for (std::size_t i = 0; i < length; ++i)
+                values += (i > 0 ? "," : "") + made.type + "(0)";
+            return "return " + made.type + "[](" + values + ");";
+        }
         const std::string result = "cubecam_result";
-        std::string brackets;
-        if (function.dimensions > 0) return;
-        const std::string numeric = resolved(function.type);
-        const std::string text = is_numeric(numeric) ? " return " + function.type + "(0);"
-                                                     : " { " + function.type + " " + result + "; " +
-                                                           zero(result, function.type, 0) +
-                                                           " return " + result + "; }";
-        insert(tokens[function.close].begin, text + " ");
+        return "{ " + function.result_text + " " + result + "; " +
+               zero(result, made.type, made.dimensions) + " return " + result + "; }";
+    }
+
+    bool ends_with_return(const GlslFunction& function) const {
+        const auto& tokens = text_.tokens();
+        std::size_t i = function.close - 1;
+        if (i <= function.open || tokens[i].text != ";") return false;
+        while (!begins_statement(tokens, i)) --i;
+        return tokens[i].text == "return" && !has_conditions(i - 1, function.close);
+    }
+
+    static bool begins_statement(const Tokens& tokens, std::size_t i) {
+        const std::string& before = tokens[i - 1].text;
+        return before == ";" || before == "{" || before == "}" || before == ":";
+    }
+
+    /// Returns the index of the ';' that ends the statement, or `limit` if there is none.
+    std::size_t end_of_statement(std::size_t begin, std::size_t limit) const {
+        const auto& tokens = text_.tokens();
+        int depth = 0;
+        for (std::size_t i = begin; i < limit; ++i) {
+            const std::string& text = tokens[i].text;
+            if (depth == 0 && text == ";") return i;
+            if (text == "(" || text == "[" || text == "{") ++depth;
+            if (text == ")" || text == "]" || text == "}") --depth;
+            if (depth < 0) return limit;
+        }
+        return limit;
+    }
+
+    /// The variables without a value that all results of a macro's expansion declare, and nothing
+    /// else; none if one does something else.
+    std::vector<GlslName> declared_by(const std::vector<Tokens>& results) const {
+        std::optional<std::vector<GlslName>> all;
+        for (const Tokens& tokens : results) {
+            std::vector<GlslName> names;
+            for (std::size_t begin = 0; begin < tokens.size();) {
+                std::size_t end = begin;
+                while (end < tokens.size() && tokens[end].text != ";") ++end;
+                const auto more = gl::declared_variables(tokens, begin, end);
+                const bool plain = std::all_of(more.begin(), more.end(), needs_value);
+                if (more.empty() || !plain) return {};
+                names.insert(names.end(), more.begin(), more.end());
+                begin = end + 1;
+            }
+            if (all && !same(*all, names)) return {};
+            all = std::move(names);
+        }
+        return all ? std::move(*all) : std::vector<GlslName>();
+    }
+
+    static bool same(const std::vector<GlslName>& a, const std::vector<GlslName>& b) {
+        return std::equal(
+            a.begin(), a.end(), b.begin(), b.end(), [](const GlslName& x, const GlslName& y) {
+                return x.name == y.name && x.type == y.type && x.dimensions == y.dimensions;
+            });
+    }
+
+    std::string zeros_of(const std::vector<GlslName>& names) {
+        std::string text;
+        for (const GlslName& name : names) text += zero(name.name, name.type, name.dimensions);
+        return text;
+    }
+
+    /// The use of a macro that consists of whole statements, as in `DECLARE_SUM return sum;`.
+    /// Returns the index of the token after it; `at` if there is none.
+    std::size_t fill_whole_macro(std::size_t at, std::size_t limit) {
+        const auto& tokens = text_.tokens();
+        const std::size_t after = expander_.after_use(tokens, at, limit);
+        if (after == at) return at;
+        const auto results = expander_.expanded(tokens, at, after);
+        const auto whole = [](const Tokens& made) {
+            return !made.empty() && (made.back().text == ";" || made.back().text == "}");
+        };
+        if (results.empty() || !std::all_of(results.begin(), results.end(), whole)) return at;
+        const std::string text = zeros_of(declared_by(results));
+        if (!text.empty()) insert(tokens[after - 1].end, " " + text);
+        return after;
+    }
+
+    /// Gives values to what a statement declares by macros only, as in `FLOAT(sum);`.
+    void fill_hidden(const std::vector<GlslName>& plain, std::size_t begin, std::size_t end,
+                     bool can_follow) {
+        const auto& tokens = text_.tokens();
+        if (!expander_.any_in(tokens, begin, end)) return;
+        std::optional<std::vector<GlslName>> all;
+        for (const Tokens& made : expander_.expanded(tokens, begin, end)) {
+            auto names = gl::declared_variables(made, 0, made.size());
+            if (all && !same(*all, names)) return;
+            all = std::move(names);
+        }
+        if (!all) return;
+        std::erase_if(*all, [&](const GlslName& name) {
+            return !needs_value(name) ||
+                   std::any_of(plain.begin(), plain.end(), [&](const GlslName& held) {
+                       return held.name == name.name && !resolved(held.type).empty();
+                   });
+        });
+        if (can_follow) {
+            const std::string text = zeros_of(*all);
+            if (!text.empty()) insert(tokens[end].end, " " + text);
+        } else if (all->size() == 1 && all->front().dimensions == 0 &&
+                   is_numeric(all->front().type)) {
+            insert(tokens[end - 1].end, " = " + all->front().type + "(0)");
+        }
+    }
+
+    /// What a statement declares, by macros or without; `end` becomes the index of its last token.
+    std::vector<GlslName> declared_at(std::size_t begin, std::size_t limit,
+                                      std::size_t& end) const {
+        const auto& tokens = text_.tokens();
+        const std::size_t after = expander_.after_use(tokens, begin, limit);
+        if (after > begin) {
+            auto names = declared_by(expander_.expanded(tokens, begin, after));
+            end = after - 1;
+            if (!names.empty() && (after == limit || tokens[after].text != ";")) return names;
+        }
+        end = end_of_statement(begin, limit);
+        if (end == limit) return {};
+        auto names = gl::declared_variables(tokens, begin, end);
+        if (!names.empty() || !expander_.any_in(tokens, begin, end)) return names;
+        const auto results = expander_.expanded(tokens, begin, end);
+        if (results.size() != 1) return {};
+        return gl::declared_variables(results.front(), 0, results.front().size());
+    }
+
+    /// A label of `switch` can be reached past a declaration. There the variable gets a value
+    /// unless the declaration was passed, which an own variable notes.
+    void guard_switch(std::size_t at, std::size_t limit) {
+        const auto& tokens = text_.tokens();
+        if (at + 1 >= limit || tokens[at + 1].text != "(") return;
+        const std::size_t open = gl::after_bracket(tokens, at + 1, limit);
+        if (open >= limit || tokens[open].text != "{") return;
+        const std::size_t close = gl::after_bracket(tokens, open, limit) - 1;
+        const bool closed = tokens[close].text == "}" && !outline_.uncertain;
+        if (!closed || has_conditions(open, close)) return;
+        std::string notes;
+        std::vector<std::pair<std::string, std::string>> passed;  // notes and values
+        for (std::size_t i = open + 1; i < close; ++i) {
+            const std::string& text = tokens[i].text;
+            if (text == "{" || text == "(") {
+                i = gl::after_bracket(tokens, i, close) - 1;
+            } else if (is_label(text)) {
+                while (i < close && tokens[i].text != ":") ++i;
+                for (const auto& [note, values] : passed)
+                    insert(tokens[i].end, " if (!" + note + ") { " + values + " }");
+            } else if (begins_statement(tokens, i) && tokens[i].is_word()) {
+                std::size_t end = i;
+                std::vector<GlslName> names = declared_at(i, close, end);
+                const std::size_t label = next_label(end, close);
+                std::erase_if(names, [&](const GlslName& name) {
+                    return name.is("const") || !mentioned(name.name, label, close);
+                });
+                const std::string values = zeros_of(names);
+                if (values.empty()) continue;
+                const std::string note = "cubecam_passed_" + std::to_string(count_++);
+                notes += "bool " + note + " = false; ";
+                insert(tokens[end].end, " " + note + " = true;");
+                passed.emplace_back(note, values);
+                i = end;
+            }
+        }
+        if (passed.empty()) return;
+        insert(tokens[at].begin, "{ " + notes);
+        insert(tokens[close].end, " }");
+    }
+
+    static bool is_label(std::string_view word) { return word == "case" || word == "default"; }
+
+    std::size_t next_label(std::size_t begin, std::size_t limit) const {
+        const auto& tokens = text_.tokens();
+        while (begin < limit && !is_label(tokens[begin].text)) ++begin;
+        return begin;
+    }
+
+    /// Whether a name stands among the tokens, or may stand in a macro that is used there.
+    bool mentioned(const std::string& name, std::size_t begin, std::size_t end) const {
+        const auto& tokens = text_.tokens();
+        const auto macros = expander_.holding(name);
+        const auto pasting = expander_.holding("#");
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::string& text = tokens[i].text;
+            if (text == name || macros.contains(text) || pasting.contains(text)) return true;
+        }
+        return false;
+    }
+
+    bool has_conditions(std::size_t begin, std::size_t end) const {
+        return std::any_of(text_.directives().begin(), text_.directives().end(),
+                           [=](const GlslText::Directive& directive) {
+                               return directive.is_conditional() &&
+                                      directive.before_token > begin &&
+                                      directive.before_token <= end;
+                           });
     }
 
     /// Whole declarations in macros: `#define BEGIN float sum; int count;`.
@@ -219,6 +444,10 @@ private:
                 const std::string& before = rest[i - 1].text;
                 const bool begins =
                     i == 1 || before == ";" || before == "{" || before == ")" || before == "}";
+                if (before == "{" && i > 2 && rest[i - 3].text == "struct") {
+                    while (i < rest.size() && rest[i].text != "}") ++i;
+                    continue;
+                }
                 if (!begins || !rest[i].is_word()) continue;
                 std::size_t end = i;
                 while (end < rest.size() && rest[end].text != ";") ++end;
@@ -302,9 +531,11 @@ private:
     UserStage stage_;
     GlslText text_;
     gl::GlslOutline outline_;
+    gl::GlslMacros expander_;
     std::map<std::string, const GlslStructure*> structures_;
     std::map<std::string, std::set<std::string>> aliases_;
     std::set<std::string> declared_, ambiguous_;  ///< names of structures; declared more than once
+    std::set<std::string> closed_;                ///< ambiguous ones that get no function
     std::set<std::string> macros_;
     std::vector<std::pair<std::size_t, std::string>> insertions_;
     std::size_t count_ = 0;

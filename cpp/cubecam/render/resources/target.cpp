@@ -1,6 +1,7 @@
 #include "cubecam/render/resources/target.hpp"
 
 #include "cubecam/core/error.hpp"
+#include "cubecam/core/interrupts.hpp"
 #include "cubecam/gl/texture_memory.hpp"
 
 #include <algorithm>
@@ -215,12 +216,14 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         output_pass.push_back({attachment(output.slot), outputs_.back().id()});
     }
     if (multisampled()) {
+        poll_interrupts();
         sample_color_ = gl::create_texture_2d_multisample_array(
             *gl_, color_format, description.samples, description.width, description.height,
             description.layers());
         resolved_.emplace(*gl_, color_pass, description.layers());
         color_pass = {{attachment(0), sample_color_.id()}};
         if (depth_format != GL_NONE) {
+            poll_interrupts();
             sample_depth_ = gl::create_texture_2d_multisample_array(
                 *gl_, depth_format, description.samples, description.width, description.height,
                 description.layers());
@@ -268,6 +271,7 @@ void Target::check_complete() {
 }
 
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
+    poll_interrupts();  // llvmpipe fills memory with zeros, a GB in half a second
     // All attachments of a layered framebuffer must have one kind (GL 4.6 section 9.4.2). A flat
     // target is an array of one layer, so that full-screen passes look up all targets in one way.
     const int width = description_.width;
@@ -294,10 +298,10 @@ gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int 
     return texture;
 }
 
-void Target::resolve(int layer) {
-    gl_->BlitNamedFramebuffer(color_pass_->one(layer), resolved_->one(layer), 0, 0,
-                              description_.width, description_.height, 0, 0, description_.width,
-                              description_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void Target::resolve(int layer, const Rect& rect) {
+    gl_->BlitNamedFramebuffer(color_pass_->one(layer), resolved_->one(layer), rect.x0, rect.y0,
+                              rect.x1, rect.y1, rect.x0, rect.y0, rect.x1, rect.y1,
+                              GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace cubecam

@@ -144,8 +144,8 @@ public:
     const gl::Texture& scratch(std::size_t turn) const { return scratch_[turn]; }
     Layers& scratch_pass(std::size_t turn) { return *scratch_pass_[turn]; }
 
-    /// Averages the samples of one layer into color().
-    void resolve(int layer);
+    /// Averages the samples of a part of one layer into color().
+    void resolve(int layer, const Rect& rect);
 
     /// The key of each layer's picture; none: the contents are not valid.
     std::vector<std::optional<PictureKey>> keys;
