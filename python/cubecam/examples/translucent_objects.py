@@ -25,11 +25,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-import numpy as np
-
 import cubecam as cc
 
-from ._common import LIGHT, Picture, bunny, on_circle, picture
+from ._common import LIGHT, Picture, bunny, on_circle, picture, squares
 from ._live import Clock, live_view
 
 if TYPE_CHECKING:
@@ -161,7 +159,7 @@ def build(document: bool = False, blend: Pair = "separate") -> Program:
     half = -stage.bunny / 2
     paint = cc.PhongMaterial(color=(0.8, 0.8, 0.8), ks=0, ka=stage.ka)
     if stage.squares > 1:
-        paint.map = cc.Image(_squares(stage.squares), mag_filter="nearest")
+        paint.map = squares(stage.squares)
     ground = scene.add(cc.Mesh.plane(stage.ground, stage.ground), paint, position=(0, half, 0))
     body = scene.add(
         bunny(stage.bunny), cc.PhongMaterial(color=(0.8, 0.6, 0.5), ks=0.3, ka=stage.ka)
@@ -193,13 +191,6 @@ def set_blend(program: Program, blend: Pair) -> None:
     for node in program.translucent:
         assert node.material is not None
         node.material.blend = _BLENDS[blend]
-
-
-def _squares(count: int) -> Picture:
-    """Give the pattern of the ground, one texel a square."""
-    rows, columns = np.indices((count, count))
-    shade = np.where((rows + columns) % 2 == 0, 255, 150).astype(np.uint8)
-    return np.repeat(shade[..., None], 3, axis=2)
 
 
 def place(program: Program, frame: float) -> None:
