@@ -85,12 +85,12 @@ def test_without_an_angle_it_is_flat(renderer):
 @pytest.mark.parametrize("document", [False, True])
 def test_the_axis_is_the_views_own(document):
     """About its own y axis both eyes keep one direction upwards; about the world's they are rolled."""
-    program = example.build(document, degrees=6)
+    program = example.build(6, document=document)
     for camera, degrees in ((program.stereo.left, -3), (program.stereo.right, 3)):
         want = eye_turned(degrees)
         np.testing.assert_allclose(np.linalg.inv(camera.view)[:3, 3], want.eye, atol=1e-6)
         np.testing.assert_allclose(camera.view, want.view, atol=1e-6)
-    about_world = example.build(document, degrees=6, axis="world").stereo
+    about_world = example.build(6, "world", document=document).stereo
     for camera, degrees in ((about_world.left, -3), (about_world.right, 3)):
         np.testing.assert_allclose(
             np.linalg.inv(camera.view)[:3, 3], ry(degrees)[:3, :3] @ EYE, atol=1e-6

@@ -72,11 +72,12 @@ class Program:
 
 
 def build(
-    document: bool = False, degrees: float = DEGREES, axis: Literal["view", "world"] = "view"
+    degrees: float = DEGREES, axis: Literal["view", "world"] = "view", *, document: bool = False
 ) -> Program:
     """Make the scene: bunny, teapot, box and ball in greys, on a circle.
 
-    document : the document's own scene. degrees : between the eyes. axis : whose y axis the views are turned about.
+    degrees : between the eyes. axis : whose y axis the views are turned about. document : whether to make the
+    document's own scene.
     """
     stage = _DOCUMENT if document else _STAGED
     scene = cc.Scene(background=stage.background)

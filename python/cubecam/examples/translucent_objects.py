@@ -147,11 +147,11 @@ class Program:
     page: cc.ImageEffect
 
 
-def build(document: bool = False, blend: Pair = "separate") -> Program:
+def build(blend: Pair = "separate", *, document: bool = False) -> Program:
     """Make the scene: an opaque bunny on a ground, three panes and two balls round it.
 
-    document : the document's own scene. blend : "separate": the alpha of the picture stays; "plain": alpha is blended
-    as if it were a colour.
+    blend : "separate": the alpha of the picture stays; "plain": alpha is blended as if it were a colour.
+    document : whether to make the document's own scene.
     """
     stage = _DOCUMENT if document else _STAGED
     scene = cc.Scene(background=stage.background)
@@ -214,10 +214,10 @@ def draw(
 
 
 def live(
-    renderer: cc.Renderer | None = None, document: bool = False, blend: Pair = "separate"
+    renderer: cc.Renderer | None = None, *, blend: Pair = "separate", document: bool = False
 ) -> Viewer:
     """Show the program live over a web page: a drag moves the camera, and b changes how the alpha is blended."""
-    program = build(document, blend)
+    program = build(blend, document=document)
     pairs: list[Pair] = ["separate", "plain"]
     if blend == "plain":
         pairs.reverse()
