@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 import cubecam as cc
 from cubecam.viewer.controls import Controls, Orbit
 
+from ._script import DRAG, Script, events
+
 if TYPE_CHECKING:
     from cubecam.viewer import Viewer
     from cubecam.viewer.controls import AnyCamera
 
-#: Degrees that a drag over the height of the picture adds to an angle.
-DRAG = 100.0
 #: World units, one press of w or s.
 STEP = 0.1
 #: Frames a second of an animation, as in the files of `cubecam example`.
@@ -51,13 +51,27 @@ class Drags(Controls):
         self.turn = turn
         self.angle_x, self.angle_y = start
 
+    def play(self, script: Script) -> None:
+        """Answer the events of a script, one after another, as if a hand made them."""
+        for event in events(script):
+            if isinstance(event, str):
+                self._walk_by(event)
+            else:
+                self._add(*event)
+
     def _drag(
         self, camera: AnyCamera, dx: float, dy: float, height: float, button: int, shift: bool
     ) -> bool:
-        self.angle_x += DRAG * dx / height
-        self.angle_y += DRAG * dy / height
-        self.turn(self.angle_x, self.angle_y)
+        self._add(DRAG * dx / height, DRAG * dy / height)
         return True
+
+    def _add(self, angle_x: float, angle_y: float) -> None:
+        self.angle_x += angle_x
+        self.angle_y += angle_y
+        self.turn(self.angle_x, self.angle_y)
+
+    def _walk_by(self, key: str) -> None:
+        raise ValueError(f'script: expected drags only, since nobody walks here; got "{key}"')
 
 
 class Visitor(Drags):
@@ -72,6 +86,10 @@ class Visitor(Drags):
         x, y, z = (gaze / math.hypot(*gaze)).tolist()
         super().__init__(lambda a, b: look(camera, direction(a, b, first=(x, y, z))))
         self.step = STEP
+        self._camera = camera
+
+    def _walk_by(self, key: str) -> None:
+        self._camera.walk(STEP if key == "w" else -STEP)
 
 
 class Followed(Orbit):

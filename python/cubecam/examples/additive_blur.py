@@ -50,7 +50,7 @@ class Program:
     weighted: cc.BasicMaterial
 
 
-def build(image: npt.ArrayLike | None = None) -> Program:
+def build(image: npt.ArrayLike | None = None, *, document: bool = False) -> Program:
     """Make the scene; image is an array (H, W, C), one of the photographs by default."""
     pixels = photographs()[4] if image is None else image
     scene = cc.Scene(background=BLACK)

@@ -49,7 +49,7 @@ class Program:
     ring: cc.Node
 
 
-def build(degrees: float = DEGREES) -> Program:
+def build(degrees: float = DEGREES, *, document: bool = False) -> Program:
     """Make the scene: bunny, teapot, box and ball in greys, on a circle; degrees lie between the eyes."""
     scene = cc.Scene(background=BLACK)
     scene.add(cc.PointLight(position=LIGHT))

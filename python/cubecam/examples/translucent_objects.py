@@ -53,7 +53,7 @@ class Program:
     translucent: tuple[cc.Node, ...]
 
 
-def build() -> Program:
+def build(*, document: bool = False) -> Program:
     """Make the scene: an opaque bunny on a ground, three panes and two balls round it."""
     scene = cc.Scene(background=WHITE)
     scene.add(cc.PointLight(position=LIGHT))
