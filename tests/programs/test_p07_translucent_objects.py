@@ -104,7 +104,7 @@ def test_the_still_shows_layers_over_the_bunny(renderer):
 def test_the_plain_pair_leaves_holes_in_alpha(any_path, document):
     """Each surface of alpha a makes a a + (1 - a) D of the alpha D: .75 for one of .5."""
     program = example.build("plain", document=document)
-    stage = example._DOCUMENT if document else example._STAGED
+    stage = example.DOCUMENT if document else example.STAGED
     opacities = [thing.opacity for thing in stage.things]
     assert 0.5 in opacities
     for shown, a in zip(program.translucent, opacities, strict=True):

@@ -17,6 +17,8 @@ import numpy as np
 import cubecam as cc
 from cubecam.viewer.controls import Controls, Orbit
 
+from ._script import DRAG, Script, events
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -25,8 +27,6 @@ if TYPE_CHECKING:
 
     from ._common import Picture
 
-#: Degrees that a drag over the height of the picture adds to an angle.
-DRAG = 100.0
 #: World units, one press of w or s.
 STEP = 0.1
 #: Frames a second of an animation, as in the files of `cubecam example`.
@@ -60,13 +60,27 @@ class Drags(Controls):
         self.turn = turn
         self.angle_x, self.angle_y = start
 
+    def play(self, script: Script) -> None:
+        """Answer the events of a script, one after another, as if a hand made them."""
+        for event in events(script):
+            if isinstance(event, str):
+                self._walk_by(event)
+            else:
+                self._add(*event)
+
     def _drag(
         self, camera: AnyCamera, dx: float, dy: float, height: float, button: int, shift: bool
     ) -> bool:
-        self.angle_x += DRAG * dx / height
-        self.angle_y += DRAG * dy / height
-        self.turn(self.angle_x, self.angle_y)
+        self._add(DRAG * dx / height, DRAG * dy / height)
         return True
+
+    def _add(self, angle_x: float, angle_y: float) -> None:
+        self.angle_x += angle_x
+        self.angle_y += angle_y
+        self.turn(self.angle_x, self.angle_y)
+
+    def _walk_by(self, key: str) -> None:
+        raise ValueError(f'script: expected drags only, since nobody walks here; got "{key}"')
 
 
 class Visitor(Drags):
@@ -81,6 +95,10 @@ class Visitor(Drags):
         x, y, z = (gaze / math.hypot(*gaze)).tolist()
         super().__init__(lambda a, b: look(camera, direction(a, b, first=(x, y, z))))
         self.step = STEP
+        self._camera = camera
+
+    def _walk_by(self, key: str) -> None:
+        self._camera.walk(STEP if key == "w" else -STEP)
 
 
 class Followed(Orbit):

@@ -57,8 +57,8 @@ class Stage:
 
 
 #: The document clears to black.
-_DOCUMENT = Stage((0.0, 0.0, 0.0, 1.0), 1.0, 1.5, 0.2, LIGHT, 0)
-_STAGED = Stage((0.0, 0.0, 0.0, 1.0), 1.25, 1.35, 0.45, (1.0, 6.0, 6.0), 9)
+DOCUMENT = Stage((0.0, 0.0, 0.0, 1.0), 1.0, 1.5, 0.2, LIGHT, 0)
+STAGED = Stage((0.0, 0.0, 0.0, 1.0), 1.25, 1.35, 0.45, (1.0, 6.0, 6.0), 9)
 
 
 @dataclass
@@ -79,7 +79,7 @@ def build(
     degrees : between the eyes. axis : whose y axis the views are turned about. document : whether to make the
     document's own scene.
     """
-    stage = _DOCUMENT if document else _STAGED
+    stage = DOCUMENT if document else STAGED
     scene = cc.Scene(background=stage.background)
     scene.add(cc.PointLight(position=stage.light))
     ring = scene.add()

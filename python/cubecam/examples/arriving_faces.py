@@ -55,7 +55,9 @@ class Program:
     photographs: list[FilePixels]
 
 
-def build(images: Photographs | None = None, size: int = PHOTOGRAPH) -> Program:
+def build(
+    images: Photographs | None = None, size: int = PHOTOGRAPH, *, document: bool = False
+) -> Program:
     """Make the scene with a cubemap whose faces are still of one colour.
 
     images : the photographs that arrive, as in P1. size : texels along an edge of a face.

@@ -67,6 +67,8 @@ def build(
     reflector: Literal["sphere", "teapot"] = "sphere",
     probe_size: int = PROBE,
     probe_format: Format = "rgba8",
+    *,
+    document: bool = False,
 ) -> Program:
     """Make the scene; images as in P1, the probe's texels of 8 bits as in the document."""
     if reflector not in ("sphere", "teapot"):
@@ -111,9 +113,14 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
+def live(
+    images: Photographs | None = None,
+    renderer: cc.Renderer | None = None,
+    *,
+    document: bool = False,
+) -> Viewer:
     """Show the program live: a drag moves the camera round the reflector, and t changes ball and teapot."""
-    program = build(images)
+    program = build(images, document=document)
     place(program, 0)
     shapes = [shape("teapot"), shape("sphere")]
 

@@ -59,7 +59,7 @@ class Program:
     things: tuple[cc.Node, ...]
 
 
-def build() -> Program:
+def build(*, document: bool = False) -> Program:
     """Make the scene: bunny, teapot and box on a ground under one lamp that throws shadows."""
     scene = cc.Scene(background=GREY)
     lamp = cc.PointLight(position=LIGHT, shadow=cc.Shadow(size=SHADOW))

@@ -15,14 +15,14 @@ person's head.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
-from ._live import STEP, Visitor, direction, live_view, look
+from ._live import Visitor, live_view
+from ._script import Event, Script, events
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -39,8 +39,6 @@ CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 SCALE = 2.0
 FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
 
-#: "w", "s", or a drag (angleX, angleY) in degrees.
-Event = str | tuple[float, float]
 SCRIPT: tuple[Event, ...] = (
     *[(6.0, 0.0)] * 15,
     *[(0.0, 3.0)] * 8,
@@ -56,19 +54,33 @@ STILL = 35
 
 @dataclass
 class Program:
-    """`camera` moves."""
+    """`camera` moves; `frames` and `still` follow from the script."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
     script: tuple[Event, ...]
+    frames: int
+    still: int
 
 
-def build(images: Photographs | None = None, script: Sequence[Event] = SCRIPT) -> Program:
-    """Make the scene; see `SCRIPT` for what a script holds, and P1 for the images."""
+def build(
+    images: Photographs | None = None, script: Script | None = None, *, document: bool = False
+) -> Program:
+    """Make the scene.
+
+    images : as in P1. script : events like those of `SCRIPT`, which None stands for, or a text such as
+    "drag 30 10; w 5", in pixels of a picture 512 pixels high.
+    """
     scene = cc.Scene(background=GREY)
     material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
     scene.add(cc.Mesh.box(CUBE), material, scale=SCALE)
-    return Program(scene, walker(), tuple(script))
+    return Program(scene, walker(), *walk_of(script))
+
+
+def walk_of(script: Script | None) -> tuple[tuple[Event, ...], int, int]:
+    """Return the events of a script, the number of frames and the best of these: the last one, except in `SCRIPT`."""
+    walk = SCRIPT if script is None else events(script, SIZE[1])
+    return walk, len(walk) + 1, STILL if script is None else len(walk)
 
 
 def walker() -> cc.PerspectiveCamera:
@@ -76,20 +88,12 @@ def walker() -> cc.PerspectiveCamera:
     return cc.PerspectiveCamera(fov=FOV, position=(0, 0, 0), target=FIRST, near=NEAR, far=FAR)
 
 
-def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
+def replay(camera: cc.PerspectiveCamera, script: Script) -> None:
     """Put the camera at its start, and replay the events."""
     camera.target = None
     camera.position = (0, 0, 0)
     camera.look(FIRST)
-    angle_x = angle_y = 0.0
-    for event in events:
-        if event in ("w", "s"):
-            camera.walk(STEP if event == "w" else -STEP)
-        elif isinstance(event, str):
-            raise ValueError(f'script: expected "w", "s" or a drag of two angles, got {event!r}')
-        else:
-            angle_x, angle_y = angle_x + event[0], angle_y + event[1]
-            look(camera, direction(angle_x, angle_y))
+    Visitor(camera).play(script)
 
 
 def draw(
@@ -104,7 +108,20 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
-    """Show the program live: a drag turns the view, w and s walk."""
-    program = build(images)
-    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))
+def live(
+    images: Photographs | None = None,
+    renderer: cc.Renderer | None = None,
+    *,
+    script: Script = (),
+    document: bool = False,
+) -> Viewer:
+    """Show the program live: a drag turns the view, w and s walk. The script comes first."""
+    program = build(images, document=document)
+    return live_view(program, SIZE, TITLE, renderer, controls=visitor(program.camera, script))
+
+
+def visitor(camera: cc.PerspectiveCamera, script: Script) -> Visitor:
+    """Return mouse and keys, with a script played already."""
+    controls = Visitor(camera)
+    controls.play(events(script, SIZE[1]))
+    return controls

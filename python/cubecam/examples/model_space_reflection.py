@@ -114,6 +114,8 @@ def build(
     per_vertex: bool = False,
     skybox: bool = False,
     mesh: cc.Mesh | None = None,
+    *,
+    document: bool = False,
 ) -> Program:
     """Make the scene.
 
@@ -202,9 +204,11 @@ def live(
     per_vertex: bool = False,
     skybox: bool = False,
     renderer: cc.Renderer | None = None,
+    *,
+    document: bool = False,
 ) -> Viewer:
     """Show the program live: the teapots turn, and a drag moves the camera round them."""
-    program = build(image, stretch, per_vertex, skybox)
+    program = build(image, stretch, per_vertex, skybox, document=document)
     clock = Clock(lambda frame, _: turn(program, frame))
     # The shader must know the eye's new place, also while the clock stands still.
     controls = Followed(lambda: turn(program, clock.frame))

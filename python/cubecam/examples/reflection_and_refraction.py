@@ -56,7 +56,9 @@ class Program:
     glass: tuple[cc.Node, cc.Node]
 
 
-def build(images: Photographs | None = None, eta: float = ETA) -> Program:
+def build(
+    images: Photographs | None = None, eta: float = ETA, *, document: bool = False
+) -> Program:
     """Make the scene; eta is the refractive index outside divided by that inside, images are as in P1."""
     scene = cc.Scene(environment=surroundings(images))
     group = scene.add()
@@ -89,10 +91,14 @@ def draw(
 
 
 def live(
-    images: Photographs | None = None, eta: float = ETA, renderer: cc.Renderer | None = None
+    images: Photographs | None = None,
+    eta: float = ETA,
+    renderer: cc.Renderer | None = None,
+    *,
+    document: bool = False,
 ) -> Viewer:
     """Show the program live: a drag moves the camera round the four objects, and both turn on together."""
-    program = build(images, eta)
+    program = build(images, eta, document=document)
 
     def turn_on(frame: float, step: float) -> None:
         program.group.rotation = cc.axis_angle((0, 1, 0), TURN * frame)

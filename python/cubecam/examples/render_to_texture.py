@@ -57,7 +57,7 @@ class Program:
     texture: cc.RenderTexture
 
 
-def build() -> Program:
+def build(*, document: bool = False) -> Program:
     """Make both scenes; in the inner one a unit is half the texture's edge."""
     inner = cc.Scene(background=WHITE)
     upright = cc.axis_angle((1, 0, 0), 90)

@@ -16,7 +16,6 @@ does not divide.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -24,8 +23,9 @@ import cubecam as cc
 
 from . import inside_the_box
 from ._common import Photographs, Picture, picture, surroundings
-from ._live import Visitor, live_view
-from .inside_the_box import SCRIPT, Event, replay
+from ._live import live_view
+from ._script import Event, Script
+from .inside_the_box import SCRIPT, replay
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -49,21 +49,28 @@ BOXES = (
 
 @dataclass
 class Program:
-    """`camera` moves: 60 degrees, near 1, far 15, as in P2."""
+    """`camera` moves: 60 degrees, near 1, far 15, as in P2. `frames` and `still` follow from the script."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
     script: tuple[Event, ...]
+    frames: int
+    still: int
 
 
 def build(
-    images: Photographs | None = None, script: Sequence[Event] = SCRIPT, boxes: bool = True
+    images: Photographs | None = None,
+    script: Script | None = None,
+    boxes: bool = True,
+    *,
+    document: bool = False,
 ) -> Program:
     """Make the scene; images as in P1, the script as in P2."""
     scene = cc.Scene(background=surroundings(images))
     for color, place, size in BOXES if boxes else ():
         scene.add(cc.Mesh.box(size), cc.BasicMaterial(color=color), position=place)
-    return Program(scene, inside_the_box.walker(), tuple(script))
+    walk, frames, still = inside_the_box.walk_of(script)
+    return Program(scene, inside_the_box.walker(), walk, frames, STILL if script is None else still)
 
 
 def draw(
@@ -79,8 +86,14 @@ def draw(
 
 
 def live(
-    images: Photographs | None = None, boxes: bool = True, renderer: cc.Renderer | None = None
+    images: Photographs | None = None,
+    boxes: bool = True,
+    renderer: cc.Renderer | None = None,
+    *,
+    script: Script = (),
+    document: bool = False,
 ) -> Viewer:
     """Show the program live: a drag turns the view, w and s walk, and the sky stays where it is."""
-    program = build(images, boxes=boxes)
-    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))
+    program = build(images, boxes=boxes, document=document)
+    controls = inside_the_box.visitor(program.camera, script)
+    return live_view(program, SIZE, TITLE, renderer, controls=controls)

@@ -52,7 +52,12 @@ class Program:
     cube: cc.Node
 
 
-def build(images: Photographs | None = None, eye: tuple[float, float, float] = EYE) -> Program:
+def build(
+    images: Photographs | None = None,
+    eye: tuple[float, float, float] = EYE,
+    *,
+    document: bool = False,
+) -> Program:
     """Make the scene.
 
     images : six arrays or paths in the order +X -X +Y -Y +Z -Z, uploaded as they are; made here by default.
@@ -85,9 +90,14 @@ def turn(program: Program, angle_x: float, angle_y: float) -> None:
     program.cube.rotation = cc.axis_angle((0, 1, 0), angle_x)
 
 
-def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
+def live(
+    images: Photographs | None = None,
+    renderer: cc.Renderer | None = None,
+    *,
+    document: bool = False,
+) -> Viewer:
     """Show the program live: a drag turns the cube."""
-    program = build(images)
+    program = build(images, document=document)
     turn(program, START, START)
     drags = Drags(lambda x, y: turn(program, x, y), start=(START, START))
     return live_view(program, SIZE, TITLE, renderer, controls=drags)

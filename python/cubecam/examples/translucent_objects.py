@@ -78,7 +78,7 @@ class Stage:
 
 
 #: Panes and balls in turn, at equal angles; the background is white, as the page of most web sites.
-_DOCUMENT = Stage(
+DOCUMENT = Stage(
     background=(1.0, 1.0, 1.0, 1.0),
     ground=4,
     squares=1,
@@ -98,7 +98,7 @@ _DOCUMENT = Stage(
 )
 
 #: Panes and balls overlap in front of the bunny, and stand on a ground of squares that shows what is tinted.
-_STAGED = Stage(
+STAGED = Stage(
     background=(0.66, 0.74, 0.82, 1.0),
     ground=7,
     squares=10,
@@ -153,7 +153,7 @@ def build(blend: Pair = "separate", *, document: bool = False) -> Program:
     blend : "separate": the alpha of the picture stays; "plain": alpha is blended as if it were a colour.
     document : whether to make the document's own scene.
     """
-    stage = _DOCUMENT if document else _STAGED
+    stage = DOCUMENT if document else STAGED
     scene = cc.Scene(background=stage.background)
     scene.add(cc.PointLight(position=LIGHT))
     half = -stage.bunny / 2
