@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from cubecam.viewer import Viewer
     from cubecam.viewer.controls import AnyCamera
+    from cubecam.viewer.picking import Pick
 
     from ._common import Picture
 
@@ -141,14 +142,26 @@ def _drawn_viewer() -> type:
     class Drawn(cc.Viewer):
         """A viewer of a program that makes its picture of several parts."""
 
-        def __init__(self, drawing: Drawing, *arguments: Any, **options: Any) -> None:
-            self._drawing = drawing
+        def __init__(
+            self, drawing: Drawing, cells: tuple[int, int], *arguments: Any, **options: Any
+        ) -> None:
+            self._drawing, self._cells = drawing, cells
             super().__init__(*arguments, **options)
 
         def _picture(self, size: tuple[int, int], moving: bool) -> npt.NDArray[np.uint8]:
             if self.output != "color":
                 return super()._picture(size, moving)
             return np.asarray(self._drawing(self.renderer, size, 1 if moving else self.samples))
+
+        def pick(
+            self, x: float, y: float, *, size: tuple[float, float] | None = None
+        ) -> Pick | None:
+            """Find what a pixel shows, in whichever of the pictures it is."""
+            width, height = self.size if size is None else size
+            if self.output != "color" or not (0 <= x < width and 0 <= y < height):
+                return super().pick(x, y, size=(width, height))
+            width, height = width / self._cells[0], height / self._cells[1]
+            return super().pick(x % width, y % height, size=(width, height))
 
     return Drawn
 
@@ -188,16 +201,18 @@ def live_view(
     keys: Keys | None = None,
     screen: bool = False,
     draw: Drawing | None = None,
+    cells: tuple[int, int] = (1, 1),
 ) -> Viewer:
     """Make the live form of a program.
 
     controls : the document's mouse; without, a drag moves the camera round its target. clock : the animation, which the
     space bar stops. keys : what other keys do. screen : whether light is made for a screen (tone curve and sRGB);
     without, the numbers of a picture are shown unchanged, as `draw` of the module does it. draw : what draws the
-    pictures, if these are not just the scene as the camera sees it.
+    pictures, if these are not just the scene as the camera sees it. cells : the columns and rows of such a picture that
+    shows the scene several times.
     """
     controls = controls or Orbit()
-    make: Any = cc.Viewer if draw is None else functools.partial(_drawn_viewer(), draw)
+    make: Any = cc.Viewer if draw is None else functools.partial(_drawn_viewer(), draw, cells)
     viewer: Viewer = make(
         program.scene,
         program.camera,
