@@ -13,8 +13,8 @@ Each module has
   document; it has ``document``, too;
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
   ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels). A program may have its own
-  ``frames``, ``still`` and ``size``, which then count (`length_of`, `still_of`, `size_of`): those of a script, or of its
-  document.
+  ``frames``, ``still`` and ``size``, which then count (`length_of`, `still_of`, `size_of`): those of a script, or of
+  its document.
 
 Where the document has inputs, ``build`` and ``live`` take them: ``images`` (six photographs), ``image`` (one picture of
 six faces) and ``script`` (drags and keys of a visitor, such as ``"drag 30 10; w 5"``). `inputs_of` lists them.
