@@ -85,9 +85,9 @@ def draw_translucent(renderer):
 def program_still(name, renderer):
     """The still picture of one of the documents' programs, with its document's numbers, small."""
     module = examples.load(name)
-    width, height = module.SIZE
-    size = (64 * width // height, 64)
     program = module.build(document=True)
+    width, height = examples.size_of(module, program)
+    size = (64 * width // height, 64)
     return module.draw(program, renderer, examples.still_of(module, program), size=size)
 
 

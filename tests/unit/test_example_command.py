@@ -65,7 +65,7 @@ def test_every_program_draws_a_still_and_an_animation(name, tmp_path):
     assert result.exit_code == 0, result.output
     with Image.open(moving) as picture:
         assert picture.n_frames in (1, 2, 3)  # the file stores equal frames in a row as one frame
-        width, height = examples.load(name).SIZE
+        width, height = examples.size_of(examples.load(name), examples.load(name).build())
         assert picture.size == (32, 32 * height // width)
 
 
@@ -95,7 +95,8 @@ def test_a_frame_depends_on_its_number_alone(name, document, renderer, new_rende
     """A frame has the same bytes in any order, from a new renderer or from one that has drawn other frames."""
     module = examples.load(name)
     program, other = module.build(document=document), module.build(document=document)
-    size = (24, 24 * module.SIZE[1] // module.SIZE[0])
+    width, height = examples.size_of(module, program)
+    size = (24, 24 * height // width)
     length = examples.length_of(module, program)
     assert 0 <= examples.still_of(module, program) < length
     chosen = (length // 2, 1, length - 1)

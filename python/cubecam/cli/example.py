@@ -347,7 +347,7 @@ def _save(
     ending = Path(path).suffix.lower()
     count = frames or (examples.length_of(module, program) if ending in _MOVING else 1)
     first = start if start is not None else examples.still_of(module, program) if count == 1 else 0
-    width, height = module.SIZE
+    width, height = examples.size_of(module, program)
     if size is not None:
         width, height = size, max(1, round(size * height / width))
     options: dict[str, Any] = {"samples": _samples(renderer, document)}
@@ -398,9 +398,10 @@ def _save_sheet(path: str, renderer: Renderer, document: bool) -> None:
     pictures, labels = [], []
     for known in examples.NAMES:
         module = examples.load(known)
-        scale = _THUMBNAIL / max(module.SIZE)
-        size = (round(module.SIZE[0] * scale), round(module.SIZE[1] * scale))
         program = module.build(document=document)
+        width, height = examples.size_of(module, program)
+        scale = _THUMBNAIL / max(width, height)
+        size = (round(width * scale), round(height * scale))
         still = examples.still_of(module, program)
         pictures.append(module.draw(program, renderer, still, size=size, samples=samples))
         labels.append(f"{module.PROGRAM}  {known}")

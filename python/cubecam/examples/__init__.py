@@ -13,7 +13,8 @@ Each module has
   document; it has ``document``, too;
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
   ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels). A program may have its own
-  ``frames`` and ``still``, which then count (`length_of`, `still_of`): those of a script, or of its document.
+  ``frames``, ``still`` and ``size``, which then count (`length_of`, `still_of`, `size_of`): those of a script, or of
+  its document.
 
 Where the document has inputs, ``build`` and ``live`` take them: ``images`` (six photographs), ``image`` (one picture of
 six faces) and ``script`` (drags and keys of a visitor, such as ``"drag 30 10; w 5"``). `inputs_of` lists them.
@@ -39,7 +40,17 @@ if TYPE_CHECKING:
 from .._calls import checked_call
 from .._checks import text_of
 
-__all__ = ["INPUTS", "NAMES", "Example", "inputs_of", "is_live", "length_of", "load", "still_of"]
+__all__ = [
+    "INPUTS",
+    "NAMES",
+    "Example",
+    "inputs_of",
+    "is_live",
+    "length_of",
+    "load",
+    "size_of",
+    "still_of",
+]
 
 #: The names in the order of the programs' numbers, P1 to P18.
 NAMES: tuple[str, ...] = (
@@ -197,6 +208,12 @@ def length_of(module: Example, program: object) -> int:
 def still_of(module: Example, program: object) -> int:
     """Give the best frame for a single picture: the program's own ``still``, or the module's ``STILL``."""
     return int(getattr(program, "still", module.STILL))
+
+
+def size_of(module: Example, program: object) -> tuple[int, int]:
+    """Give width and height of the pictures in pixels: the program's own ``size``, or the module's ``SIZE``."""
+    width, height = getattr(program, "size", module.SIZE)
+    return int(width), int(height)
 
 
 def _module(name: str) -> Example:
