@@ -193,6 +193,7 @@ NEEDED: dict[str, Any] = {
     "plot.error_map": lambda: {"a": PICTURE, "b": PICTURE},
     "plot.faces": lambda: {"cube": FACES},
     "plot.inner_steps": lambda: {"cube": FACES},
+    "plot.layout": lambda: {"cube": FACES},
     "plot.panorama": lambda: {"cube": FACES, "width": 4},
     "plot.seam_ratios": lambda: {"cube": FACES},
     "plot.seam_steps": lambda: {"cube": FACES},

@@ -132,6 +132,7 @@ BY_POSITION = {
     "results.image_png": ["image"],
     "plot.cross": ["cube", "labels"],
     "plot.faces": ["cube"],
+    "plot.layout": ["cube"],
     "plot.panorama": ["cube"],
     "plot.error_map": ["a", "b"],
     "plot.vectors": ["field"],
