@@ -105,6 +105,13 @@ def on_circle(radius: float, height: float, radians: float) -> tuple[float, floa
     return radius * math.cos(radians), height, -radius * math.sin(radians)
 
 
+def squares(count: int) -> cc.Image:
+    """Return a pattern of light and dark squares, `count` along an edge, for a ground that shows what lies over it."""
+    rows, columns = np.indices((count, count))
+    shade = np.where((rows + columns) % 2 == 0, 255, 150).astype(np.uint8)
+    return cc.Image(np.repeat(shade[..., None], 3, axis=2), mag_filter="nearest")
+
+
 def picture(
     renderer: cc.Renderer,
     scene: cc.Scene,

@@ -20,14 +20,14 @@ def label(picture: Array, text: str, corner: Corner = "top left") -> Array:
     """Write lines of text into a corner: white letters with a dark edge, which can be read on every picture.
 
     picture : (H, W, 3 or 4), uint8, or floats whose 0 to 1 are the numbers of a screen; the result has its dtype.
-    Letters are a 24th of the shorter side high, and smaller where the text would not fit. Pictures with a side below
+    Letters are a 22nd of the shorter side high, and smaller where the text would not fit. Pictures with a side below
     80 pixels have no room for text, and are returned without.
     """
     height, width = picture.shape[:2]
     if min(width, height) < 80:
         return np.array(picture)
     lines = text.split("\n")
-    size = float(np.clip(round(min(width, height) / 24), 8, 40))
+    size = float(np.clip(round(min(width, height) / 22), 10, 40))
     blank = np.zeros((height, width, 3), np.uint8)
     while size > 8 and max(Lettering(blank, _WHITE, _DARK, size).width(t) for t in lines) > (
         width - size
