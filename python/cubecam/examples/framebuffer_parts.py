@@ -280,9 +280,13 @@ def _shadow(program: Program, shadow: Part, cell: tuple[int, int]) -> Part:
 
     Of the six faces of a lamp that shines all around, the two that see the things: -Y beside -X.
     """
-    faces = shadow[[3, 1]] if len(shadow) == 6 else shadow
-    away = math.hypot(*program.lamp.position.tolist())  # of the ring's middle
-    pair = np.concatenate(list(np.clip((away + 1.5 - faces) / 3.5, 0, 1)), axis=1)
+    shown: Part
+    if len(shadow) == 6:
+        shown = (9 - shadow[[3, 1]]) / 6
+    else:
+        away = math.hypot(*program.lamp.position.tolist())  # of the ring's middle
+        shown = (away + 1.5 - shadow) / 3.5
+    pair = np.concatenate(list(np.clip(shown, 0, 1)), axis=1)
     width, height = cell
     rows = (np.arange(height) + 0.5) * pair.shape[0] / height
     columns = (np.arange(width) + 0.5) * pair.shape[1] / width
