@@ -42,7 +42,10 @@ def parse_script(text: str, height: float) -> tuple[Event, ...]:
     ``s N`` press a key N times, once without N.
     """
     found: list[Event] = []
-    for part in filter(None, (part.strip() for part in text.split(";"))):
+    parts = [part.strip() for part in text.split(";") if part.strip()]
+    if not parts:
+        raise ValueError(f"{_EXPECTED} {text!r}")
+    for part in parts:
         word, *numbers = part.split()
         if word == "drag" and len(numbers) == 2:
             dx, dy = (_number(number, part) for number in numbers)
@@ -58,8 +61,6 @@ def parse_script(text: str, height: float) -> tuple[Event, ...]:
             found += [word] * int(count)
         else:
             raise ValueError(f"{_EXPECTED} {part!r}")
-    if not found:
-        raise ValueError(f"{_EXPECTED} {text!r}")
     return tuple(found)
 
 

@@ -5,8 +5,10 @@ the view, "w" and "s" take a step of 0.1 along the view. Two angles sum up the d
 is Rx(angleY) Ry(angleX) (0, 0, 1), both turns about the world's axes. `SCRIPT` replaces mouse and
 keyboard: frame k shows the view after k of its events.
 
-Look for: the walls come nearer as the camera walks, parts of them disappear in front of the near
-plane, and in the end the camera stands outside. The document asks how to avoid this; P3 is the answer.
+Look for: in the middle the six photographs look like the place where they were taken. From elsewhere the
+box shows: the fence and the path bend at the edges where two walls meet. The walls come nearer as the
+camera walks, parts of them disappear in front of the near plane, and in the end the camera stands
+outside. The document asks how to avoid this; P3 is the answer.
 
 Worth trying: turn by 90 degrees and then drag up and down: nothing happens, because the second turn is
 about the world's X axis, along which the camera looks. `camera.yaw` and `camera.pitch` turn like a
@@ -39,6 +41,7 @@ CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 SCALE = 2.0
 FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
 
+#: A walk through the document's scene, as numbers of its two angles.
 SCRIPT: tuple[Event, ...] = (
     *[(6.0, 0.0)] * 15,
     *[(0.0, 3.0)] * 8,
@@ -48,8 +51,24 @@ SCRIPT: tuple[Event, ...] = (
     *[(-4.0, 2.0)] * 12,
     *["w"] * 30,
 )
-FRAMES = len(SCRIPT) + 1
-STILL = 35
+#: The walk of the staged scene: to the fence, back into a corner, where the box shows, on until it is all seen.
+WALK = "drag 160 0; w 8; s 34; drag -96 0; drag 96 0; s 50"
+FRAMES = 115
+STILL = 52
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What differs between the document's scene and the staged one."""
+
+    sample: str  # the photographs
+    mipmaps: bool
+    walk: tuple[Event, ...]
+    still: int  # the best frame of the walk
+
+
+DOCUMENT = Stage("sunset.exr", False, SCRIPT, 35)
+STAGED = Stage("forest.exr", True, events(WALK, SIZE[1]), STILL)
 
 
 @dataclass
@@ -68,19 +87,26 @@ def build(
 ) -> Program:
     """Make the scene.
 
-    images : as in P1. script : events like those of `SCRIPT`, which None stands for, or a text such as
-    "drag 30 10; w 5", in pixels of a picture 512 pixels high.
+    images : as in P1. script : events like those of `SCRIPT`, or a text such as "drag 30 10; w 5", in pixels of a
+    picture 512 pixels high; a walk by default.
     """
+    stage = DOCUMENT if document else STAGED
     scene = cc.Scene(background=GREY)
-    material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
+    cubemap = surroundings(images, stage.sample, mipmaps=stage.mipmaps)
+    material = cc.BasicMaterial(cubemap=cubemap, double_sided=True)
     scene.add(cc.Mesh.box(CUBE), material, scale=SCALE)
-    return Program(scene, walker(), *walk_of(script))
+    return Program(scene, walker(), *walk_of(script, stage.walk, stage.still))
 
 
-def walk_of(script: Script | None) -> tuple[tuple[Event, ...], int, int]:
-    """Return the events of a script, the number of frames and the best of these: the last one, except in `SCRIPT`."""
-    walk = SCRIPT if script is None else events(script, SIZE[1])
-    return walk, len(walk) + 1, STILL if script is None else len(walk)
+def walk_of(
+    script: Script | None, own: tuple[Event, ...], still: int
+) -> tuple[tuple[Event, ...], int, int]:
+    """Return the events of a script or the program's own, the number of frames, and the best of these.
+
+    That is `still` for the program's own events, and the last frame for a script.
+    """
+    walk = own if script is None else events(script, SIZE[1])
+    return walk, len(walk) + 1, still if script is None else len(walk)
 
 
 def walker() -> cc.PerspectiveCamera:
