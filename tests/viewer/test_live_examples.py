@@ -14,12 +14,12 @@ from PIL import Image
 
 from cubecam import examples
 from tests.helpers import DEVICE
-from tests.programs.oracle import rx, ry, scaled
+from tests.programs.oracle import predicted, rx, ry, scaled
 
 ROOT = Path(__file__).parents[2]
 LESSONS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17", "P18")
 #: In the order of the programs' numbers.
-PROGRAMS = tuple(sorted((*LESSONS, "P5"), key=lambda name: int(name[1:])))
+PROGRAMS = tuple(sorted((*LESSONS, "P5", "P7", "P10", "P11"), key=lambda name: int(name[1:])))
 #: The programs whose camera stands in the scene, with the view before any drag.
 VISITORS = {
     "P2": (0, 0, 1),
@@ -30,12 +30,15 @@ VISITORS = {
     "P16": (0, -0.9, -3.2),
     "P17": (0, -1, -5),
 }
-ORBITS = ("P4", "P5", "P6", "P12", "P18")
+ORBITS = ("P4", "P5", "P6", "P7", "P10", "P11", "P12", "P18")
 #: Frames a second.
 RATES = {
     "P4": 25,
     "P5": 25,
     "P6": 25,
+    "P7": 25,
+    "P10": 25,
+    "P11": 25,
     "P12": 25,
     "P13": 60,
     "P14": 25,
@@ -347,6 +350,7 @@ def test_p15_counts_the_views_of_the_last_picture(drive):
         ("P1", {"drag"}),
         ("P2", {"drag", "w s"}),
         ("P4", {"drag", "wheel", "space"}),
+        ("P7", {"drag", "space", "b"}),
         ("P12", {"drag", "space", "t"}),
         ("P14", {"drag", "w s", "space"}),
         ("P16", {"drag", "w s", "space", "p"}),
@@ -435,6 +439,29 @@ def test_the_command_shows_the_program(monkeypatch, options, where, browser):
     assert (place, more) == (where, {"browser": browser, "block": True})
 
 
+def test_the_command_shows_the_documents_own_inputs(monkeypatch, tmp_path):
+    from cubecam.viewer.live import LiveView
+
+    shown = []
+    monkeypatch.setattr(LiveView, "show", lambda view, where, **more: shown.append(view))
+    script = ("--script", "drag 128 0; w 3")
+    result = run("P2", "--live", "--document", *script, "--device", DEVICE)
+    assert result.exit_code == 0, result.output
+    (view,) = shown
+    place, direction = predicted([(25.0, 0.0), "w", "w", "w"])
+    np.testing.assert_allclose(view.camera.position, place, atol=1e-9)
+    np.testing.assert_allclose(view.camera.target - place, direction, atol=1e-9)
+    material = view.scene.nodes[0].material
+    assert not material.cubemap.mipmaps  # the document's scene
+
+
+@pytest.mark.parametrize("name", examples.NAMES)
+def test_live_takes_the_inputs_of_build(name):
+    if examples.is_live(name):
+        known = inspect.signature(example(name).live).parameters
+        assert {"renderer", "document", *examples.inputs_of(name)} <= set(known)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -451,6 +478,12 @@ def test_what_makes_no_sense_is_refused(arguments, message):
     result = run(*arguments)
     assert result.exit_code == 2
     assert re.search(message, " ".join(result.output.split())), result.output
+
+
+def test_another_script_is_refused():
+    result = run("P2", "--live", "--script", "fly 3", "--device", DEVICE)
+    assert result.exit_code == 1
+    assert "expected parts such as" in result.output
 
 
 def test_a_missing_package_is_named(monkeypatch):

@@ -75,6 +75,7 @@ class Stage:
     eye: Vector
     fov: float  # degrees
     things: tuple[Thing, ...]
+    still: int = 0  # the best frame for a single picture
 
 
 #: Panes and balls in turn, at equal angles; the background is white, as the page of most web sites.
@@ -95,6 +96,7 @@ DOCUMENT = Stage(
         Thing("ball", *BALLS[1], 216),
         Thing("pane", *PANES[2], 288),
     ),
+    still=60,
 )
 
 #: Panes and balls overlap in front of the bunny, and stand on a ground of squares that shows what is tinted.
@@ -145,6 +147,7 @@ class Program:
     opaque: tuple[cc.Node, ...]
     translucent: tuple[cc.Node, ...]
     page: cc.ImageEffect
+    still: int
 
 
 def build(blend: Pair = "separate", *, document: bool = False) -> Program:
@@ -179,7 +182,9 @@ def build(blend: Pair = "separate", *, document: bool = False) -> Program:
     camera = cc.PerspectiveCamera(
         fov=stage.fov, position=stage.eye, target=(0, 0, 0), near=1, far=100
     )
-    program = Program(scene, camera, ring, (ground, body), translucent, cc.ImageEffect(_PAGE))
+    program = Program(
+        scene, camera, ring, (ground, body), translucent, cc.ImageEffect(_PAGE), stage.still
+    )
     set_blend(program, blend)
     return program
 
@@ -216,7 +221,7 @@ def draw(
 def live(
     renderer: cc.Renderer | None = None, *, blend: Pair = "separate", document: bool = False
 ) -> Viewer:
-    """Show the program live over a web page: a drag moves the camera, and b changes how the alpha is blended."""
+    """Show the program live over a web page: a drag moves the camera, and b changes how alpha is blended."""
     program = build(blend, document=document)
     pairs: list[Pair] = ["separate", "plain"]
     if blend == "plain":
@@ -227,7 +232,10 @@ def live(
         set_blend(program, pairs[0])
 
     def drawn(renderer: cc.Renderer, size: tuple[int, int], samples: int) -> Picture:
-        options: RenderOptions = {"samples": samples, "effects": [program.page]}
+        # With the separate factors the page is hidden everywhere.
+        options: RenderOptions = {"samples": samples}
+        if pairs[0] == "plain":
+            options["effects"] = [program.page]
         return picture(renderer, program.scene, program.camera, size, options)
 
     return live_view(

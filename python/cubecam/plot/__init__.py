@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from ._errors import error_map
 from ._faces import EDGE_NAMES
+from ._layout import layout
 from ._pictures import cross, faces, panorama
 from ._seams import inner_steps, seam_ratios, seam_steps, seams
 from ._vectors import arrows, face_axes, vectors
@@ -28,6 +29,7 @@ __all__ = [
     "face_axes",
     "faces",
     "inner_steps",
+    "layout",
     "panorama",
     "seam_ratios",
     "seam_steps",
