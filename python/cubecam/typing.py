@@ -51,6 +51,7 @@ __all__ = [
     "FaceName",
     "FileLayout",
     "FilePixels",
+    "FisheyeModel",
     "Format",
     "Interpolation",
     "Layout",
@@ -61,6 +62,7 @@ __all__ = [
     "Pixels",
     "Place",
     "ProbeUpdate",
+    "Projection",
     "RenderOptions",
     "Sampling",
     "SpecularMode",
@@ -128,6 +130,7 @@ FaceName: TypeAlias = Literal[
     "pos_z",
     "neg_z",
 ]
+FisheyeModel: TypeAlias = Literal["equidistant", "equisolid", "stereographic", "orthographic"]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Interpolation: TypeAlias = Literal["step", "linear", "cubic"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]
@@ -145,6 +148,15 @@ MinFilter: TypeAlias = Literal[
 Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
+Projection: TypeAlias = Literal[
+    "perspective",
+    "fisheye",
+    "mirror_ball",
+    "angular_map",
+    "octahedral",
+    "dual_paraboloid",
+    "cylindrical",
+]
 Sampling: TypeAlias = Literal["centers", "borders"]
 SpecularMode: TypeAlias = Literal["levels", "sampled"]
 StencilFunc: TypeAlias = Literal[

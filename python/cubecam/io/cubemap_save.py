@@ -31,7 +31,11 @@ from .stored_as import stored_files
 from .writing import write_files
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
+
+    from ..typing import Pixels
+    from .files import PathLike
 
 
 @checked_call
@@ -225,6 +229,34 @@ def save_cubemap(
     write_files({target: encoded})
 
 
+def save_projection(
+    cube: CubeMap,
+    path: PathLike,
+    projected: Callable[[CubeMap, np.dtype[Any]], Pixels],
+    *,
+    exposure: float = 0.0,
+    tonemap: Tonemap | None = "neutral",
+    half: bool = False,
+) -> None:
+    """Write a picture that `projected(cube, dtype)` makes, as `save_cubemap` writes a panorama."""
+    check_look(exposure, tonemap, None)
+    target = as_path(path)
+    light = formats.holds_light(target, cube.faces)
+    curve = curve_for(cube, cube.faces, tonemap)
+    exact = formats.stores(target, cube.dtype) and (
+        light or (exposure == 0 and cube.encoding == "srgb")
+    )
+    # An alpha of 1 goes before the picture gets corners with an alpha of 0, which a JPEG cannot hold.
+    source = _storable(cube, target)
+    picture = projected(source, cube.dtype if exact else np.dtype(np.float32))
+    clipping = Clipping()
+    with clipping.gathered():
+        ready = formats.for_file(picture, cube.encoding, light, exposure, curve, None)
+    encoded = formats.encode(target, ready, half=half or cube.dtype == np.float16)
+    clipping.warn()
+    write_files({target: encoded})
+
+
 def _save_levels(cube: CubeMap, name: str, **options: Any) -> None:
     """Write each filtered level under its number."""
     if options["output"] != "color":
@@ -241,4 +273,4 @@ def _storable(cube: CubeMap, target: Path) -> CubeMap:
     if cube.channels != 4 or formats.holds_alpha(target):
         return cube
     faces = cube.faces
-    return CubeMap(faces[..., :3]) if formats.is_opaque(faces) else cube
+    return CubeMap(faces[..., :3], encoding=cube.encoding) if formats.is_opaque(faces) else cube
