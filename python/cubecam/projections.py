@@ -138,7 +138,7 @@ def from_perspective(
     --------
     >>> import cubecam as cc
     >>> cube = cc.CubeMap.from_perspective([[[1.0, 1.0, 1.0]]], 90, size=4)
-    >>> cube.faces[cc.Face.NEG_Z].min(), cube.faces[cc.Face.POS_Z].max()
+    >>> float(cube.faces[cc.Face.NEG_Z].min()), float(cube.faces[cc.Face.POS_Z].max())
     (1.0, 0.0)
     """
     pixels = _pixels(image)

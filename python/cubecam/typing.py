@@ -62,7 +62,6 @@ __all__ = [
     "Pixels",
     "Place",
     "ProbeUpdate",
-    "Projection",
     "RenderOptions",
     "Sampling",
     "SpecularMode",
@@ -148,15 +147,6 @@ MinFilter: TypeAlias = Literal[
 Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
-Projection: TypeAlias = Literal[
-    "perspective",
-    "fisheye",
-    "mirror_ball",
-    "angular_map",
-    "octahedral",
-    "dual_paraboloid",
-    "cylindrical",
-]
 Sampling: TypeAlias = Literal["centers", "borders"]
 SpecularMode: TypeAlias = Literal["levels", "sampled"]
 StencilFunc: TypeAlias = Literal[

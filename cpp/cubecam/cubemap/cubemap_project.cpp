@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -484,9 +485,20 @@ void look_up(const Pixel* pixels, const std::vector<FourTexels>& places, float* 
     }
 }
 
-/// Returns whether all results are finite.
+/// Looks up places on a picture and writes the numbers of all channels.
+using LookUp = std::function<void(const std::vector<FourTexels>&, float*)>;
+
 template <typename Pixel>
-bool fill_cube(const Pixel* pixels, const ProjectedPixels& from, const Projection& projection,
+LookUp look_up_in(const Pixel* pixels, int channels) {
+    return with_channels(channels, [pixels](auto constant) -> LookUp {
+        return [pixels](const std::vector<FourTexels>& places, float* to) {
+            look_up<decltype(constant)::value>(pixels, places, to);
+        };
+    });
+}
+
+/// Returns whether all results are finite.
+bool fill_cube(const LookUp& look_up, const ProjectedPixels& from, const Projection& projection,
                int size, DType dtype, std::byte* to) {
     struct Scratch {
         BorderedTile<glm::dvec2> places;
@@ -519,9 +531,7 @@ bool fill_cube(const Pixel* pixels, const ProjectedPixels& from, const Projectio
             });
             const auto flush = [&] {
                 found.resize(batch.samples().size() * channels);
-                with_channels(from.channels, [&](auto constant) {
-                    look_up<decltype(constant)::value>(pixels, batch.samples(), found.data());
-                });
+                look_up(batch.samples(), found.data());
                 if (!batch.write(found, channels, dtype, face_texels)) all_numbers = false;
             };
             for (int i = 0; i < rows; ++i) {
@@ -602,12 +612,15 @@ PixelBuffer picture_to_cube(const ProjectedPixels& from, const Projection& proje
     const auto n = static_cast<std::size_t>(size);
     const auto channels = static_cast<std::size_t>(from.channels);
     PixelBuffer result(face_count * n * n * channels * dtype_size(to));
+    const auto fill = [&](const LookUp& look_up) {
+        return fill_cube(look_up, from, projection, size, to, result.data());
+    };
     with_pixels(from.dtype, from.pixels, [&](const auto* pixels) {
-        if (fill_cube(pixels, from, projection, size, to, result.data())) return;
+        if (fill(look_up_in(pixels, from.channels))) return;
         const std::size_t values =
             static_cast<std::size_t>(from.width) * static_cast<std::size_t>(from.height) * channels;
         const auto finite = without_infinities(pixels, values, from.width, from.channels);
-        fill_cube(finite.data(), from, projection, size, to, result.data());
+        fill(look_up_in(finite.data(), from.channels));
     });
     return result;
 }

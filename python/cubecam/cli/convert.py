@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, get_args
 import click
 
 from .. import Error, axis_angle
-from ..typing import Center, Convention, FileLayout, FisheyeModel, Projection, Tonemap
+from ..typing import Center, Convention, FileLayout, FisheyeModel, Tonemap
 from .common import (
     FILE,
     NUMBER,
@@ -31,6 +31,16 @@ if TYPE_CHECKING:
     from .. import CubeMap
     from ..typing import Pixels
 
+#: A cube has the methods to_<name> and from_<name> of each.
+Projection: TypeAlias = Literal[
+    "perspective",
+    "fisheye",
+    "mirror_ball",
+    "angular_map",
+    "octahedral",
+    "dual_paraboloid",
+    "cylindrical",
+]
 #: How the faces are arranged in files, or a projection that shows the cube.
 Arrangement: TypeAlias = Literal[FileLayout, Projection]
 _PROJECTIONS: tuple[Projection, ...] = get_args(Projection)
@@ -223,8 +233,8 @@ def convert(
     The format of an output follows from its extension, and the layout of an input from its shape. Files that cubecam
     wrote say their convention and centre; for other files give --from-convention if it is not "gl".
     """
-    from ..io.cubemap_save import save_projection
     from ..io.cubemaps import load_cubemap
+    from ..io.projection_save import save_projection
 
     names = [_Target(item, output, layout, to) for item in inputs]
     written: dict[str, str] = {}

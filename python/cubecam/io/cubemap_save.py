@@ -31,11 +31,7 @@ from .stored_as import stored_files
 from .writing import write_files
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
-
-    from ..typing import Pixels
-    from .files import PathLike
 
 
 @checked_call
@@ -225,34 +221,6 @@ def save_cubemap(
         picture = ready(picture, light)
     attributes |= stored[0].attributes()
     encoded = formats.encode(target, picture, half=half, attributes=attributes)
-    clipping.warn()
-    write_files({target: encoded})
-
-
-def save_projection(
-    cube: CubeMap,
-    path: PathLike,
-    projected: Callable[[CubeMap, np.dtype[Any]], Pixels],
-    *,
-    exposure: float = 0.0,
-    tonemap: Tonemap | None = "neutral",
-    half: bool = False,
-) -> None:
-    """Write a picture that `projected(cube, dtype)` makes, as `save_cubemap` writes a panorama."""
-    check_look(exposure, tonemap, None)
-    target = as_path(path)
-    light = formats.holds_light(target, cube.faces)
-    curve = curve_for(cube, cube.faces, tonemap)
-    exact = formats.stores(target, cube.dtype) and (
-        light or (exposure == 0 and cube.encoding == "srgb")
-    )
-    # An alpha of 1 goes before the picture gets corners with an alpha of 0, which a JPEG cannot hold.
-    source = _storable(cube, target)
-    picture = projected(source, cube.dtype if exact else np.dtype(np.float32))
-    clipping = Clipping()
-    with clipping.gathered():
-        ready = formats.for_file(picture, cube.encoding, light, exposure, curve, None)
-    encoded = formats.encode(target, ready, half=half or cube.dtype == np.float16)
     clipping.warn()
     write_files({target: encoded})
 
