@@ -19,19 +19,32 @@ import cubecam as cc
 
 ROOT = Path(__file__).resolve().parent.parent
 
-#: For each page, the picture that its program writes and the file in docs/images.
+_PROJECTIONS = (
+    "perspective",
+    "equidistant",
+    "equisolid",
+    "stereographic",
+    "orthographic",
+    "mirror_ball",
+    "angular_map",
+    "octahedral",
+    "dual_paraboloid",
+    "cylindrical",
+)
+#: For each page, the pictures that its program writes and their files in docs/images.
 PICTURES = {
-    "seams.md": ("seams.png", "howto-seams.png"),
-    "random_scenes.md": ("sample.png", "howto-random-scenes.png"),
-    "plots.md": ("plots.png", "howto-plots.jpg"),
-    "reflection.md": ("reflection.png", "howto-reflection.jpg"),
-    "glb_in_a_probe.md": ("ball.png", "howto-ball.jpg"),
-    "own_pictures.md": ("ball.png", "howto-own-pictures.jpg"),
+    "seams.md": {"seams.png": "howto-seams.png"},
+    "random_scenes.md": {"sample.png": "howto-random-scenes.png"},
+    "plots.md": {"plots.png": "howto-plots.jpg"},
+    "reflection.md": {"reflection.png": "howto-reflection.jpg"},
+    "glb_in_a_probe.md": {"ball.png": "howto-ball.jpg"},
+    "own_pictures.md": {"ball.png": "howto-own-pictures.jpg"},
+    "projections.md": {f"{name}.jpg": f"howto-projection-{name}.jpg" for name in _PROJECTIONS},
 }
 
 
 def main() -> None:
-    for page, (picture, kept) in PICTURES.items():
+    for page, pictures in PICTURES.items():
         text = (ROOT / "docs" / "howto" / page).read_text(encoding="utf-8")
         scope: dict[str, Any] = {}
         with tempfile.TemporaryDirectory() as folder:
@@ -39,9 +52,11 @@ def main() -> None:
             for code in re.findall(r"```python\n(.*?)```", text, flags=re.DOTALL):
                 exec(compile(code, page, "exec"), scope)
             os.chdir(ROOT)
-            target = ROOT / "docs" / "images" / kept
-            Image.fromarray(cc.load_image(Path(folder) / picture)[..., :3]).save(target, quality=85)
-        print(f"{target.relative_to(ROOT)}: {target.stat().st_size // 1000} KB")
+            for picture, kept in pictures.items():
+                target = ROOT / "docs" / "images" / kept
+                colors = cc.load_image(Path(folder) / picture)[..., :3]
+                Image.fromarray(colors).save(target, quality=85)
+                print(f"{target.relative_to(ROOT)}: {target.stat().st_size // 1000} KB")
 
 
 if __name__ == "__main__":

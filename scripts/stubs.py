@@ -35,6 +35,7 @@ def make_describable() -> None:
     Methods and properties that python/cubecam/_attach.py adds are plain functions with annotations as text.
     """
     methods: set[types.FunctionType] = set()  # some belong to several classes
+    functions: set[types.FunctionType] = set()  # static methods
     for name, thing in vars(_core).items():
         if getattr(thing, "__module__", None) != "cubecam":
             continue
@@ -51,8 +52,13 @@ def make_describable() -> None:
                     "cubecam"
                 ):
                     methods.add(function)
+            static = member.__func__ if isinstance(member, staticmethod) else None
+            if isinstance(static, types.FunctionType):
+                functions.add(static)
     for method in methods:
         make_method(method)
+    for function in functions:
+        name_annotations(function)
 
 
 def unwrap_methods(kind: type) -> None:
@@ -60,18 +66,25 @@ def unwrap_methods(kind: type) -> None:
     for name in list(vars(kind)):
         member = getattr(kind, name, None)  # an old name raises AttributeError
         if isinstance(member, types.FunctionType):
-            setattr(kind, name, inspect.unwrap(member))
+            function = inspect.unwrap(member)
+            static = isinstance(vars(kind)[name], staticmethod)
+            setattr(kind, name, staticmethod(function) if static else function)
 
 
 def make_method(function: types.FunctionType) -> None:
     """Give a function the first argument `self` and annotations with full names."""
     arguments = function.__code__.co_varnames
+    function.__annotations__.pop(arguments[0], None)
+    name_annotations(function)
+    function.__code__ = function.__code__.replace(co_varnames=("self", *arguments[1:]))
+
+
+def name_annotations(function: types.FunctionType) -> None:
+    """Give a function annotations with full names."""
     function.__annotations__ = {
         name: full_names(annotation, function.__globals__)
         for name, annotation in function.__annotations__.items()
-        if name != arguments[0]
     }
-    function.__code__ = function.__code__.replace(co_varnames=("self", *arguments[1:]))
     function.__doc__ = inspect.getdoc(function)
 
 

@@ -387,3 +387,24 @@ class TestGlbInAProbe:
         assert_close(
             with_probe.color[~on_ball], without.color[~on_ball], "exact", name="besides the ball"
         )
+
+
+@pytest.mark.slow
+class TestProjections:
+    NAME = "docs/howto/projections.md"
+
+    def test_every_picture_shows_the_courtyard(self, pages):
+        folder, scope = pages(self.NAME)
+        pictures = sorted(folder.glob("*.jpg"))
+        assert len(pictures) == 10
+        for path in pictures:
+            mean, spread = measured(cc.load_image(path))
+            assert 0.15 < mean < 0.7
+            assert spread > 0.15
+        turned = scope["level"].sample([-0.5, 0, -np.sqrt(0.75)])
+        assert np.abs(turned - scope["probe"].sample([0, 0, -1])).max() < 0.05
+
+    def test_the_page_names_every_method(self):
+        methods = {name for name in dir(cc.CubeMap) if name.startswith("to_")}
+        methods -= {"to_convention", "to_equirect", "to_layout"}
+        assert methods == set(re.findall(r"^\| `(to_\w+)\(", text_of(self.NAME), re.MULTILINE))

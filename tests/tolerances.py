@@ -71,6 +71,15 @@ TOLERANCES = {
         "float32 trigonometry puts a sample up to 1e-6 of a turn off, on noise of slope 1 a texel",
         mean=1e-5,
     ),
+    "mirror_ball": Tolerance(
+        5e-3,
+        "triangles of an icosphere stand for the ball, and a pixel is a mean of its footprint: 1/100 of a radian",
+        mean=1e-3,
+    ),
+    "window": Tolerance(
+        2e-3,
+        "one ray through the middle of a pixel, and the mean of its footprint, on a smooth cube",
+    ),
     "unorm8": Tolerance(0.51 / 255, "one rounding to 8 bits, and the float32 before it"),
     "unorm8_counts": Tolerance(
         1.0, "one count of 255: the value may lie on a rounding boundary", mean=0.05

@@ -383,6 +383,7 @@ void bind_cubemap(py::module_& module) {
         .def("sample", &sample, py::arg("directions"), py::kw_only(), py::arg("lod") = 0.0,
              py::arg("output") = "color", docs::sample_output);
     bind_cubemap_pictures(cube);
+    bind_cubemap_projections(module, cube);
 
     const auto duplicate = [](const CubeMap& c) { return std::make_shared<CubeMap>(c); };
     cube.def("copy", duplicate, "An independent cubemap with the same contents.")

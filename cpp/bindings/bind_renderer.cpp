@@ -10,6 +10,7 @@
 #include "objects.hpp"
 #include "unlocked.hpp"
 #include "values.hpp"
+#include "vectors.hpp"
 
 #include "cubecam/core/error.hpp"
 #include "cubecam/render/renderer.hpp"
@@ -131,7 +132,8 @@ capture(Renderer& renderer, const Scene& scene, const bindings::ArrayLike& posit
         const bindings::Nodes& exclude, const OutputNames& outputs, const FormatOrNone& format,
         const bindings::WholeNumber& samples, const bindings::OrNone<bindings::ArrayLike>& eye,
         const bindings::DepthFormatName& depth_format,
-        const bindings::Choice<depth_order_names>& depth_order) {
+        const bindings::Choice<depth_order_names>& depth_order,
+        const bindings::OrNone<bindings::ArrayLike>& rotation) {
     CaptureOptions options;
     options.position = to_vec3(position, "position");
     options.size = to_int(size, "size");
@@ -148,6 +150,9 @@ capture(Renderer& renderer, const Scene& scene, const bindings::ArrayLike& posit
     options.depth_format = bindings::to_depth_format(depth_format);
     options.depth_order = parse_depth_order(depth_order);
     if (!eye.is_none()) options.eye = to_vec3(eye, "eye");
+    if (!rotation.is_none()) {
+        options.rotation = unit_rotation(bindings::to_rotation(rotation, "rotation"));
+    }
     const auto snapshot = scene.snapshot();
     return bindings::with_notices([&] { return renderer.capture(*snapshot, options); });
 }
@@ -200,7 +205,7 @@ void bind_renderer(pybind11::module_& m) {
              py::arg("exclude") = py::tuple(), py::arg("outputs") = py::tuple(),
              py::arg("format") = "rgba32f", py::arg("samples") = 1, py::arg("eye") = py::none(),
              py::arg("depth_format") = "depth_component32f", py::arg("depth_order") = "nearest",
-             docs::capture)
+             py::arg("rotation") = py::none(), docs::capture)
         .def("update_probes", &update_probes, py::arg("scene"), py::kw_only(),
              py::arg("probes") = py::none(), docs::update_probes)
         .def(

@@ -49,4 +49,7 @@ py::array output_array(PixelBuffer texels, const OutputValues& output,
 /// other sizes.
 void bind_cubemap_pictures(Class<CubeMap>& cube);
 
+/// `CubeMap.rotate`, and the functions behind the methods of python/cubecam/projections.py.
+void bind_cubemap_projections(py::module_& module, Class<CubeMap>& cube);
+
 }  // namespace cubecam::bindings

@@ -20,7 +20,7 @@ from ._core import (
     Scene,
     ShaderMaterial,
 )
-from ._late import LateMethod
+from ._late import LateFunction, LateMethod
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,6 +47,17 @@ _DESCRIBED = (
     _core.Limits,
     _core.Stats,
     _core.Device,
+)
+
+#: Projections: a cube has the methods to_<name> and from_<name> of each.
+_PROJECTIONS = (
+    "perspective",
+    "fisheye",
+    "mirror_ball",
+    "angular_map",
+    "octahedral",
+    "dual_paraboloid",
+    "cylindrical",
 )
 
 
@@ -83,6 +94,9 @@ def attach() -> None:
     _attach(CubeMap, "save_for", LateMethod("io.engines", "save_for"))
     _attach(CubeMap, "_repr_png_", _cube_repr_png)
     _attach(CubeMap, "numpy", LateMethod("_array_protocol", "cube_numpy"))
+    for projection in _PROJECTIONS:
+        _attach(CubeMap, f"to_{projection}", LateMethod("projections", f"to_{projection}"))
+        _attach(CubeMap, f"from_{projection}", LateFunction("projections", f"from_{projection}"))
     _attach(Frame, "save", LateMethod("io.images", "save_frame"))
     _attach(Frame, "_repr_png_", _frame_repr_png)
     _attach(Image, "_repr_png_", _image_repr_png)

@@ -34,6 +34,7 @@ from cubecam.typing import (
     Engine,
     FaceName,
     FileLayout,
+    FisheyeModel,
     Format,
     Interpolation,
     Layout,
@@ -1609,6 +1610,130 @@ class CubeMap:
     __hash__: typing.ClassVar[None] = None  # type: ignore[assignment]
 
     @staticmethod
+    def from_angular_map(
+        image: np.typing.ArrayLike,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Make a cube from an angular map, such as Debevec's light probe images: the inverse of `to_angular_map`.
+
+        Parameters
+        ----------
+        image : array_like (S, S, C)
+            A square whose sides the disc touches, as in `from_perspective`. Pixels outside the disc do not count.
+        direction, up
+            As in `to_angular_map`.
+        size, mipmaps, dtype, encoding
+            As in `from_perspective`.
+
+        Returns
+        -------
+        CubeMap
+            The new cube in `dtype`.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_angular_map` and `from_equirect`, and for an image that is not square.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_angular_map(np.ones((200, 200, 3), np.float32)).size
+        64
+        """
+
+    @staticmethod
+    def from_cylindrical(
+        image: np.typing.ArrayLike,
+        *,
+        fov: float = 360.0,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Make a cube from a panorama on a cylinder: the inverse of `to_cylindrical`.
+
+        Parameters
+        ----------
+        image : array_like (H, W, C)
+            As in `from_perspective`. With a `fov` of 360 the first column continues the last one.
+        fov, direction, up
+            As in `to_cylindrical`.
+        size, mipmaps, dtype, encoding
+            As in `from_perspective`.
+
+        Returns
+        -------
+        CubeMap
+            Texels whose centre the picture does not show, such as those straight up, are 0, in all channels.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_cylindrical` and `from_equirect`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_cylindrical(np.ones((64, 201, 3), np.float32)).sample([[1, 0, 0], [0, 1, 0]]).tolist()
+        [[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]]
+        """
+
+    @staticmethod
+    def from_dual_paraboloid(
+        image: np.typing.ArrayLike,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Make a cube from a dual paraboloid map: the inverse of `to_dual_paraboloid`.
+
+        Parameters
+        ----------
+        image : array_like (S, 2S, C)
+            Both halves side by side, as in `from_perspective`. Pixels outside the discs do not count.
+        direction, up
+            As in `to_dual_paraboloid`.
+        size, mipmaps, dtype, encoding
+            As in `from_perspective`.
+
+        Returns
+        -------
+        CubeMap
+            The new cube in `dtype`.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_dual_paraboloid` and `from_equirect`, and for an image that is not twice as wide as high.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_dual_paraboloid(np.ones((64, 128, 3), np.float32)).size
+        64
+        """
+
+    @staticmethod
     def from_equirect(
         image: np.typing.ArrayLike,
         *,
@@ -1662,6 +1787,49 @@ class CubeMap:
         >>> import cubecam as cc
         >>> cc.CubeMap.from_equirect(np.zeros((64, 128, 3), np.uint8))
         CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
+        """
+
+    @staticmethod
+    def from_fisheye(
+        image: np.typing.ArrayLike,
+        *,
+        fov: float = 180.0,
+        model: FisheyeModel = "equidistant",
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Make a cube from the circular picture of a fisheye lens: the inverse of `to_fisheye`.
+
+        Parameters
+        ----------
+        image : array_like (S, S, C)
+            A square whose sides the circle touches, as in `from_perspective`. Pixels outside the circle do not count.
+        fov, model, direction, up
+            As in `to_fisheye`.
+        size, mipmaps, dtype, encoding
+            As in `from_perspective`.
+
+        Returns
+        -------
+        CubeMap
+            Texels whose centre the picture does not show are 0, in all channels.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_fisheye` and `from_equirect`, and for an image that is not square.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_fisheye(np.ones((64, 64, 3), np.float32)).sample([[0, 0, -1], [0, 0, 1]]).tolist()
+        [[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]]
         """
 
     @staticmethod
@@ -1748,6 +1916,137 @@ class CubeMap:
         >>> sharp, rough = (cc.CubeMap(np.full((6, n, n, 3), 0.5, np.float32)) for n in (64, 16))
         >>> cc.CubeMap.from_levels([sharp, rough]).roughness.tolist()
         [0.0, 1.0]
+        """
+
+    @staticmethod
+    def from_mirror_ball(
+        image: np.typing.ArrayLike,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Make a cube from a photograph of a mirror ball: the inverse of `to_mirror_ball`.
+
+        Parameters
+        ----------
+        image : array_like (S, S, C)
+            A square whose sides the ball touches, as in `from_perspective`. Pixels outside the ball do not count.
+        direction, up
+            As in `to_mirror_ball`.
+        size, mipmaps, dtype, encoding
+            As in `from_perspective`.
+
+        Returns
+        -------
+        CubeMap
+            Little of the picture shows what lies behind the ball, in `direction`: there the cube is blurred.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_mirror_ball` and `from_equirect`, and for an image that is not square.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_mirror_ball(np.ones((64, 64, 3), np.float32))
+        CubeMap(size=32, channels=3, dtype=float32, mipmaps=False, encoding='linear')
+        """
+
+    @staticmethod
+    def from_octahedral(
+        image: np.typing.ArrayLike,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Make a cube from an octahedral map: the inverse of `to_octahedral`.
+
+        Parameters
+        ----------
+        image : array_like (S, S, C)
+            A square, as in `from_perspective`. Lookups at its border continue on the other side of the fold.
+        direction, up
+            As in `to_octahedral`.
+        size, mipmaps, dtype, encoding
+            As in `from_perspective`.
+
+        Returns
+        -------
+        CubeMap
+            The new cube in `dtype`.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_octahedral` and `from_equirect`, and for an image that is not square.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cc.CubeMap.from_octahedral(np.ones((64, 64, 3), np.uint8))
+        CubeMap(size=64, channels=3, dtype=uint8, mipmaps=False, encoding='srgb')
+        """
+
+    @staticmethod
+    def from_perspective(
+        image: np.typing.ArrayLike,
+        fov: float,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        size: int | None = None,
+        mipmaps: bool = False,
+        dtype: np.typing.DTypeLike | None = None,
+        encoding: Encoding | None = None,
+    ) -> CubeMap:
+        """
+        Put a picture of a perspective camera into a cube, which is 0 around it: the inverse of `to_perspective`.
+
+        Parameters
+        ----------
+        image : array_like (H, W, C)
+            uint8 (value/255), float16, float32 or float64, row 0 on top. NaN raises ValueError; inf counts as the largest
+            finite number of the image, or 65504 if that is more.
+        fov, direction, up
+            As in `to_perspective`.
+        size : int, optional
+            Texels along an edge of a face. None: the power of two whose texels are no larger than the pixels in the middle.
+        mipmaps : bool
+            Whether lookups in the new cube are trilinear.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32". None: that of `image`.
+        encoding : {"linear", "srgb"}, optional
+            What the numbers of `image` are, as in `CubeMap`.
+
+        Returns
+        -------
+        CubeMap
+            Texels whose centre the picture does not show are 0, in all channels.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective` and `from_equirect`.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.CubeMap.from_perspective([[[1.0, 1.0, 1.0]]], 90, size=4)
+        >>> float(cube.faces[cc.Face.NEG_Z].min()), float(cube.faces[cc.Face.POS_Z].max())
+        (1.0, 0.0)
         """
 
     @staticmethod
@@ -2017,6 +2316,41 @@ class CubeMap:
         >>> import cubecam as cc
         >>> cc.CubeMap(np.zeros((6, 8, 8, 3), np.uint8)).resize(2).faces.shape
         (6, 2, 2, 3)
+        """
+
+    def rotate(self: CubeMap, rotation: np.typing.ArrayLike) -> CubeMap:
+        """
+        Turn what this cube shows.
+
+        The result shows in the direction R d what this cube shows in d, as ``Scene.environment_rotation`` turns an
+        environment. ``renderer.capture(scene, rotation=q).rotate(q)`` shows the scene in the world's axes again.
+
+        Parameters
+        ----------
+        rotation : array_like (4,)
+            The quaternion (w, x, y, z) of R, of any length except 0, as `axis_angle` gives.
+
+        Returns
+        -------
+        CubeMap
+            A new cube of the same size, dtype, `mipmaps`, `encoding` and `levels`. A rotation that brings axes to axes, such
+            as a quarter turn, copies texels; others filter each texel over its footprint, and round as `to_equirect` does.
+            Outputs are the nearest texels of this cube's outputs: normals and positions stay vectors of the scene's world,
+            "z" is converted to the axes of the new faces, and "depth" stays as the capture drew it.
+
+        Raises
+        ------
+        ValueError
+            For a quaternion of length 0, another shape, or numbers that are not finite.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import cubecam as cc
+        >>> cube = cc.CubeMap(np.arange(6, dtype=np.float32).reshape(6, 1, 1, 1))  # each face its number
+        >>> turned = cube.rotate(cc.axis_angle((0, 1, 0), 90))  # +Z goes to +X
+        >>> float(cube.sample([0, 0, 1])[0]), float(turned.sample([1, 0, 0])[0])
+        (4.0, 4.0)
         """
 
     @typing.overload
@@ -2384,6 +2718,50 @@ class CubeMap:
         (600, 800, 4)
         """
 
+    def to_angular_map(
+        self,
+        size: int | None = None,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make an angular map, the form of Debevec's light probe images.
+
+        Parameters
+        ----------
+        size : int, optional
+            Pixels of an edge of the square picture. None: as many as keep the resolution in the middle.
+        direction, up, dtype, output
+            As in `to_perspective`.
+
+        Returns
+        -------
+        ndarray (size, size, C), or (size, size) and (size, size, channels) of an output
+            A new array, row 0 on top: a disc with `direction` in the middle and the opposite direction all round its rim.
+            Pixels whose centre lies outside the disc are 0, in all channels, and of an output the value of the background.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective`.
+
+        Notes
+        -----
+        It is the "equidistant" fisheye of 360 degrees: the distance from the middle is in proportion to the angle from
+        `direction`. P. Debevec, Light Probe Image Gallery: ``r = acos(Dz) / (pi sqrt(Dx^2 + Dy^2))``, u = Dx r, v = Dy r,
+        with Dx to the right, Dy up and Dz forward.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> cube.to_angular_map(100).shape
+        (100, 100, 3)
+        """
+
     @typing.overload
     def to_convention(
         self: CubeMap, convention: Convention
@@ -2436,6 +2814,97 @@ class CubeMap:
         ------
         ValueError
             For an unknown convention, or an output that the cube does not have.
+        """
+
+    def to_cylindrical(
+        self,
+        size: int | tuple[int, int] | None = None,
+        *,
+        fov: float = 360.0,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make a panorama on a cylinder round `up`, on which vertical lines stay straight and upright.
+
+        Parameters
+        ----------
+        size : int or (int, int), optional
+            (width, height), or the width of a picture that shows 45 degrees up and down. None: the width that keeps the
+            resolution in the middle.
+        fov : float
+            The horizontal field of view in degrees, above 0 and up to 360.
+        direction, up, dtype, output
+            As in `to_perspective`. The cylinder stands along what is at right angles to `direction` on the side of `up`.
+
+        Returns
+        -------
+        ndarray (height, width, C), or (height, width) and (height, width, channels) of an output
+            A new array, row 0 on top. Straight up and down are outside of every picture.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective`.
+
+        Notes
+        -----
+        "Cylindrical" of Hugin and PanoTools: x is in proportion to the longitude, y to the tangent of the latitude, with
+        square pixels in the middle. With f = width / fov pixels and fov in radians, the picture shows latitudes up to
+        ``atan(height / (2 f))``.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> cube.to_cylindrical().shape
+        (64, 201, 3)
+        """
+
+    def to_dual_paraboloid(
+        self,
+        size: int | None = None,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make a dual paraboloid map: two discs of half the world each, side by side.
+
+        Parameters
+        ----------
+        size : int, optional
+            Pixels of an edge of each half. None: twice the size of the cube.
+        direction, up, dtype, output
+            As in `to_perspective`. The left half looks in `direction`, the right half back, with the same `up`.
+
+        Returns
+        -------
+        ndarray (size, 2 size, C), or (size, 2 size) and (size, 2 size, channels) of an output
+            A new array, row 0 on top; neither half is mirrored. Pixels whose centre lies outside the discs are 0, in all
+            channels, and of an output the value of the background.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective`.
+
+        Notes
+        -----
+        W. Heidrich and H.-P. Seidel, View-independent Environment Maps, Graphics Hardware 1998: a direction (x, y, z) along
+        right, up and forward of a half is shown at ``(x, y) / (1 + z)``. The right axis of the half that looks back is
+        the left one of the other half. Where a shader uses the same x for both, flip the right half left-right.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> cube.to_dual_paraboloid().shape
+        (128, 256, 3)
         """
 
     @typing.overload
@@ -2537,6 +3006,58 @@ class CubeMap:
         True
         """
 
+    def to_fisheye(
+        self,
+        size: int | None = None,
+        *,
+        fov: float = 180.0,
+        model: FisheyeModel = "equidistant",
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make the circular picture of a fisheye lens.
+
+        Parameters
+        ----------
+        size : int, optional
+            Pixels of an edge of the square picture; the circle touches its four sides. None: as many as keep the resolution
+            in the middle.
+        fov : float
+            The field of view across the circle in degrees: above 0, up to 360 ("equidistant", "equisolid"), below 360
+            ("stereographic") or up to 180 ("orthographic").
+        model : {"equidistant", "equisolid", "stereographic", "orthographic"}
+            How far from the middle an angle a from `direction` is shown: in proportion to a, sin(a/2), tan(a/2) or sin(a).
+        direction, up, dtype, output
+            As in `to_perspective`.
+
+        Returns
+        -------
+        ndarray (size, size, C), or (size, size) and (size, size, channels) of an output
+            A new array, row 0 on top. Pixels whose centre lies outside the circle are 0, in all channels, and of an output
+            the value of the background.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective`, and for an unknown model.
+
+        Notes
+        -----
+        These are the lens models of Hugin and PanoTools (their "fisheye" is "equidistant"), which are those of Ray,
+        Applied Photographic Optics, 2002: r = f a, 2 f sin(a/2), 2 f tan(a/2) and f sin(a).
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> up = cube.to_fisheye(101, direction=(0, 1, 0), up=(0, 0, -1))
+        >>> up.shape, float(up[0, 0].max())
+        ((101, 101, 3), 0.0)
+        """
+
     @typing.overload
     def to_layout(
         self: CubeMap,
@@ -2612,6 +3133,150 @@ class CubeMap:
         ------
         ValueError
             For an unknown layout or convention, a dtype, or an output that the cube does not have.
+        """
+
+    def to_mirror_ball(
+        self,
+        size: int | None = None,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make the picture of a mirror ball, photographed from far away.
+
+        Parameters
+        ----------
+        size : int, optional
+            Pixels of an edge of the square picture, whose sides the ball touches. None: twice the size of the cube.
+        direction, up : array_like (3,)
+            The direction in which the camera looks at the ball. The middle of the ball shows what lies behind the camera.
+        dtype, output
+            As in `to_perspective`.
+
+        Returns
+        -------
+        ndarray (size, size, C), or (size, size) and (size, size, channels) of an output
+            A new array, row 0 on top. It is mirrored, as the ball mirrors the world. Pixels whose centre lies outside the
+            ball are 0, in all channels, and of an output the value of the background.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective`.
+
+        Notes
+        -----
+        P. Debevec, Rendering Synthetic Objects into Real Scenes, SIGGRAPH 1998: a ray that looks forward is reflected at
+        the normal ``x right + y up - sqrt(1 - x^2 - y^2) forward``. It goes to
+        ``2 n x right + 2 n y up + (2 x^2 + 2 y^2 - 1) forward`` with ``n = sqrt(1 - x^2 - y^2)``.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> cube.to_mirror_ball().shape
+        (128, 128, 3)
+        """
+
+    def to_octahedral(
+        self,
+        size: int | None = None,
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make an octahedral map: all directions in a square without empty corners.
+
+        Parameters
+        ----------
+        size : int, optional
+            Pixels of an edge of the square picture. None: twice the size of the cube.
+        direction, up, dtype, output
+            As in `to_perspective`; the opposite of `direction` is in the four corners.
+
+        Returns
+        -------
+        ndarray (size, size, C), or (size, size) and (size, size, channels) of an output
+            A new array, row 0 on top.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As `to_perspective`.
+
+        Notes
+        -----
+        Z. Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3(2), 2014, "oct": for a
+        direction (x, y, z) along right, up and forward, ``p = (x, y) / (|x| + |y| + |z|)``, and where z is below 0
+        ``p = (1 - |p.yx|) * sign(p)``. Engines whose maps have the world's up in the middle have
+        ``direction=(0, 1, 0)``.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> cube.to_octahedral().shape
+        (128, 128, 3)
+        """
+
+    def to_perspective(
+        self,
+        fov: float,
+        size: int | tuple[int, int],
+        *,
+        direction: np.typing.ArrayLike = (0, 0, -1),
+        up: np.typing.ArrayLike = (0, 1, 0),
+        dtype: np.typing.DTypeLike | None = None,
+        output: str = "color",
+    ) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+        """
+        Make the picture that a camera in the cube's centre takes.
+
+        It is the picture that ``Renderer.render`` gives for ``PerspectiveCamera(fov=fov)`` of that place and direction, up
+        to the resolution of the cube.
+
+        Parameters
+        ----------
+        fov : float
+            The vertical field of view in degrees, above 0 and below 180.
+        size : int or (int, int)
+            Pixels of an edge of a square picture, or (width, height).
+        direction, up : array_like (3,)
+            The direction in the middle of the picture, and what the picture shows above it; `up` is not along `direction`.
+        dtype : dtype, optional
+            "uint8", "float16" or "float32". None: that of the cube. Numbers are rounded as `to_equirect` rounds them.
+        output : str
+            "color", or a name in `outputs`: its nearest texels, in its own dtype.
+
+        Returns
+        -------
+        ndarray (height, width, C), or (height, width) and (height, width, channels) of an output
+            A new array, row 0 on top. Each pixel is filtered over its footprint.
+
+        Raises
+        ------
+        ValueError
+            For a field of view, size, direction or output that does not exist.
+        TypeError
+            For arguments of another type.
+
+        Notes
+        -----
+        The pixel of row i and column j of W x H lies at x = 2 (j + .5) / W - 1, y = 1 - 2 (i + .5) / H; it shows the
+        direction ``forward + tan(fov / 2) (x W/H right + y up)``.
+
+        Examples
+        --------
+        >>> import cubecam as cc
+        >>> cube = cc.load_environment(cc.sample_data("sunset.exr"), size=64)
+        >>> cube.to_perspective(60, (80, 60), direction=(1, 0, 0)).shape
+        (60, 80, 3)
         """
 
     @property
@@ -8011,6 +8676,7 @@ class Renderer:
         eye: np.typing.ArrayLike | None = None,
         depth_format: DepthFormat | None = "depth_component32f",
         depth_order: DepthOrder = "nearest",
+        rotation: np.typing.ArrayLike | None = None,
     ) -> CubeMap:
         """
         Draw the surroundings of a point into a cubemap.
@@ -8019,7 +8685,7 @@ class Renderer:
         ----------
         scene : Scene
         position : array_like (3,)
-            World position. The six views look along the world's axes, 90 degrees each.
+            World position. The six views look along the axes of the cube, 90 degrees each.
         size : int
             Pixels along an edge of a face.
         near, far : float
@@ -8042,6 +8708,10 @@ class Renderer:
             farthest opaque surface between ``near`` and ``far``, and the background where there is none. A single-sided
             material shows only its front faces, so the far side of a body counts only with ``double_sided=True``. Translucent
             surfaces show where they lie beyond the farthest opaque surface. "farthest" needs a depth buffer.
+        rotation : array_like (4,) or None
+            The quaternion (w, x, y, z) that turns the cube's axes against the world's, as `axis_angle` gives: what the scene
+            shows in the direction R d, the cube shows in d. Normals and positions stay world vectors. None: the axes are the
+            world's, as lookups of a scene's environment expect.
 
         Returns
         -------
@@ -8341,6 +9011,19 @@ def _newest_revision() -> int:
     The newest revision of this process. While it stays the same, no object has changed.
     """
 
+def _project(
+    cube: CubeMap,
+    kind: str,
+    fov: typing.SupportsFloat | typing.SupportsIndex,
+    axes: np.typing.ArrayLike,
+    size: tuple[typing.SupportsIndex, typing.SupportsIndex],
+    dtype: np.typing.DTypeLike | None,
+    output: str,
+) -> np.typing.NDArray[np.uint8 | np.float16 | np.float32 | np.int32]:
+    """
+    A picture of a projection (math/projections.hpp); `fov` is in radians, `axes` has the rows right, up and forward, and `size` is (width, height).
+    """
+
 def _read_radiance(
     data: bytes,
     start: typing.SupportsInt | typing.SupportsIndex,
@@ -8371,6 +9054,20 @@ def _text_of(value: object) -> str:
 def _to_array(value: object, name: str) -> np.typing.NDArray[np.generic]:
     """
     The value as an array. Raises TypeError for a masked array that hides values, also in lists and tuples, and ValueError for rows of unequal length.
+    """
+
+def _unproject(
+    image: np.typing.ArrayLike,
+    kind: str,
+    fov: typing.SupportsFloat | typing.SupportsIndex,
+    axes: np.typing.ArrayLike,
+    size: typing.SupportsIndex,
+    mipmaps: bool,
+    dtype: np.typing.DTypeLike | None,
+    encoding: Encoding | None,
+) -> CubeMap:
+    """
+    A cube of a picture that `_project` could have made.
     """
 
 def axis_angle(

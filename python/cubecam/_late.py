@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-__all__ = ["LateMethod", "late_names"]
+__all__ = ["LateFunction", "LateMethod", "late_names"]
 
 _PACKAGE = __name__.rpartition(".")[0]
 
@@ -73,3 +73,15 @@ class LateMethod:
             if vars(kind).get(self._name) is self:
                 setattr(kind, self._name, function)
         return function.__get__(instance, owner)
+
+
+class LateFunction(LateMethod):
+    """A static method in another module, loaded like a `LateMethod`."""
+
+    def __get__(self, instance: Any, owner: type) -> Any:
+        """Load the module, and give the function."""
+        function = self.__wrapped__
+        for kind in owner.__mro__:
+            if vars(kind).get(self._name) is self:
+                setattr(kind, self._name, staticmethod(function))
+        return function

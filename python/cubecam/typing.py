@@ -51,6 +51,7 @@ __all__ = [
     "FaceName",
     "FileLayout",
     "FilePixels",
+    "FisheyeModel",
     "Format",
     "Interpolation",
     "Layout",
@@ -128,6 +129,7 @@ FaceName: TypeAlias = Literal[
     "pos_z",
     "neg_z",
 ]
+FisheyeModel: TypeAlias = Literal["equidistant", "equisolid", "stereographic", "orthographic"]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Interpolation: TypeAlias = Literal["step", "linear", "cubic"]
 Layout: TypeAlias = Literal["cross", "vertical_cross", "row", "column", "equirect", "openexr"]

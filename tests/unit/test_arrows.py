@@ -51,6 +51,7 @@ PYTHON_ORDER = (
     "plot",
     "navigation",
     "optics",
+    "projections",
     "staging",  # light, ground and camera for a model
     "viewer",
     "explore",
@@ -72,6 +73,7 @@ PYTHON_KNOWS = {
     "_warnings": set(),
     "navigation": {"_core", "_checks", "_calls"},
     "optics": {"_core", "_checks", "_calls"},
+    "projections": {"typing", "_core", "_checks", "_calls"},
     "_shader_inputs": {"_core"},
     "_pickling": {"_core"},
 }

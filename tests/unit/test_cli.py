@@ -502,7 +502,7 @@ COMPLETED = {
     "options": (["cubecam", "info", "--j"], {("plain", "--json")}),
     "choices": (
         ["cubecam", "convert", "a.png", "--layout", "c"],
-        {("plain", "cross"), ("plain", "column")},
+        {("plain", "cross"), ("plain", "column"), ("plain", "cylindrical")},
     ),
     "programs": (["cubecam", "example", "sky"], {("plain", "skybox")}),
     "devices": (["cubecam", "info", "--device", "s"], {("plain", "software")}),

@@ -326,6 +326,39 @@ Examples
 (6, 2, 2, 3)
 )doc";
 
+inline constexpr const char* rotate = R"doc(Turn what this cube shows.
+
+The result shows in the direction R d what this cube shows in d, as ``Scene.environment_rotation`` turns an
+environment. ``renderer.capture(scene, rotation=q).rotate(q)`` shows the scene in the world's axes again.
+
+Parameters
+----------
+rotation : array_like (4,)
+    The quaternion (w, x, y, z) of R, of any length except 0, as `axis_angle` gives.
+
+Returns
+-------
+CubeMap
+    A new cube of the same size, dtype, `mipmaps`, `encoding` and `levels`. A rotation that brings axes to axes, such
+    as a quarter turn, copies texels; others filter each texel over its footprint, and round as `to_equirect` does.
+    Outputs are the nearest texels of this cube's outputs: normals and positions stay vectors of the scene's world,
+    "z" is converted to the axes of the new faces, and "depth" stays as the capture drew it.
+
+Raises
+------
+ValueError
+    For a quaternion of length 0, another shape, or numbers that are not finite.
+
+Examples
+--------
+>>> import numpy as np
+>>> import cubecam as cc
+>>> cube = cc.CubeMap(np.arange(6, dtype=np.float32).reshape(6, 1, 1, 1))  # each face its number
+>>> turned = cube.rotate(cc.axis_angle((0, 1, 0), 90))  # +Z goes to +X
+>>> float(cube.sample([0, 0, 1])[0]), float(turned.sample([1, 0, 0])[0])
+(4.0, 4.0)
+)doc";
+
 inline constexpr const char* sample_output =
     R"doc(Look up an output of a capture: its nearest texels.
 

@@ -131,7 +131,7 @@ Parameters
 ----------
 scene : Scene
 position : array_like (3,)
-    World position. The six views look along the world's axes, 90 degrees each.
+    World position. The six views look along the axes of the cube, 90 degrees each.
 size : int
     Pixels along an edge of a face.
 near, far : float
@@ -154,6 +154,10 @@ depth_order : str
     farthest opaque surface between ``near`` and ``far``, and the background where there is none. A single-sided
     material shows only its front faces, so the far side of a body counts only with ``double_sided=True``. Translucent
     surfaces show where they lie beyond the farthest opaque surface. "farthest" needs a depth buffer.
+rotation : array_like (4,) or None
+    The quaternion (w, x, y, z) that turns the cube's axes against the world's, as `axis_angle` gives: what the scene
+    shows in the direction R d, the cube shows in d. Normals and positions stay world vectors. None: the axes are the
+    world's, as lookups of a scene's environment expect.
 
 Returns
 -------

@@ -1,5 +1,6 @@
 #include "cubecam/core/parallel.hpp"
 #include "cubecam/cubemap/cubemap_resample.hpp"
+#include "cubecam/cubemap/infinities.hpp"
 #include "cubecam/cubemap/resample_tile.hpp"
 #include "cubecam/math/fast_atan.hpp"
 
@@ -359,31 +360,6 @@ void check_equirect(const EquirectPixels& from, int size) {
     }
 }
 
-/// Returns a copy in which each inf is replaced by the largest finite number of the picture, at
-/// least that of half floats: a filter would compute inf - inf, which is NaN. It is called only
-/// after a result was NaN, since most pictures have no inf.
-template <typename Pixel>
-Buffer<float> without_infinities(const Pixel* pixels, std::size_t values,
-                                 const EquirectPixels& from) {
-    Buffer<float> finite(values);
-    float largest = 65504.0f;
-    for (std::size_t i = 0; i < values; ++i) {
-        const float value = finite[i] = to_float(pixels[i]);
-        if (std::isnan(value)) {
-            const auto channels = static_cast<std::size_t>(from.channels);
-            const auto row = channels * static_cast<std::size_t>(from.width);
-            throw std::invalid_argument(
-                "image: expected no NaN, got nan at [" + std::to_string(i / row) + ", " +
-                std::to_string(i % row / channels) + ", " + std::to_string(i % channels) + "]");
-        }
-        if (!std::isinf(value)) largest = std::max(largest, std::abs(value));
-    }
-    for (float& value : finite) {
-        if (std::isinf(value)) value = std::copysign(largest, value);
-    }
-    return finite;
-}
-
 }  // namespace
 
 PixelBuffer equirect_to_cube(const EquirectPixels& from, int size, DType to) {
@@ -407,7 +383,8 @@ PixelBuffer equirect_to_cube(const EquirectPixels& from, int size, DType to) {
             return EquirectToCube<Pixel, count>(source, size, {result.data(), to}).run();
         };
         with_pixels(from.dtype, from.pixels, [&](const auto* pixels) {
-            if (!fill(pixels)) fill(without_infinities(pixels, values, from).data());
+            if (!fill(pixels))
+                fill(without_infinities(pixels, values, from.width, from.channels).data());
         });
     });
     return result;

@@ -8,6 +8,7 @@
 #include "cubecam/render/resources/outputs.hpp"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -49,7 +50,8 @@ struct CaptureOptions {
     RequestedOutputs outputs;
     Format format = Format::rgba32f;
     std::int64_t samples = 1;
-    std::optional<glm::dvec3> eye;  ///< none: `position`
+    std::optional<glm::dvec3> eye;            ///< none: `position`
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< of the cube's axes
     DepthFormat depth_format = DepthFormat::depth_component32f;
     DepthOrder depth_order = DepthOrder::nearest;
 };

@@ -386,7 +386,7 @@ std::shared_ptr<CubeMap> Renderer::capture(const SceneSnapshot& scene,
                                           .depth_order = options.depth_order});
         Target& target = gpu.targets.get(gpu.context, description, result_bytes(description));
         std::vector<View> views =
-            cube_views(options.position, options.near, options.far, options.eye);
+            cube_views(options.position, options.near, options.far, options.eye, options.rotation);
         FrameContext frame(gpu, scene);
         Key wanted;
         wanted.add(true);  // a capture

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, TypeVar, get_args
 
 import click
 
-from .. import Error
-from ..typing import Center, Convention, FileLayout, Tonemap
+from .. import Error, axis_angle
+from ..typing import Center, Convention, FileLayout, FisheyeModel, Tonemap
 from .common import (
     FILE,
+    NUMBER,
     Curve,
     WholeNumber,
     choice,
@@ -25,12 +26,45 @@ from .common import (
 from .help import Command, argument, option
 
 if TYPE_CHECKING:
-    from .. import CubeMap
+    import numpy as np
 
+    from .. import CubeMap
+    from ..typing import Pixels
+
+#: A cube has the methods to_<name> and from_<name> of each.
+Projection: TypeAlias = Literal[
+    "perspective",
+    "fisheye",
+    "mirror_ball",
+    "angular_map",
+    "octahedral",
+    "dual_paraboloid",
+    "cylindrical",
+]
+#: How the faces are arranged in files, or a projection that shows the cube.
+Arrangement: TypeAlias = Literal[FileLayout, Projection]
+_PROJECTIONS: tuple[Projection, ...] = get_args(Projection)
+#: The degrees that --fov gives, and what it is for each projection that has one.
+_FOVS = {"perspective": 90.0, "fisheye": 180.0, "cylindrical": 360.0}
+_FOV_NAMES: TypeAlias = Literal["perspective", "fisheye", "cylindrical"]
 _FROM = "Options for reading"
 _TO = "Options for writing"
 
 T = TypeVar("T")
+
+
+class PictureSize(click.ParamType):
+    """A whole number, or two as in 640x480."""
+
+    name = "size"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> int | tuple[int, int]:
+        """Parse what was written."""
+        parts = str(value).lower().split("x")
+        whole = WholeNumber(1)
+        if len(parts) == 2 and all(part.isdecimal() and int(part) > 0 for part in parts):
+            return int(parts[0]), int(parts[1])
+        return whole.convert(value, param, ctx)
 
 
 @click.command(cls=Command)
@@ -54,9 +88,9 @@ T = TypeVar("T")
 @option(
     "--layout",
     "-l",
-    **choice(FileLayout),
+    **choice(Arrangement),
     group=_TO,
-    help=f"{words(FileLayout)}.",
+    help=f"{words(FileLayout)}; or a projection: {words(Projection)}.",
     note="cross; faces for an output with {face}",
 )
 @option(
@@ -72,10 +106,10 @@ T = TypeVar("T")
 @option("--to", metavar="EXTENSION", group=_TO, help="exr, hdr, png, jpg, ...", note="as the input")
 @option(
     "--size",
-    type=WholeNumber(1),
+    type=PictureSize(),
     metavar="TEXELS",
     group=_TO,
-    help="Texels along a face.",
+    help="Texels along a face; of a projection the pixels of an edge, or WIDTHxHEIGHT of a perspective or cylindrical.",
     note="as in the input",
 )
 @option(
@@ -86,13 +120,46 @@ T = TypeVar("T")
     help="Width of an equirect.",
     note="4 times the texels along a face",
 )
+@option(
+    "--rotate",
+    type=NUMBER,
+    nargs=4,
+    metavar="X Y Z DEGREES",
+    group=_TO,
+    help="Turn what the cube shows round an axis, counter-clockwise seen from the axis's tip.",
+    note="as in the input",
+)
+@option(
+    "--direction",
+    type=NUMBER,
+    nargs=3,
+    metavar="X Y Z",
+    group=_TO,
+    help="The middle of a projection; of a mirror_ball the camera's direction.",
+    note="0 0 -1",
+)
+@option(
+    "--fov",
+    type=NUMBER,
+    metavar="DEGREES",
+    group=_TO,
+    help="Field of view: the height of a perspective, the diameter of a fisheye, the width of a cylindrical.",
+    note="90, 180, 360",
+)
+@option(
+    "--model",
+    **choice(FisheyeModel),
+    group=_TO,
+    default="equidistant",
+    help=f"The lens of a fisheye: {words(FisheyeModel)}.",
+)
 @look_options("neutral; none for 8 and 16 bit files read with --srgb", _TO)
 @option("--half", is_flag=True, group=_TO, help="Store EXR with 16 bits a number.")
 @option(
     "--from-layout",
-    **choice(FileLayout),
+    **choice(Arrangement),
     group=_FROM,
-    help=f"{words(FileLayout)}.",
+    help="A name of --layout; a projection has -Z in its middle, or is a mirror_ball seen towards -Z.",
     note="by the shape of the picture",
 )
 @option(
@@ -110,6 +177,21 @@ T = TypeVar("T")
     note="as the file says, else -z",
 )
 @option(
+    "--from-fov",
+    type=NUMBER,
+    metavar="DEGREES",
+    group=_FROM,
+    help="Field of view of a projection, as --fov.",
+    note="90, 180, 360",
+)
+@option(
+    "--from-model",
+    **choice(FisheyeModel),
+    group=_FROM,
+    default="equidistant",
+    help="The lens of a fisheye, as --model.",
+)
+@option(
     "--part",
     metavar="PART",
     group=_FROM,
@@ -125,27 +207,34 @@ T = TypeVar("T")
 def convert(
     inputs: tuple[str, ...],
     output: str | None,
-    layout: FileLayout | None,
+    layout: Arrangement | None,
     convention: Convention | None,
     center: Center,
     to: str | None,
-    size: int | None,
+    size: int | tuple[int, int] | None,
     width: int | None,
+    rotate: tuple[float, float, float, float] | None,
+    direction: tuple[float, float, float] | None,
+    fov: float | None,
+    model: FisheyeModel,
     exposure: float,
     tonemap: Curve | None,
     half: bool,
-    from_layout: FileLayout | None,
+    from_layout: Arrangement | None,
     from_convention: Convention | None,
     from_center: Center | None,
+    from_fov: float | None,
+    from_model: FisheyeModel,
     part: str | None,
     srgb: bool,
 ) -> None:
-    """Convert cubemaps and panoramas to other layouts and files.
+    """Convert cubemaps and panoramas to other layouts, projections and files.
 
     The format of an output follows from its extension, and the layout of an input from its shape. Files that cubecam
     wrote say their convention and centre; for other files give --from-convention if it is not "gl".
     """
     from ..io.cubemaps import load_cubemap
+    from ..io.projection_save import save_projection
 
     names = [_Target(item, output, layout, to) for item in inputs]
     written: dict[str, str] = {}
@@ -159,31 +248,57 @@ def convert(
         written[item.path] = item.source
     if width is not None and any(item.layout != "equirect" for item in names):
         raise click.BadParameter("expected with --layout equirect only", param_hint="--width")
+    shown = _projection(layout)
+    _check_projection(shown, fov, direction, size)
+    _check_fov(_projection(from_layout), from_fov, "--from-fov")
+    faces = None if shown or isinstance(size, tuple) else size
+    numbered = int(part) if part is not None and part.isdecimal() else part
     failed = 0
     for item in _with_progress(names):
         try:
             with warnings_reported(item.source):
-                cube = load_cubemap(
-                    item.source,
-                    layout=from_layout,
-                    convention=from_convention,
-                    size=size,
-                    center=from_center,
-                    srgb=srgb,
-                    part=int(part) if part is not None and part.isdecimal() else part,
-                )
+                if read := _projection(from_layout):
+                    cube = _load_projection(
+                        item.source, read, from_fov, from_model, srgb, numbered, faces
+                    )
+                else:
+                    cube = load_cubemap(
+                        item.source,
+                        layout=from_layout,  # type: ignore[arg-type]  # no projection
+                        convention=from_convention,
+                        size=faces,
+                        center=from_center,
+                        srgb=srgb,
+                        part=numbered,
+                    )
+                if rotate:
+                    cube = cube.rotate(axis_angle(rotate[:3], rotate[3]))
             Path(item.path).parent.mkdir(parents=True, exist_ok=True)
+            curve = _curve(tonemap, cube, srgb and not _is_light(item.source))
             with warnings_reported(item.path):
-                cube.save(
-                    item.path,
-                    layout=item.layout,
-                    convention=convention,
-                    width=width,
-                    center=center,
-                    exposure=exposure,
-                    tonemap=_curve(tonemap, cube, srgb and not _is_light(item.source)),
-                    half=half,
-                )
+                if shown:
+                    options = _options(shown, fov, model, direction)
+                    if size is not None:
+                        options["size"] = size
+                    save_projection(
+                        cube,
+                        item.path,
+                        _projected(shown, options),
+                        exposure=exposure,
+                        tonemap=curve,
+                        half=half,
+                    )
+                else:
+                    cube.save(
+                        item.path,
+                        layout=item.layout,  # type: ignore[arg-type]  # no projection
+                        convention=convention,
+                        width=width,
+                        center=center,
+                        exposure=exposure,
+                        tonemap=curve,
+                        half=half,
+                    )
         except (Error, OSError, ValueError, TypeError, MemoryError) as error:
             failed += 1
             text = describe(error)
@@ -194,6 +309,89 @@ def convert(
         if len(names) > 1:
             click.echo(f"{failed} of {len(names)} not converted", err=True)
         raise SystemExit(1)
+
+
+def _projection(layout: str | None) -> Projection | None:
+    return next((name for name in _PROJECTIONS if name == layout), None)
+
+
+def _check_fov(name: Projection | None, fov: float | None, option: str) -> None:
+    if fov is not None and name not in _FOVS:
+        raise click.BadParameter(f"expected with {words(_FOV_NAMES)} only", param_hint=option)
+
+
+def _check_projection(
+    name: Projection | None,
+    fov: float | None,
+    direction: tuple[float, float, float] | None,
+    size: int | tuple[int, int] | None,
+) -> None:
+    """Refuse options that the layout does not have."""
+    _check_fov(name, fov, "--fov")
+    if direction is not None and name is None:
+        raise click.BadParameter("expected with a projection only", param_hint="--direction")
+    if isinstance(size, tuple) and name not in ("perspective", "cylindrical"):
+        raise click.BadParameter(
+            "expected one number, except for perspective and cylindrical", param_hint="--size"
+        )
+
+
+def _options(
+    name: Projection,
+    fov: float | None,
+    model: FisheyeModel,
+    direction: tuple[float, float, float] | None = None,
+) -> dict[str, Any]:
+    """Give the options of the methods to_ and from_ of a projection."""
+    options: dict[str, Any] = {}
+    if name in _FOVS:
+        options["fov"] = _FOVS[name] if fov is None else fov
+    if name == "fisheye":
+        options["model"] = model
+    if direction is not None:
+        options["direction"] = direction
+        if (
+            direction[0] == direction[2] == 0
+        ):  # straight up or down: what was ahead is below or above
+            options["up"] = (0, 0, 1 if direction[1] > 0 else -1)
+    return options
+
+
+def _projected(
+    name: Projection, options: dict[str, Any]
+) -> Callable[[CubeMap, np.dtype[Any]], Pixels]:
+    """Give the function that makes the picture of a cube."""
+
+    def projected(cube: CubeMap, dtype: np.dtype[Any]) -> Pixels:
+        size = {"size": 2 * cube.size} if name == "perspective" else {}
+        picture: Pixels = getattr(cube, f"to_{name}")(dtype=dtype, **{**size, **options})
+        return picture
+
+    return projected
+
+
+def _load_projection(
+    source: str,
+    name: Projection,
+    fov: float | None,
+    model: FisheyeModel,
+    srgb: bool,
+    part: int | str | None,
+    size: int | None,
+) -> CubeMap:
+    """Read a picture that a projection made."""
+    from .. import CubeMap
+    from ..io import formats
+    from ..io.picture_files import read_picture
+
+    picture = read_picture(source, part)
+    made: CubeMap = getattr(CubeMap, f"from_{name}")(
+        formats.decode(picture.pixels, srgb, picture.encoding),
+        size=size,
+        encoding=formats.encoding_after_decode(picture.pixels, srgb, picture.encoding),
+        **_options(name, fov, model),
+    )
+    return made
 
 
 def _is_light(source: str) -> bool:
@@ -221,7 +419,7 @@ class _Target:
     """The path and the layout of the output of one input."""
 
     def __init__(
-        self, source: str, output: str | None, layout: FileLayout | None, extension: str | None
+        self, source: str, output: str | None, layout: Arrangement | None, extension: str | None
     ) -> None:
         self.source = source
         if not Path(source).name:
@@ -231,7 +429,7 @@ class _Target:
         named = output is not None and (
             Path(output).suffix != "" and not output.endswith("/") and not Path(output).is_dir()
         )
-        self.layout: FileLayout = layout or ("faces" if output and "{face}" in output else "cross")
+        self.layout: Arrangement = layout or ("faces" if output and "{face}" in output else "cross")
         ending = "{face}" if self.layout == "faces" else self.layout
         if output is None:
             self.path = str(Path(source).with_name(f"{stem}_{ending}{wanted}"))

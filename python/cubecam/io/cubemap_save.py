@@ -241,4 +241,4 @@ def _storable(cube: CubeMap, target: Path) -> CubeMap:
     if cube.channels != 4 or formats.holds_alpha(target):
         return cube
     faces = cube.faces
-    return CubeMap(faces[..., :3]) if formats.is_opaque(faces) else cube
+    return CubeMap(faces[..., :3], encoding=cube.encoding) if formats.is_opaque(faces) else cube

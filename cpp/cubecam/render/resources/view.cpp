@@ -29,13 +29,15 @@ View make_view(const Matrices& matrices) {
 View camera_view(const Matrices& matrices) { return make_view(matrices); }
 
 std::vector<View> cube_views(glm::dvec3 position, double near, double far,
-                             std::optional<glm::dvec3> eye) {
+                             std::optional<glm::dvec3> eye, const glm::dquat& rotation) {
+    // The identity multiplies by ones and zeros alone, so that its views are the same bit for bit.
+    const auto turn = glm::mat3_cast(rotation);
     std::vector<View> views;
     views.reserve(face_count);
     for (const Face face : all_faces) {
-        View view = make_view(
-            {look_along(position, glm::dvec3(face_forward(face)), glm::dvec3(face_up(face))),
-             perspective(90.0, 1.0, near, far)});
+        View view = make_view({look_along(position, turn * glm::dvec3(face_forward(face)),
+                                          turn * glm::dvec3(face_up(face))),
+                               perspective(90.0, 1.0, near, far)});
         view.position = position;  // exactly, not from an inverse matrix
         view.eye = eye.value_or(position);
         views.push_back(view);

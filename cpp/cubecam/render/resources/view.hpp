@@ -3,6 +3,7 @@
 #include "cubecam/scene/camera.hpp"
 
 #include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <optional>
 #include <vector>
@@ -26,8 +27,9 @@ View camera_view(const Matrices& matrices);
 
 /// Returns the six views of a cube in the order of its faces, 90 degrees each. They follow GL's
 /// face table (math/cube_face.hpp), so that a lookup by world direction needs no sign flip and row
-/// 0 of a face is t = 0.
+/// 0 of a face is t = 0. `rotation` turns the axes of the cube against the world's.
 std::vector<View> cube_views(glm::dvec3 position, double near, double far,
-                             std::optional<glm::dvec3> eye = std::nullopt);
+                             std::optional<glm::dvec3> eye = std::nullopt,
+                             const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0});
 
 }  // namespace cubecam
