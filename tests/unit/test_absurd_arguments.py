@@ -194,6 +194,7 @@ NEEDED: dict[str, Any] = {
     "plot.faces": lambda: {"cube": FACES},
     "plot.inner_steps": lambda: {"cube": FACES},
     "plot.panorama": lambda: {"cube": FACES, "width": 4},
+    "plot.pictures": lambda: {"pictures": [PICTURE]},
     "plot.seam_ratios": lambda: {"cube": FACES},
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},

@@ -133,6 +133,7 @@ BY_POSITION = {
     "plot.cross": ["cube", "labels"],
     "plot.faces": ["cube"],
     "plot.panorama": ["cube"],
+    "plot.pictures": ["pictures", "titles"],
     "plot.error_map": ["a", "b"],
     "plot.vectors": ["field"],
     "plot.arrows": ["origins", "vectors"],
