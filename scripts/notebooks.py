@@ -30,7 +30,7 @@ MOST_BYTES = 500_000
 #: Seconds that a cell may take.
 TIMEOUT = 300
 
-_QUALITY = 84
+_QUALITY = 80
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
 #: matplotlib may choose another size, and then both are compared as `_COARSE` x `_COARSE` pixels.
 _APART, _APART_COARSE, _COARSE = 1.0, 12.0, 24
@@ -108,7 +108,7 @@ def _small_picture(png: bytes) -> tuple[str, str]:
     best: tuple[str, bytes] | None = None
     for kind, options in (
         ("png", {"optimize": True}),
-        ("jpeg", {"quality": _QUALITY, "optimize": True, "subsampling": 0}),
+        ("jpeg", {"quality": _QUALITY, "optimize": True}),
     ):
         buffer = io.BytesIO()
         opaque.save(buffer, kind, **options)
