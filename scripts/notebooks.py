@@ -30,7 +30,7 @@ MOST_BYTES = 500_000
 #: Seconds that a cell may take.
 TIMEOUT = 300
 
-_QUALITY = 84
+_QUALITY = 80
 #: The largest change of a channel, of 255, with which a picture counts as a drawing of few colours.
 _PALETTE = 8
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
@@ -116,7 +116,7 @@ def _small_picture(png: bytes) -> tuple[str, str]:
     best: tuple[str, bytes] | None = None
     for kind, options in (
         ("png", {"optimize": True}),
-        ("jpeg", {"quality": _QUALITY, "optimize": True, "subsampling": 0}),
+        ("jpeg", {"quality": _QUALITY, "optimize": True}),
     ):
         buffer = io.BytesIO()
         (kept if kind == "png" else opaque).save(buffer, kind, **options)
