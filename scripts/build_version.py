@@ -78,7 +78,7 @@ def compile_into(package: Path, tree: Path, objects: Path, *options: str) -> Pat
     targets = ["_core", *(["cubecam_shader_trial"] if helper else [])]
     run(cmake, "--build", str(objects), "--target", *targets, "--parallel", jobs)
     if helper:
-        shutil.copy2(objects / "cpp" / "shader_trial" / "_shader_trial", package)
+        shutil.copy2(next(objects.rglob("_shader_trial")), package)
     return Path(shutil.copy2(next(objects.rglob("_core*.so")), package))
 
 

@@ -75,6 +75,16 @@ def make_method(function: types.FunctionType) -> None:
     function.__doc__ = inspect.getdoc(function)
 
 
+def public_module(thing: object) -> str:
+    """Return the module that users import a class from: Python 3.13 calls pathlib.Path pathlib._local.Path."""
+    module: str = getattr(thing, "__module__", "builtins")
+    outer, _, inner = module.rpartition(".")
+    name = getattr(thing, "__qualname__", "")
+    if inner.startswith("_") and getattr(sys.modules.get(outer), name, None) is thing:
+        return outer
+    return module
+
+
 def full_names(annotation: str, scope: dict[str, object]) -> str:
     """Turn "NDArray[np.float32]" into "numpy.typing.NDArray[numpy.float32]"."""
 
@@ -94,7 +104,7 @@ def full_names(annotation: str, scope: dict[str, object]) -> str:
             if typing.get_origin(thing) is not None:  # another alias
                 return ast.parse(str(thing), mode="eval").body
             name = getattr(thing, "__qualname__", node.id)
-            package = getattr(thing, "__module__", "builtins")
+            package = public_module(thing)
             full = name if package == "builtins" else f"{package}.{name}"
             return ast.parse(full, mode="eval").body
 

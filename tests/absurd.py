@@ -66,7 +66,7 @@ def numpy_scalars() -> dict[str, Any]:
         "np.void": np.void(b"2"),
         "np.datetime64": np.datetime64("2020-01-01"),
         "np.timedelta64": np.timedelta64(2, "s"),
-        "np.nat": np.timedelta64("NaT"),
+        "np.nat": np.timedelta64("NaT", "s"),
     }
     return made
 

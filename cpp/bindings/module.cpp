@@ -137,16 +137,36 @@ PYBIND11_MODULE(_core, module) {
     cubecam::bindings::explain_all_arguments(module);
 }
 
+// What pybind11 wants to be called for a new module of an interpreter.
+static PyObject* (*create_module)(PyObject*, PyModuleDef*) = nullptr;
+
+static bool is_refused() {
+    if (PyInterpreterState_Get() == PyInterpreterState_Main()) return false;
+    PyErr_SetString(PyExc_ImportError,
+                    "cubecam: expected an import in the main interpreter, got one in a "
+                    "subinterpreter, which cubecam does not support; use processes instead "
+                    "(multiprocessing's \"spawn\" method), and with mod_wsgi "
+                    "`WSGIApplicationGroup %{GLOBAL}`");
+    return true;
+}
+
 PYBIND11_PLUGIN_DECL(_core)
 
+// Up to Python 3.12 this function runs in the interpreter that imports the module. Since 3.13 it
+// always runs in the main interpreter, and only the functions of the definition's slots run in the
+// one that imports.
 PyObject* PyInit__core() {
-    if (PyInterpreterState_Get() != PyInterpreterState_Main()) {
-        PyErr_SetString(PyExc_ImportError,
-                        "cubecam: expected an import in the main interpreter, got one in a "
-                        "subinterpreter, which cubecam does not support; use processes instead "
-                        "(multiprocessing's \"spawn\" method), and with mod_wsgi "
-                        "`WSGIApplicationGroup %{GLOBAL}`");
-        return nullptr;
+    if (is_refused()) return nullptr;
+    PyObject* made = make_module();
+    if (made == nullptr || create_module != nullptr) return made;
+    for (auto* slot = reinterpret_cast<PyModuleDef*>(made)->m_slots; slot->slot != 0; ++slot) {
+        if (slot->slot != Py_mod_create) continue;
+        create_module = reinterpret_cast<decltype(create_module)>(slot->value);
+        PyObject* (*const checked)(PyObject*, PyModuleDef*) = [](PyObject* spec,
+                                                                 PyModuleDef* definition) {
+            return is_refused() ? nullptr : create_module(spec, definition);
+        };
+        slot->value = reinterpret_cast<void*>(checked);
     }
-    return make_module();
+    return made;
 }

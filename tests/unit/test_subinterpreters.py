@@ -47,7 +47,7 @@ assert cubecam.Mesh.box(1).positions.shape == (24, 3)
 module, made = interpreters()
 for interpreter in made:
     text = run(module, interpreter, "import cubecam")
-    assert "ImportError" in text and "main interpreter" in text, text
+    assert "ImportError" in text and "subinterpreter" in text, text
     module.destroy(interpreter)
 assert cubecam.Mesh.box(1).positions.shape == (24, 3)
 """,
