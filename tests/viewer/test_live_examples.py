@@ -53,13 +53,13 @@ def example(name) -> Any:
 class Driver:
     """A live form on an offscreen canvas, and the hands of its user."""
 
-    def __init__(self, name, renderer, size=None):
+    def __init__(self, name, renderer, size=None, **live):
         from rendercanvas.offscreen import OffscreenRenderCanvas
 
         self.module = example(name)
         known = inspect.signature(self.module.live).parameters
         self.options: dict[str, Any] = {k: v for k, v in SMALL.items() if k in known}
-        self.view: Any = self.module.live(renderer=renderer, **self.options)
+        self.view: Any = self.module.live(renderer=renderer, **self.options, **live)
         self.size = self.view.size if size is None else size
         self.canvas = OffscreenRenderCanvas(size=self.size)
         self.view._attach(self.canvas)
@@ -100,8 +100,8 @@ def drive(renderer):
     """A function that makes drivers; their views are closed at the end."""
     made = []
 
-    def make(name, size=None):
-        made.append(Driver(name, renderer, size))
+    def make(name, size=None, **live):
+        made.append(Driver(name, renderer, size, **live))
         return made[-1]
 
     yield make
@@ -179,6 +179,24 @@ def test_live_and_scripted_walks_show_the_same(drive, name):
     want = driver.example(len(script), program)
     assert nearly_equal(driver.view.draw(), want)
     assert not nearly_equal(driver.view.draw(), driver.example(1, program))
+
+
+@pytest.mark.parametrize("name", ["P2", "P3"])
+def test_a_script_comes_before_the_hands(drive, name):
+    """The live view begins where the script ends, and drags go on from its angles."""
+    driver = drive(name, script="drag 128 0; w 3")
+    program = driver.module.build(script="drag 128 0; w 3")
+    assert nearly_equal(driver.view.draw(), driver.example(len(program.script), program))
+    driver.drag(0, 64)
+    program = driver.module.build(script="drag 128 0; w 3; drag 0 64")
+    assert nearly_equal(driver.view.draw(), driver.example(len(program.script), program))
+
+
+@pytest.mark.parametrize("name", PROGRAMS)
+def test_the_document_is_live_too(drive, name):
+    driver = drive(name, document=True)
+    program = driver.module.build(**driver.options, document=True)
+    np.testing.assert_array_equal(driver.view.draw(), driver.example(0, program))
 
 
 def test_a_drag_turns_the_cube_of_p1(drive):
