@@ -19,6 +19,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import importlib
+import inspect
 import os
 import subprocess
 import sys
@@ -69,7 +70,9 @@ def program_pictures(name: str, renderer: Any) -> Iterator[tuple[str, dict[str, 
     module: Any = examples.load(name)
     width, height = module.SIZE
     size = (FRAME_SIZE * width // height, FRAME_SIZE)
-    program = module.build()
+    # Older versions have one scene for each program: that of its document.
+    known = inspect.signature(module.build).parameters
+    program = module.build(document=True) if "document" in known else module.build()
     for frame in sorted({0, module.FRAMES // 2, module.FRAMES - 1}):
         recorder = Recorder(renderer)
         color = np.asarray(module.draw(program, recorder, frame, size=size))

@@ -302,7 +302,7 @@ def _arguments_of(node: ast.FunctionDef, name: str, first: int) -> Iterator[Plac
         yield Place(name, argument.arg, kind)
 
 
-VIEWS = (Viewer, CubeView, explore.ReflectionView)
+VIEWS = (Viewer, CubeView, explore.ReflectionView, explore.LayoutView)
 
 
 def python_functions() -> dict[str, Callable[..., Any]]:
@@ -317,6 +317,7 @@ def python_functions() -> dict[str, Callable[..., Any]]:
             if inspect.isfunction(thing := getattr(module, n))
         }
     found["explore.reflection"] = explore.reflection
+    found["explore.layout"] = explore.layout
     found["demo.run"] = demo.run
     found["demo.build_scene"] = demo.build_scene
     found["DemoScene.turn"] = demo.DemoScene.turn

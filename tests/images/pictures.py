@@ -83,11 +83,12 @@ def draw_translucent(renderer):
 
 
 def program_still(name, renderer):
-    """The still picture of one of the documents' programs, small."""
+    """The still picture of one of the documents' programs, with its document's numbers, small."""
     module = examples.load(name)
-    width, height = module.SIZE
+    program = module.build(document=True)
+    width, height = examples.size_of(module, program)
     size = (64 * width // height, 64)
-    return module.draw(module.build(), renderer, module.STILL, size=size)
+    return module.draw(program, renderer, examples.still_of(module, program), size=size)
 
 
 PICTURES = {name[5:]: draw for name, draw in sorted(globals().items()) if name.startswith("draw_")}

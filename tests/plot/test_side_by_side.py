@@ -24,6 +24,8 @@ def test_bytes_are_shown_as_they_are_and_alpha_is_not_shown(rng):
     assert (image_of(other) == pixels[..., :3]).all()
     assert (image_of(grey) == pixels[..., :1]).all()
     assert image_of(grey).shape == (6, 9, 3)
+    (again,) = cc.plot.pictures([pixels], tonemap=None, encode=None)
+    assert (image_of(again) == pixels[..., :3]).all()
 
 
 def test_floats_are_light_unless_the_caller_says_otherwise():
@@ -45,12 +47,13 @@ def test_frames_and_images_have_their_encoding(renderer):
 
 def test_numbers_of_all_pictures_share_a_colour_map_and_a_bar():
     low, high = np.zeros((4, 4)), np.full((4, 4), 3.0)
-    high[0, 0] = np.inf
+    low[1, 1], high[0, 0] = 1, np.inf
     first, second, third = cc.plot.pictures([low, high, GREY], ["low", "high", "grey"])
     figure = first.figure
     assert len(figure.axes) == 4  # three pictures and the bar
     viridis = plt.get_cmap("viridis")
     np.testing.assert_allclose(mapped_colors(first.get_images()[-1])[0, 0], viridis(0.0))
+    np.testing.assert_allclose(mapped_colors(first.get_images()[-1])[1, 1], viridis(1 / 3))
     np.testing.assert_allclose(mapped_colors(second.get_images()[-1])[1, 1], viridis(1.0))
     np.testing.assert_allclose(image_of(second)[0, 0], to_rgba("0.82"))
     assert [ax.get_title() for ax in (first, second, third)] == ["low", "high", "grey"]

@@ -16,7 +16,7 @@ SIZE = (64, 64)
 @pytest.mark.parametrize("frame", [0, 7, 41, 100])
 def test_every_pixel_is_the_lookup_of_its_position(renderer, frame):
     images = photographs()
-    program = textured_cube.build(images)
+    program = textured_cube.build(images, document=True)
     color = textured_cube.draw(program, renderer, frame, size=SIZE, format="rgba32f")
     angle = 30 + 3 * frame
     # The document has Rx(angleY) Ry(angleX) scale(2), 60 degrees, near 1, far 15.
@@ -32,7 +32,7 @@ def test_every_pixel_is_the_lookup_of_its_position(renderer, frame):
 def test_from_within(renderer, frame):
     """The document asks for this view: the camera at (0, 0, 0.001) is inside, and back faces are drawn."""
     images = photographs()
-    program = textured_cube.build(images, eye=(0, 0, 0.001))
+    program = textured_cube.build(images, eye=(0, 0, 0.001), document=True)
     color = textured_cube.draw(program, renderer, frame, size=SIZE, format="rgba32f")
     angle = 30 + 3 * frame
     shape = box(program.cube, 2, rx(angle) @ ry(angle) @ scaled(2), double_sided=True)
@@ -42,7 +42,7 @@ def test_from_within(renderer, frame):
 
 
 def test_the_photographs_are_six_of_512_by_512(renderer):
-    program = textured_cube.build()
+    program = textured_cube.build(document=True)
     material = program.cube.material
     assert isinstance(material, cc.BasicMaterial)
     cubemap = material.cubemap
@@ -61,10 +61,10 @@ def test_images_come_as_arrays_and_as_files(tmp_path):
     cube.save(tmp_path / "{face}.png", layout="faces")
     named = [tmp_path / f"{face}.png" for face in ("px", "nx", "py", "ny", "pz", "nz")]
     for images in (pattern, list(pattern), named, str(tmp_path / "{face}.png")):
-        material = textured_cube.build(images).cube.material
+        material = textured_cube.build(images, document=True).cube.material
         assert isinstance(material, cc.BasicMaterial)
         held = material.cubemap
         assert isinstance(held, cc.CubeMap)
         assert_identical(held.faces, pattern)
     with pytest.raises(ValueError, match=r"images: expected six, .*got 5"):
-        textured_cube.build(pattern[:5])
+        textured_cube.build(pattern[:5], document=True)

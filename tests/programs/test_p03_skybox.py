@@ -33,7 +33,7 @@ def sky(look):
 
 def test_every_frame_is_the_document_s(renderer):
     images = photographs()
-    program = skybox.build(images, script=SCRIPT)
+    program = skybox.build(images, script=SCRIPT, document=True)
     boxes = [
         box(node, size, moved(*place))
         for node, (_, place, size) in zip(program.scene.nodes, skybox.BOXES, strict=True)
@@ -53,8 +53,10 @@ def test_every_frame_is_the_document_s(renderer):
 
 
 def test_walking_changes_no_pixel_of_the_background(renderer):
-    program = skybox.build(photographs(16), script=[(40, 0), (0, 12), *["w"] * 30, *["s"] * 50])
-    alone = skybox.build(photographs(16), script=program.script, boxes=False)
+    program = skybox.build(
+        photographs(16), script=[(40, 0), (0, 12), *["w"] * 30, *["s"] * 50], document=True
+    )
+    alone = skybox.build(photographs(16), script=program.script, boxes=False, document=True)
     first = skybox.draw(alone, renderer, 2, size=SIZE)
     boxes_moved = 0
     for frame in range(2, 82, 8):
@@ -68,14 +70,14 @@ def test_walking_changes_no_pixel_of_the_background(renderer):
 
 
 def test_turning_moves_it(renderer):
-    program = skybox.build(photographs(16), script=[(5, 0)], boxes=False)
+    program = skybox.build(photographs(16), script=[(5, 0)], boxes=False, document=True)
     first = skybox.draw(program, renderer, 0, size=SIZE)
     assert (skybox.draw(program, renderer, 1, size=SIZE) != first).mean() > 0.3
 
 
 def test_it_is_behind_everything(renderer):
     """A wall just before the far plane hides the sky; just beyond the far plane the wall is not seen."""
-    program = skybox.build(photographs(16), boxes=False)
+    program = skybox.build(photographs(16), boxes=False, document=True)
     wall = program.scene.add(
         cc.Mesh.box((90, 90, 1)), cc.BasicMaterial(color=(1, 0, 0)), position=(0, 0, 15.4)
     )

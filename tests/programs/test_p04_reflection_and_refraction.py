@@ -28,7 +28,7 @@ def shapes_of(program, turn):
 )
 def test_every_pixel(renderer, frame, eta):
     images = photographs()
-    program = example.build(images, eta=eta)
+    program = example.build(images, eta=eta, document=True)
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
     turn = ry(4 * frame)
     shapes = shapes_of(program, turn)
@@ -63,7 +63,7 @@ def test_every_pixel(renderer, frame, eta):
 def test_a_stretched_ball_needs_the_inverse_transpose(renderer):
     """mat3(model), as document 002 writes it, would give other directions, and the oracle notices the difference."""
     images = photographs()
-    program = example.build(images)
+    program = example.build(images, document=True)
     color = example.draw(program, renderer, 0, size=SIZE, format="rgba32f")[..., :3]
     shape = shapes_of(program, ry(0))[program.mirrors[0].id]
     look = Look((0, 0.6, 5), (0, 0, 0), 45, 0.1, 1000, SIZE)
@@ -77,7 +77,7 @@ def test_a_stretched_ball_needs_the_inverse_transpose(renderer):
 
 def test_eta_1_is_invisible(renderer):
     images = photographs()
-    program = example.build(images, eta=1.0)
+    program = example.build(images, eta=1.0, document=True)
     picture = example.draw(program, renderer, 5, size=SIZE)
     for node in program.glass:
         node.visible = False

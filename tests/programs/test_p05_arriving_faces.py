@@ -22,7 +22,7 @@ def bytes_of(images):
 def test_frames(renderer, frame):
     """The camera has near 1 and far 2000 and stands at (0, 0, 2); from frame 45 on the skybox is drawn."""
     images = bytes_of(photographs(32))
-    program = example.build(images, size=32)
+    program = example.build(images, size=32, document=True)
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
     faces = np.full_like(images, 102)
     for face in ORDER[: frame % 45]:
@@ -41,7 +41,7 @@ def test_frames(renderer, frame):
 
 
 def test_it_is_usable_at_once_and_of_one_color(renderer):
-    program = example.build()
+    program = example.build(document=True)
     picture = example.draw(program, renderer, 45, size=SIZE)
     assert (picture[..., :3] == 102).all()
     assert program.cubemap.size == 512
@@ -49,7 +49,7 @@ def test_it_is_usable_at_once_and_of_one_color(renderer):
 
 
 def test_photographs_may_leave_again(renderer):
-    program = example.build(bytes_of(photographs(16)), size=16)
+    program = example.build(bytes_of(photographs(16)), size=16, document=True)
     first = example.draw(program, renderer, 2, size=SIZE)
     example.draw(program, renderer, 6, size=SIZE)
     assert_identical(example.draw(program, renderer, 2, size=SIZE), first)
@@ -58,7 +58,7 @@ def test_photographs_may_leave_again(renderer):
 def test_mipmaps_are_made_anew(renderer):
     """With LINEAR_MIPMAP_LINEAR, noise seen small is near its mean, also on a face that has just arrived."""
     noise = np.random.default_rng(5).integers(0, 256, (6, 512, 512, 3), np.uint8)
-    program = example.build(noise)
+    program = example.build(noise, document=True)
     size = (12, 12)
     picture = example.draw(program, renderer, 45 + 6, size=size, format="rgba32f")[..., :3]
     assert np.abs(picture - 0.5).max() < 0.2
@@ -72,7 +72,7 @@ def test_mipmaps_are_made_anew(renderer):
 def test_what_is_not_square_or_not_equal_is_refused_with_both_sizes(renderer, shape):
     images = list(bytes_of(photographs(32)))
     images[ORDER[3]] = np.zeros(shape, np.uint8)
-    program = example.build(images, size=32)
+    program = example.build(images, size=32, document=True)
     for frame in range(4):
         example.draw(program, renderer, frame, size=(8, 8))
     with pytest.raises(ValueError, match="32") as caught:

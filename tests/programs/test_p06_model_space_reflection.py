@@ -77,7 +77,7 @@ class Scene:
         self.images = photographs() if images is None else images
         image = cc.CubeMap(self.images).to_layout("cross")
         self.frame, self.shape = frame, shape
-        self.program = example.build(image, stretch, mesh=shape, **options)
+        self.program = example.build(image, stretch, mesh=shape, **options, document=True)
         self.look = Look(EYE, (0, 0, 0), 28, 0.1, 1000, SIZE)
         self.matrices = [moved(x, 0, 0) @ ry(4 * frame) @ scaled(*stretch) for x in (-0.95, 0.95)]
 
@@ -183,7 +183,7 @@ def test_no_pair_of_directions_is_worse():
     ("stretch", "least", "most"), [((3, 3, 3), 0, 1e-4), ((2, 1, 1), 70, 73.8)]
 )
 def test_the_vertices_say_the_same(renderer, stretch, least, most):
-    program = example.build(np.zeros((24, 32, 3), np.uint8), stretch)
+    program = example.build(np.zeros((24, 32, 3), np.uint8), stretch, document=True)
     example.draw(program, renderer, 20, size=(8, 8))
     degrees = example.degrees_apart(program.camera, program.model)
     assert len(degrees) > 300
@@ -207,7 +207,7 @@ def test_the_shape_tells_the_layout(renderer, tmp_path, layout, kind):
     if kind == "file":
         cc.save_image(tmp_path / "cm.png", image)
         image = tmp_path / "cm.png"
-    program = example.build(image)
+    program = example.build(image, document=True)
     assert program.scene.environment is not None
     assert_identical(program.scene.environment.faces, images)
     assert program.material.textures["textureCubeMap"] is program.scene.environment
@@ -215,7 +215,7 @@ def test_the_shape_tells_the_layout(renderer, tmp_path, layout, kind):
 
 def test_another_shape_is_refused():
     with pytest.raises(ValueError, match=r"20.*24|24.*20"):
-        example.build(np.zeros((24, 20, 3), np.uint8))
+        example.build(np.zeros((24, 20, 3), np.uint8), document=True)
 
 
 def test_the_skybox_is_optional(renderer):

@@ -1,8 +1,9 @@
-"""P7: numpy composites the layers from far to near, and alpha stays 1."""
+"""P7: numpy composites the layers from far to near; alpha stays 1, or has the holes of the plain pair of factors."""
 
 import numpy as np
 import pytest
 
+import cubecam as cc
 from cubecam.examples import translucent_objects as example
 from tests.compare import assert_close
 from tests.programs.oracle import LAMP, Look, box, lit, mesh, moved, quad, ry
@@ -21,7 +22,7 @@ def order_of(layers, eye):
 @pytest.mark.slow
 @pytest.mark.parametrize("frame", [6, 30, 78, 102])
 def test_layers(renderer, frame):
-    program = example.build()
+    program = example.build(document=True)
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")
     look = Look((0, 1.5, 5), (0, 0, 0), 45, 1, 100, SIZE)
     ground, body = program.opaque
@@ -61,7 +62,7 @@ def test_layers(renderer, frame):
 
 def test_what_is_behind_the_bunny_is_hidden(renderer):
     """The depth test is on: the bunny hides the panes behind it."""
-    program = example.build()
+    program = example.build(document=True)
     for node in program.translucent:
         node.visible = node.id == program.translucent[0].id
     frame = 30  # the first pane stands behind
@@ -72,3 +73,95 @@ def test_what_is_behind_the_bunny_is_hidden(renderer):
     ids = renderer.render(program.scene, program.camera, SIZE, outputs=("id",)).id
     assert changed.any()
     assert not changed[ids == program.opaque[1].id].any()
+
+
+def coverage(renderer, program, frame, size):
+    """How many translucent surfaces each pixel shows, and where the bunny is."""
+    count = np.zeros((size[1], size[0]), int)
+    for node in program.translucent:
+        for other in program.translucent:
+            other.visible = other is node
+        alone = example.draw(program, renderer, frame, size)
+        node.visible = False
+        count += (alone != example.draw(program, renderer, frame, size)).any(-1)
+    for node in program.translucent:
+        node.visible = True
+    ids = renderer.render(program.scene, program.camera, size, outputs=("id",)).id
+    return count, ids == program.opaque[1].id
+
+
+def test_the_still_shows_layers_over_the_bunny(renderer):
+    """A tenth of the picture shows the bunny through a surface, a twentieth through two and more."""
+    program = example.build()
+    count, bunny = coverage(renderer, program, example.STILL, (128, 128))
+    assert (bunny & (count >= 1)).mean() > 0.1
+    assert (bunny & (count >= 2)).mean() > 0.05
+    assert (count >= 3).mean() > 0.02
+    assert 0.2 < (count == 0).mean() < 0.8
+
+
+@pytest.mark.parametrize("document", [False, True])
+def test_the_plain_pair_leaves_holes_in_alpha(any_path, document):
+    """Each surface of alpha a makes a a + (1 - a) D of the alpha D: .75 for one of .5."""
+    program = example.build("plain", document=document)
+    stage = example.DOCUMENT if document else example.STAGED
+    opacities = [thing.opacity for thing in stage.things]
+    assert 0.5 in opacities
+    for shown, a in zip(program.translucent, opacities, strict=True):
+        for node in program.translucent:
+            node.visible = node is shown
+        # A ball shows its front side alone, a pane two of its sides at most; both once in most pixels.
+        found = np.concatenate(
+            [
+                example.draw(program, any_path, frame, SIZE, format="rgba32f")[..., 3].ravel()
+                for frame in (0, 30, 60, 90)
+            ]
+        )
+        assert (np.abs(found - (a * a + 1 - a)) < 1e-6).mean() > 0.005
+        assert (found == 1).mean() > 0.5
+    red = program.translucent[0]
+    for node in program.translucent:
+        node.visible = node is red
+    alpha = example.draw(program, any_path, 50, SIZE, format="rgba32f")[..., 3]
+    assert (np.abs(alpha - 0.75) < 1e-6).mean() > 0.005
+    example.set_blend(program, "separate")
+    assert (example.draw(program, any_path, 50, SIZE, format="rgba32f")[..., 3] == 1).all()
+
+
+def test_a_web_page_shines_through_the_holes(renderer):
+    """The browser adds the page, weighted by 1 - alpha, to colours that count as multiplied already."""
+    program = example.build(blend="plain")
+    bare = example.draw(program, renderer, 0, SIZE, format="rgba32f").astype(float)
+    shown = example.draw(program, renderer, 0, SIZE, page=True, format="rgba32f")
+    rows, columns = np.indices(bare.shape[:2])
+    # The squares count from the bottom left.
+    even = ((SIZE[1] - 1 - rows) // 16 + columns // 16) % 2 == 0
+    page = np.where(even, 1.0, 0.45)[..., None]
+    want = np.concatenate([bare[..., :3] + (1 - bare[..., 3:]) * page, bare[..., 3:] * 0 + 1], -1)
+    assert_close(shown, want, "float32_maths")
+    assert np.abs(shown - bare)[..., :3].max() > 0.1
+    example.set_blend(program, "separate")
+    kept = [
+        example.draw(program, renderer, 0, SIZE, page=page, format="rgba32f")
+        for page in (False, True)
+    ]
+    assert_close(kept[1], kept[0], "float32_maths")
+
+
+def test_other_pairs_are_refused():
+    with pytest.raises(ValueError, match='blend: expected "separate" or "plain", got \'none\''):
+        example.build(blend="none")  # type: ignore[arg-type]
+
+
+def test_live_shows_the_page_and_exchanges_the_pairs(renderer):
+    with example.live(renderer) as view:
+        assert isinstance(view, cc.Viewer)
+        view.size = (64, 64)
+        view.samples = 1
+        closed = view.draw()
+        view._answer({"event_type": "key_down", "key": "b"})
+        opened = view.draw()
+        assert (closed != opened).any(-1).mean() > 0.2
+        view._answer({"event_type": "key_down", "key": "b"})
+        np.testing.assert_array_equal(view.draw(), closed)
+        assert "plain pair" in view.help

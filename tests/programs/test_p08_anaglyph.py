@@ -23,7 +23,7 @@ def eye_turned(degrees):
 @pytest.mark.parametrize("kind", ["rgba8", "rgba32f"])
 @pytest.mark.parametrize("frame", [0, 10, 47])
 def test_channels_are_the_eyes_own_frames(any_path, frame, kind):
-    program = example.build()
+    program = example.build(document=True)
     got = example.draw(program, any_path, frame, SIZE, format=kind)
     eyes = [
         any_path.render(program.scene, camera, SIZE, format=kind).color
@@ -39,7 +39,7 @@ def test_channels_are_the_eyes_own_frames(any_path, frame, kind):
 @pytest.mark.parametrize("frame", [10, 70])
 def test_both_eyes_against_ray_casting(renderer, frame):
     """All things are grey, so that red and green are the same picture seen from two places."""
-    program = example.build(degrees=6)
+    program = example.build(document=True, degrees=6)
     got = example.draw(program, renderer, frame, SIZE, format="rgba32f")
     nodes = [node for node in program.scene.nodes if node.mesh is not None]
     for channel, degrees in ((0, -3), (1, 3), (2, 3)):
@@ -68,7 +68,7 @@ def test_both_eyes_against_ray_casting(renderer, frame):
 
 
 def test_two_views_are_one_call(fresh_renderer):
-    program = example.build()
+    program = example.build(document=True)
     example.draw(program, fresh_renderer, 0, SIZE)
     assert fresh_renderer.stats.views_drawn == 2
     example.draw(program, fresh_renderer, 0, SIZE)
@@ -76,7 +76,56 @@ def test_two_views_are_one_call(fresh_renderer):
 
 
 def test_without_an_angle_it_is_flat(renderer):
-    program = example.build(degrees=0)
+    program = example.build(document=True, degrees=0)
     got = example.draw(program, renderer, 10, SIZE)
     assert_identical(got, renderer.render(program.scene, program.camera, SIZE).color)
     assert isinstance(program.stereo, cc.StereoCamera)
+
+
+@pytest.mark.parametrize("document", [False, True])
+def test_the_axis_is_the_views_own(document):
+    """About its own y axis both eyes keep one direction upwards; about the world's they are rolled."""
+    program = example.build(6, document=document)
+    for camera, degrees in ((program.stereo.left, -3), (program.stereo.right, 3)):
+        want = eye_turned(degrees)
+        np.testing.assert_allclose(np.linalg.inv(camera.view)[:3, 3], want.eye, atol=1e-6)
+        np.testing.assert_allclose(camera.view, want.view, atol=1e-6)
+    about_world = example.build(6, "world", document=document).stereo
+    for camera, degrees in ((about_world.left, -3), (about_world.right, 3)):
+        np.testing.assert_allclose(
+            np.linalg.inv(camera.view)[:3, 3], ry(degrees)[:3, :3] @ EYE, atol=1e-6
+        )
+        want = Look(EYE, (0, 0, 0), 45, 1, 100, SIZE).view @ ry(-degrees)
+        np.testing.assert_allclose(camera.view, want, atol=1e-6)
+    ups = [
+        [np.asarray(camera.view)[1, :3] for camera in (stereo.left, stereo.right)]
+        for stereo in (program.stereo, about_world)
+    ]
+    rolled = [np.degrees(np.arccos(min(1.0, float(a @ b)))) for a, b in ups]
+    assert rolled[0] < 0.01
+    assert rolled[1] == pytest.approx(6 * np.sin(np.arctan2(1.5, 5)), rel=0.01)
+
+
+def test_other_axes_are_refused():
+    with pytest.raises(ValueError, match='axis: expected "view" or "world", got \'x\''):
+        example.build(axis="x")  # type: ignore[arg-type]
+
+
+def test_the_still_has_the_borders_that_the_text_describes(renderer):
+    """Light things before the dark: nearer than the target cyan on the left, farther away red on the left."""
+    program = example.build()
+    picture = example.draw(program, renderer, example.STILL, (256, 256)).astype(int)
+    ids = renderer.render(program.scene, program.camera, (256, 256), outputs=("id",)).id
+    redder = picture[..., 0] - picture[..., 1]
+    assert (np.abs(redder) > 25).mean() > 0.05
+    nodes = [node for node in program.scene.nodes if node.mesh is not None]
+    for node, sign in ((nodes[3], -1), (nodes[1], 1)):  # the ball, the box
+        rows, columns = np.nonzero(ids == node.id)
+        assert len(rows) > 0.02 * ids.size
+        left, right = [], []
+        for row in np.unique(rows):
+            ends = columns[rows == row]
+            left.append(redder[row, max(ends.min() - 4, 0) : ends.min()].mean())
+            right.append(redder[row, ends.max() + 1 : ends.max() + 5].mean())
+        assert sign * np.median(left) > 20
+        assert sign * np.median(right) < -20

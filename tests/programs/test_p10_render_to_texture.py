@@ -34,7 +34,7 @@ def discs_at(points, frame):
 
 @pytest.mark.parametrize("frame", [0, 20, 77])
 def test_the_texture_is_painted_in_order(any_path, frame):
-    program = example.build()
+    program = example.build(document=True)
     example.draw(program, any_path, frame, SIZE)
     got = any_path.read_texture(program.texture)
     assert got.shape == (512, 512, 4)
@@ -56,7 +56,7 @@ def face_uv(local, part):
 @pytest.mark.parametrize("frame", [0, 1, 20, 21, 77])
 def test_the_cube_shows_this_frames_picture(any_path, frame):
     """One renderer draws several frames, each compared with its own discs; the frame before looks different."""
-    program = example.build()
+    program = example.build(document=True)
     for k in (frame + 5, frame):  # what was drawn before does not matter
         got = example.draw(program, any_path, k, SIZE, format="rgba32f")
     look = Look((0, 1.5, 4), (0, 0, 0), 45, 0.1, 1000, SIZE)
@@ -95,7 +95,7 @@ def test_the_cube_shows_this_frames_picture(any_path, frame):
 
 
 def test_an_unchanged_picture_is_not_drawn_again(fresh_renderer):
-    program = example.build()
+    program = example.build(document=True)
     example.draw(program, fresh_renderer, 3, SIZE)
     example.draw(program, fresh_renderer, 3, SIZE)
     assert fresh_renderer.stats.textures_updated == 0
@@ -105,10 +105,52 @@ def test_an_unchanged_picture_is_not_drawn_again(fresh_renderer):
 
 
 def test_a_picture_of_itself_is_refused_by_name(renderer):
-    program = example.build()
+    program = example.build(document=True)
     program.texture.scene = program.scene
     with pytest.raises(ValueError, match='RenderTexture "discs" shows itself'):
         example.draw(program, renderer, 0, SIZE)
     program.texture.exclude = [program.cube]
     assert example.draw(program, renderer, 0, SIZE).shape == (64, 64, 4)
     assert isinstance(program.texture, cc.RenderTexture)
+
+
+@pytest.mark.parametrize("frame", [0, 20, 21])
+def test_the_flat_picture_beside_the_cube_is_the_texture(any_path, frame):
+    """Staged: the flat picture shows the discs of the frame, as the cube does."""
+    program = example.build()
+    size = (192, 128)
+    got = example.draw(program, any_path, frame, size, format="rgba32f")[..., :3]
+    drawn = any_path.render(program.scene, program.camera, size, outputs=("position", "id"))
+    flat = next(
+        node for node in program.scene.nodes if node.mesh is not None and node.id != program.cube.id
+    )
+    here = drawn.id == flat.id
+    assert here.mean() > 0.1
+    assert (drawn.id == program.cube.id).mean() > 0.15
+    places = (drawn.position[here] - np.asarray(flat.position))[:, :2] / 0.9
+    want, rim = discs_at(places, frame)
+    clear = (rim > 0.06) & (np.abs(places).max(-1) < 0.97)
+    assert clear.mean() > 0.5
+    assert_close(got[here], want[:, :3], "texture8", mask=clear)
+    before = discs_at(places, frame - 1)[0]
+    assert np.abs(before - want)[clear].max() > 0.1, "the last frame has other discs"
+
+
+def test_no_side_of_the_cube_is_burnt_out(renderer):
+    """The discs keep their colours on each side: nothing but highlights on white is clipped."""
+    program = example.build()
+    picture = example.draw(program, renderer, example.STILL, (192, 128), format="rgba32f")
+    ids = renderer.render(program.scene, program.camera, (192, 128), outputs=("id",)).id
+    assert (picture[ids == program.cube.id, :3] > 1.02).any(-1).mean() < 0.05
+
+
+def test_live_turns_the_cube(renderer):
+    with example.live(renderer) as view:
+        view.size, view.samples = (48, 32), 1
+        still = view.draw()
+        assert view._animation is not None
+        view._animation(1.0)
+        turned = view.draw()
+    assert (still != turned).any(-1).mean() > 0.1
+    program = example.build()
+    np.testing.assert_array_equal(turned, example.draw(program, renderer, 25, (48, 32)))

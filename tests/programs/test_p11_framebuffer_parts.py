@@ -39,7 +39,7 @@ def drawn(shared_renderers):
 
     def get(frame):
         if frame not in made:
-            program = example.build()
+            program = example.build(document=True)
             shapes = shapes_of(program, frame)
             look = Look(EYE, (0, 0, 0), 45, NEAR, FAR, SIZE)
             parts = example.parts(program, shared_renderers(None), frame, SIZE)
@@ -171,9 +171,98 @@ def test_the_lamps_map_holds_distances(drawn, frame):
     assert solid(shapes)
 
 
-def test_the_picture_has_eight_cells(renderer):
-    picture = example.draw(example.build(), renderer, 0, (256, 128))
-    assert picture.shape == (128, 256, 4)
-    cells = [cell for row in np.split(picture, 2) for cell in np.split(row, 4, axis=1)]
+@frames
+@pytest.mark.parametrize("document", [False, True])
+def test_the_colour_is_the_product_of_the_shaders_own_outputs(shared_renderers, document, frame):
+    """Paint times light is the colour, except for highlights: one pass fills all colour buffers."""
+    program = example.build(document=document)
+    parts = example.parts(program, shared_renderers(None), frame, SIZE)
+    seen = parts["id"] > 0
+    paints = {program.ground.id: (0.6, 0.6, 0.7) if document else (0.85, 0.82, 0.75)}
+    paints |= {node.id: color for node, color in zip(program.things, COLORS[1:], strict=True)}
+    want = np.zeros((*seen.shape, 3))
+    for number, paint in paints.items():
+        want[parts["id"] == number] = paint
+    assert_close(parts["paint"], want, "float32_maths")
+    assert (parts["light"][~seen] == 0).all()
+    ground = parts["id"] == program.ground.id  # which has no highlights
+    product = parts["paint"].astype(float) * parts["light"]
+    assert_close(parts["color"][..., :3] / 255, product, "unorm8_phong", mask=ground)
+    color = np.clip(product, 0, 1)
+    rest = parts["color"][..., :3] / 255 - color
+    assert (rest[seen] > -0.01).all()
+    assert (rest[seen & ~ground] > 0.05).any(), "bunny and teapot have highlights"
+
+
+@pytest.mark.slow
+@frames
+def test_the_light_is_phong_without_colour(drawn, frame):
+    """The shader's own output against the formula, where the lamp reaches the surface for certain."""
+    _, parts, shapes, _, hits = drawn(frame)
+    want = np.zeros((*hits.id.shape, 3))
+    for shape in shapes:
+        rows = hits.id == shape.id
+        want[rows] = shading.phong(
+            hits.position[rows], hits.normal[rows], EYE, (1, 1, 1), [LAMP], ks=0
+        )
+    dark = np.abs(parts["light"] - 0.2).max(-1) < 1e-3
+    reached = parts["light"][..., 0] > 0.99 * want[..., 0]
+    # At the border of a shadow the filter mixes both.
+    ground = (hits.id == shapes[0].id) & interior(hits.id, dark.astype(int), reached.astype(int))
+    lit = ground & reached
+    assert lit.sum() > 100
+    assert_close(parts["light"], want, "phong", mask=lit, least=0.02)
+    assert (ground & dark).sum() > 5, "and shadows have the ambient share alone"
+
+
+@pytest.mark.parametrize("document", [False, True])
+def test_the_picture_has_twelve_cells(renderer, document):
+    picture = example.draw(example.build(document=document), renderer, example.STILL, (320, 240))
+    assert picture.shape == (240, 320, 4)
+    cells = [cell for row in np.split(picture, 3) for cell in np.split(row, 4, axis=1)]
     assert all(np.ptp(cell[..., :3]) > 30 for cell in cells)
-    assert len({cell.tobytes() for cell in cells}) == 8
+    assert len({cell.tobytes() for cell in cells}) == 12
+
+
+def test_each_cell_has_its_name(renderer):
+    """Letters, white with a dark edge, stand in the upper left corner of each cell that has room for them."""
+    program = example.build()
+    named = example.draw(program, renderer, 0, example.SIZE)
+    for row in np.split(named, 3):
+        for cell in np.split(row, 4, axis=1):
+            corner = cell[4:20, 4:120, :3].reshape(-1, 3).astype(int)
+            assert (corner.min(-1) > 230).sum() > 12
+            assert (corner.max(-1) < 70).sum() > 12
+    small = example.draw(program, renderer, 0, (280, 210))  # cells of 70 pixels have no room
+    plain = example.parts(program, renderer, 0, (70, 70))["color"]
+    np.testing.assert_array_equal(small[:70, :70, :3], plain[..., :3])
+
+
+def test_the_still_shows_its_things(renderer):
+    """Staged: a fifth of each picture are the things, and the shadow map is one picture that holds them all."""
+    program = example.build()
+    parts = example.parts(program, renderer, example.STILL, (256, 256))
+    things = np.isin(parts["id"], [node.id for node in program.things])
+    assert things.mean() > 0.15
+    assert (parts["color"][..., :3] == 255).any(-1).mean() < 0.02
+    shadow = parts["shadow"]
+    assert shadow.shape == (1, example.SHADOW, example.SHADOW)
+    assert np.isfinite(shadow).mean() > 0.5
+    dark = (parts["id"] == program.ground.id) & (parts["light"][..., 0] < 0.31)
+    assert dark.mean() > 0.02, "there are shadows"
+
+
+def test_live_draws_all_parts_and_picks_in_each(renderer):
+    with example.live(renderer) as view:
+        view.size, view.samples = (320, 240), 1
+        drawn = view.draw()
+        program = example.build()
+        np.testing.assert_array_equal(drawn, example.draw(program, renderer, 0, (320, 240)))
+        ids = example.parts(program, renderer, 0, (80, 80))["id"]
+        rows, columns = np.nonzero(ids == program.things[2].id)
+        y, x = int(np.median(rows)), int(np.median(columns))
+        found = [view.pick(x + 80 * i + 0.5, y + 80 * j + 0.5) for i in range(4) for j in range(3)]
+        assert len({one.node.id for one in found}) == 1  # type: ignore[union-attr]
+        assert view.pick(400, 20) is None
+        view.output = "id"
+        assert view.draw().shape == (240, 320, 4)

@@ -193,6 +193,7 @@ NEEDED: dict[str, Any] = {
     "plot.error_map": lambda: {"a": PICTURE, "b": PICTURE},
     "plot.faces": lambda: {"cube": FACES},
     "plot.inner_steps": lambda: {"cube": FACES},
+    "plot.layout": lambda: {"cube": FACES},
     "plot.panorama": lambda: {"cube": FACES, "width": 4},
     "plot.pictures": lambda: {"pictures": [PICTURE]},
     "plot.seam_ratios": lambda: {"cube": FACES},
@@ -200,15 +201,17 @@ NEEDED: dict[str, Any] = {
     "plot.seams": lambda: {"cube": FACES},
     "plot.vectors": lambda: {"field": FACES},
     "explore.reflection": lambda: {"environment": cube(), "where": "offscreen", "size": (8, 8)},
+    "explore.layout": lambda: {"where": "offscreen", "size": (8, 8)},
     "demo.run": lambda: {"out": "out", "frames": 1, "size": 1},
     "demo.build_scene": lambda: {"environment": cube()},
     "DemoScene.turn": lambda: {"angle": 0.5},
     "Viewer": lambda: {"scene": cc.Scene(), "size": (8, 8)},
     "CubeView": lambda: {"cube": cube(), "size": (8, 8)},
     "ReflectionView": lambda: {"environment": cube(), "size": (8, 8)},
+    "LayoutView": lambda: {"size": (8, 8)},
     **{
         f"{view}.{method}": arguments
-        for view in ("Viewer", "CubeView", "ReflectionView")
+        for view in ("Viewer", "CubeView", "ReflectionView", "LayoutView")
         for method, arguments in {
             "draw": lambda: {"size": (4, 4)},
             "pick": lambda: {"x": 1, "y": 1},
@@ -223,8 +226,8 @@ NEEDED: dict[str, Any] = {
 #: Calls that take long get no values of the right kind, which are tested where the callable is, and of an argument
 #: whose annotation names other types only every fourth value.
 SLOW = (
-    "demo.run", "demo.build_scene", "Scene.show", "CubeMap.show", "explore.reflection", "Renderer", "Viewer",
-    "CubeView", "ReflectionView", "load_environment", "plot.", "CubeMap.save_for", "Frame.save",
+    "demo.run", "demo.build_scene", "Scene.show", "CubeMap.show", "explore.reflection", "explore.layout", "Renderer",
+    "Viewer", "CubeView", "ReflectionView", "LayoutView", "load_environment", "plot.", "CubeMap.save_for", "Frame.save",
     "save_animation", "CubeMap.save",
 )  # fmt: skip
 
@@ -236,6 +239,7 @@ def views():
         "Viewer": Viewer(animated_scene(), size=(8, 8)),
         "CubeView": CubeView(cube(), size=(8, 8)),
         "ReflectionView": explore.ReflectionView(cube(), size=(8, 8)),
+        "LayoutView": explore.LayoutView(size=(8, 8)),
     }
 
 
@@ -243,9 +247,8 @@ def function_of(name, renderer):
     """Give the callable of a name, bound to a new object if it is a method."""
     owner, _, member = name.rpartition(".")
     if not owner:
-        return {"ReflectionView": explore.ReflectionView, "CubeView": CubeView}.get(
-            name
-        ) or getattr(cc, name)
+        kinds = {"LayoutView": explore.LayoutView, "ReflectionView": explore.ReflectionView}
+        return {**kinds, "CubeView": CubeView}.get(name) or getattr(cc, name)
     modules = {"plot": plot, "navigation": navigation, "explore": explore, "demo": demo}
     if owner in modules:
         return getattr(modules[owner], member)
@@ -256,7 +259,7 @@ def function_of(name, renderer):
 
 
 def object_of(owner, member, renderer):
-    if owner in ("Viewer", "CubeView", "ReflectionView"):
+    if owner in ("Viewer", "CubeView", "ReflectionView", "LayoutView"):
         return views()[owner]
     if owner == "Renderer":
         return renderer

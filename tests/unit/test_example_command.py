@@ -65,7 +65,7 @@ def test_every_program_draws_a_still_and_an_animation(name, tmp_path):
     assert result.exit_code == 0, result.output
     with Image.open(moving) as picture:
         assert picture.n_frames in (1, 2, 3)  # the file stores equal frames in a row as one frame
-        width, height = examples.load(name).SIZE
+        width, height = examples.size_of(examples.load(name), examples.load(name).build())
         assert picture.size == (32, 32 * height // width)
 
 
@@ -90,12 +90,16 @@ def test_programs_are_in_order():
 
 
 @names
-def test_a_frame_depends_on_its_number_alone(name, renderer, new_renderer):
+@pytest.mark.parametrize("document", [False, True], ids=["staged", "document"])
+def test_a_frame_depends_on_its_number_alone(name, document, renderer, new_renderer):
     """A frame has the same bytes in any order, from a new renderer or from one that has drawn other frames."""
     module = examples.load(name)
-    program, other = module.build(), module.build()
-    size = (24, 24 * module.SIZE[1] // module.SIZE[0])
-    chosen = (module.FRAMES // 2, 1, module.FRAMES - 1)
+    program, other = module.build(document=document), module.build(document=document)
+    width, height = examples.size_of(module, program)
+    size = (24, 24 * height // width)
+    length = examples.length_of(module, program)
+    assert 0 <= examples.still_of(module, program) < length
+    chosen = (length // 2, 1, length - 1)
     forth = [module.draw(program, renderer, frame, size=size) for frame in chosen]
     fresh = new_renderer()
     back = [module.draw(other, fresh, frame, size=size) for frame in reversed(chosen)]
@@ -121,6 +125,73 @@ def test_a_still_is_the_frame_it_says(tmp_path, renderer):
         want = module.draw(module.build(), renderer, frame, size=(40, 40), samples=samples)
         got = cc.load_image(tmp_path / "a.png")
         np.testing.assert_array_equal(got, want[..., :3])
+
+
+def test_the_document_is_drawn_as_it_was_then(tmp_path, renderer):
+    """--document draws the document's scene, with one sample a pixel."""
+    result = example("P5", "--frames", 1, "--size", 40, "--document", "-o", tmp_path / "a.png")
+    assert result.exit_code == 0, result.output
+    module = examples.load("P5")
+    program = module.build(document=True)
+    still = examples.still_of(module, program)
+    assert f"frame {still}," in result.output
+    want = module.draw(program, renderer, still, size=(40, 40))
+    np.testing.assert_array_equal(cc.load_image(tmp_path / "a.png"), want[..., :3])
+
+
+def named_faces(folder, size=16):
+    """Six files of one colour each, and their paths in order."""
+    cube = cc.CubeMap(np.broadcast_to(np.eye(6, 3)[:, None, None], (6, size, size, 3)).copy())
+    cube.save(folder / "{face}.png", layout="faces")
+    return [folder / f"{face}.png" for face in ("px", "nx", "py", "ny", "pz", "nz")]
+
+
+@pytest.mark.parametrize(
+    "shape", ["after the name", "before the name", "one by one", "path", "path first"]
+)
+def test_images_of_one_s_own(shape, tmp_path, renderer):
+    files = named_faces(tmp_path)
+    path = tmp_path / "{face}.png"
+    given = {
+        "after the name": ["P1", "--images", *files],
+        "before the name": ["--images", *files, "P1"],
+        "one by one": ["P1", *[word for file in files for word in ("--images", file)]],
+        "path": ["P1", "--images", path],
+        "path first": ["--images", path, "textured_cube"],
+    }[shape]
+    options = ("--frames", 1, "--size", 40, "-o", tmp_path / "out.png")
+    result = example(*given, *options)
+    assert result.exit_code == 0, result.output
+    module = examples.load("P1")
+    program = module.build([str(file) for file in files])
+    samples = min(4, renderer.info.limits.max_samples)
+    want = module.draw(program, renderer, module.STILL, size=(40, 40), samples=samples)
+    np.testing.assert_array_equal(cc.load_image(tmp_path / "out.png"), want[..., :3])
+
+
+def test_one_image_for_p6(tmp_path, renderer):
+    cross = np.random.default_rng(1).integers(0, 256, (48, 64, 3), np.uint8)
+    cc.save_image(tmp_path / "cm.png", cross)
+    out = tmp_path / "out.png"
+    result = example("p6", "--image", tmp_path / "cm.png", "--frames", 1, "--size", 64, "-o", out)
+    assert result.exit_code == 0, result.output
+    module = examples.load("P6")
+    program = module.build(cross)
+    size = (64, 64 * module.SIZE[1] // module.SIZE[0])
+    samples = min(4, renderer.info.limits.max_samples)
+    still = examples.still_of(module, program)
+    want = module.draw(program, renderer, still, size=size, samples=samples)
+    np.testing.assert_array_equal(cc.load_image(out), want[..., :3])
+
+
+def test_a_script_is_the_walk(tmp_path, renderer):
+    """One event a frame; the still shows the end of the script."""
+    script = "drag 30 10; w 5"
+    result = example("P2", "--script", script, "--size", 32, "-o", tmp_path / "a.webp")
+    assert result.exit_code == 0, result.output
+    assert "8 frames from 0 on" in result.output  # a drag in two pieces, five steps
+    result = example("P2", "--script", script, "--size", 32, "-o", tmp_path / "a.jpg")
+    assert "frame 7," in result.output
 
 
 def test_an_animation_holds_the_frames_in_order(tmp_path, renderer):
@@ -283,6 +354,14 @@ BAD = {
     "unknown ending": (["P1", "-o", "a.xyz"], 1, ".xyz"),
     "no folder": (["P1", "--frames", "1", "-o", "nowhere/a.png"], 1, "nowhere"),
     "device": (["P1", "--device", "no such card"], 1, "no such card"),
+    "five images": (["P1", "--images", *"abcde"], 2, "six files, or one path with {face}, got 5"),
+    "images not there": (["P1", "--images", "none/{face}.png"], 1, "none/{face}.png"),
+    "images without a name": (["--all", "--images", *"abcdef"], 2, "--images"),
+    "images for P7": (["P7", "--images", *"abcdef"], 2, "P1 textured_cube, P2"),
+    "image for P1": (["P1", "--image", "a.png"], 2, "P6 model_space_reflection"),
+    "image not there": (["P6", "--image", "none.png"], 1, "none.png"),
+    "script for P7": (["P7", "--script", "w"], 2, "P2 inside_the_box, P3 skybox"),
+    "script of other words": (["P2", "--script", "run 3"], 1, "drag 30 10"),
 }
 
 

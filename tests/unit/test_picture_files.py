@@ -435,7 +435,12 @@ def test_deep_and_luminance_chroma_files_are_named(color, tmp_path):
     for step, chroma in ((2, luminance[::2, ::2]), (1, luminance)):
         channels = [("BY", 1, step, chroma), ("RY", 1, step, chroma), ("Y", 1, 1, luminance)]
         path = exr(tmp_path / "lc.exr", channels, (0, 0, WIDTH - 1, HEIGHT - 1))
-        with pytest.raises(cc.ImageError, match=r"lc.exr: .*(chroma|Subsampled channels)"):
+        if oiio.VERSION < 30200 and step == 2:  # given as red, green and blue
+            picture = cc.load_image(path).astype(np.float32)
+            found = picture @ np.array((0.2126, 0.7152, 0.0722), np.float32)
+            assert np.abs(found - luminance).max() <= 2e-3 * luminance.max()
+            continue
+        with pytest.raises(cc.ImageError, match=r"lc.exr: .*(chroma|Subsampled channels|BY)"):
             cc.load_image(path)
 
 

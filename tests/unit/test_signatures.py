@@ -63,6 +63,7 @@ BY_POSITION = {
     "CubeMap.save_for": ["engine", "folder"],
     "CubeMap.show": ["where"],
     "explore.reflection": ["environment"],
+    "explore.layout": ["cube"],
     "ShaderMaterial": ["fragment"],
     "ImageEffect": ["fragment"],
     "Blend": ["src", "dst"],
@@ -132,6 +133,7 @@ BY_POSITION = {
     "results.image_png": ["image"],
     "plot.cross": ["cube", "labels"],
     "plot.faces": ["cube"],
+    "plot.layout": ["cube"],
     "plot.panorama": ["cube"],
     "plot.pictures": ["pictures", "titles"],
     "plot.error_map": ["a", "b"],
@@ -192,6 +194,7 @@ def of_python():
                 functions[f"{short}.{name}"] = thing
     functions |= {f"plot.{n}": vars(plot)[n] for n in plot.__all__ if callable(vars(plot)[n])}
     functions["explore.reflection"] = explore.reflection
+    functions["explore.layout"] = explore.layout
     functions["DemoScene.turn"] = demo.DemoScene.turn
     for name, function in functions.items():
         if name.rpartition(".")[2].startswith("_"):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,7 +43,33 @@ def _names(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
     return [CompletionItem(name) for name in examples.NAMES if name.startswith(incomplete)]
 
 
-@click.command(cls=Command)
+class _Command(Command):
+    """Takes six files after --images, as a shell writes the pattern ``{px,nx,py,ny,pz,nz}.jpg``."""
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Write the option before each of the files, as click has it."""
+        return super().parse_args(ctx, _each_with_its_option(args))
+
+
+def _each_with_its_option(args: Sequence[str]) -> list[str]:
+    found: list[str] = []
+    rest = list(args)
+    while rest:
+        word = rest.pop(0)
+        found.append(word)
+        if word == "--images":
+            files = list(takewhile(lambda one: not one.startswith("-") and not _is_name(one), rest))
+            for index, file in enumerate(files[:6]):
+                found += [file] if index == 0 else ["--images", file]
+            del rest[: len(files[:6])]
+    return found
+
+
+def _is_name(word: str) -> bool:
+    return word in examples.NAMES or re.fullmatch(r"[Pp]\d+", word) is not None
+
+
+@click.command(cls=_Command)
 @argument(
     "name",
     required=False,
@@ -88,6 +116,32 @@ def _names(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
     help="With --list: draw thumbnails of all programs into this picture.",
 )
 @option("--all", "everything", is_flag=True, help="Draw every program into the folder --out.")
+@option(
+    "--document",
+    is_flag=True,
+    help="Draw the document's own scene, number for number, without multisampling, in place of the staged one.",
+)
+@option(
+    "--images",
+    type=FILE,
+    multiple=True,
+    metavar="FILES",
+    group="Inputs",
+    help="Six photographs in the order +X -X +Y -Y +Z -Z, or one path with {face}, such as 'sky/{face}.jpg'.",
+)
+@option(
+    "--image",
+    type=FILE,
+    metavar="FILE",
+    group="Inputs",
+    help="One picture; for P6 one that holds six faces, whose shape tells the layout.",
+)
+@option(
+    "--script",
+    metavar="TEXT",
+    group="Inputs",
+    help="What the visitor does, such as 'drag 30 10; w 5': drag by pixels to the right and down, w and s walk.",
+)
 @option("--live", is_flag=True, group="Live", help="Show the program live: turn it, walk in it.")
 @place_options("Live")
 @device_option
@@ -101,6 +155,10 @@ def example(
     listed: bool,
     sheet: str | None,
     everything: bool,
+    document: bool,
+    images: tuple[str, ...],
+    image: str | None,
+    script: str | None,
     live: bool,
     page: bool,
     window: bool,
@@ -111,10 +169,11 @@ def example(
     """Draw a program of the course documents.
 
     Examples: cubecam example --list; cubecam example dynamic_reflection -o ball.gif; cubecam example P4 --frames 1;
-    cubecam example P2 --live
+    cubecam example P2 --live; cubecam example P2 --script "drag 30 10; w 5"
     """
     _check_options(name, out, frames, fps, listed, sheet, everything)
     _check_live(name, live, click.get_current_context())
+    given = _inputs(name, images, image, script)
     where = parse_place(page, window, terminal)
     with failures_reported():
         if listed:
@@ -123,10 +182,10 @@ def example(
             Console(soft_wrap=True).print(_table(), highlight=False)
             if sheet is not None:
                 with Renderer(device=parse_device(device)) as renderer:
-                    _save_sheet(sheet, renderer)
+                    _save_sheet(sheet, renderer, document)
                 _tell([sheet])
         elif live:
-            _show(_load(name), where, not no_browser, device)
+            _show(_load(name), where, not no_browser, device, {"document": document, **given})
         elif everything:
             folder = Path(out or "examples")
             folder.mkdir(parents=True, exist_ok=True)
@@ -134,9 +193,9 @@ def example(
                 for known in examples.NAMES:
                     module = examples.load(known)
                     path = str(folder / f"{known}.png")
-                    _save(path, module, renderer, frames, start, size, fps)
+                    _save(path, module, renderer, frames, start, size, fps, document)
                     _tell([path])
-                _save_sheet(str(folder / "sheet.png"), renderer)
+                _save_sheet(str(folder / "sheet.png"), renderer, document)
             _tell([str(folder / "sheet.png")])
         else:
             module = _load(name)
@@ -146,7 +205,7 @@ def example(
 
                 find_ffmpeg(Path(path))  # a missing ffmpeg is an error before anything is drawn
             with Renderer(device=parse_device(device)) as renderer:
-                drawn = _save(path, module, renderer, frames, start, size, fps)
+                drawn = _save(path, module, renderer, frames, start, size, fps, document, given)
                 info = renderer.info
             _tell([path])
             click.echo(f"{drawn}, drawn by {info.renderer}")
@@ -194,11 +253,42 @@ def _check_live(name: str | None, live: bool, context: click.Context) -> None:
     if name is None:
         raise click.BadParameter("expected a NAME with it", param_hint="--live")
     if not examples.is_live(name):
-        known = [known for known in examples.NAMES if examples.is_live(known)]
-        listed = ", ".join(f"{examples.load(one).PROGRAM} {one}" for one in known)
+        listed = _listed(known for known in examples.NAMES if examples.is_live(known))
         raise click.BadParameter(
             f"expected a program that is live, one of {listed}; got {name}", param_hint="NAME"
         )
+
+
+def _inputs(
+    name: str | None, images: tuple[str, ...], image: str | None, script: str | None
+) -> dict[str, Any]:
+    """Check the documents' inputs, and return those that were given as arguments of `build` and `live`."""
+    given: dict[str, Any] = {}
+    if images:
+        if len(images) not in (1, 6):
+            raise click.BadParameter(
+                f"expected six files, or one path with {{face}}, got {len(images)}",
+                param_hint="--images",
+            )
+        given["images"] = images[0] if len(images) == 1 else list(images)
+    if image is not None:
+        given["image"] = image
+    if script is not None:
+        given["script"] = script
+    for key in given:
+        if name is None:
+            raise click.BadParameter("expected a NAME with it", param_hint=f"--{key}")
+        if key not in examples.inputs_of(name):
+            known = [known for known in examples.NAMES if key in examples.inputs_of(known)]
+            raise click.BadParameter(
+                f"expected a program that takes it, one of {_listed(known)}; got {name}",
+                param_hint=f"--{key}",
+            )
+    return given
+
+
+def _listed(names: Iterable[str]) -> str:
+    return ", ".join(f"{examples.load(one).PROGRAM} {one}" for one in names)
 
 
 def _load(name: str | None) -> Any:
@@ -228,11 +318,13 @@ def _table() -> Table:
     return table
 
 
-def _show(module: Any, where: str, browser: bool, device: str | None) -> None:
+def _show(
+    module: Any, where: str, browser: bool, device: str | None, options: dict[str, Any]
+) -> None:
     """Show a program live until the view is closed or Ctrl-C ends it."""
     try:
         with Renderer(device=parse_device(device)) as renderer:
-            module.live(renderer=renderer).show(where, browser=browser, block=True)
+            module.live(renderer=renderer, **options).show(where, browser=browser, block=True)
     except ImportError as error:
         fail(error)
 
@@ -245,18 +337,20 @@ def _save(
     start: int | None,
     size: int | None,
     fps: float,
+    document: bool = False,
+    inputs: dict[str, Any] | None = None,
 ) -> str:
     """Draw one program into a file, and return a description of the picture."""
     from .. import save_animation, save_image
 
+    program = module.build(document=document, **(inputs or {}))
     ending = Path(path).suffix.lower()
-    count = frames or (module.FRAMES if ending in _MOVING else 1)
-    first = start if start is not None else (module.STILL if count == 1 else 0)
-    width, height = module.SIZE
+    count = frames or (examples.length_of(module, program) if ending in _MOVING else 1)
+    first = start if start is not None else examples.still_of(module, program) if count == 1 else 0
+    width, height = examples.size_of(module, program)
     if size is not None:
         width, height = size, max(1, round(size * height / width))
-    options: dict[str, Any] = {"samples": min(_SAMPLES, renderer.info.limits.max_samples)}
-    program = module.build()
+    options: dict[str, Any] = {"samples": _samples(renderer, document)}
     if count == 1 and ending not in _ONLY_MOVING:
         if ending == ".exr":
             options["format"] = "rgba32f"
@@ -290,19 +384,25 @@ def _with_progress(frames: range, path: str) -> Iterable[int]:
     return track(frames, description=path, transient=True)
 
 
-def _save_sheet(path: str, renderer: Renderer) -> None:
+def _samples(renderer: Renderer, document: bool) -> int:
+    """Give the samples of a pixel: one as in the documents, or some for smooth edges."""
+    return 1 if document else min(_SAMPLES, renderer.info.limits.max_samples)
+
+
+def _save_sheet(path: str, renderer: Renderer, document: bool) -> None:
     """Draw the stills of all programs into one picture, each with its number and name below."""
     from .. import save_image
     from .sheet import contact_sheet
 
-    samples = min(_SAMPLES, renderer.info.limits.max_samples)
+    samples = _samples(renderer, document)
     pictures, labels = [], []
     for known in examples.NAMES:
         module = examples.load(known)
-        scale = _THUMBNAIL / max(module.SIZE)
-        size = (round(module.SIZE[0] * scale), round(module.SIZE[1] * scale))
-        pictures.append(
-            module.draw(module.build(), renderer, module.STILL, size=size, samples=samples)
-        )
+        program = module.build(document=document)
+        width, height = examples.size_of(module, program)
+        scale = _THUMBNAIL / max(width, height)
+        size = (round(width * scale), round(height * scale))
+        still = examples.still_of(module, program)
+        pictures.append(module.draw(program, renderer, still, size=size, samples=samples))
         labels.append(f"{module.PROGRAM}  {known}")
     save_image(path, contact_sheet(pictures, labels, _THUMBNAIL))

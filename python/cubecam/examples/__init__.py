@@ -3,14 +3,21 @@
 
 Each module has
 
-- ``build(...)``, which makes the scene, the camera and the nodes that move, in one dataclass;
+- ``build(...)``, which makes the scene, the camera and the nodes that move, in one dataclass. It makes the staged
+  scene, for eyes: places, light, colours and background are such that the picture shows what it is about. With
+  ``document=True`` it makes the scene of the document, with the document's own numbers, which the tests hold;
 - ``draw(program, renderer, frame, size=SIZE, **options)``, which returns frame 0, 1, 2, ... as an array (H, W, 4), row
   0 on top. A frame depends only on its number, so frames may be drawn in any order. The options are those of
   `Renderer.render`, such as ``format="rgba32f"``;
 - in most modules ``live(...)``, which returns a `cubecam.Viewer` of the program, with the mouse and the keys of its
-  document;
+  document; it has ``document``, too;
 - ``TITLE``, ``PROGRAM`` (its number, such as "P7"), ``FRAMES`` (a good length of its animation; 1: nothing moves),
-  ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels).
+  ``STILL`` (the best frame for a single picture) and ``SIZE`` (width and height in pixels). A program may have its own
+  ``frames``, ``still`` and ``size``, which then count (`length_of`, `still_of`, `size_of`): those of a script, or of
+  its document.
+
+Where the document has inputs, ``build`` and ``live`` take them: ``images`` (six photographs), ``image`` (one picture of
+six faces) and ``script`` (drags and keys of a visitor, such as ``"drag 30 10; w 5"``). `inputs_of` lists them.
 
 The programs P1 to P17 treat colours as the documents do: the numbers of an 8-bit picture are shown unchanged, light is
 added in these numbers, and no picture is tone-mapped or encoded. P18 computes with light, and shows it on a screen.
@@ -21,6 +28,7 @@ The command line draws them: ``cubecam example --list``.
 from __future__ import annotations
 
 import importlib
+import inspect
 from typing import TYPE_CHECKING, Protocol, cast
 
 if TYPE_CHECKING:
@@ -32,7 +40,17 @@ if TYPE_CHECKING:
 from .._calls import checked_call
 from .._checks import text_of
 
-__all__ = ["NAMES", "Example", "is_live", "load"]
+__all__ = [
+    "INPUTS",
+    "NAMES",
+    "Example",
+    "inputs_of",
+    "is_live",
+    "length_of",
+    "load",
+    "size_of",
+    "still_of",
+]
 
 #: The names in the order of the programs' numbers, P1 to P18.
 NAMES: tuple[str, ...] = (
@@ -56,6 +74,9 @@ NAMES: tuple[str, ...] = (
     "rough_metal",
 )
 
+#: The documents' own inputs, as parameters of `build` and `live`.
+INPUTS: tuple[str, ...] = ("images", "image", "script")
+
 
 class Example(Protocol):
     """The members of every module here."""
@@ -66,8 +87,8 @@ class Example(Protocol):
     STILL: int
     SIZE: tuple[int, int]
 
-    def build(self) -> object:
-        """Make the scene; the functions of the modules have options."""
+    def build(self, *inputs: object, document: bool = False, **options: object) -> object:
+        """Make the staged scene, or that of the document; each module has inputs and options of its own."""
 
     def draw(
         self,
@@ -148,6 +169,51 @@ def is_live(name: str) -> bool:
     (True, False)
     """
     return hasattr(load(name), "live")
+
+
+@checked_call
+def inputs_of(name: str) -> tuple[str, ...]:
+    """List which of the documents' inputs, `INPUTS`, an example takes.
+
+    Parameters
+    ----------
+    name : str
+        As for `load`.
+
+    Returns
+    -------
+    tuple of str
+        Names of parameters of ``load(name).build``.
+
+    Raises
+    ------
+    ValueError
+        As `load`.
+
+    Examples
+    --------
+    >>> from cubecam import examples
+    >>> examples.inputs_of("P2"), examples.inputs_of("P6")
+    (('images', 'script'), ('image',))
+    """
+    known = inspect.signature(load(name).build).parameters
+    return tuple(one for one in INPUTS if one in known)
+
+
+def length_of(module: Example, program: object) -> int:
+    """Give the number of frames of an animation: the program's own ``frames``, or the module's ``FRAMES``."""
+    return int(getattr(program, "frames", module.FRAMES))
+
+
+def still_of(module: Example, program: object) -> int:
+    """Give the best frame for a single picture: the program's own ``still``, or the module's ``STILL``."""
+    return int(getattr(program, "still", module.STILL))
+
+
+def size_of(module: Example, program: object) -> tuple[int, int]:
+    """Give width and height of the pictures in pixels: the program's own ``size``, or the module's ``SIZE``."""
+    width, height = getattr(program, "size", module.SIZE)
+    return int(width), int(height)
 
 
 def _module(name: str) -> Example:

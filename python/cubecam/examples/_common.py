@@ -35,35 +35,57 @@ Photographs: TypeAlias = (
 )
 
 
-def photographs(images: Photographs | None = None) -> list[FilePixels]:
+def photographs(images: Photographs | None = None, sample: str = "sunset.exr") -> list[FilePixels]:
     """Return six pictures (N, N, C) in the order +X -X +Y -Y +Z -Z, in the layout of OpenGL's faces.
 
-    images : six arrays, an array (6, N, N, C), six paths, or a path with {face}. None: pictures of 512 x 512 pixels of
-    8 bits, made from the sample photograph of a quay at sunset by tone mapping, like the pictures of a camera.
+    images : six arrays, an array (6, N, N, C), six paths, or a path with {face}. Files that hold light, such as EXR,
+    are tone-mapped. None: pictures of 512 x 512 pixels of 8 bits, like those of a camera, made from a sample
+    photograph, by default that of a quay at sunset.
     """
     if images is None:
-        return list(_quay())
+        return list(_developed(sample))
     if isinstance(images, str) or not isinstance(images, Sequence | np.ndarray):
-        return list(cc.load_cubemap(images).faces)
+        return [_for_screen(face) for face in cc.load_cubemap(images).faces]
     if len(images) != 6:
         raise ValueError(f"images: expected six, +X -X +Y -Y +Z -Z, got {len(images)}")
     given: Any = images  # six paths or six arrays, which load_image and asarray check
     return [
-        np.asarray(image) if hasattr(image, "__array__") else cc.load_image(image)
+        np.asarray(image) if hasattr(image, "__array__") else _for_screen(cc.load_image(image))
         for image in given
     ]
 
 
-def surroundings(images: Photographs | None = None, *, mipmaps: bool = False) -> cc.CubeMap:
+def surroundings(
+    images: Photographs | None = None, sample: str = "sunset.exr", *, mipmaps: bool = False
+) -> cc.CubeMap:
     """Return the six photographs as a cubemap."""
-    return cc.CubeMap(photographs(images), convention="gl", mipmaps=mipmaps)
+    return cc.CubeMap(photographs(images, sample), convention="gl", mipmaps=mipmaps)
+
+
+def _for_screen(pixels: FilePixels) -> FilePixels:
+    """Tone-map light; the pixels of a camera's picture stay as they are."""
+    return cc.to_screen(pixels) if np.issubdtype(pixels.dtype, np.floating) else pixels
 
 
 @functools.cache
-def _quay() -> Picture:
-    # Tone mapping rounds to 8 bits, so the resampling before it must not round.
-    cube = cc.load_environment(cc.sample_data("sunset.exr"), size=PHOTOGRAPH, dtype="float32")
-    return cc.to_screen(cube)[..., :3]
+def _developed(sample: str) -> Picture:
+    """Make six pictures of a panorama of light.
+
+    A panorama of 1024 pixels has 256 for a face, half as many as the documents' photographs have. Linear interpolation
+    between so few is visible as blur. Therefore the panorama is first enlarged by Lanczos' filter and sharpened, as
+    cameras sharpen their pictures.
+    """
+    from PIL import Image, ImageFilter
+
+    panorama = cc.to_screen(cc.load_image(cc.sample_data(sample)))[..., :3]
+    height, width = panorama.shape[:2]
+    times, margin = 2, 16  # the left border goes on at the right one
+    around = np.concatenate([panorama[:, -margin:], panorama, panorama[:, :margin]], axis=1)
+    size = (times * around.shape[1], times * height)
+    large = Image.fromarray(around).resize(size, Image.Resampling.LANCZOS)
+    sharp = np.asarray(large.filter(ImageFilter.UnsharpMask(radius=1.2, percent=100, threshold=0)))
+    inner = sharp[:, times * margin : times * (margin + width)]
+    return cc.CubeMap.from_equirect(inner, size=PHOTOGRAPH).faces
 
 
 @functools.cache
@@ -81,6 +103,13 @@ def teapot(size: float = ACTOR) -> cc.Mesh:
 def on_circle(radius: float, height: float, radians: float) -> tuple[float, float, float]:
     """Return a place on a circle round +Y, counter-clockwise seen from above; 0 is on +X."""
     return radius * math.cos(radians), height, -radius * math.sin(radians)
+
+
+def squares(count: int) -> cc.Image:
+    """Return a pattern of light and dark squares, `count` along an edge, for a ground that shows what lies over it."""
+    rows, columns = np.indices((count, count))
+    shade = np.where((rows + columns) % 2 == 0, 255, 150).astype(np.uint8)
+    return cc.Image(np.repeat(shade[..., None], 3, axis=2), mag_filter="nearest")
 
 
 def picture(

@@ -7,19 +7,27 @@ programs have their matrices: 100 degrees for the height of the picture, angleX 
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias
 
+import numpy as np
+
 import cubecam as cc
 from cubecam.viewer.controls import Controls, Orbit
 
+from ._script import DRAG, Script, events
+
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from cubecam.viewer import Viewer
     from cubecam.viewer.controls import AnyCamera
+    from cubecam.viewer.picking import Pick
 
-#: Degrees that a drag over the height of the picture adds to an angle.
-DRAG = 100.0
+    from ._common import Picture
+
 #: World units, one press of w or s.
 STEP = 0.1
 #: Frames a second of an animation, as in the files of `cubecam example`.
@@ -27,6 +35,8 @@ RATE = 25.0
 #: Frames a second of requestAnimationFrame on most screens, in which document 000 counts.
 SCREEN = 60.0
 
+#: Draws a picture uint8 (H, W, 4) with a renderer, at a size (width, height), with a number of samples a pixel.
+Drawing: TypeAlias = Callable[[cc.Renderer, tuple[int, int], int], "Picture"]
 Direction: TypeAlias = tuple[float, float, float]
 #: For each key what it does, and how the help names it.
 Keys: TypeAlias = Mapping[str, tuple[Callable[[], object], str]]
@@ -51,13 +61,27 @@ class Drags(Controls):
         self.turn = turn
         self.angle_x, self.angle_y = start
 
+    def play(self, script: Script) -> None:
+        """Answer the events of a script, one after another, as if a hand made them."""
+        for event in events(script):
+            if isinstance(event, str):
+                self._walk_by(event)
+            else:
+                self._add(*event)
+
     def _drag(
         self, camera: AnyCamera, dx: float, dy: float, height: float, button: int, shift: bool
     ) -> bool:
-        self.angle_x += DRAG * dx / height
-        self.angle_y += DRAG * dy / height
-        self.turn(self.angle_x, self.angle_y)
+        self._add(DRAG * dx / height, DRAG * dy / height)
         return True
+
+    def _add(self, angle_x: float, angle_y: float) -> None:
+        self.angle_x += angle_x
+        self.angle_y += angle_y
+        self.turn(self.angle_x, self.angle_y)
+
+    def _walk_by(self, key: str) -> None:
+        raise ValueError(f'script: expected drags only, since nobody walks here; got "{key}"')
 
 
 class Visitor(Drags):
@@ -72,6 +96,10 @@ class Visitor(Drags):
         x, y, z = (gaze / math.hypot(*gaze)).tolist()
         super().__init__(lambda a, b: look(camera, direction(a, b, first=(x, y, z))))
         self.step = STEP
+        self._camera = camera
+
+    def _walk_by(self, key: str) -> None:
+        self._camera.walk(STEP if key == "w" else -STEP)
 
 
 class Followed(Orbit):
@@ -105,6 +133,37 @@ def look(camera: cc.PerspectiveCamera, view: Direction) -> None:
     """Turn the view. Straight up and straight down there is no view with +Y up; the last view stays."""
     if math.hypot(view[0], view[2]) > 1e-6:
         camera.look(view)
+
+
+@functools.cache
+def _drawn_viewer() -> type:
+    """Make the viewer whose pictures a function draws; `cubecam.Viewer` is loaded with it, at the first use."""
+
+    class Drawn(cc.Viewer):
+        """A viewer of a program that makes its picture of several parts."""
+
+        def __init__(
+            self, drawing: Drawing, cells: tuple[int, int], *arguments: Any, **options: Any
+        ) -> None:
+            self._drawing, self._cells = drawing, cells
+            super().__init__(*arguments, **options)
+
+        def _picture(self, size: tuple[int, int], moving: bool) -> npt.NDArray[np.uint8]:
+            if self.output != "color":
+                return super()._picture(size, moving)
+            return np.asarray(self._drawing(self.renderer, size, 1 if moving else self.samples))
+
+        def pick(
+            self, x: float, y: float, *, size: tuple[float, float] | None = None
+        ) -> Pick | None:
+            """Find what a pixel shows, in whichever of the pictures it is."""
+            width, height = self.size if size is None else size
+            if self.output != "color" or not (0 <= x < width and 0 <= y < height):
+                return super().pick(x, y, size=(width, height))
+            width, height = width / self._cells[0], height / self._cells[1]
+            return super().pick(x % width, y % height, size=(width, height))
+
+    return Drawn
 
 
 class Clock:
@@ -141,15 +200,20 @@ def live_view(
     clock: Clock | None = None,
     keys: Keys | None = None,
     screen: bool = False,
+    draw: Drawing | None = None,
+    cells: tuple[int, int] = (1, 1),
 ) -> Viewer:
     """Make the live form of a program.
 
     controls : the document's mouse; without, a drag moves the camera round its target. clock : the animation, which the
     space bar stops. keys : what other keys do. screen : whether light is made for a screen (tone curve and sRGB);
-    without, the numbers of a picture are shown unchanged, as `draw` does it.
+    without, the numbers of a picture are shown unchanged, as `draw` of the module does it. draw : what draws the
+    pictures, if these are not just the scene as the camera sees it. cells : the columns and rows of such a picture that
+    shows the scene several times.
     """
     controls = controls or Orbit()
-    viewer = cc.Viewer(
+    make: Any = cc.Viewer if draw is None else functools.partial(_drawn_viewer(), draw, cells)
+    viewer: Viewer = make(
         program.scene,
         program.camera,
         controls,

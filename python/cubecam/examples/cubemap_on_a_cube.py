@@ -67,7 +67,9 @@ def phong(color: tuple[float, float, float]) -> cc.PhongMaterial:
     return cc.PhongMaterial(color=color, ka=0.2, kd=0.7, ks=1.0, shininess=10.0)
 
 
-def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
+def build(
+    probe_size: int = PROBE, probe_format: Format = "rgba8", *, document: bool = False
+) -> Program:
     """Make the scene; the probe's texels are of 8 bits as in the document."""
     scene = cc.Scene(background=GREY)
     scene.add(cc.PointLight(position=LIGHT))
@@ -110,8 +112,10 @@ def turn(program: Program, frame: float) -> None:
     program.cube.rotation = cc.axis_angle(AXIS, TURN * frame)
 
 
-def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+def live(
+    probe_size: int = PROBE, renderer: cc.Renderer | None = None, *, document: bool = False
+) -> Viewer:
     """Show the program live: the cube turns, a drag turns the view, w and s walk."""
-    program = build(probe_size)
+    program = build(probe_size, document=document)
     clock = Clock(lambda frame, _: turn(program, frame), rate=SCREEN)
     return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

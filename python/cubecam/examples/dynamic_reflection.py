@@ -67,7 +67,9 @@ class Program:
     probe: cc.Probe
 
 
-def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
+def build(
+    probe_size: int = PROBE, probe_format: Format = "rgba8", *, document: bool = False
+) -> Program:
     """Make the scene; the probe's texels are of 8 bits as in the document."""
     scene, actors = stage()
     ball = scene.add(cc.Mesh.sphere(BALL), gold(), scale=SCALE)
@@ -126,8 +128,10 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+def live(
+    probe_size: int = PROBE, renderer: cc.Renderer | None = None, *, document: bool = False
+) -> Viewer:
     """Show the program live: the actors circle, a drag turns the view, w and s walk."""
-    program = build(probe_size)
+    program = build(probe_size, document=document)
     clock = Clock(lambda frame, _: go_round(program.actors, frame))
     return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

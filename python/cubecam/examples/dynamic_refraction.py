@@ -60,7 +60,12 @@ class Program:
 
 
 def build(
-    eta: float = ETA, fresnel: bool = False, probe_size: int = PROBE, probe_format: Format = "rgba8"
+    eta: float = ETA,
+    fresnel: bool = False,
+    probe_size: int = PROBE,
+    probe_format: Format = "rgba8",
+    *,
+    document: bool = False,
 ) -> Program:
     """Make the scene; eta is the refractive index outside divided by that inside."""
     scene, actors = stage()
@@ -98,8 +103,10 @@ def live(
     fresnel: bool = False,
     probe_size: int = PROBE,
     renderer: cc.Renderer | None = None,
+    *,
+    document: bool = False,
 ) -> Viewer:
     """Show the program live: the actors circle, a drag turns the view, w and s walk."""
-    program = build(eta, fresnel, probe_size)
+    program = build(eta, fresnel, probe_size, document=document)
     clock = Clock(lambda frame, _: go_round(program.actors, frame))
     return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera), clock=clock)

@@ -5,8 +5,10 @@ the view, "w" and "s" take a step of 0.1 along the view. Two angles sum up the d
 is Rx(angleY) Ry(angleX) (0, 0, 1), both turns about the world's axes. `SCRIPT` replaces mouse and
 keyboard: frame k shows the view after k of its events.
 
-Look for: the walls come nearer as the camera walks, parts of them disappear in front of the near
-plane, and in the end the camera stands outside. The document asks how to avoid this; P3 is the answer.
+Look for: in the middle the six photographs look like the place where they were taken. From elsewhere the
+box shows: the fence and the path bend at the edges where two walls meet. The walls come nearer as the
+camera walks, parts of them disappear in front of the near plane, and in the end the camera stands
+outside. The document asks how to avoid this; P3 is the answer.
 
 Worth trying: turn by 90 degrees and then drag up and down: nothing happens, because the second turn is
 about the world's X axis, along which the camera looks. `camera.yaw` and `camera.pitch` turn like a
@@ -15,14 +17,14 @@ person's head.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import cubecam as cc
 
 from ._common import GREY, Photographs, Picture, picture, surroundings
-from ._live import STEP, Visitor, direction, live_view, look
+from ._live import Visitor, live_view
+from ._script import Event, Script, events
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -39,8 +41,7 @@ CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 SCALE = 2.0
 FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
 
-#: "w", "s", or a drag (angleX, angleY) in degrees.
-Event = str | tuple[float, float]
+#: A walk through the document's scene, as numbers of its two angles.
 SCRIPT: tuple[Event, ...] = (
     *[(6.0, 0.0)] * 15,
     *[(0.0, 3.0)] * 8,
@@ -50,25 +51,62 @@ SCRIPT: tuple[Event, ...] = (
     *[(-4.0, 2.0)] * 12,
     *["w"] * 30,
 )
-FRAMES = len(SCRIPT) + 1
-STILL = 35
+#: The walk of the staged scene: to the fence, back into a corner, where the box shows, on until it is all seen.
+WALK = "drag 160 0; w 8; s 34; drag -96 0; drag 96 0; s 50"
+FRAMES = 115
+STILL = 52
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What differs between the document's scene and the staged one."""
+
+    sample: str  # the photographs
+    mipmaps: bool
+    walk: tuple[Event, ...]
+    still: int  # the best frame of the walk
+
+
+DOCUMENT = Stage("sunset.exr", False, SCRIPT, 35)
+STAGED = Stage("forest.exr", True, events(WALK, SIZE[1]), STILL)
 
 
 @dataclass
 class Program:
-    """`camera` moves."""
+    """`camera` moves; `frames` and `still` follow from the script."""
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
     script: tuple[Event, ...]
+    frames: int
+    still: int
 
 
-def build(images: Photographs | None = None, script: Sequence[Event] = SCRIPT) -> Program:
-    """Make the scene; see `SCRIPT` for what a script holds, and P1 for the images."""
+def build(
+    images: Photographs | None = None, script: Script | None = None, *, document: bool = False
+) -> Program:
+    """Make the scene.
+
+    images : as in P1. script : events like those of `SCRIPT`, or a text such as "drag 30 10; w 5", in pixels of a
+    picture 512 pixels high; a walk by default.
+    """
+    stage = DOCUMENT if document else STAGED
     scene = cc.Scene(background=GREY)
-    material = cc.BasicMaterial(cubemap=surroundings(images), double_sided=True)
+    cubemap = surroundings(images, stage.sample, mipmaps=stage.mipmaps)
+    material = cc.BasicMaterial(cubemap=cubemap, double_sided=True)
     scene.add(cc.Mesh.box(CUBE), material, scale=SCALE)
-    return Program(scene, walker(), tuple(script))
+    return Program(scene, walker(), *walk_of(script, stage.walk, stage.still))
+
+
+def walk_of(
+    script: Script | None, own: tuple[Event, ...], still: int
+) -> tuple[tuple[Event, ...], int, int]:
+    """Return the events of a script or the program's own, the number of frames, and the best of these.
+
+    That is `still` for the program's own events, and the last frame for a script.
+    """
+    walk = own if script is None else events(script, SIZE[1])
+    return walk, len(walk) + 1, still if script is None else len(walk)
 
 
 def walker() -> cc.PerspectiveCamera:
@@ -76,20 +114,12 @@ def walker() -> cc.PerspectiveCamera:
     return cc.PerspectiveCamera(fov=FOV, position=(0, 0, 0), target=FIRST, near=NEAR, far=FAR)
 
 
-def replay(camera: cc.PerspectiveCamera, events: Sequence[Event]) -> None:
+def replay(camera: cc.PerspectiveCamera, script: Script) -> None:
     """Put the camera at its start, and replay the events."""
     camera.target = None
     camera.position = (0, 0, 0)
     camera.look(FIRST)
-    angle_x = angle_y = 0.0
-    for event in events:
-        if event in ("w", "s"):
-            camera.walk(STEP if event == "w" else -STEP)
-        elif isinstance(event, str):
-            raise ValueError(f'script: expected "w", "s" or a drag of two angles, got {event!r}')
-        else:
-            angle_x, angle_y = angle_x + event[0], angle_y + event[1]
-            look(camera, direction(angle_x, angle_y))
+    Visitor(camera).play(script)
 
 
 def draw(
@@ -104,7 +134,20 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(images: Photographs | None = None, renderer: cc.Renderer | None = None) -> Viewer:
-    """Show the program live: a drag turns the view, w and s walk."""
-    program = build(images)
-    return live_view(program, SIZE, TITLE, renderer, controls=Visitor(program.camera))
+def live(
+    images: Photographs | None = None,
+    renderer: cc.Renderer | None = None,
+    *,
+    script: Script = (),
+    document: bool = False,
+) -> Viewer:
+    """Show the program live: a drag turns the view, w and s walk. The script comes first."""
+    program = build(images, document=document)
+    return live_view(program, SIZE, TITLE, renderer, controls=visitor(program.camera, script))
+
+
+def visitor(camera: cc.PerspectiveCamera, script: Script) -> Visitor:
+    """Return mouse and keys, with a script played already."""
+    controls = Visitor(camera)
+    controls.play(events(script, SIZE[1]))
+    return controls

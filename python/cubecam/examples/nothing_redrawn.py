@@ -51,9 +51,11 @@ class Program:
     probe: cc.Probe
 
 
-def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
+def build(
+    probe_size: int = PROBE, probe_format: Format = "rgba8", *, document: bool = False
+) -> Program:
     """Make P14's scene, actors in their places of frame 0."""
-    made = dynamic_reflection.build(probe_size, probe_format)
+    made = dynamic_reflection.build(probe_size, probe_format, document=document)
     go_round(made.actors, 0)
     return Program(made.scene, made.camera, made.ball, made.actors[0], made.probe)
 
@@ -76,12 +78,14 @@ def draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+def live(
+    probe_size: int = PROBE, renderer: cc.Renderer | None = None, *, document: bool = False
+) -> Viewer:
     """Show the program live: the bunny walks and rests, a drag turns the view, w and s walk.
 
     The line below the picture tells how many views the last picture took.
     """
-    program = build(probe_size)
+    program = build(probe_size, document=document)
 
     def walk(frame: float, _: float) -> None:
         circle(program.walker, TURN * steps(int(frame)))

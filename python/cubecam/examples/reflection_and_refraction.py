@@ -35,33 +35,57 @@ if TYPE_CHECKING:
 PROGRAM = "P4"
 TITLE = "Reflection and refraction of a still environment"
 FRAMES = 90  # one turn of the camera
-STILL = 67
+STILL = 73
 SIZE = (512, 512)
 
-FOV = 45.0  # degrees
 ETA = 1 / 1.52  # air to window glass
-DISTANCE, HEIGHT, TURN = 5.0, 0.6, 4.0  # of the camera's circle: world units, degrees a frame
+TURN = 4.0  # degrees a frame, of the camera on its circle
 #: Half axes of the stretched balls, world units.
 STRETCH = (0.9, 0.6, 0.6)
 
 
+@dataclass(frozen=True)
+class Stage:
+    """What differs between the document's scene and the staged one."""
+
+    fov: float  # degrees
+    distance: float  # radius of the camera's circle, world units
+    height: float  # of the camera's circle, world units
+    teapot: float  # largest extent, world units
+    mipmaps: bool
+    still: int
+
+
+DOCUMENT = Stage(45.0, 5.0, 0.6, 1.6, False, 67)
+#: Nearer, with a wider angle: more of the photograph is behind the objects, and each of them is larger.
+STAGED = Stage(65.0, 3.3, 0.3, 1.7, True, STILL)
+
+
 @dataclass
 class Program:
-    """`camera` and `group`, which has the four objects, turn together; the photographs stay."""
+    """`camera` and `group`, which has the four objects, turn together; the photographs stay.
+
+    `circle` has radius and height of the camera's circle, world units.
+    """
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
     group: cc.Node
     mirrors: tuple[cc.Node, cc.Node]
     glass: tuple[cc.Node, cc.Node]
+    circle: tuple[float, float]
+    still: int
 
 
-def build(images: Photographs | None = None, eta: float = ETA) -> Program:
+def build(
+    images: Photographs | None = None, eta: float = ETA, *, document: bool = False
+) -> Program:
     """Make the scene; eta is the refractive index outside divided by that inside, images are as in P1."""
-    scene = cc.Scene(environment=surroundings(images))
+    stage = DOCUMENT if document else STAGED
+    scene = cc.Scene(environment=surroundings(images, mipmaps=stage.mipmaps))
     group = scene.add()
     mirror, glass = cc.MirrorMaterial(), cc.GlassMaterial(ior=1 / eta, fresnel=False)
-    ball, pot = cc.Mesh.sphere(1), teapot(1.6)
+    ball, pot = cc.Mesh.sphere(1), teapot(stage.teapot)
     made = [
         (
             scene.add(ball, material, position=(x, 0.8, 0), scale=STRETCH, parent=group),
@@ -69,8 +93,11 @@ def build(images: Photographs | None = None, eta: float = ETA) -> Program:
         )
         for x, material in ((-1.0, mirror), (1.0, glass))
     ]
-    camera = cc.PerspectiveCamera(fov=FOV, position=(0, HEIGHT, DISTANCE), target=(0, 0, 0))
-    return Program(scene, camera, group, made[0], made[1])
+    circle = stage.distance, stage.height
+    camera = cc.PerspectiveCamera(
+        fov=stage.fov, position=on_circle(*circle, -math.pi / 2), target=(0, 0, 0)
+    )
+    return Program(scene, camera, group, made[0], made[1], circle, stage.still)
 
 
 def draw(
@@ -84,15 +111,19 @@ def draw(
     turned = cc.axis_angle((0, 1, 0), TURN * frame)
     program.group.rotation = turned
     # In frame 0 the camera is on +Z.
-    program.camera.position = on_circle(DISTANCE, HEIGHT, math.radians(TURN * frame - 90))
+    program.camera.position = on_circle(*program.circle, math.radians(TURN * frame - 90))
     return picture(renderer, program.scene, program.camera, size, options)
 
 
 def live(
-    images: Photographs | None = None, eta: float = ETA, renderer: cc.Renderer | None = None
+    images: Photographs | None = None,
+    eta: float = ETA,
+    renderer: cc.Renderer | None = None,
+    *,
+    document: bool = False,
 ) -> Viewer:
     """Show the program live: a drag moves the camera round the four objects, and both turn on together."""
-    program = build(images, eta)
+    program = build(images, eta, document=document)
 
     def turn_on(frame: float, step: float) -> None:
         program.group.rotation = cc.axis_angle((0, 1, 0), TURN * frame)

@@ -4,8 +4,9 @@ A flat picture with moving discs is drawn into a texture of 512 x 512, without a
 turning cube shows that texture. The texture has a scene and a camera of its own;
 `cubecam.RenderTexture` draws it whenever it changes, before the pictures that show it.
 
-Look for: each side of the cube shows the discs of this frame, never those of the last one. The discs
-are translucent and drawn in the order in which they were added.
+Look for: the flat picture on the left is the texture itself. Each side of the cube shows the same discs, in the
+same frame: never those of the last one. The discs are translucent and drawn in the order in which they
+were added, red first and yellow last.
 
 Worth trying: draw the cube's own scene into the texture. A picture cannot show itself, so this raises
 an error that names the texture, until the texture leaves the cube out (``exclude=[cube]``).
@@ -20,17 +21,19 @@ from typing import TYPE_CHECKING
 import cubecam as cc
 
 from ._common import LIGHT, Picture, picture
+from ._live import Clock, live_view
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from cubecam.typing import RenderOptions
+    from cubecam.viewer import Viewer
 
 PROGRAM = "P10"
-TITLE = "Render to a texture that an object shows"
+TITLE = "Render to a texture: the picture on the left is on every side of the cube"
 FRAMES = 120  # one turn
 STILL = 20
-SIZE = (512, 512)
+SIZE = (768, 512)
 
 TEXTURE = (512, 512)  # pixels
 WHITE, BLACK = (1.0, 1.0, 1.0, 1.0), (0.0, 0.0, 0.0, 1.0)
@@ -41,6 +44,27 @@ DISCS = (
     ((0.1, 0.6, 0.2), 0.35, -2),
     ((0.1, 0.3, 0.9), 0.3, 3),
     ((0.9, 0.7, 0.1), 0.25, -4),
+)
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What differs between the document's scene and the staged one."""
+
+    background: tuple[float, float, float, float]
+    ka: float
+    light: tuple[float, float, float]
+    cube: tuple[float, float, float]  # where the cube stands
+    flat: (
+        tuple[float, float, float] | None
+    )  # where the texture stands as a flat picture; None: nowhere
+    eye: tuple[float, float, float]
+    size: tuple[int, int]  # of the picture, pixels
+
+
+DOCUMENT = Stage(BLACK, 0.4, LIGHT, (0, 0, 0), None, (0, 1.5, 4), (512, 512))
+STAGED = Stage(
+    (0.1, 0.1, 0.12, 1.0), 0.4, (0.5, 3.5, 6), (1.1, 0, 0), (-1.35, 0, -0.2), (0, 1.1, 4.2), SIZE
 )
 
 
@@ -55,9 +79,10 @@ class Program:
     inner_camera: cc.OrthographicCamera
     discs: tuple[cc.Node, ...]
     texture: cc.RenderTexture
+    size: tuple[int, int]
 
 
-def build() -> Program:
+def build(*, document: bool = False) -> Program:
     """Make both scenes; in the inner one a unit is half the texture's edge."""
     inner = cc.Scene(background=WHITE)
     upright = cc.axis_angle((1, 0, 0), 90)
@@ -73,11 +98,32 @@ def build() -> Program:
         )
     inner_camera = cc.OrthographicCamera(height=2, position=(0, 0, 1), near=0.5, far=2)
     texture = cc.RenderTexture(inner, inner_camera, size=TEXTURE, depth_format=None, name="discs")
-    scene = cc.Scene(background=BLACK)
-    scene.add(cc.PointLight(position=LIGHT))
-    cube = scene.add(cc.Mesh.box(1.6), cc.PhongMaterial(color=(1, 1, 1), ka=0.4, map=texture))
-    camera = cc.PerspectiveCamera(fov=45, position=(0, 1.5, 4), target=(0, 0, 0))
-    return Program(scene, camera, cube, inner, inner_camera, tuple(discs), texture)
+    stage = DOCUMENT if document else STAGED
+    scene = cc.Scene(background=stage.background)
+    scene.add(cc.PointLight(position=stage.light))
+    cube = scene.add(
+        cc.Mesh.box(1.6),
+        cc.PhongMaterial(color=(1, 1, 1), ka=stage.ka, map=texture),
+        position=stage.cube,
+    )
+    if stage.flat is not None:
+        scene.add(
+            cc.Mesh.plane(1.8, 1.8),
+            cc.BasicMaterial(map=texture),
+            position=stage.flat,
+            rotation=upright,
+        )
+    camera = cc.PerspectiveCamera(fov=45, position=stage.eye, target=(0, 0, 0))
+    return Program(scene, camera, cube, inner, inner_camera, tuple(discs), texture, stage.size)
+
+
+def place(program: Program, frame: float) -> None:
+    """Place the discs and turn the cube."""
+    for node, (_, radius, rounds) in zip(program.discs, DISCS, strict=True):
+        angle = rounds * 2 * math.pi * frame / FRAMES
+        away = 0.95 - radius
+        node.position = (away * math.cos(angle), away * math.sin(angle), 0)
+    program.cube.rotation = cc.axis_angle((0.3, 1, 0.2), TURN * frame)
 
 
 def draw(
@@ -88,9 +134,17 @@ def draw(
     **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame with the discs and the cube at their places."""
-    for node, (_, radius, rounds) in zip(program.discs, DISCS, strict=True):
-        angle = rounds * 2 * math.pi * frame / FRAMES
-        away = 0.95 - radius
-        node.position = (away * math.cos(angle), away * math.sin(angle), 0)
-    program.cube.rotation = cc.axis_angle((0.3, 1, 0.2), TURN * frame)
+    place(program, frame)
     return picture(renderer, program.scene, program.camera, size, options)
+
+
+def live(renderer: cc.Renderer | None = None, *, document: bool = False) -> Viewer:
+    """Show the program live: a drag moves the camera."""
+    program = build(document=document)
+    return live_view(
+        program,
+        program.size,
+        TITLE,
+        renderer,
+        clock=Clock(lambda frame, _: place(program, frame)),
+    )

@@ -66,7 +66,11 @@ class Program:
 
 
 def build(
-    environment: cc.CubeMap | None = None, multiple_scattering: bool = True, detail: int = 64
+    environment: cc.CubeMap | None = None,
+    multiple_scattering: bool = True,
+    detail: int = 64,
+    *,
+    document: bool = False,
 ) -> Program:
     """Make the scene: a photograph, by default a room, and 18 balls.
 
@@ -199,9 +203,9 @@ def _matrix(rotation: npt.ArrayLike) -> Floats:
     return np.asarray(np.eye(3) + 2 * w * cross + 2 * cross @ cross)
 
 
-def live(renderer: cc.Renderer | None = None) -> Viewer:
+def live(renderer: cc.Renderer | None = None, *, document: bool = False) -> Viewer:
     """Show the program live: the photograph turns, and a drag turns the balls."""
-    program = build()
+    program = build(document=document)
     return live_view(
         program,
         SIZE,

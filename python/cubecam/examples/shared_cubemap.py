@@ -90,7 +90,9 @@ class Errors:
     own: npt.NDArray[np.float64]
 
 
-def build(probe_size: int = PROBE, probe_format: Format = "rgba8") -> Program:
+def build(
+    probe_size: int = PROBE, probe_format: Format = "rgba8", *, document: bool = False
+) -> Program:
     """Make the scene: P14's ground and actors, the latter standing still, and three balls in a row."""
     scene = cc.Scene(background=GREY)
     scene.add(cc.PointLight(position=LIGHT))
@@ -156,12 +158,14 @@ def draw(
     return np.concatenate([shared, own])
 
 
-def live(probe_size: int = PROBE, renderer: cc.Renderer | None = None) -> Viewer:
+def live(
+    probe_size: int = PROBE, renderer: cc.Renderer | None = None, *, document: bool = False
+) -> Viewer:
     """Show the program live: the balls move apart, and p gives each a probe of its own or one to all.
 
     A drag turns the view, w and s walk. The picture is the upper one of `draw`, and after p the lower one.
     """
-    program = build(probe_size)
+    program = build(probe_size, document=document)
     order: list[Whose] = ["own", "shared"]
 
     def exchange() -> None:

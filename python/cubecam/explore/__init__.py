@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+from ._layout import LayoutView, layout
 from ._reflection import ReflectionView, reflection
 
-__all__ = ["ReflectionView", "reflection"]
+__all__ = ["LayoutView", "ReflectionView", "layout", "reflection"]

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from ._errors import error_map
 from ._faces import EDGE_NAMES
+from ._layout import layout
 from ._pictures import cross, faces, panorama, pictures
 from ._seams import inner_steps, seam_ratios, seam_steps, seams
 from ._vectors import arrows, face_axes, vectors
@@ -29,6 +30,7 @@ __all__ = [
     "face_axes",
     "faces",
     "inner_steps",
+    "layout",
     "panorama",
     "pictures",
     "seam_ratios",

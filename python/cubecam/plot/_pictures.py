@@ -427,9 +427,9 @@ def pictures(
     width : float, default 3
         Inches of a picture in a new figure.
     exposure, tonemap, encode
-        How colours are prepared, see `to_screen`: arrays of uint8 are shown as they are. ``tonemap=None,
-        encode=None`` shows floats from 0 to 1 as the numbers of the screen, which is how OpenGL would store them
-        in 8 bits.
+        How colours are prepared, see `to_screen`. ``tonemap=None, encode=None`` shows floats from 0 to 1 as the
+        numbers of the screen, which is how OpenGL would store them in 8 bits. Arrays of uint8 are such numbers
+        already, and are shown as they are.
     cmap, vmin, vmax, colorbar
         As in `cross`. Numbers of all pictures share one colour map and one bar, beside the last picture of numbers.
     ax : sequence of Axes, optional
@@ -476,8 +476,10 @@ def pictures(
     last = max((k for k, is_color in enumerate(colors) if not is_color), default=None)
     for k, (one, picture, values) in enumerate(zip(axes, pictures, pixels, strict=True)):
         if colors[k]:
-            thing = picture if isinstance(picture, (Frame, Image)) else values
-            one.imshow(on_screen(thing, exposure, tonemap, encode))
+            plain = not isinstance(picture, (Frame, Image))
+            # Whole numbers of a plain array are the screen's own already.
+            encoded = "srgb" if plain and values.dtype.kind == "u" else encode
+            one.imshow(on_screen(values if plain else picture, exposure, tonemap, encoded))
         else:
             bar = one if colorbar and k == last else None
             if values.dtype != among.dtype:  # type: ignore[union-attr] # a mask beside distances
