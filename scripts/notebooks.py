@@ -31,6 +31,8 @@ MOST_BYTES = 500_000
 TIMEOUT = 300
 
 _QUALITY = 80
+#: The most pixels of a row of the picture that stands for a live view.
+_LIVE = 400
 #: The largest change of a channel, of 255, with which a picture counts as a drawing of few colours.
 _PALETTE = 8
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
@@ -92,9 +94,10 @@ def _tidied_output(output: Any, count: int) -> Any:
     if data is None:
         return output
     # The model of a widget lives as long as its kernel; the picture beside it is what a reader sees.
-    data.pop("application/vnd.jupyter.widget-view+json", None)
+    live = data.pop("application/vnd.jupyter.widget-view+json", None) is not None
     if "image/png" in data:
-        kind, encoded = _small_picture(base64.b64decode(data.pop("image/png")))
+        most = _LIVE if live else None
+        kind, encoded = _small_picture(base64.b64decode(data.pop("image/png")), most)
         data[kind] = encoded
     output["metadata"] = {}
     if "execution_count" in output:
@@ -102,15 +105,20 @@ def _tidied_output(output: Any, count: int) -> Any:
     return output
 
 
-def _small_picture(png: bytes) -> tuple[str, str]:
+def _small_picture(png: bytes, most: int | None = None) -> tuple[str, str]:
     """Give the kind and the text of the smaller of a PNG and a JPEG; drawings stay PNG, photographs do not.
 
-    A drawing has few colours: a PNG with a palette of 256 is less than half as large and looks the same.
+    most : the most pixels of a row; wider pictures are reduced. A drawing has few colours: a PNG with a palette of 256
+    is less than half as large and looks the same.
     """
     picture = Image.open(io.BytesIO(png)).convert("RGBA")
     ground = Image.new("RGBA", picture.size, "white")
     opaque = Image.alpha_composite(ground, picture).convert("RGB")
-    drawing = opaque.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
+    if most is not None and opaque.width > most:
+        size = (most, round(opaque.height * most / opaque.width))
+        opaque = opaque.resize(size, Image.Resampling.BOX)
+    few = min(len(opaque.getcolors(opaque.width * opaque.height) or ()), 256)
+    drawing = opaque.quantize(few, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
     apart = np.abs(np.asarray(drawing.convert("RGB"), int) - np.asarray(opaque, int))
     kept = drawing if apart.max() <= _PALETTE else opaque
     best: tuple[str, bytes] | None = None
