@@ -19,7 +19,7 @@ from tests.programs.oracle import rx, ry, scaled
 ROOT = Path(__file__).parents[2]
 LESSONS = ("P1", "P2", "P3", "P4", "P6", "P12", "P13", "P14", "P15", "P16", "P17", "P18")
 #: In the order of the programs' numbers.
-PROGRAMS = tuple(sorted((*LESSONS, "P5"), key=lambda name: int(name[1:])))
+PROGRAMS = tuple(sorted((*LESSONS, "P5", "P7", "P10", "P11"), key=lambda name: int(name[1:])))
 #: The programs whose camera stands in the scene, with the view before any drag.
 VISITORS = {
     "P2": (0, 0, 1),
@@ -30,12 +30,15 @@ VISITORS = {
     "P16": (0, -0.9, -3.2),
     "P17": (0, -1, -5),
 }
-ORBITS = ("P4", "P5", "P6", "P12", "P18")
+ORBITS = ("P4", "P5", "P6", "P7", "P10", "P11", "P12", "P18")
 #: Frames a second.
 RATES = {
     "P4": 25,
     "P5": 25,
     "P6": 25,
+    "P7": 25,
+    "P10": 25,
+    "P11": 25,
     "P12": 25,
     "P13": 60,
     "P14": 25,
@@ -315,6 +318,7 @@ def test_p15_counts_the_views_of_the_last_picture(drive):
         ("P1", {"drag"}),
         ("P2", {"drag", "w s"}),
         ("P4", {"drag", "wheel", "space"}),
+        ("P7", {"drag", "space", "b"}),
         ("P12", {"drag", "space", "t"}),
         ("P14", {"drag", "w s", "space"}),
         ("P16", {"drag", "w s", "space", "p"}),

@@ -216,7 +216,7 @@ def draw(
 def live(
     renderer: cc.Renderer | None = None, *, blend: Pair = "separate", document: bool = False
 ) -> Viewer:
-    """Show the program live over a web page: a drag moves the camera, and b changes how the alpha is blended."""
+    """Show the program live over a web page: a drag moves the camera, and b changes how alpha is blended."""
     program = build(blend, document=document)
     pairs: list[Pair] = ["separate", "plain"]
     if blend == "plain":
@@ -227,7 +227,10 @@ def live(
         set_blend(program, pairs[0])
 
     def drawn(renderer: cc.Renderer, size: tuple[int, int], samples: int) -> Picture:
-        options: RenderOptions = {"samples": samples, "effects": [program.page]}
+        # With the separate factors the page is hidden everywhere.
+        options: RenderOptions = {"samples": samples}
+        if pairs[0] == "plain":
+            options["effects"] = [program.page]
         return picture(renderer, program.scene, program.camera, size, options)
 
     return live_view(
