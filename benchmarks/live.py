@@ -56,7 +56,7 @@ def _knot(renderer: Any) -> Any:
 def _example(name: str) -> Any:
     from cubecam import examples
 
-    return lambda renderer: examples.load(name).live(renderer=renderer)  # type: ignore[attr-defined]
+    return lambda renderer: examples.load(name).live(renderer=renderer, document=True)  # type: ignore[attr-defined]
 
 
 WORKS = {

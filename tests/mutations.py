@@ -756,7 +756,7 @@ MUTATIONS = [
     Mutation(
         "P15: the walker never rests",
         "nothing_redrawn.py",
-        "TURN * steps(frame)",
+        "TURN * steps(int(frame))",
         "TURN * frame",
         ("tests/programs/test_p15_nothing_redrawn.py",),
     ),
@@ -770,8 +770,8 @@ MUTATIONS = [
     Mutation(
         "P17: glass and mirror change places",
         "dynamic_refraction.py",
-        "zip((-APART, APART)",
-        "zip((APART, -APART)",
+        "zip((-apart, apart)",
+        "zip((apart, -apart)",
         ("tests/programs/test_p17_dynamic_refraction.py",),
     ),
     # Shadows.

@@ -135,7 +135,7 @@ def photographs(size=64):
 def stage(program, frame):
     """The ground and the actors, which move counter-clockwise round +Y, 0.1 radian a frame, at radius 2.5."""
     ground = program.scene.nodes[0]
-    shapes = [quad(ground, 10, moved(0, -2, 0))]
+    shapes = [quad(ground, 10, moved(-1, -2, 4))]
     colors = {ground.id: (0.4, 0.4, 1.0)}
     kinds = (("bunny", (0.4, 1, 0.4)), ("teapot", (1, 0.4, 0.4)))
     for index, (actor, (name, color)) in enumerate(zip(program.actors, kinds, strict=True)):

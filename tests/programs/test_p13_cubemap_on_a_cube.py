@@ -17,10 +17,12 @@ from tests.programs.oracle import (
     near_enough,
     quad,
     rx,
+    ry,
     scaled,
     turned,
     unbroken,
 )
+from tests.programs.staged import gaze, like_the_background
 from tests.reference import raycast
 from tests.reference.raycast import interior
 
@@ -31,8 +33,8 @@ def hall(program):
     """The colours and places of ground, ceiling and actors, by the document's numbers."""
     ground, ceiling, bunny, teapot = program.scene.nodes[:4]
     shapes = [
-        quad(ground, 10, moved(0, -2, 0)),
-        quad(ceiling, 10, moved(0, 3, 0) @ rx(180)),
+        quad(ground, 10, moved(-1, -2, 4)),
+        quad(ceiling, 10, moved(-1, 3, 4) @ rx(180)),
         mesh(bunny, moved(-2, -0.5, 2), ("bunny", 1.2)),
         mesh(teapot, moved(2.5, -0.5, 1.5), ("teapot", 1.2)),
     ]
@@ -43,7 +45,7 @@ def hall(program):
 @pytest.fixture(scope="module")
 def drawn(shared_renderers):
     """A function that gives a drawn frame and what the rays of its faces meet."""
-    program = example.build(probe_size=FACE, probe_format="rgba32f")
+    program = example.build(probe_size=FACE, probe_format="rgba32f", document=True)
     renderer = shared_renderers(None)
     pictures = {
         frame: example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
@@ -85,9 +87,10 @@ def test_main_view(drawn, frame):
 
 
 def test_numbers_of_the_document():
-    program = example.build()
+    program = example.build(document=True)
     probe, camera = program.probe, program.camera
     assert (probe.size, probe.near, probe.far, probe.format) == (256, 1, 100, "rgba8")
+    assert probe.depth_format == "depth_component16"
     assert (camera.fov, camera.near, camera.far) == (70, 1, 100)
     assert isinstance(program.scene.background, np.ndarray)
     np.testing.assert_allclose(program.scene.background[:3], GREY)
@@ -95,7 +98,57 @@ def test_numbers_of_the_document():
 
 def test_turning_the_cube_draws_no_face_again(renderer):
     """The cube is left out of the cubemap that it shows."""
-    program = example.build(probe_size=16)
+    program = example.build(probe_size=16, document=True)
     example.draw(program, renderer, 0, size=(16, 16))
     example.draw(program, renderer, 10, size=(16, 16))
     assert renderer.stats.views_drawn == 1
+
+
+def test_the_staged_cube_is_large_and_unlike_its_background(renderer):
+    program = example.build()
+    for frame in (program.still, 0, 110):
+        example.draw(program, renderer, frame, size=(16, 16))
+        ids = renderer.render(program.scene, program.camera, (128, 128), outputs=("id",)).id
+        assert (ids == program.cube.id).mean() > 0.12
+        assert like_the_background(renderer, program, program.cube) < 0.05
+    assert program.still == example.STILL
+
+
+def test_the_staged_cube_shows_the_figures(renderer):
+    """In the still, the cube shows the bunny that stands in front of it."""
+    program = example.build()
+    example.draw(program, renderer, program.still, size=(16, 16))
+    picture = renderer.render(program.scene, program.camera, (256, 256), outputs=("id",))
+    on_cube = picture.color[picture.id == program.cube.id][:, :3].astype(int)
+    red, green, blue = on_cube.T
+    assert ((green > 60) & (green > 2 * red) & (green > 2 * blue)).mean() > 0.03
+
+
+@pytest.mark.parametrize("document", [False, True])
+@pytest.mark.parametrize("angles", [(0, 0), (30, 0), (0, -20), (25, 10)])
+def test_view_angles(document, angles):
+    """The document turns the view direction by angleY round X after angleX round Y."""
+    program = example.build(angles=angles, document=document)
+    camera, first = program.camera, example.build(document=document).camera
+    want = (rx(angles[1]) @ ry(angles[0]))[:3, :3] @ gaze(first)
+    np.testing.assert_allclose(gaze(camera), want, atol=1e-9)
+    np.testing.assert_allclose(camera.position, first.position)
+
+
+def test_a_script_moves_the_visitor():
+    program = example.build(script="drag 51.2 0; w 3", document=True)
+    ahead = ry(10)[:3, :3] @ (0, -1, -5) / np.sqrt(26)
+    np.testing.assert_allclose(program.camera.position, (0, 1, 5) + 0.3 * ahead, atol=1e-9)
+
+
+def test_the_document_has_no_photographs():
+    with pytest.raises(ValueError, match=r"images: expected None with document=True.*got list"):
+        example.build(images=[np.zeros((2, 2, 3), np.uint8)] * 6, document=True)
+
+
+def test_photographs_of_one_s_own_surround_the_staged_scene(renderer):
+    magenta = np.full((4, 4, 3), (255, 0, 255), np.uint8)
+    program = example.build(images=[magenta] * 6)
+    picture = renderer.render(program.scene, program.camera, (64, 64), outputs=("id",))
+    assert (picture.id == 0).any()
+    np.testing.assert_array_equal(picture.color[picture.id == 0][0, :3], (255, 0, 255))

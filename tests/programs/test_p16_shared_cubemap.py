@@ -18,7 +18,7 @@ def exact(program, distance):
     """The exact picture: each ray is reflected by the ball's surface, and Phong shades the point that it hits."""
     ground, bunny, teapot = program.scene.nodes[:3]
     around = [
-        quad(ground, 10, moved(0, -2, 0)),
+        quad(ground, 10, moved(-1, -2, 4)),
         mesh(bunny, moved(-0.9, -0.5, -2), ("bunny", 1.2)),
         mesh(teapot, moved(0.7, -1.2, 1.9), ("teapot", 1.2)),
     ]
@@ -56,7 +56,7 @@ def error(program, renderer, distance, whose, truth, hits):
 
 @pytest.mark.slow
 def test_shared_grows_and_own_is_smaller(renderer):
-    program = example.build(probe_size=64, probe_format="rgba32f")
+    program = example.build(probe_size=64, probe_format="rgba32f", document=True)
     shared, own = [], []
     for distance in (0.65, 1.2, 2.0):
         truth, hits = exact(program, distance)
@@ -71,7 +71,7 @@ def test_shared_grows_and_own_is_smaller(renderer):
 @pytest.mark.slow
 def test_the_truth_of_the_package_is_that_of_the_reference():
     pytest.importorskip("embreex")
-    program = example.build(probe_size=8)
+    program = example.build(probe_size=8, document=True)
     for distance in (0.65, 1.7):
         example.place(program, distance)
         picture, ids = example.truth(program, SIZE)
@@ -86,7 +86,7 @@ def test_the_truth_of_the_package_is_that_of_the_reference():
 
 def test_errors_over_distance(renderer):
     pytest.importorskip("embreex")
-    program = example.build(probe_size=64, probe_format="rgba32f")
+    program = example.build(probe_size=64, probe_format="rgba32f", document=True)
     found = example.error_over_distance(program, renderer, (0.65, 1.2, 2.0), size=(256, 128))
     assert found.distance.tolist() == [0.65, 1.2, 2.0]
     assert (np.diff(found.shared) > 0).all()
@@ -98,11 +98,11 @@ def test_without_embreex_the_message_says_what_to_install(monkeypatch):
     for name in ("embreex", "embreex.mesh_construction", "embreex.rtcore_scene"):
         monkeypatch.setitem(sys.modules, name, None)
     with pytest.raises(ImportError, match=r"embreex.*pip install \"cubecam\[truth\]\""):
-        example.truth(example.build(probe_size=8), (8, 4))
+        example.truth(example.build(probe_size=8, document=True), (8, 4))
 
 
 def test_one_probe_serves_three_balls(fresh_renderer):
-    program = example.build(probe_size=16)
+    program = example.build(probe_size=16, document=True)
     camera = program.camera
     example.share(program, "shared")
     fresh_renderer.render(program.scene, camera, (32, 16))
@@ -113,7 +113,7 @@ def test_one_probe_serves_three_balls(fresh_renderer):
 
 
 def test_what_is_shown(renderer):
-    program = example.build(probe_size=32)
+    program = example.build(probe_size=32, document=True)
     size, frame = (64, 64), 30
     both = example.draw(program, renderer, frame, size=size)
     assert both.shape == (64, 64, 4)
@@ -134,7 +134,7 @@ def test_what_is_shown(renderer):
 
 @pytest.mark.parametrize(("frame", "distance"), [(0, 0.65), (30, 2.0), (60, 0.65), (15, 1.325)])
 def test_the_balls_move_apart_and_together(renderer, frame, distance):
-    program = example.build(probe_size=8)
+    program = example.build(probe_size=8, document=True)
     example.draw(program, renderer, frame, size=(8, 8))
     assert [ball.position.tolist() for ball in program.balls] == [
         [pytest.approx(x), 0, 0] for x in (-distance, 0, distance)
@@ -150,4 +150,47 @@ def test_the_balls_move_apart_and_together(renderer, frame, distance):
 )
 def test_unknown_words_are_refused(renderer, call, text):
     with pytest.raises(ValueError, match=text):
-        call(example.build(probe_size=8), renderer)
+        call(example.build(probe_size=8, document=True), renderer)
+
+
+def test_numbers_of_the_document():
+    program = example.build(document=True)
+    for probe in program.probes:
+        assert (probe.size, probe.near, probe.far, probe.format) == (256, 1, 100, "rgba8")
+        assert probe.depth_format == "depth_component16"
+
+
+def test_the_staged_still_is_the_difference_picture(renderer):
+    """Below is twice the difference: black but on the neighbours, and bright on a good part of these."""
+    program = example.build()
+    size, half = (256, 256), (256, 128)
+    got = example.draw(program, renderer, example.STILL, size=size, labels=False)
+    pictures = {}
+    for whose in ("shared", "own"):
+        example.share(program, whose)
+        pictures[whose] = renderer.render(program.scene, program.camera, half).color
+    np.testing.assert_array_equal(got[:128], pictures["shared"])
+    want = 2 * np.abs(pictures["shared"].astype(int) - pictures["own"])[..., :3]
+    np.testing.assert_array_equal(got[128:, :, :3], np.minimum(want, 255))
+    ids = renderer.render(program.scene, program.camera, half, outputs=("id",)).id
+    neighbours = np.isin(ids, [program.balls[0].id, program.balls[2].id])
+    assert not want[~neighbours].any()
+    assert (want[neighbours].max(axis=-1) > 50).mean() > 0.3
+    assert neighbours.mean() > 0.15
+
+
+def test_labels_are_two_lines_of_text(renderer):
+    program = example.build(probe_size=16)
+    for show in ("difference", "both", None):
+        plain = example.draw(program, renderer, 0, size=(256, 256), show=show, labels=False)
+        named = example.draw(program, renderer, 0, size=(256, 256), show=show)
+        rows = np.flatnonzero((plain != named).any(axis=(1, 2)))
+        assert rows.min() < 20
+        assert rows.max() > 235
+        assert ((rows < 30) | (rows > 225)).all()
+
+
+def test_rays_know_the_document_s_scene_alone():
+    program = example.build(probe_size=8)
+    with pytest.raises(ValueError, match=r"expected the scene of build\(document=True\)"):
+        example.truth(program, (8, 4))

@@ -18,6 +18,7 @@ from tests.programs.oracle import (
     stage,
     unbroken,
 )
+from tests.programs.staged import held, like_the_background, shares
 from tests.reference import raycast, shading
 
 SIZE, FACE = (96, 96), 40
@@ -26,7 +27,7 @@ SIZE, FACE = (96, 96), 40
 @pytest.mark.slow
 @pytest.mark.parametrize(("frame", "eta"), [(0, 1 / 1.52), (13, 1 / 1.52), (29, 1 / 1.33)])
 def test_frames(renderer, frame, eta):
-    program = example.build(eta=eta, probe_size=FACE, probe_format="rgba32f")
+    program = example.build(eta=eta, probe_size=FACE, probe_format="rgba32f", document=True)
     color = example.draw(program, renderer, frame, size=SIZE, format="rgba32f")[..., :3]
     shapes, colors = stage(program, frame)
     look = Look((0, 1, 5), (0, 0, 0), 70, 1, 100, SIZE)
@@ -53,17 +54,19 @@ def test_frames(renderer, frame, eta):
 
 
 def test_numbers():
-    program = example.build()
+    program = example.build(document=True)
     material = program.glass.material
     assert isinstance(material, cc.GlassMaterial)
     assert material.ior == pytest.approx(1.52)
     assert not material.fresnel
     assert [probe.size for probe in program.probes] == [256, 256]
     assert [probe.format for probe in program.probes] == ["rgba8", "rgba8"]
+    assert [probe.depth_format for probe in program.probes] == ["depth_component16"] * 2
+    np.testing.assert_array_equal(material.tint[:3], (1, 1, 1))
 
 
 def test_the_balls_are_not_in_each_other_s_cubemap(renderer):
-    program = example.build(probe_size=16)
+    program = example.build(probe_size=16, document=True)
     example.draw(program, renderer, 3, size=(16, 16))
     held = [renderer.read_probe(probe).faces for probe in program.probes]
     program.glass.visible = program.mirror.visible = False
@@ -72,3 +75,28 @@ def test_the_balls_are_not_in_each_other_s_cubemap(renderer):
             program.scene, position=probe.position, size=16, near=1, far=100, format="rgba8"
         )
         np.testing.assert_array_equal(cube.faces, faces)
+
+
+def test_the_staged_balls_are_unlike_their_background(renderer):
+    program = example.build()
+    for frame in (program.still, 0, 30, 50):
+        example.draw(program, renderer, frame, size=(16, 16))
+        ids = renderer.render(program.scene, program.camera, (128, 128), outputs=("id",)).id
+        for ball in (program.glass, program.mirror):
+            assert (ids == ball.id).mean() > 0.05
+            assert like_the_background(renderer, program, ball) < 0.05
+
+
+def test_the_staged_still_shows_figures_in_both_balls(renderer):
+    """The glass shows the figure behind it upside down, the mirror those before it."""
+    program = example.build()
+    example.draw(program, renderer, program.still, size=(16, 16))
+    glass, mirror = program.probes
+    on_glass, through = held(renderer, program, program.glass, glass, eta=1 / 1.52)
+    _, back = held(renderer, program, program.mirror, mirror)
+    behind = min(program.actors, key=lambda actor: actor.position[2])
+    assert shares(through, [behind])[0] > 0.2
+    assert shares(back, program.actors).sum() > 0.05
+    # The teapot stands lower than the ball, and its picture is in the upper half of the ball.
+    rows = np.nonzero(on_glass)[0]
+    assert rows[through == behind.id].mean() < rows.mean()

@@ -47,6 +47,11 @@ RATES = {
     "P17": 25,
     "P18": 25,
 }
+#: Options of `draw` without which a picture has words that the live form does not have in its picture.
+PLAIN: dict[str, dict[str, Any]] = {
+    "P15": {"counter": False},
+    "P16": {"labels": False},
+}
 #: The parameters that make a program's textures small.
 SMALL = {"probe_size": 64}
 
@@ -98,7 +103,9 @@ class Driver:
         program = program or self.module.build(**self.options)
         width, height = self.size
         size = (width, 2 * height) if self.module.PROGRAM == "P16" else (width, height)
-        return self.module.draw(program, self.view.renderer, frame, size=size, samples=4)[:height]
+        more = PLAIN.get(self.module.PROGRAM, {})
+        picture = self.module.draw(program, self.view.renderer, frame, size=size, samples=4, **more)
+        return picture[:height]
 
 
 @pytest.fixture
@@ -153,7 +160,7 @@ def test_what_the_documents_do_not_animate_stands_still(drive, name):
 @pytest.mark.parametrize("name", VISITORS)
 @pytest.mark.parametrize("size", [(512, 512), (300, 200)], ids=["square", "wide"])
 def test_a_drag_turns_the_view_and_w_and_s_walk(drive, name, size):
-    driver = drive(name, size)
+    driver = drive(name, size, document=True)
     camera = driver.view.camera
     first = np.array(VISITORS[name], float) / np.linalg.norm(VISITORS[name])
     place, angle_x, angle_y = camera.position.copy(), 0.0, 0.0
@@ -196,6 +203,29 @@ def test_a_script_comes_before_the_hands(drive, name):
     driver.drag(0, 64)
     program = driver.module.build(script="drag 128 0; w 3; drag 0 64")
     assert nearly_equal(driver.view.draw(), driver.example(len(program.script), program))
+
+
+@pytest.mark.parametrize("name", ["P13", "P14", "P15", "P16", "P17"])
+def test_a_script_moves_the_visitor_before_the_hands(drive, name):
+    driver = drive(name, script="drag 64 0; w 3")
+    options = driver.options
+    program = driver.module.build(**options, script="drag 64 0; w 3")
+    assert nearly_equal(driver.view.draw(), driver.example(0, program))
+    driver.drag(0, 32)
+    program = driver.module.build(**options, script="drag 64 0; w 3; drag 0 32")
+    assert nearly_equal(driver.view.draw(), driver.example(0, program))
+    assert not nearly_equal(driver.view.draw(), driver.example(0))
+
+
+@pytest.mark.parametrize("name", ["P13", "P14"])
+def test_view_angles_are_live(drive, name):
+    """The live view begins with the angles, and a drag adds to them."""
+    driver = drive(name, angles=(20, -10))
+    program = driver.module.build(**driver.options, angles=(20, -10))
+    np.testing.assert_array_equal(driver.view.draw(), driver.example(0, program))
+    driver.drag(51.2, 25.6)
+    program = driver.module.build(**driver.options, angles=(30, -5))
+    assert nearly_equal(driver.view.draw(), driver.example(0, program))
 
 
 @pytest.mark.parametrize("name", PROGRAMS)
@@ -286,6 +316,8 @@ def test_p_shares_one_probe_or_gives_each_its_own(drive):
         driver.view.renderer,
         30,
         size=(width, 2 * height),
+        show="both",
+        labels=False,
         samples=4,
     )
     for key, want in ((None, both[:height]), ("p", both[height:]), ("p", both[:height])):

@@ -102,6 +102,18 @@ class Visitor(Drags):
         self._camera.walk(STEP if key == "w" else -STEP)
 
 
+def visitor(
+    camera: cc.PerspectiveCamera, angles: tuple[float, float], script: Script, height: float
+) -> Visitor:
+    """Return mouse and keys after a drag by two angles, in degrees, and after a script.
+
+    height : of the picture in which the script's pixels are counted.
+    """
+    controls = Visitor(camera)
+    controls.play((angles, *events(script, height)))
+    return controls
+
+
 class Followed(Orbit):
     """Orbit control that calls `follow` after each move of the camera."""
 

@@ -1,22 +1,27 @@
 """P16: one cubemap for neighbouring mirrors (document 000, "try and think").
 
-Three mirror balls stand in a row. A cubemap for each ball costs three times as much as one cubemap
-that all balls share. Any number of nodes may use one Probe, so this program compares both: in the upper
-picture all three balls show the probe of the middle ball; in the lower picture each has its own. The
-balls move apart and together again.
+Three mirror balls stand in a row. A cubemap for each ball costs three times as much as one cubemap that
+all balls share. Any number of nodes may use one Probe, so this program compares both: in the upper
+picture all three balls show the probe of the middle ball; the lower picture is how far it is from one
+in which each ball has its own: twice the absolute difference of the colours. The balls move apart and
+together again.
 
-Look for: the outer balls of the upper picture show the view of the middle ball, so the actors and the
-edges of the ground lie in wrong places; the error grows with the distance of the balls.
-``draw(..., show="difference")`` shows the difference of the two pictures.
+Look for: the outer balls of the upper picture show the view of the middle ball, so the figures and the
+tiles of the floor lie in wrong places, and the lower picture is bright there. The middle ball is black,
+since both pictures show it with its own probe; so is the sky in the balls, since it is infinitely far.
+``draw(..., show="both")`` shows the picture with a probe for each below.
 
 How large is the error? `truth` casts rays from the real surfaces of the balls, and
-`error_over_distance` compares. A ball's own probe is wrong, too, because rays start on the ball and not
-in its middle; but its error is smaller, and does not depend on the distance. Document 004 says: the
-approximation looks right as long as other objects are not too close. Both functions need embreex:
-``pip install "cubecam[truth]"``.
+`error_over_distance` compares: the error of the shared cubemap grows with the distance of the balls. A
+ball's own probe is wrong, too, because rays start on the ball and not in its middle; but its error is
+smaller, and does not depend on the distance. Document 004 says: the approximation looks right as long
+as other objects are not too close. Both functions need embreex, ``pip install "cubecam[truth]"``, and
+the scene of ``build(document=True)``, since the rays know one lamp of document 000, no shadows and no
+photographs.
 
-Worth trying: give the scene a skybox, and hide the ground and the actors, ``node.visible = False``. The
-sky is infinitely far, so one cubemap is right for all balls, and there is no error.
+Worth trying: ``build(document=True)`` has the ground, the actors and the grey background of P14's
+document. Or hide floor and figures, ``node.visible = False``: only the sky is left, and there is no
+error.
 """
 
 from __future__ import annotations
@@ -30,13 +35,17 @@ import numpy as np
 import numpy.typing as npt
 
 import cubecam as cc
-from cubecam.typing import Format
+from cubecam.typing import DepthFormat, Format
 
-from ._common import GREY, LIGHT, Picture, bunny, picture, teapot
-from ._live import Clock, Visitor, live_view
+from . import _stage
+from ._common import GREY, LIGHT, Photographs, Picture, bunny, picture, teapot
+from ._labels import label
+from ._live import Clock, live_view, visitor
+from ._script import Script
 from ._truth import Truth, mirror_image
 from .cubemap_on_a_cube import (
     BUNNY,
+    DEPTH,
     FAR,
     GROUND,
     GROUND_COLOR,
@@ -63,11 +72,32 @@ SIZE = (512, 512)  # two pictures of 2:1, one above the other
 FOV, EYE = 45.0, (0.0, 0.9, 3.2)  # degrees, world units
 SCALE = 0.3  # of the balls of radius 1
 NEAREST, FARTHEST = 0.65, 2.0  # world units from the middle ball's centre to its neighbours'
-#: Where the actors stand: the bunny behind the balls, the teapot before them and below the picture, so that
+SITTING = 0.9  # radius of the staged balls, which lie on the floor
+#: Where the document's actors stand: the bunny behind the balls, the teapot before them and below the picture, so that
 #: only the balls show it. Both are farther than the cube camera's near plane.
 PLACES = ((-0.9, -0.5, -2.0), (0.7, -1.2, 1.9))
 
 Whose = Literal["shared", "own"]
+Show = Literal["both", "difference", "error"]
+
+
+@dataclass
+class Row:
+    """What the scene with the document's numbers and the staged one differ in."""
+
+    scene: cc.Scene
+    ground: cc.Node
+    camera: cc.PerspectiveCamera
+    scale: float  # of the balls
+    nearest: float  # of the neighbours' distances
+    farthest: float
+    show: Show
+    labels: bool
+    gain: float  # of the difference
+    texels: int  # along an edge of a face
+    near: float  # of the cameras that draw the faces
+    samples: int
+    depth: DepthFormat
 
 
 @dataclass
@@ -79,6 +109,11 @@ class Program:
     ground: cc.Node
     balls: tuple[cc.Node, ...]
     probes: tuple[cc.Probe, ...]
+    nearest: float
+    farthest: float
+    show: Show
+    labels: bool
+    gain: float
 
 
 @dataclass
@@ -91,26 +126,100 @@ class Errors:
 
 
 def build(
-    probe_size: int = PROBE, probe_format: Format = "rgba8", *, document: bool = False
+    probe_size: int | None = None,
+    probe_format: Format = "rgba8",
+    images: Photographs | None = None,
+    *,
+    script: Script = (),
+    document: bool = False,
 ) -> Program:
-    """Make the scene: P14's ground and actors, the latter standing still, and three balls in a row."""
+    """Make the scene: a floor, figures that stand still, and three balls in a row. The parameters are those of P14."""
+    if document:
+        _stage.no_photographs(images)
+    made = document_row() if document else quay_row(images)
+    mesh, mirror = cc.Mesh.sphere(BALL), gold()
+    # No cubemap shows a ball, so the cubemaps differ only in the place from which they are drawn.
+    balls = tuple(
+        made.scene.add(mesh, mirror, scale=made.scale, in_captures=False) for _ in range(3)
+    )
+    probes = tuple(
+        cc.Probe(
+            size=made.texels if probe_size is None else probe_size,
+            near=made.near,
+            far=FAR,
+            format=probe_format,
+            samples=made.samples,
+            depth_format=made.depth,
+            parent=ball,
+        )
+        for ball in balls
+    )
+    visitor(made.camera, (0, 0), script, SIZE[1] // 2)
+    program = Program(
+        made.scene,
+        made.camera,
+        made.ground,
+        balls,
+        probes,
+        made.nearest,
+        made.farthest,
+        made.show,
+        made.labels,
+        made.gain,
+    )
+    place(program, made.nearest)
+    share(program, "shared")
+    return program
+
+
+def document_row() -> Row:
+    """Make a scene of the document's parts: P14's lamp, ground and actors, and nothing but grey round them."""
     scene = cc.Scene(background=GREY)
     scene.add(cc.PointLight(position=LIGHT))
     ground = scene.add(cc.Mesh.plane(QUAD, QUAD), phong(GROUND_COLOR), position=GROUND)
     scene.add(bunny(), phong(BUNNY[1]), position=PLACES[0])
     scene.add(teapot(), phong(TEAPOT[1]), position=PLACES[1])
-    mesh, mirror = cc.Mesh.sphere(BALL), gold()
-    # No cubemap shows a ball, so the cubemaps differ only in the place from which they are drawn.
-    balls = tuple(scene.add(mesh, mirror, scale=SCALE, in_captures=False) for _ in range(3))
-    probes = tuple(
-        cc.Probe(size=probe_size, near=NEAR, far=FAR, format=probe_format, parent=ball)
-        for ball in balls
-    )
     camera = cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0), near=NEAR, far=FAR)
-    program = Program(scene, camera, ground, balls, probes)
-    place(program, NEAREST)
-    share(program, "shared")
-    return program
+    return Row(
+        scene, ground, camera, SCALE, NEAREST, FARTHEST, "both", False, 1.0, PROBE, NEAR, 1, DEPTH
+    )
+
+
+def quay_row(images: Photographs | None = None) -> Row:
+    """Make the staged scene: the balls on the quay, with figures before and behind them."""
+    scene = _stage.quay(images)
+    # With tiles of this size the neighbours' patterns differ from the middle ball's, all the way.
+    ground = _stage.lay_floor(scene, -SITTING, tile=2)
+    for kind, size, color, (x, z), turn in (
+        ("bunny", 1.7, _stage.GREEN, (-1.3, -2.0), 20),
+        ("teapot", 2.2, _stage.RED, (1.3, -2.0), 200),
+        ("bunny", 1.3, _stage.YELLOW, (-1.2, 1.75), 200),
+        ("teapot", 1.7, _stage.BLUE, (1.2, 1.75), 20),
+    ):
+        scene.add(
+            _stage.figure(kind, size),
+            _stage.glaze(color),
+            position=(x, -SITTING, z),
+            rotation=cc.axis_angle((0, 1, 0), turn),
+        )
+    camera = cc.PerspectiveCamera(
+        fov=26, position=(0, 3.2, 7.6), target=(0, -0.1, 0.1), near=0.1, far=FAR
+    )
+    return Row(
+        scene,
+        ground,
+        camera,
+        SITTING,
+        1.85,
+        2.5,
+        "difference",
+        True,
+        2.0,
+        PROBE,
+        0.1,
+        4,
+        "depth_component32f",
+    )
 
 
 def place(program: Program, distance: float) -> None:
@@ -127,9 +236,10 @@ def share(program: Program, whose: Whose) -> None:
         ball.environment = program.probes[1] if whose == "shared" else own
 
 
-def distance(frame: float) -> float:
-    """Give the neighbours' distance in a frame: from `NEAREST` to `FARTHEST` and back."""
-    return NEAREST + (FARTHEST - NEAREST) * (1 - math.cos(2 * math.pi * frame / FRAMES)) / 2
+def distance(program: Program, frame: float) -> float:
+    """Give the neighbours' distance in a frame: from the nearest to the farthest and back."""
+    way = program.farthest - program.nearest
+    return program.nearest + way * (1 - math.cos(2 * math.pi * frame / FRAMES)) / 2
 
 
 def draw(
@@ -137,35 +247,51 @@ def draw(
     renderer: cc.Renderer,
     frame: int,
     size: tuple[int, int] = SIZE,
-    show: Literal["both", "difference", "error"] = "both",
+    show: Show | None = None,
+    labels: bool | None = None,
     **options: Unpack[RenderOptions],
 ) -> Picture:
     """Draw a frame of two pictures, one above the other.
 
     show : "both": with the shared probe, and below with a probe for each. "difference": the first of these, and
-    below how far it is from the second. "error": how far each is from `truth`, which needs embreex.
+    below how far it is from the second, twice as bright in the staged scene. "error": how far each is from `truth`,
+    which needs embreex and the document's scene. None: "difference" for the staged scene, "both" for the document's.
+    labels : whether each picture has its name in a corner; None: for the staged scene.
     """
+    show = program.show if show is None else show
     if show not in ("both", "difference", "error"):
         raise ValueError(f'show: expected "both", "difference" or "error", got {show!r}')
     half = (size[0], max(size[1] // 2, 1))
-    place(program, distance(frame))
+    place(program, distance(program, frame))
     shared, own = (_draw(program, renderer, whose, half, options) for whose in ("shared", "own"))
+    names = "one cubemap for all three", "a cubemap for each"
     if show == "difference":
-        own = _apart(own, shared)
+        own = _apart(own, shared, program.gain)
+        times = f", times {program.gain:g}" if program.gain != 1 else ""
+        names = names[0], f"difference from a cubemap for each{times}"
     if show == "error":
         exact, _ = truth(program, half)
         shared, own = _apart(shared, exact), _apart(own, exact)
-    return np.concatenate([shared, own])
+        names = "error of one cubemap for all three", "error of a cubemap for each"
+    pair = np.concatenate([shared, own])
+    if program.labels if labels is None else labels:
+        pair = label(label(pair, names[0], "top left"), names[1], "bottom left")
+    return pair
 
 
 def live(
-    probe_size: int = PROBE, renderer: cc.Renderer | None = None, *, document: bool = False
+    probe_size: int | None = None,
+    renderer: cc.Renderer | None = None,
+    images: Photographs | None = None,
+    *,
+    script: Script = (),
+    document: bool = False,
 ) -> Viewer:
     """Show the program live: the balls move apart, and p gives each a probe of its own or one to all.
 
-    A drag turns the view, w and s walk. The picture is the upper one of `draw`, and after p the lower one.
+    A drag turns the view, w and s walk. The picture is the upper one of `draw`, and after p that with a probe for each.
     """
-    program = build(probe_size, document=document)
+    program = build(probe_size, images=images, document=document)
     order: list[Whose] = ["own", "shared"]
 
     def exchange() -> None:
@@ -177,8 +303,8 @@ def live(
         (SIZE[0], SIZE[1] // 2),
         TITLE,
         renderer,
-        controls=Visitor(program.camera),
-        clock=Clock(lambda frame, _: place(program, distance(frame))),
+        controls=visitor(program.camera, (0, 0), script, SIZE[1] // 2),
+        clock=Clock(lambda frame, _: place(program, distance(program, frame))),
         keys={"p": (exchange, "one probe for all, or one each")},
     )
 
@@ -186,8 +312,14 @@ def live(
 def truth(program: Program, size: tuple[int, int]) -> Truth:
     """Cast the exact picture: one bounce off the balls' actual surface, Phong-shaded where it ends.
 
-    Returns colours (H, W, 4) float32 and node ids (H, W). Raises ImportError without embreex.
+    Returns colours (H, W, 4) float32 and node ids (H, W). Raises ImportError without embreex, and ValueError for the
+    staged scene, whose photographs, shadows and tiles the rays do not know.
     """
+    if program.scene.background is None:
+        raise ValueError(
+            "program: expected the scene of build(document=True), got the staged one, whose photographs, shadows and "
+            "tiles the rays do not know"
+        )
     return mirror_image(program.scene, program.camera, size)
 
 
@@ -225,11 +357,12 @@ def _draw(
     return picture(renderer, program.scene, program.camera, size, options)
 
 
-def _apart(got: Picture, wanted: Picture) -> Picture:
-    """Give the absolute difference of colours, opaque, in the first picture's type."""
+def _apart(got: Picture, wanted: Picture, gain: float = 1.0) -> Picture:
+    """Give the absolute difference of colours times a number, opaque, in the first picture's type."""
     scale = 255.0 if got.dtype == np.uint8 else 1.0
     other = wanted / (255.0 if wanted.dtype == np.uint8 else 1.0)
-    apart = np.abs(got / scale - np.clip(other, 0, 1 if scale > 1 else None))
+    apart = gain * np.abs(got / scale - np.clip(other, 0, 1 if scale > 1 else None))
+    apart = np.clip(apart, 0, 1 if scale > 1 else None)
     apart[..., 3] = 1
     return np.asarray(np.rint(apart * 255) if scale > 1 else apart).astype(got.dtype)
 
