@@ -31,8 +31,8 @@ MOST_BYTES = 500_000
 TIMEOUT = 300
 
 _QUALITY = 80
-#: The most pixels of a row of the picture that stands for a live view.
-_LIVE = 400
+#: The picture that stands for a live view is reduced by this factor.
+_LIVE = 0.75
 #: The largest change of a channel, of 255, with which a picture counts as a drawing of few colours.
 _PALETTE = 8
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
@@ -96,8 +96,8 @@ def _tidied_output(output: Any, count: int) -> Any:
     # The model of a widget lives as long as its kernel; the picture beside it is what a reader sees.
     live = data.pop("application/vnd.jupyter.widget-view+json", None) is not None
     if "image/png" in data:
-        most = _LIVE if live else None
-        kind, encoded = _small_picture(base64.b64decode(data.pop("image/png")), most)
+        scale = _LIVE if live else 1.0
+        kind, encoded = _small_picture(base64.b64decode(data.pop("image/png")), scale)
         data[kind] = encoded
     output["metadata"] = {}
     if "execution_count" in output:
@@ -105,17 +105,17 @@ def _tidied_output(output: Any, count: int) -> Any:
     return output
 
 
-def _small_picture(png: bytes, most: int | None = None) -> tuple[str, str]:
+def _small_picture(png: bytes, scale: float = 1.0) -> tuple[str, str]:
     """Give the kind and the text of the smaller of a PNG and a JPEG; drawings stay PNG, photographs do not.
 
-    most : the most pixels of a row; wider pictures are reduced. A drawing has few colours: a PNG with a palette of 256
-    is less than half as large and looks the same.
+    scale : the factor of the picture's edges. A drawing has few colours: a PNG with a palette of 256 is less than half
+    as large and looks the same.
     """
     picture = Image.open(io.BytesIO(png)).convert("RGBA")
     ground = Image.new("RGBA", picture.size, "white")
     opaque = Image.alpha_composite(ground, picture).convert("RGB")
-    if most is not None and opaque.width > most:
-        size = (most, round(opaque.height * most / opaque.width))
+    if scale != 1:
+        size = (round(opaque.width * scale), round(opaque.height * scale))
         opaque = opaque.resize(size, Image.Resampling.BOX)
     few = min(len(opaque.getcolors(opaque.width * opaque.height) or ()), 256)
     drawing = opaque.quantize(few, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)

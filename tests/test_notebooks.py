@@ -253,13 +253,13 @@ def test_what_differs_from_run_to_run_is_left_out(script):
 
 
 def test_the_picture_of_a_live_view_is_small(script):
-    picture = np.full((300, 600, 4), 255, np.uint8)
-    picture[:, 300:, :3] = 0
+    picture = np.full((200, 400, 4), 255, np.uint8)
+    picture[:, 200:, :3] = 0
     live = with_output(script, "Viewer", picture)
     live.cells[0].outputs[0].data["application/vnd.jupyter.widget-view+json"] = {"model_id": "5f"}
     shown = script._picture_of(script.tidied(live).cells[0].outputs[0])
-    assert shown.size == (400, 200)
+    assert shown.size == (300, 150)
     assert shown.getpixel((100, 100)) == (255, 255, 255)
-    assert shown.getpixel((300, 100)) == (0, 0, 0)
+    assert shown.getpixel((200, 100)) == (0, 0, 0)
     plain = script.tidied(with_output(script, "Figure", picture))
-    assert script._picture_of(plain.cells[0].outputs[0]).size == (600, 300)
+    assert script._picture_of(plain.cells[0].outputs[0]).size == (400, 200)
