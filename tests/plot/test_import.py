@@ -57,7 +57,8 @@ def test_pictures_are_drawn_without_a_warning_and_without_show():
         axes = [
             cc.plot.cross(cube, arrows=True), cc.plot.faces(cube)[0], cc.plot.panorama(cube),
             cc.plot.error_map(cube, cube.resize(4).resize(8)), cc.plot.vectors(cube.faces),
-            cc.plot.seams(cube), cc.plot.face_axes(), cc.plot.layout(cube), cc.plot.pictures([cube.faces[0]], ["+X"])[0],
+            cc.plot.seams(cube), cc.plot.face_axes(), cc.plot.layout(cube),
+            cc.plot.pictures([cube.faces[0]], ["+X"])[0],
             cc.plot.arrows([0, 0, 0], {"n": [0, 0, 1]}, sphere=1),
         ]
         for ax in axes:
