@@ -24,6 +24,7 @@ PICTURES = {
     "seams.md": ("seams.png", "howto-seams.png"),
     "random_scenes.md": ("sample.png", "howto-random-scenes.png"),
     "plots.md": ("plots.png", "howto-plots.jpg"),
+    "reflection.md": ("reflection.png", "howto-reflection.jpg"),
     "glb_in_a_probe.md": ("ball.png", "howto-ball.jpg"),
     "own_pictures.md": ("ball.png", "howto-own-pictures.jpg"),
 }

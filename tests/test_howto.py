@@ -195,6 +195,24 @@ class TestRandomScenes:
 
 
 @pytest.mark.slow
+class TestReflection:
+    NAME = "docs/howto/reflection.md"
+
+    def test_the_directions_and_faces_are_those_of_the_page(self, pages):
+        _, scope = pages(self.NAME)
+        (up, above), (right, beside) = scope["found"]
+        np.testing.assert_allclose(up, (0, 1, 0), atol=1e-6)
+        np.testing.assert_allclose(right, (1, 0, 0), atol=1e-6)
+        assert [texel.places["gl"].face for texel in (above, beside)] == ["+Y", "+X"]
+
+    def test_the_picture_shows_both(self, pages):
+        folder, _ = pages(self.NAME)
+        picture = cc.load_image(folder / "reflection.png")
+        assert picture.shape == (1200, 960, 3)
+        assert (picture[:600] != picture[600:]).any(axis=-1).mean() > 0.02
+
+
+@pytest.mark.slow
 class TestPlots:
     NAME = "docs/howto/plots.md"
 

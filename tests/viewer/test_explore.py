@@ -251,6 +251,24 @@ def test_the_rays_are_where_they_point(background):
     assert close_to(view.draw()[y - 1 : y + 2, x - 1 : x + 2], rays.reflected).any()
 
 
+@pytest.mark.parametrize(("angle", "eye"), [(0, 0), (-60, -60), (30, 30), (20, 55)])
+def test_the_name_of_n_is_not_hidden_by_r(angle, eye):
+    """Straight from above R lies on N; the name stands beside both, in the colour of N."""
+    view = view_of(angle=angle, eye=eye)
+    picture = view.draw()[..., :3].astype(int)
+    y, x = np.mgrid[: picture.shape[0], : picture.shape[1]]
+    layout = Layout.of(view.size)
+    middle, tip = (layout.pixel(place, view.plane) for place in (np.zeros(2), turned(angle)))
+    along = (tip - middle) / np.linalg.norm(tip - middle)
+    # Pixels beside the line of N, in front of the surface and in its colour.
+    beside = (x - middle[0]) * along[1] - (y - middle[1]) * along[0]
+    front = (x - middle[0]) * along[0] + (y - middle[1]) * along[1]
+    green = np.abs(picture - RAYS["dark"].normal).max(axis=-1) < 60
+    reach = np.linalg.norm(tip - middle)
+    name = green & (np.abs(front) < reach) & (front > 0.2 * reach) & (np.abs(beside) < 30)
+    assert (name & (np.abs(beside) > 9 if angle == eye else True)).sum() > 20
+
+
 def test_the_texel_is_marked_on_the_cross():
     view = view_of(size=(960, 600))
     layout = Layout.of(view.size)

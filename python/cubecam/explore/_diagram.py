@@ -324,7 +324,10 @@ class Diagram:
             self.dashes((0, 0), -0.5 * flat(facts.facing), self.inks.faint, 0.08 * self.unit)
         self.angles()
         self.arrow((0, 0), 0.5 * normal, rays.normal)
-        self.label("N", 0.58 * normal, rays.normal)
+        if float(normal @ reflected) > 0.99:  # R lies on N, and would hide its name
+            self.name_of("N", 0.36 * normal, reflected, rays.normal, normal)
+        else:
+            self.label("N", 0.58 * normal, rays.normal)
         self.arrow(eye, (0, 0), rays.incident)
         through = facts.refracted
         if facts.mode == "reflection" or through is None:
