@@ -84,12 +84,13 @@ class Stage:
     ground: tuple[float, float, float]  # its colour
     grown: float  # a factor of the things
     eye: tuple[float, float, float]
+    still: int  # the best frame for a single picture
 
 
-DOCUMENT = Stage(GREY, None, LIGHT, 0.2, (0.6, 0.6, 0.7), 1.0, (0, 2.5, 5))
+DOCUMENT = Stage(GREY, None, LIGHT, 0.2, (0.6, 0.6, 0.7), 1.0, (0, 2.5, 5), 0)
 #: A lamp with one shadow map, whose light fades on the ground, and things that fill the small pictures.
 STAGED = Stage(
-    (0.2, 0.24, 0.3, 1.0), 27.0, (2.5, 6, 5), 0.3, (0.85, 0.82, 0.75), 1.25, (0, 3.4, 4.2)
+    (0.2, 0.24, 0.3, 1.0), 27.0, (2.5, 6, 5), 0.3, (0.85, 0.82, 0.75), 1.25, (0, 3.4, 4.2), STILL
 )
 
 
@@ -103,6 +104,7 @@ class Program:
     ground: cc.Node
     ring: cc.Node
     things: tuple[cc.Node, ...]
+    still: int
 
 
 def build(*, document: bool = False) -> Program:
@@ -137,7 +139,7 @@ def build(*, document: bool = False) -> Program:
         for index, (mesh, color) in enumerate(things)
     )
     camera = cc.PerspectiveCamera(fov=45, position=stage.eye, target=(0, 0, 0), near=NEAR, far=FAR)
-    return Program(scene, camera, lamp, ground, ring, nodes)
+    return Program(scene, camera, lamp, ground, ring, nodes, stage.still)
 
 
 def _material(color: tuple[float, float, float], ka: float, ks: float) -> cc.ShaderMaterial:
@@ -278,9 +280,13 @@ def _shadow(program: Program, shadow: Part, cell: tuple[int, int]) -> Part:
 
     Of the six faces of a lamp that shines all around, the two that see the things: -Y beside -X.
     """
-    faces = shadow[[3, 1]] if len(shadow) == 6 else shadow
-    away = math.hypot(*program.lamp.position.tolist())  # of the ring's middle
-    pair = np.concatenate(list(np.clip((away + 1.5 - faces) / 3.5, 0, 1)), axis=1)
+    shown: Part
+    if len(shadow) == 6:
+        shown = (9 - shadow[[3, 1]]) / 6
+    else:
+        away = math.hypot(*program.lamp.position.tolist())  # of the ring's middle
+        shown = (away + 1.5 - shadow) / 3.5
+    pair = np.concatenate(list(np.clip(shown, 0, 1)), axis=1)
     width, height = cell
     rows = (np.arange(height) + 0.5) * pair.shape[0] / height
     columns = (np.arange(width) + 0.5) * pair.shape[1] / width

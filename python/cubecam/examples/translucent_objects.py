@@ -75,6 +75,7 @@ class Stage:
     eye: Vector
     fov: float  # degrees
     things: tuple[Thing, ...]
+    still: int = 0  # the best frame for a single picture
 
 
 #: Panes and balls in turn, at equal angles; the background is white, as the page of most web sites.
@@ -95,6 +96,7 @@ DOCUMENT = Stage(
         Thing("ball", *BALLS[1], 216),
         Thing("pane", *PANES[2], 288),
     ),
+    still=60,
 )
 
 #: Panes and balls overlap in front of the bunny, and stand on a ground of squares that shows what is tinted.
@@ -145,6 +147,7 @@ class Program:
     opaque: tuple[cc.Node, ...]
     translucent: tuple[cc.Node, ...]
     page: cc.ImageEffect
+    still: int
 
 
 def build(blend: Pair = "separate", *, document: bool = False) -> Program:
@@ -179,7 +182,9 @@ def build(blend: Pair = "separate", *, document: bool = False) -> Program:
     camera = cc.PerspectiveCamera(
         fov=stage.fov, position=stage.eye, target=(0, 0, 0), near=1, far=100
     )
-    program = Program(scene, camera, ring, (ground, body), translucent, cc.ImageEffect(_PAGE))
+    program = Program(
+        scene, camera, ring, (ground, body), translucent, cc.ImageEffect(_PAGE), stage.still
+    )
     set_blend(program, blend)
     return program
 
