@@ -89,7 +89,7 @@ def test_the_staged_still_is_about_the_ball(renderer):
 
 def test_an_actor_that_passes_in_front_comes_up_large(renderer):
     """In front of the ball an actor covers a good part of its middle; behind it, it is pressed against the rim."""
-    program = example.build()
+    program = example.build(probe_size=16)
     found = []
     for frame in range(0, 63, 3):
         example.go_round(program.actors, program.circle, frame)

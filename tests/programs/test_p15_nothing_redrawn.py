@@ -121,10 +121,10 @@ def test_the_scene_above_the_counter_is_that_without(new_renderer):
 def test_a_renderer_that_keeps_no_frames_is_counted_so(new_renderer):
     """The counts are those of the renderer at hand, not of one before it."""
     program = example.build(probe_size=16)
-    example.draw(program, new_renderer(), 3, size=(80, 80))
-    assert program.counts[3] == 0
-    example.draw(program, new_renderer(cache_bytes=0), 3, size=(80, 80))
-    assert program.counts[3] == 1
+    example.draw(program, new_renderer(), 5, size=(80, 80))
+    assert [program.counts[frame] for frame in range(6)] == [7, 0, 0, 0, 0, 0]
+    example.draw(program, new_renderer(cache_bytes=0), 5, size=(80, 80))
+    assert [program.counts[frame] for frame in range(6)] == [7, 1, 1, 1, 1, 1]
 
 
 def test_the_counter_of_a_float_picture(new_renderer):

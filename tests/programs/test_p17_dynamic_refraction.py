@@ -89,7 +89,7 @@ def test_the_staged_balls_are_unlike_their_background(renderer):
 
 def test_the_staged_still_shows_figures_in_both_balls(renderer):
     """The glass shows the figure behind it upside down, the mirror those before it."""
-    program = example.build()
+    program = example.build(probe_size=16)
     example.draw(program, renderer, program.still, size=(16, 16))
     glass, mirror = program.probes
     on_glass, through = held(renderer, program, program.glass, glass, eta=1 / 1.52)

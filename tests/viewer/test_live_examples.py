@@ -14,7 +14,7 @@ from PIL import Image
 
 from cubecam import examples
 from tests.helpers import DEVICE
-from tests.programs.oracle import rx, ry, scaled
+from tests.programs.oracle import predicted, rx, ry, scaled
 
 ROOT = Path(__file__).parents[2]
 LESSONS = (
@@ -454,6 +454,29 @@ def test_the_command_shows_the_program(monkeypatch, options, where, browser):
     assert (place, more) == (where, {"browser": browser, "block": True})
 
 
+def test_the_command_shows_the_documents_own_inputs(monkeypatch, tmp_path):
+    from cubecam.viewer.live import LiveView
+
+    shown = []
+    monkeypatch.setattr(LiveView, "show", lambda view, where, **more: shown.append(view))
+    script = ("--script", "drag 128 0; w 3")
+    result = run("P2", "--live", "--document", *script, "--device", DEVICE)
+    assert result.exit_code == 0, result.output
+    (view,) = shown
+    place, direction = predicted([(25.0, 0.0), "w", "w", "w"])
+    np.testing.assert_allclose(view.camera.position, place, atol=1e-9)
+    np.testing.assert_allclose(view.camera.target - place, direction, atol=1e-9)
+    material = view.scene.nodes[0].material
+    assert not material.cubemap.mipmaps  # the document's scene
+
+
+@pytest.mark.parametrize("name", examples.NAMES)
+def test_live_takes_the_inputs_of_build(name):
+    if examples.is_live(name):
+        known = inspect.signature(example(name).live).parameters
+        assert {"renderer", "document", *examples.inputs_of(name)} <= set(known)
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -470,6 +493,12 @@ def test_what_makes_no_sense_is_refused(arguments, message):
     result = run(*arguments)
     assert result.exit_code == 2
     assert re.search(message, " ".join(result.output.split())), result.output
+
+
+def test_another_script_is_refused():
+    result = run("P2", "--live", "--script", "fly 3", "--device", DEVICE)
+    assert result.exit_code == 1
+    assert "expected parts such as" in result.output
 
 
 def test_a_missing_package_is_named(monkeypatch):

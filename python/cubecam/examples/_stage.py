@@ -25,6 +25,7 @@ IVORY, SLATE, MORTAR = (0.86, 0.83, 0.77), (0.36, 0.44, 0.62), (0.55, 0.53, 0.5)
 STONE = (0.93, 0.86, 0.74)
 
 
+@functools.cache
 def tiles(
     count: int,
     colors: tuple[Color, Color] = (IVORY, SLATE),
@@ -44,7 +45,9 @@ def tiles(
     floor *= burnt[tile[:, None], tile[None, :], None]
     gap = np.abs(within + 0.5 - edge / 2) > (1 - joint[0]) * edge / 2
     floor[gap[:, None] | gap[None, :]] = joint[1]
-    return np.asarray(np.rint(255 * np.clip(floor, 0, 1)), np.uint8)
+    pixels = np.asarray(np.rint(255 * np.clip(floor, 0, 1)), np.uint8)
+    pixels.setflags(write=False)  # all programs share it
+    return pixels
 
 
 def glaze(color: Color) -> cc.PhongMaterial:

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 PROGRAM = "P13"
 TITLE = "A cubemap drawn on the fly, shown on a turning cube"
 FRAMES = 120
-STILL = 40
+STILL = 70
 SIZE = (512, 512)  # aspect 1
 
 FOV, NEAR, FAR = 70.0, 1.0, 100.0  # main view: degrees, world units
