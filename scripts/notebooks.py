@@ -33,6 +33,8 @@ TIMEOUT = 300
 _QUALITY = 80
 #: The picture that stands for a live view is reduced by this factor.
 _LIVE = 0.75
+#: A picture of more colours than these is no drawing, and becomes JPEG.
+_DRAWING = 8192
 #: The largest change of a channel, of 255, with which a picture counts as a drawing of few colours.
 _PALETTE = 8
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
@@ -106,10 +108,9 @@ def _tidied_output(output: Any, count: int) -> Any:
 
 
 def _small_picture(png: bytes, scale: float = 1.0) -> tuple[str, str]:
-    """Give the kind and the text of the smaller of a PNG and a JPEG; drawings stay PNG, photographs do not.
+    """Give the kind and the text of a picture's small file: PNG for drawings, JPEG for photographs.
 
-    scale : the factor of the picture's edges. A drawing has few colours: a PNG with a palette of 256 is less than half
-    as large and looks the same.
+    scale : the factor of the picture's edges.
     """
     picture = Image.open(io.BytesIO(png)).convert("RGBA")
     ground = Image.new("RGBA", picture.size, "white")
@@ -117,22 +118,30 @@ def _small_picture(png: bytes, scale: float = 1.0) -> tuple[str, str]:
     if scale != 1:
         size = (round(opaque.width * scale), round(opaque.height * scale))
         opaque = opaque.resize(size, Image.Resampling.BOX)
-    few = min(len(opaque.getcolors(opaque.width * opaque.height) or ()), 256)
-    drawing = opaque.quantize(few, Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
-    apart = np.abs(np.asarray(drawing.convert("RGB"), int) - np.asarray(opaque, int))
-    kept = drawing if apart.max() <= _PALETTE else opaque
-    best: tuple[str, bytes] | None = None
-    for kind, options in (
-        ("png", {"optimize": True}),
-        ("jpeg", {"quality": _QUALITY, "optimize": True}),
-    ):
-        buffer = io.BytesIO()
-        (kept if kind == "png" else opaque).save(buffer, kind, **options)
-        # Letters and lines are sharper in a PNG, which is kept where it is hardly larger.
-        if best is None or len(buffer.getvalue()) < 0.7 * len(best[1]):
-            best = (f"image/{kind}", buffer.getvalue())
-    assert best is not None
-    return best[0], base64.b64encode(best[1]).decode("ascii")
+    files = [("image/jpeg", _encoded(opaque, "jpeg", quality=_QUALITY))]
+    colors = opaque.getcolors(_DRAWING)  # None: more
+    if colors is not None:
+        files.insert(0, ("image/png", _encoded(_with_palette(opaque, len(colors)), "png")))
+    kind, small = files[0]
+    # Letters and lines are sharper in a PNG, which is kept where it is hardly larger.
+    if len(files[-1][1]) < 0.7 * len(small):
+        kind, small = files[-1]
+    return kind, base64.b64encode(small).decode("ascii")
+
+
+def _with_palette(drawing: Image.Image, colors: int) -> Image.Image:
+    """Give a drawing a palette of 256 colours, which halves its file, if that changes no channel visibly."""
+    few = drawing.quantize(
+        min(colors, 256), Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE
+    )
+    apart = np.abs(np.asarray(few.convert("RGB"), int) - np.asarray(drawing, int))
+    return few if apart.max() <= _PALETTE else drawing
+
+
+def _encoded(picture: Image.Image, kind: str, **options: Any) -> bytes:
+    buffer = io.BytesIO()
+    picture.save(buffer, kind, optimize=True, **options)
+    return buffer.getvalue()
 
 
 def differences(
