@@ -53,7 +53,7 @@ def execute(path: Path) -> nbformat.NotebookNode:
     environment["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
     client = NotebookClient(
         notebook, timeout=TIMEOUT, kernel_name="python3", record_timing=False,
-        store_widget_state=False, extra_arguments=["--log-level=40"],
+        store_widget_state=False, iopub_timeout=TIMEOUT, extra_arguments=["--log-level=40"],
     )  # fmt: skip
     client.execute(cwd=str(path.parent), env=environment)
     return tidied(notebook)
