@@ -735,8 +735,15 @@ MUTATIONS = [
     Mutation(
         "P7: opacity is transparency",
         "translucent_objects.py",
-        "opacity=opacity",
-        "opacity=1 - opacity",
+        "opacity=thing.opacity",
+        "opacity=1 - thing.opacity",
+        ("tests/programs/test_p07_translucent_objects.py",),
+    ),
+    Mutation(
+        "P7: the page counts twice",
+        "translucent_objects.py",
+        "(1.0 - picture.a) * page",
+        "2.0 * (1.0 - picture.a) * page",
         ("tests/programs/test_p07_translucent_objects.py",),
     ),
     Mutation(
@@ -841,8 +848,9 @@ MUTATIONS = [
     Mutation(
         "P8: the eyes change places",
         "anaglyph.py",
-        "return Program(scene, camera, stereo, ring)",
-        "return Program(scene, camera, cc.StereoCamera(stereo.right, stereo.left), ring)",
+        "return Program(scene, _camera(), eyes(degrees, axis), ring)",
+        "pair = eyes(degrees, axis); "
+        "return Program(scene, _camera(), cc.StereoCamera(pair.right, pair.left), ring)",
         ("tests/programs/test_p08_anaglyph.py",),
     ),
     Mutation(
@@ -850,6 +858,13 @@ MUTATIONS = [
         "additive_blur.py",
         "(-1, 1), (0, 1), (1, 1))",
         "(-1, 1), (0, 1), (2, 1))",
+        ("tests/programs/test_p09_additive_blur.py",),
+    ),
+    Mutation(
+        "P9: partial sums too dark",
+        "additive_blur.py",
+        "WEIGHT * 9 / count",
+        "WEIGHT * 8 / count",
         ("tests/programs/test_p09_additive_blur.py",),
     ),
     Mutation(
@@ -869,8 +884,8 @@ MUTATIONS = [
     Mutation(
         "P11: no shadow",
         "framebuffer_parts.py",
-        "shadow=cc.Shadow(size=SHADOW)",
-        "shadow=cc.Shadow(size=SHADOW, far=1)",
+        "shadow = cc.Shadow(size=SHADOW)",
+        "shadow = cc.Shadow(size=SHADOW, far=1)",
         ("tests/programs/test_p11_framebuffer_parts.py",),
     ),
     Mutation(
@@ -879,6 +894,20 @@ MUTATIONS = [
         'depth_format="depth_component16"',
         'depth_format="depth_component24"',
         ("tests/programs/test_p11_framebuffer_parts.py",),
+    ),
+    Mutation(
+        "P11: the shader's own light has highlights",
+        "framebuffer_parts.py",
+        "vec3(1.0), ka, kd, 0.0, shininess",
+        "vec3(1.0), ka, kd, ks, shininess",
+        ("tests/programs/test_p11_framebuffer_parts.py",),
+    ),
+    Mutation(
+        "P12: the large cube stays before the viewer",
+        "cube_camera.py",
+        "3.0, 8.0, 2.4, 75.0",
+        "3.0, 8.0, 2.4, 255.0",
+        ("tests/programs/test_p12_cube_camera.py",),
     ),
     Mutation(
         "P12: the cubes circle backwards",
@@ -1544,6 +1573,27 @@ MUTATIONS = [
         "np.sqrt((apart**2).mean(axis=-1))",
         "(apart**2).mean(axis=-1)",
         PLOTS,
+    ),
+    Mutation(
+        "layout: copies below a side are turned as above it",
+        "plot/_layout.py",
+        "towards if above else -towards",
+        "towards",
+        ("tests/plot/test_layout.py",),
+    ),
+    Mutation(
+        "explore: the left side folds towards the viewer",
+        "explore/_layout.py",
+        "(0, 1, 0), -1, (-1, 0)",
+        "(0, 1, 0), 1, (-1, 0)",
+        ("tests/viewer/test_explore_layout.py",),
+    ),
+    Mutation(
+        "explore: copies stay where the faces are folded up",
+        "explore/_layout.py",
+        "and self.fold < 0.999",
+        "",
+        ("tests/viewer/test_explore_layout.py",),
     ),
     Mutation(
         "plot: longitude grows to the left",

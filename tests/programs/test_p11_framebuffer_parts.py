@@ -185,6 +185,7 @@ def test_the_colour_is_the_product_of_the_shaders_own_outputs(shared_renderers, 
         want[parts["id"] == number] = paint
     assert_close(parts["paint"], want, "float32_maths")
     assert (parts["light"][~seen] == 0).all()
+    assert parts["light"].max() <= (0.9 if document else 1.0) + 1e-3, "ka + kd, no highlights"
     ground = parts["id"] == program.ground.id  # which has no highlights
     product = parts["paint"].astype(float) * parts["light"]
     assert_close(parts["color"][..., :3] / 255, product, "unorm8_phong", mask=ground)

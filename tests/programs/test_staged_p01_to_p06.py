@@ -141,7 +141,9 @@ def test_the_photograph_is_sharp(module, renderer):
 def test_p2_is_inside_at_the_still_and_outside_at_the_end(renderer):
     program = inside_the_box.build()
     still(inside_the_box, program, renderer, SIZE)
-    assert shares(program, renderer) == {program.scene.nodes[0].id: 1.0}
+    found = shares(program, renderer, (512, 512))
+    assert 0 not in found
+    assert 0.9 < found[program.scene.nodes[0].id] < 0.999  # the rest are the lines at the edges
     inside_the_box.draw(program, renderer, program.frames - 1, size=SIZE)
     assert np.abs(program.camera.position).max() > 2
     assert 0.2 < shares(program, renderer)[0] < 0.8

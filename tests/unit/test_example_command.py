@@ -147,7 +147,8 @@ def named_faces(folder, size=16):
 
 
 @pytest.mark.parametrize(
-    "shape", ["after the name", "before the name", "one by one", "path", "path first"]
+    "shape",
+    ["after the name", "before the name", "by a pattern", "one by one", "path", "path first"],
 )
 def test_images_of_one_s_own(shape, tmp_path, renderer):
     files = named_faces(tmp_path)
@@ -155,6 +156,7 @@ def test_images_of_one_s_own(shape, tmp_path, renderer):
     given = {
         "after the name": ["P1", "--images", *files],
         "before the name": ["--images", *files, "P1"],
+        "by a pattern": ["P1", "--images", *sorted(tmp_path.glob("*.png"))],
         "one by one": ["P1", *[word for file in files for word in ("--images", file)]],
         "path": ["P1", "--images", path],
         "path first": ["--images", path, "textured_cube"],

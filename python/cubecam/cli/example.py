@@ -14,6 +14,7 @@ from click.core import ParameterSource
 from click.shell_completion import CompletionItem
 
 from .. import Image, Renderer, examples
+from ..io.cubemap_names import by_their_names
 from .common import (
     FILE,
     NUMBER,
@@ -127,7 +128,8 @@ def _is_name(word: str) -> bool:
     multiple=True,
     metavar="FILES",
     group="Inputs",
-    help="Six photographs in the order +X -X +Y -Y +Z -Z, or one path with {face}, such as 'sky/{face}.jpg'.",
+    help="Six photographs in the order +X -X +Y -Y +Z -Z, or in any order if their names tell the faces, as posx.jpg "
+    "does; or one path with {face}, such as 'sky/{face}.jpg'.",
 )
 @option(
     "--image",
@@ -270,7 +272,7 @@ def _inputs(
                 f"expected six files, or one path with {{face}}, got {len(images)}",
                 param_hint="--images",
             )
-        given["images"] = images[0] if len(images) == 1 else list(images)
+        given["images"] = images[0] if len(images) == 1 else by_their_names(images)
     if image is not None:
         given["image"] = image
     if script is not None:

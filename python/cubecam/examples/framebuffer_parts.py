@@ -40,9 +40,7 @@ if TYPE_CHECKING:
     from cubecam.viewer import Viewer
 
 PROGRAM = "P11"
-TITLE = (
-    "The parts of a framebuffer: colours of the shader's own, geometry, depth, stencil, shadow map"
-)
+TITLE = "The parts of a framebuffer, two of them outputs of the shader itself"
 FRAMES = 120  # one turn
 STILL = 50
 COLUMNS, ROWS = 4, 3

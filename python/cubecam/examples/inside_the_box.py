@@ -5,10 +5,10 @@ the view, "w" and "s" take a step of 0.1 along the view. Two angles sum up the d
 is Rx(angleY) Ry(angleX) (0, 0, 1), both turns about the world's axes. `SCRIPT` replaces mouse and
 keyboard: frame k shows the view after k of its events.
 
-Look for: in the middle the six photographs look like the place where they were taken. From elsewhere the
-box shows: the fence and the path bend at the edges where two walls meet. The walls come nearer as the
-camera walks, parts of them disappear in front of the near plane, and in the end the camera stands
-outside. The document asks how to avoid this; P3 is the answer.
+Look for: in the middle the six photographs look like the place where they were taken. From elsewhere they
+bend at the edges of the box, where thin white lines stand, which the document does not have. The walls
+come nearer as the camera walks, parts of them disappear in front of the near plane, and in the end the
+camera stands outside. The document asks how to avoid this; P3 is the answer.
 
 Worth trying: turn by 90 degrees and then drag up and down: nothing happens, because the second turn is
 about the world's X axis, along which the camera looks. `camera.yaw` and `camera.pitch` turn like a
@@ -39,6 +39,7 @@ SIZE = (512, 512)  # aspect 1
 FOV, NEAR, FAR = 60.0, 1.0, 15.0  # degrees, world units
 CUBE = 2.0  # cube.obj of the course has its corners at -1 and 1
 SCALE = 2.0
+LINE = 0.02  # width of the lines at the edges, world units
 FIRST = (0.0, 0.0, 1.0)  # view direction before any drag
 
 #: A walk through the document's scene, as numbers of its two angles.
@@ -63,12 +64,13 @@ class Stage:
 
     sample: str  # the photographs
     mipmaps: bool
+    edges: bool  # whether white lines stand at the edges of the box
     walk: tuple[Event, ...]
     still: int  # the best frame of the walk
 
 
-DOCUMENT = Stage("sunset.exr", False, SCRIPT, 35)
-STAGED = Stage("forest.exr", True, events(WALK, SIZE[1]), STILL)
+DOCUMENT = Stage("sunset.exr", False, False, SCRIPT, 35)
+STAGED = Stage("forest.exr", True, True, events(WALK, SIZE[1]), STILL)
 
 
 @dataclass
@@ -95,7 +97,23 @@ def build(
     cubemap = surroundings(images, stage.sample, mipmaps=stage.mipmaps)
     material = cc.BasicMaterial(cubemap=cubemap, double_sided=True)
     scene.add(cc.Mesh.box(CUBE), material, scale=SCALE)
+    if stage.edges:
+        _mark_edges(scene)
     return Program(scene, walker(), *walk_of(script, stage.walk, stage.still))
+
+
+def _mark_edges(scene: cc.Scene) -> None:
+    """Add white bars along the twelve edges."""
+    half, white = CUBE * SCALE / 2, cc.BasicMaterial(color=(1, 1, 1))
+    ends = ((-half, -half), (-half, half), (half, -half), (half, half))
+    for axis in range(3):
+        size = [LINE, LINE, LINE]
+        size[axis] = CUBE * SCALE
+        bar = cc.Mesh.box((size[0], size[1], size[2]))
+        for place in ends:
+            middle = [*place]
+            middle.insert(axis, 0.0)
+            scene.add(bar, white, position=(middle[0], middle[1], middle[2]))
 
 
 def walk_of(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TypeAlias, get_args
@@ -102,6 +103,24 @@ def six_paths(path: Source, for_reading: bool) -> list[Path] | None:
     tried = ", ".join(dict.fromkeys(names[0] for names in FACE_NAMES))
     told = f"no such files; {{face}} was tried as {tried} (for +X), also in capitals"
     raise FileNotFoundError(2, told, name)
+
+
+def by_their_names(files: Sequence[str]) -> list[str]:
+    """Put six files in the order of the faces if their names tell it, such as neg-x.jpg; else leave them as they are.
+
+    A shell lists the files of a pattern in the order of the alphabet.
+    """
+    folder, name = os.path.split(files[0])
+    for row in spellings():
+        for face in row:
+            start = name.find(face)
+            while start >= 0:
+                ends = name[:start], name[start + len(face) :]
+                ordered = [os.path.join(folder, one.join(ends)) for one in row]  # noqa: PTH118
+                if set(ordered) == set(files):
+                    return ordered
+                start = name.find(face, start + 1)
+    return list(files)
 
 
 def spellings() -> list[tuple[str, ...]]:
