@@ -125,9 +125,9 @@ def pavilion(images: Photographs | None = None) -> Hall:
         for y in (-1.85, 2.85):
             scene.add(cc.Mesh.box((0.8, 0.3, 0.8)), sandstone, position=(x, y, z))
     for kind, size, color, (x, z), turn in (
-        ("bunny", 1.9, _stage.GREEN, (-1.7, 2.6), 100),
-        ("teapot", 2.3, _stage.RED, (2.9, 1.0), 200),
-        ("bunny", 1.8, _stage.YELLOW, (2.2, -2.9), 30),
+        ("bunny", 1.9, _stage.GREEN, (-1.75, 2.3), 100),
+        ("teapot", 2.3, _stage.RED, (2.6, 1.0), 200),
+        ("bunny", 1.8, _stage.YELLOW, (2.8, -2.6), 30),
         ("teapot", 2.3, _stage.BLUE, (-3.3, -1.6), 0),
     ):
         scene.add(cc.Mesh.cylinder(0.95, 0.9), sandstone, position=(x, -1.55, z))
@@ -138,9 +138,9 @@ def pavilion(images: Photographs | None = None) -> Hall:
             rotation=cc.axis_angle((0, 1, 0), turn),
         )
     camera = cc.PerspectiveCamera(
-        fov=50, position=(1.4, 1.9, 6.4), target=(0, 0.1, 0), near=0.1, far=FAR
+        fov=54, position=(1.0, 1.9, 6.6), target=(0, 0.1, 0), near=0.1, far=FAR
     )
-    return Hall(scene, camera, 1.05, STILL, 512, 0.1, 4, "depth_component32f")
+    return Hall(scene, camera, 1.15, STILL, 512, 0.1, 4, "depth_component32f")
 
 
 def build(
