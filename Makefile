@@ -11,6 +11,7 @@ PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
 BENCH_ARGS ?=
 FUZZ_ARGS ?=
 GPU_ARGS ?=
+NOTEBOOK_ARGS ?=
 SOAK_ARGS ?=
 SANITIZE_ARGS ?=
 
@@ -20,7 +21,7 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery sdist wheel sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery notebooks sdist wheel sanitize fuzz soak mutants clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
@@ -80,6 +81,9 @@ docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_
 gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the README and of docs/howto into docs/images
 	@$(PY) scripts/gallery.py
 	@$(PY) scripts/howto.py
+
+notebooks: $(VENV)/.installed $(VENV)/.deps-test ## run the notebooks and write their outputs; NOTEBOOK_ARGS="03 08" chooses
+	@$(PY) scripts/notebooks.py $(NOTEBOOK_ARGS)
 
 sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dist/ and build a wheel from it alone
 	@$(PY) -m build --quiet --sdist --outdir dist .

@@ -84,7 +84,7 @@ class Copy:
 
     def test(self, names):
         return self.run(
-            sys.executable, "-m", "pytest", "-x", "-q", "--no-header", "-p", "no:cacheprovider", "-p", "no:nbmake",
+            sys.executable, "-m", "pytest", "-x", "-q", "--no-header", "-p", "no:cacheprovider",
             "-o", "addopts=--import-mode=importlib", *names, check=False, cwd=self.tree, timeout=900,
         )  # fmt: skip
 

@@ -1547,6 +1547,20 @@ MUTATIONS = [
         PLOTS,
     ),
     Mutation(
+        "plot: whole numbers side by side are decoded",
+        "plot/_pictures.py",
+        'encoded = "srgb" if plain and values.dtype.kind == "u" else encode',
+        "encoded = encode",
+        PLOTS,
+    ),
+    Mutation(
+        "plot: pictures of numbers have a colour map of their own",
+        "plot/_pictures.py",
+        "vmax = vmax if vmax is not None else float(known.max() if known.size else 1)\n    last",
+        "pass\n    last",
+        PLOTS,
+    ),
+    Mutation(
         "plot: equal infinities differ",
         "plot/_errors.py",
         "apart = np.where(x == y, 0.0, np.abs(x - y))",

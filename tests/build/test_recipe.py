@@ -112,7 +112,7 @@ def test_the_recipe_names_four_files():
 
 def check_own_test(tree):
     done = run_in(
-        tree, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-p", "no:nbmake",
+        tree, "-m", "pytest", "-q", "-p", "no:cacheprovider",
         "-o", "addopts=--import-mode=importlib", "tests/gl/test_mix_material.py",
         "tests/unit/test_docstrings.py::test_examples",
     )  # fmt: skip

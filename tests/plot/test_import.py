@@ -27,7 +27,7 @@ def test_without_matplotlib_one_line_says_what_to_install():
         calls = {
             "cross": (cube,), "faces": (cube,), "panorama": (cube,), "error_map": (cube, cube),
             "vectors": (cube.faces / 1.0,), "arrows": ([0, 0, 0], {"n": [0, 0, 1]}), "seams": (cube,),
-            "face_axes": (), "layout": (),
+            "face_axes": (), "layout": (), "pictures": ([cube.faces[0]],),
         }
         assert set(calls) | {"EDGE_NAMES", "seam_ratios", "seam_steps", "inner_steps"} == set(cc.plot.__all__)
         for name, arguments in calls.items():
@@ -58,6 +58,7 @@ def test_pictures_are_drawn_without_a_warning_and_without_show():
             cc.plot.cross(cube, arrows=True), cc.plot.faces(cube)[0], cc.plot.panorama(cube),
             cc.plot.error_map(cube, cube.resize(4).resize(8)), cc.plot.vectors(cube.faces),
             cc.plot.seams(cube), cc.plot.face_axes(), cc.plot.layout(cube),
+            cc.plot.pictures([cube.faces[0]], ["+X"])[0],
             cc.plot.arrows([0, 0, 0], {"n": [0, 0, 1]}, sphere=1),
         ]
         for ax in axes:

@@ -195,6 +195,7 @@ NEEDED: dict[str, Any] = {
     "plot.inner_steps": lambda: {"cube": FACES},
     "plot.layout": lambda: {"cube": FACES},
     "plot.panorama": lambda: {"cube": FACES, "width": 4},
+    "plot.pictures": lambda: {"pictures": [PICTURE]},
     "plot.seam_ratios": lambda: {"cube": FACES},
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},

@@ -150,6 +150,7 @@ BY_POSITION = {
     "plot.faces": ["cube"],
     "plot.layout": ["cube"],
     "plot.panorama": ["cube"],
+    "plot.pictures": ["pictures", "titles"],
     "plot.error_map": ["a", "b"],
     "plot.vectors": ["field"],
     "plot.arrows": ["origins", "vectors"],

@@ -5,8 +5,9 @@
 >>> ax = cc.plot.cross(cube)
 
 Each function draws on ``ax=`` or, without one, on a new figure, and returns the matplotlib Axes that it drew on;
-`faces` draws on six and returns an array of them. No function shows or closes a figure, or changes matplotlib's
-settings. matplotlib is imported by the first picture; `seam_steps`, `inner_steps` and `seam_ratios` need only numpy.
+`faces` and `pictures` draw on several and return an array of them. No function shows or closes a figure, or changes
+matplotlib's settings. matplotlib is imported by the first picture; `seam_steps`, `inner_steps` and `seam_ratios` need
+only numpy.
 
 Faces are drawn in the convention "inside", the view from the center, unless ``convention=`` names another one
 (docs/conventions.md). Light is prepared for the screen as by ``cc.to_screen``.
@@ -17,7 +18,7 @@ from __future__ import annotations
 from ._errors import error_map
 from ._faces import EDGE_NAMES
 from ._layout import layout
-from ._pictures import cross, faces, panorama
+from ._pictures import cross, faces, panorama, pictures
 from ._seams import inner_steps, seam_ratios, seam_steps, seams
 from ._vectors import arrows, face_axes, vectors
 
@@ -31,6 +32,7 @@ __all__ = [
     "inner_steps",
     "layout",
     "panorama",
+    "pictures",
     "seam_ratios",
     "seam_steps",
     "seams",

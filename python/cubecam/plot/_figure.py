@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.cm import ScalarMappable
 
-    from ..typing import Tonemap
+    from ..typing import Encode, Tonemap
 
 Array = npt.NDArray[Any]
 
@@ -101,10 +101,13 @@ def are_colors(pixels: Array, leading: int) -> bool:
 
 
 def on_screen(
-    thing: CubeMap | Frame | Image | npt.ArrayLike, exposure: float, tonemap: Tonemap | None
+    thing: CubeMap | Frame | Image | npt.ArrayLike,
+    exposure: float,
+    tonemap: Tonemap | None,
+    encode: Encode | None = "srgb",
 ) -> npt.NDArray[np.uint8]:
     """Turn colours (..., C) into opaque uint8 (..., 3) for a screen."""
-    shown = screen.to_screen(thing, exposure=exposure, tonemap=tonemap)
+    shown = screen.to_screen(thing, exposure=exposure, tonemap=tonemap, encode=encode)
     return np.repeat(shown, 3, axis=-1) if shown.shape[-1] == 1 else shown[..., :3]
 
 

@@ -1,4 +1,4 @@
-"""Plots of what a cube holds: the cross, the six faces, the panorama."""
+"""Plots of what a cube holds: the cross, the six faces, the panorama; and pictures side by side."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from .._calls import checked_call
 from .._checks import text_of
-from .._core import CubeMap, Image
+from .._core import CubeMap, Frame, Image
 from ._faces import cells, cross_of, texels_of
 from ._figure import (
     are_colors,
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from ..typing import Center, Convention, Tonemap
+    from ..typing import Center, Convention, Encode, Tonemap
     from ._faces import Cell
 
 Array = npt.NDArray[Any]
@@ -394,3 +394,141 @@ def _mark_direction(ax: Axes, name: str, longitude: float, latitude: float) -> N
     put_label(
         ax, longitude + inset_x, latitude + inset_y, name, ha=side, va=height, clip_on=True
     )  # fmt: skip
+
+
+@checked_call
+def pictures(
+    pictures: Sequence[Frame | Image | npt.ArrayLike],
+    titles: Sequence[str] | None = None,
+    *,
+    columns: int | None = None,
+    width: float = 3.0,
+    exposure: float = 0.0,
+    tonemap: Tonemap | None = "neutral",
+    encode: Encode | None = "srgb",
+    cmap: str | None = None,
+    vmin: float | None = None,
+    vmax: float | None = None,
+    colorbar: bool = True,
+    ax: Sequence[Axes] | npt.NDArray[Any] | None = None,
+) -> npt.NDArray[Any]:
+    """Draw pictures side by side, each with a title above.
+
+    Parameters
+    ----------
+    pictures : sequence of Frame, Image or array_like (H, W, C) or (H, W)
+        Colours of C = 1, 3 or 4 channels (alpha is not shown), or one number for each pixel, such as
+        ``frame.distance`` (drawn by a colour map), ``frame.id`` and masks (one colour for each value). Pictures may
+        differ in size. Frames stand for their colour.
+    titles : sequence of str, optional
+        One for each picture. None: no titles.
+    columns : int, optional
+        Pictures in a row of a new figure. None: all of them.
+    width : float, default 3
+        Inches of a picture in a new figure.
+    exposure, tonemap, encode
+        How colours are prepared, see `to_screen`. ``tonemap=None, encode=None`` shows floats from 0 to 1 as the
+        numbers of the screen, which is how OpenGL would store them in 8 bits. Arrays of uint8 are such numbers
+        already, and are shown as they are.
+    cmap, vmin, vmax, colorbar
+        As in `cross`. Numbers of all pictures share one colour map and one bar, beside the last picture of numbers.
+    ax : sequence of Axes, optional
+        Where to draw, one for each picture. None: a new figure.
+
+    Returns
+    -------
+    ndarray of matplotlib.axes.Axes
+        One for each picture.
+
+    Raises
+    ------
+    ValueError
+        For no picture, an array of another shape, another number of titles or axes, columns below 1, or a width
+        that is not above 0.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> grey, red = np.full((4, 6, 3), 0.5), np.full((4, 6, 3), (1.0, 0, 0))
+    >>> axes = cc.plot.pictures([grey, red], ["grey", "red"])
+    >>> [ax.get_title() for ax in axes]
+    ['grey', 'red']
+    """
+    if isinstance(pictures, (Frame, Image)) or not hasattr(pictures, "__len__"):
+        raise TypeError(
+            f"pictures: expected a list of pictures, got {type(pictures).__name__}; write [picture]"
+        )
+    if not len(pictures):
+        raise ValueError("pictures: expected at least one picture, got none")
+    if titles is not None and (isinstance(titles, str) or len(titles) != len(pictures)):
+        raise ValueError(
+            f"titles: expected {len(pictures)}, one for each picture, got {text_of(titles)}"
+        )
+    pixels = [_picture_of(picture) for picture in pictures]
+    colors = [are_colors(one, 2) for one in pixels]
+    axes = _row_of_axes(ax, pixels, columns, width)
+    numbers = [one for one, is_color in zip(pixels, colors, strict=True) if not is_color]
+    among = np.concatenate([one.ravel() for one in numbers]) if numbers else None
+    if among is not None and among.dtype.kind == "f":
+        known = among[np.isfinite(among)]
+        vmin = vmin if vmin is not None else float(known.min() if known.size else 0)
+        vmax = vmax if vmax is not None else float(known.max() if known.size else 1)
+    last = max((k for k, is_color in enumerate(colors) if not is_color), default=None)
+    for k, (one, picture, values) in enumerate(zip(axes, pictures, pixels, strict=True)):
+        if colors[k]:
+            plain = not isinstance(picture, (Frame, Image))
+            # Whole numbers of a plain array are the screen's own already.
+            encoded = "srgb" if plain and values.dtype.kind == "u" else encode
+            one.imshow(on_screen(values if plain else picture, exposure, tonemap, encoded))
+        else:
+            bar = one if colorbar and k == last else None
+            if values.dtype != among.dtype:  # type: ignore[union-attr] # a mask beside distances
+                values = values.astype(among.dtype)  # type: ignore[union-attr]
+            show_numbers(one, values, cmap=cmap, vmin=vmin, vmax=vmax, bar=bar, among=among)
+        if titles is not None:
+            one.set_title(titles[k], fontsize=10)
+        one.set_axis_off()
+    return axes
+
+
+def _picture_of(thing: object) -> Array:
+    """Give the pixels (H, W) or (H, W, C) of one picture."""
+    pixels = numbers_of(thing)
+    if isinstance(thing, CubeMap) or pixels.ndim not in (2, 3) or not pixels.size:
+        raise ValueError(
+            f"pictures: expected pictures (H, W) or (H, W, C), got shape {pixels.shape}"
+        )
+    return pixels
+
+
+def _row_of_axes(
+    ax: Sequence[Axes] | npt.NDArray[Any] | None,
+    pixels: list[Array],
+    columns: int | None,
+    width: float,
+) -> npt.NDArray[Any]:
+    """Give the caller's axes, or those of a new figure with a place for each picture."""
+    plt = pyplot()
+    count = len(pixels)
+    if ax is not None:
+        axes = np.ravel(np.asarray(ax, object))
+        if len(axes) != count:
+            raise ValueError(f"ax: expected {count} axes, one for each picture, got {len(axes)}")
+        for one in axes:
+            axes_for(one, (1, 1))
+        return axes
+    if columns is not None and columns < 1:
+        raise ValueError(f"columns: expected a number from 1, got {text_of(columns)}")
+    if not width > 0:
+        raise ValueError(f"width: expected inches above 0, got {text_of(width)}")
+    across = min(columns or count, count)
+    rows = -(-count // across)
+    height = width * max(one.shape[0] / one.shape[1] for one in pixels)
+    _, made = plt.subplots(
+        rows, across, figsize=(width * across, (height + 0.3) * rows), layout="compressed",
+        squeeze=False,
+    )  # fmt: skip
+    places = made.ravel()
+    for place in places[count:]:
+        place.remove()
+    return np.asarray(places[:count])

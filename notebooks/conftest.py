@@ -1,0 +1,42 @@
+"""pytest runs each notebook, and compares what it prints and draws with the outputs that are committed."""
+
+import nbformat
+import pytest
+
+from tests.helpers import load_script, on_llvmpipe
+
+
+def pytest_collect_file(file_path, parent):
+    if file_path.suffix == ".ipynb":
+        return NotebookFile.from_parent(parent, path=file_path)
+    return None
+
+
+class NotebookFile(pytest.File):
+    def collect(self):
+        yield NotebookTest.from_parent(self, name=self.path.stem)
+
+
+class NotebookTest(pytest.Item):
+    """One notebook, from the first cell to the last, in a kernel of its own."""
+
+    def runtest(self):
+        script = load_script("notebooks")
+        found = script.differences(
+            script.execute(self.path),
+            nbformat.read(self.path, as_version=4),
+            numbers=on_llvmpipe(),
+        )
+        if found:
+            raise StaleOutputs("\n".join(["`make notebooks` writes the outputs again:", *found]))
+
+    def repr_failure(self, excinfo, style=None):
+        # The traceback of a cell is in the message; the frames of the client say nothing.
+        return str(excinfo.value)
+
+    def reportinfo(self):
+        return self.path, None, f"notebook {self.name}"
+
+
+class StaleOutputs(Exception):
+    """A notebook's committed outputs are not what its cells give today."""
