@@ -100,7 +100,7 @@ public:
     }
 
     glm::dvec3 on_plane(const glm::dvec3& direction) const {
-        return direction / (direction[major_] * sign_);
+        return direction * (sign_ / direction[major_]);
     }
     /// None for a direction that is far from the face, too.
     std::optional<glm::dvec3> on_plane(const std::optional<glm::dvec3>& direction) const {
@@ -174,10 +174,25 @@ public:
     /// whether all means are finite.
     bool write(const Buffer<float>& found, std::size_t channels, DType dtype, std::byte* to) {
         bool finite = true;
+        const auto end_of = [&](std::size_t i) {
+            return i + 1 < texels_.size() ? texels_[i + 1].second : samples_.size();
+        };
         for (std::size_t i = 0; i < texels_.size(); ++i) {
             const auto [texel, begin] = texels_[i];
-            const std::size_t end =
-                i + 1 < texels_.size() ? texels_[i + 1].second : samples_.size();
+            std::byte* const at = to + texel * channels * dtype_size(dtype);
+            // Texels of one sample each that lie side by side are written at once.
+            std::size_t run = 0;
+            while (i + run < texels_.size() && texels_[i + run].first == texel + run &&
+                   end_of(i + run) == begin + run + 1) {
+                ++run;
+            }
+            if (run > 0) {
+                finite &= all_finite(&found[begin * channels], run * channels);
+                floats_to_pixels(dtype, &found[begin * channels], run * channels, at);
+                i += run - 1;
+                continue;
+            }
+            const std::size_t end = end_of(i);
             float mean[4];
             for (std::size_t c = 0; c < channels; ++c) {
                 const float* from = &found[begin * channels + c];
@@ -191,7 +206,7 @@ public:
                 mean[c] = sum;
                 finite &= is_finite<1>(sum);
             }
-            floats_to_pixels(dtype, mean, channels, to + texel * channels * dtype_size(dtype));
+            floats_to_pixels(dtype, mean, channels, at);
         }
         samples_.clear();
         texels_.clear();
