@@ -751,7 +751,7 @@ def _cube(
 ) -> CubeMap:
     """Make a cube; `detail` is the size whose texels in the middle of a face are as large as the finest pixels."""
     if size is None:
-        size = 1 << max(0, math.ceil(math.log2(max(1.0, detail * 0.99))))
+        size = 1 << max(0, math.ceil(math.log2(min(max(1.0, detail * 0.99), _MOST_TEXELS))))
         size = min(size, _MOST_TEXELS)
     return _unproject(
         image, kind, fov, _axes(direction, up), _texels(size), mipmaps, dtype, encoding
@@ -791,7 +791,8 @@ def _square(image: npt.ArrayLike) -> npt.NDArray[Any]:
 def _angle(fov: float, most: float, inclusive: bool) -> float:
     """Check a field of view in degrees, and give it in radians."""
     angle = finite_number(fov, "fov")
-    if not (0 < angle < most or (inclusive and angle == most)):
+    # The smallest numbers are 0 in radians.
+    if not (math.radians(angle) > 0 and (angle < most or (inclusive and angle == most))):
         to = f"up to {most:g}" if inclusive else f"below {most:g}"
         raise ValueError(f"fov: expected degrees above 0 and {to}, got {text_of(fov)}")
     return math.radians(angle)

@@ -183,7 +183,7 @@ def test_ctrl_c_ends_a_long_call_within_half_a_second(call):
 CONSISTENT = """
 cc._core._interrupt_pause(0)  # every poll looks for signals
 
-class Stop(Exception): pass
+class Stop(BaseException): pass
 
 def stop(*_):
     raise Stop
@@ -335,7 +335,7 @@ def test_what_a_progress_function_raises_ends_the_work():
         import numpy as np
         import cubecam as cc
         cube = cc.CubeMap(np.ones((6, 64, 64, 3), "f4"))
-        class Stop(Exception): pass
+        class Stop(BaseException): pass
         calls = []
         def progress(share):
             calls.append(share)

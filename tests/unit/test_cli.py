@@ -87,6 +87,7 @@ def test_help_says_what_to_write_and_not_types(command):
         "--no-browser",
         "--no-preview",
         "--ground",
+        "--document",
     }
     for line in text.splitlines():
         found = re.match(r"^  (?:-\w, )?(--[\w-]+)(.*)", line)

@@ -96,11 +96,14 @@ VALUES: dict[str, Any] = {
 }
 #: The same for names with these ends.
 ENDS: dict[str, Any] = {"_map": PICTURE, "_color": [0.25, 0.5, 1.0]}
+#: Projections whose pictures are square.
+ROUND = ("fisheye", "mirror_ball", "angular_map", "octahedral")
 OF_FUNCTIONS: dict[tuple[str, str], Any] = {
     ("Scene.set_positions", "positions"): [[1.0, 2.0, 3.0]],
     ("CubeMap.set_face", "pixels"): CUBE[0],
     ("MorphTarget", "tangents"): [[1.0, 0.0, 0.0]] * 3,
     ("Texture", "scale"): [1.0, 2.0],
+    **{(f"CubeMap.from_{name}", "image"): CUBE[0] for name in ROUND},
 }
 
 #: The object whose method is called or whose attribute is set.
@@ -119,6 +122,11 @@ OBJECTS: dict[str, Any] = {
 
 #: What a call needs besides the argument under test, beyond the arguments listed here under their names.
 NEEDED: dict[str, Any] = {
+    "CubeMap.to_perspective": lambda: {"fov": 60, "size": 4},
+    "CubeMap.from_perspective": lambda: {"image": PICTURE, "fov": 60},
+    "CubeMap.from_cylindrical": lambda: {"image": PICTURE},
+    "CubeMap.from_dual_paraboloid": lambda: {"image": PICTURE},
+    **{f"CubeMap.from_{name}": lambda: {"image": CUBE[0]} for name in ROUND},
     "Mesh": lambda: {
         **TRIANGLE,
         "joints": VALUES["joints"],
@@ -209,7 +217,7 @@ def use(name, argument, annotation, convert, renderer, tmp_path):
     """Call what the name says, with the argument made by `convert`; set the attribute if there is no argument."""
     key = argument or name.rpartition(".")[2]
     values = OF_FUNCTIONS.get((name, key))
-    if values is None and "Mapping" not in annotation and key != "frames":
+    if values is None and "Mapping" not in annotation and key not in ("frames", "pictures"):
         ends = [value for end, value in ENDS.items() if key.endswith(end)]
         values = VALUES[key] if key in VALUES else ends[0]
     value: Any
@@ -217,7 +225,7 @@ def use(name, argument, annotation, convert, renderer, tmp_path):
         value = {"a": convert([1.0, 0.5, 0.25])}
     elif key == "textures":
         value = {"a": convert(PICTURE)}
-    elif key == "frames":
+    elif key in ("frames", "pictures"):
         value = [convert((PICTURE * 255).astype(np.uint8))]
     else:
         value = convert(values)

@@ -140,7 +140,7 @@ def _is_name(word: str) -> bool:
 )
 @option(
     "--script",
-    metavar="TEXT",
+    metavar="STEPS",
     group="Inputs",
     help="What the visitor does, such as 'drag 30 10; w 5': drag by pixels to the right and down, w and s walk.",
 )
