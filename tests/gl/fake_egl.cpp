@@ -40,6 +40,7 @@ int contexts_destroyed = 0;
 int direct_reads = 0;
 int buffered_reads = 0;
 int pack_buffers = 0;
+int flushes = 0;
 int counted_displays = 0;
 int plain_displays = 0;
 
@@ -152,6 +153,11 @@ void read_pixels(int x, int y, int width, int height, unsigned format, unsigned 
         x, y, width, height, format, type, to);
 }
 
+void flush() {
+    ++flushes;
+    real_gl<void (*)()>("glFlush")();
+}
+
 void* map_buffer(unsigned buffer, std::intptr_t offset, std::intptr_t length, unsigned access) {
     ++pack_buffers;
     return real_gl<void* (*)(unsigned, std::intptr_t, std::intptr_t, unsigned)>(
@@ -216,7 +222,7 @@ int* fake_number(const char* name) {
         {"plain_displays", &plain_displays},     {"one_handle", &one_handle},
         {"robust_contexts", &robust_contexts},   {"contexts_destroyed", &contexts_destroyed},
         {"direct_reads", &direct_reads},         {"buffered_reads", &buffered_reads},
-        {"pack_buffers", &pack_buffers}};
+        {"pack_buffers", &pack_buffers},         {"flushes", &flushes}};
     for (const Number& number : numbers) {
         if (std::strcmp(number.name, name) == 0) return number.place;
     }
@@ -234,6 +240,7 @@ Proc eglGetProcAddress(const char* name) {
         {"glGetIntegerv", reinterpret_cast<Proc>(get_integer)},
         {"glGetProgramiv", reinterpret_cast<Proc>(get_program)},
         {"glReadPixels", reinterpret_cast<Proc>(read_pixels)},
+        {"glFlush", reinterpret_cast<Proc>(flush)},
         {"glMapNamedBufferRange", reinterpret_cast<Proc>(map_buffer)},
         {"eglQueryDevicesEXT", reinterpret_cast<Proc>(query_devices)},
         {"eglQueryDeviceStringEXT", reinterpret_cast<Proc>(query_device_string)},

@@ -176,6 +176,22 @@ def test_a_gpu_gets_a_robust_context_and_a_software_driver_a_plain_one(fake):
     assert on_gpu.stdout == "1\n"
 
 
+def test_zink_gets_a_flush_before_each_resolve(fake):
+    """Zink (Mesa 26.2) resolves one layer of several samples in its render pass, and forgets the others."""
+    count = """
+renderer = cc.Renderer(device=os.environ.get("FAKE_RENDERER") and "gpu" or "software")
+scene = cc.Scene(background=(1, 0, 0))
+before = fake["flushes"]
+renderer.capture(scene, size=8, samples=1)
+one = fake["flushes"] - before
+renderer.capture(scene, size=8, samples=4)
+print(fake["flushes"] - before - 2 * one)
+"""
+    assert run_fake(fake, count, FAKE_RENDERER="Fake GPU", FAKE_PLAIN_DEVICE=1).stdout == "0\n"
+    on_zink = run_fake(fake, count, FAKE_RENDERER="zink (Fake GPU)", FAKE_PLAIN_DEVICE=1)
+    assert on_zink.stdout == "6\n"
+
+
 def test_pictures_are_read_through_one_buffer_on_a_gpu(fake):
     """The bytes are those of a software driver, which copies each face and output by itself."""
     script = """

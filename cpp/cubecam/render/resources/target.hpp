@@ -171,6 +171,7 @@ private:
     gl::Texture make_texture(const gl::Context& context, GLenum format, int levels) const;
 
     const GladGLContext* gl_;
+    bool flushes_before_resolve_;
     TargetDescription description_;
     gl::Texture color_, depth_, post_processed_, sample_color_, sample_depth_;
     std::vector<gl::Texture> outputs_;  // by slot; the first slot is 1
