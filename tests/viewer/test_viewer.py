@@ -13,6 +13,7 @@ from PIL import Image as Picture
 
 import cubecam as cc
 from cubecam._core import _newest_revision
+from cubecam.viewer import watcher
 from cubecam.viewer.canvases import needs
 from cubecam.viewer.picking import uv_at
 from cubecam.viewer.quality import STEPS, Quality
@@ -311,6 +312,8 @@ def test_several_viewers_share_a_renderer(new_renderer):
 
 
 def test_closing_leaves_nothing_behind():
+    for other in list(watcher._watcher._views):  # of other tests; the thread would go on for them
+        other.close()
     viewer = cc.Viewer(world()[0], size=SIZE).show("offscreen")
     viewer.draw()
     renderer = viewer.renderer
