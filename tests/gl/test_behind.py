@@ -5,7 +5,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.helpers import DEVICE
+from tests.helpers import DEVICE, need_equal_pixels
 from tests.reference.sampling import sample_image
 
 SIZE = (48, 36)
@@ -379,6 +379,7 @@ def test_what_is_blended_before_a_pane_counts_once(any_path, kind):
 
 
 def test_smoke_that_moves_through_a_pane_is_drawn_as_from_scratch(new_renderer):
+    need_equal_pixels()
     scene, live = cc.Scene(background=(0.5, 0.25, 0.125, 1)), new_renderer()
     scene.add(cc.Mesh.box((7, 7, 0.1)), pane(), position=(0, 0, -3.5))
     smoke = scene.add(cc.Mesh.sphere(0.5), cc.BasicMaterial(color="lime", opacity=0.5))

@@ -358,6 +358,7 @@ def test_a_driver_that_is_too_old_is_not_called_missing():
         assert wrong not in text
 
 
+@pytest.mark.llvmpipe("the variables of another driver are in the way")
 def test_a_chosen_driver_that_does_not_start_is_named(fake):
     """As zink without a driver of Vulkan."""
     text = run_fake(

@@ -16,7 +16,7 @@ from tests.gl import edits
 from tests.gl.crowd import COLORLESS, COMBINATIONS, crowd, follow, masked_crowd
 from tests.gl.full_world import full_world, pictures
 from tests.gl.world import OUTPUTS
-from tests.helpers import DEVICE
+from tests.helpers import DEVICE, need_equal_pixels
 
 SEEDS = range(3)
 
@@ -85,6 +85,7 @@ def test_random_edits(new_renderer, seed):
     The expected picture is drawn from a deep copy: a renderer that has never drawn these objects keeps nothing of
     them. Only its programs are not compiled again.
     """
+    need_equal_pixels()
     rng = np.random.default_rng(seed)
     world = full_world(rng)
     live, scratch = new_renderer(), new_renderer()

@@ -187,6 +187,7 @@ assert count() == len(images)
     )
 
 
+@pytest.mark.llvmpipe("it measures what llvmpipe's cache of machine code saves")
 def test_the_helpers_machine_code_is_that_of_the_program(tmp_path):
     """Mesa's disk cache hands it over, also after pictures in which vertex arrays changed."""
     run_states(
