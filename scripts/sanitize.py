@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import itertools
 import os
 import re
 import shutil
@@ -29,8 +30,12 @@ from pathlib import Path
 import build_version
 
 ROOT = Path(__file__).resolve().parent.parent
-#: What stands in the line of a stack that lies in cubecam's module.
-OWN_FRAME = re.compile(r"^ +#\d+ .*_core[^/ ]*\.so", re.MULTILINE)
+#: What stands in the line of a stack that lies in cubecam's module. A line without a function's name is of a library
+#: that was unloaded, whose place the module seems to hold.
+OWN_FRAME = re.compile(
+    r"^ +#\d+ (?!0x[0-9a-f]+ +\().*(?:_core[^/ ]*\.so|/cpp/(?:cubecam|bindings|shader_trial)/)",
+    re.MULTILINE,
+)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -124,7 +129,7 @@ def reports(folder: Path) -> list[str]:
             m.start()
             for m in re.finditer(r"^.*(?:WARNING: Thread|ERROR: |runtime error)", text, re.M)
         ]
-        for start, end in zip(starts, [*starts[1:], len(text)], strict=True):
+        for start, end in itertools.pairwise([*starts, len(text)]):
             if OWN_FRAME.search(text, start, end):
                 found.append(text[start:end].rstrip())
     return found

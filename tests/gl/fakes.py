@@ -52,7 +52,9 @@ def build_fake(folder):
     made = Path(folder) / "libfake_egl.so"
     flags = ["-std=c++17", "-shared", "-fPIC", str(SOURCE), "-o", str(made), "-ldl"]
     command = [*compiler.split(), *flags]
-    subprocess.run(command, check=True, timeout=120)
+    # The compiler does not start with a sanitizer's library.
+    environment = {key: value for key, value in os.environ.items() if key != "LD_PRELOAD"}
+    subprocess.run(command, check=True, timeout=120, env=environment)
     return made
 
 

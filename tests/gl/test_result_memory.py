@@ -105,6 +105,7 @@ MAPPED = """
 
 
 def test_what_calls_have_no_use_for_is_freed():
+    need_own_memory()
     run_python(
         textwrap.dedent(MAPPED)
         + textwrap.dedent("""
@@ -124,6 +125,7 @@ def test_what_calls_have_no_use_for_is_freed():
 
 @pytest.mark.parametrize(("mebibytes", "freed"), [(1, 3), (60, 2)])
 def test_no_more_than_cache_bytes_is_kept(mebibytes, freed):
+    need_own_memory()
     run_python(
         textwrap.dedent(MAPPED)
         + textwrap.dedent(f"""

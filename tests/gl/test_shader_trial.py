@@ -27,10 +27,15 @@ from tests.gl.trials import (
     shade,
     wait_until,
 )
-from tests.helpers import run_python
+from tests.helpers import need_no_sanitizer, run_python
 
 PLAIN = "return vec3(0.25, 0.5, 1.0);"
 COLOR = np.array([0.25, 0.5, 1, 1], np.float32)
+
+
+@pytest.fixture(autouse=True)
+def _own_limits():
+    need_no_sanitizer("its memory counts in the limits of the helper")
 
 
 @pytest.fixture

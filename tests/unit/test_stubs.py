@@ -4,10 +4,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+from tests.helpers import need_no_sanitizer
+
 ROOT = Path(__file__).parents[2]
 
 
 def test_stubs_are_current():
+    need_no_sanitizer("the module has functions with planted faults")
     done = subprocess.run(
         [sys.executable, "scripts/stubs.py", "--check"],
         cwd=ROOT,
