@@ -25,8 +25,12 @@ for (const path of process.argv.slice(2)) {
 console.log(JSON.stringify(found));
 """
 #: Warnings that say nothing against a file: tangents are made by cubecam and by other programs in the same way, and a
-#: skinned mesh may be wherever the scene has it.
-FINE = {"MESH_PRIMITIVE_GENERATED_TANGENT_SPACE", "NODE_SKINNED_MESH_NON_ROOT"}
+#: skinned mesh may be wherever the scene has it. A material with a volume may be double-sided if a user says so.
+FINE = {
+    "KHR_MATERIALS_VOLUME_DOUBLE_SIDED",
+    "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE",
+    "NODE_SKINNED_MESH_NON_ROOT",
+}
 
 
 def issues(node, paths):
