@@ -493,7 +493,7 @@ Examples
 >>> import cubecam as cc, trimesh
 >>> capsule = trimesh.creation.capsule(height=2, radius=0.5)
 >>> mesh = cc.Mesh.from_trimesh(capsule)
->>> len(mesh.positions) == len(capsule.vertices), mesh.bounds.round(6).tolist()
+>>> len(mesh.positions) == len(capsule.vertices), mesh.bounds.round(2).tolist()
 (True, [[-0.5, -0.5, -1.5], [0.5, 0.5, 1.5]])
 )doc";
 
