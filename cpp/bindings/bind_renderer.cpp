@@ -102,6 +102,15 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
         ->world_value();
 }
 
+/// The scene at the moment of the call. Where much must be calculated first, other threads and
+/// signal handlers run meanwhile.
+std::shared_ptr<const SceneSnapshot> snapshot_of(const Scene& scene,
+                                                 const Scene::Effects& effects = {}) {
+    if (auto ready = scene.ready_snapshot(effects)) return ready;
+    const bindings::Unlocked unlocked;
+    return scene.snapshot(effects);
+}
+
 PyFrame
 render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
        const OutputNames& outputs, const FormatOrNone& format, const bindings::WholeNumber& samples,
@@ -119,7 +128,7 @@ render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindi
     if (encode) options.encode = parse_encode(*encode);
     options.depth_format = bindings::to_depth_format(depth_format);
     const auto seen = to_camera(camera);
-    const auto snapshot = scene.snapshot(bindings::to_effects(effects));
+    const auto snapshot = snapshot_of(scene, bindings::to_effects(effects));
     return PyFrame(bindings::with_notices([&] {
         return std::visit(
             [&](const auto& value) { return renderer.render(*snapshot, value, options); }, seen);
@@ -153,7 +162,7 @@ capture(Renderer& renderer, const Scene& scene, const bindings::ArrayLike& posit
     if (!rotation.is_none()) {
         options.rotation = unit_rotation(bindings::to_rotation(rotation, "rotation"));
     }
-    const auto snapshot = scene.snapshot();
+    const auto snapshot = snapshot_of(scene);
     return bindings::with_notices([&] { return renderer.capture(*snapshot, options); });
 }
 
@@ -172,7 +181,7 @@ void update_probes(Renderer& renderer, const Scene& scene, const ProbesLike& pro
         }
         if (wanted.empty()) return;
     }
-    const auto snapshot = scene.snapshot();
+    const auto snapshot = snapshot_of(scene);
     bindings::with_notices([&] {
         renderer.update_probes(*snapshot, wanted);
         return true;
@@ -225,7 +234,7 @@ void bind_renderer(pybind11::module_& m) {
         .def(
             "shadow_map",
             [](Renderer& self, const Scene& scene, const std::shared_ptr<Light>& light) {
-                const auto snapshot = scene.snapshot();
+                const auto snapshot = snapshot_of(scene);
                 ShadowDistances picture =
                     bindings::with_notices([&] { return self.shadow_map(*snapshot, light); });
                 return py::array_t<float>(owned_array(

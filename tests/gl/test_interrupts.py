@@ -52,6 +52,14 @@ LONG_CALLS = {
         "m = cc.Mesh.sphere(1, 900, 500); u = m.uvs",
         "m.update(uvs=u + np.float32(random.random())); m.with_tangents()",
     ),
+    "tangents of a scene": (
+        "m = cc.Mesh.sphere(1, 900, 500); u = m.uvs; s = bumpy_scene(m)",
+        "m.update(uvs=u + np.float32(random.random())); r.render(s, cam, (8, 8))",
+    ),
+    "flat faces of a scene": (
+        "m = cc.Mesh.sphere(1, 1500, 900); p = m.positions; s = bumpy_scene(m, flat_shading=True)",
+        "m.update(positions=p * np.float32(1 + random.random())); r.render(s, cam, (8, 8))",
+    ),
     "sphere": ("pass", "cc.Mesh.sphere(1, 2500, 1500)"),
     "icosphere": ("pass", "cc.Mesh.icosphere(1, 8)"),
     "load_image": (
@@ -92,6 +100,11 @@ def crowded_scene():
     box = cc.Mesh.box(.1)
     for i in range(20000):
         s.add(box, cc.PhongMaterial(color=(i / 20000, 0, 0)), position=(i % 200 - 100, i // 200 - 50, -20))
+    return s
+
+def bumpy_scene(mesh, **options):
+    s = cc.Scene()
+    s.add(mesh, cc.StandardMaterial(normal_map=random_f4((8, 8, 3)), **options))
     return s
 
 def s_of(s):

@@ -160,6 +160,13 @@ LEFT_UNDONE = {
         ),
         where(RIGHT, (0, 0, 0, 1), (5, 0, 0, 1)),
     ),
+    "past a declaration, with conditions": (
+        (
+            "switch (int(s.uv.x * 2.0)) { case 0: float y = 5.0;\n#ifdef real\n float z = y; break; case 1:\n#else\n"
+            " case 3:\n#endif\n return vec3(y); } return vec3(0.0);"
+        ),
+        constant(*BLACK),
+    ),
     "hidden by macros": (
         "FLOAT(a1), b1; HIGH float c1; TABLE d1; return vec3(a1 + b1, c1, d1[int(s.uv.x * 299.0)]);",
         constant(*BLACK),

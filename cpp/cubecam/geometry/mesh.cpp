@@ -50,34 +50,46 @@ std::shared_ptr<const MeshData> Mesh::data() const {
 /// While a form is made no lock is held, since a signal handler may draw the mesh. Two threads may
 /// make one form at once; then both get the one that was ready first.
 template <class Make>
-std::shared_ptr<const MeshData> Mesh::kept(Form& form, std::uint64_t revision, Make&& make) const {
-    const auto there = [&] { return form.data && form.of == revision; };
+std::shared_ptr<const MeshData> Mesh::kept(Form& form, const MeshData& data, Make&& make) const {
     std::shared_ptr<const MeshData> before;
     {
         const std::lock_guard lock(forms_mutex_);
-        if (there()) return form.data;
+        if (form.is_of(data)) return form.data;
         before = form.data;
     }
     auto made = std::make_shared<const MeshData>(make(before.get()));
     const std::lock_guard lock(forms_mutex_);
-    if (there()) return form.data;
+    if (form.is_of(data)) return form.data;
     // A snapshot that was begun before an update may still be read after it.
-    if (revision > form.of) form = {made, revision};
+    if (data.revision() > form.of) form = {made, data.revision()};
     return made;
+}
+
+Mesh::Form& Mesh::tangent_form(int uv_set, bool flat) const {
+    return with_tangents_[static_cast<std::size_t>(uv_set + (flat ? 2 : 0))];
 }
 
 std::shared_ptr<const MeshData>
 Mesh::flat_shaded(const std::shared_ptr<const MeshData>& data) const {
-    return kept(flat_, data->revision(),
+    return kept(flat_, *data,
                 [&data](const MeshData* before) { return data->flat_shaded(before); });
 }
 
 std::shared_ptr<const MeshData> Mesh::with_tangents(const std::shared_ptr<const MeshData>& data,
                                                     int uv_set, bool flat) const {
-    Form& form = with_tangents_[static_cast<std::size_t>(uv_set + (flat ? 2 : 0))];
-    return kept(form, data->revision(), [&data, uv_set](const MeshData* before) {
+    return kept(tangent_form(uv_set, flat), *data, [&data, uv_set](const MeshData* before) {
         return data->with_tangents(uv_set, before);
     });
+}
+
+bool Mesh::keeps_flat_shaded(const MeshData& data) const {
+    const std::lock_guard lock(forms_mutex_);
+    return flat_.is_of(data);
+}
+
+bool Mesh::keeps_tangents(const MeshData& data, int uv_set, bool flat) const {
+    const std::lock_guard lock(forms_mutex_);
+    return tangent_form(uv_set, flat).is_of(data);
 }
 
 void Mesh::update(MeshUpdate update) {

@@ -32,6 +32,10 @@ public:
     std::shared_ptr<const MeshData> with_tangents(const std::shared_ptr<const MeshData>& data,
                                                   int uv_set, bool flat) const;
 
+    /// Whether flat_shaded() and with_tangents() need not make the form of these data.
+    bool keeps_flat_shaded(const MeshData& data) const;
+    bool keeps_tangents(const MeshData& data, int uv_set, bool flat) const;
+
     /// Replaces the vertex values that the update contains and keeps the others. An empty update
     /// changes nothing.
     /// @throws the exceptions of MeshData::updated; the mesh then stays as it was.
@@ -47,9 +51,12 @@ private:
     struct Form {
         std::shared_ptr<const MeshData> data;  ///< null until it is needed
         std::uint64_t of = 0;                  ///< the revision of the data from which it was made
+
+        bool is_of(const MeshData& plain) const { return data && of == plain.revision(); }
     };
+    Form& tangent_form(int uv_set, bool flat) const;
     template <class Make>
-    std::shared_ptr<const MeshData> kept(Form& form, std::uint64_t revision, Make&& make) const;
+    std::shared_ptr<const MeshData> kept(Form& form, const MeshData& data, Make&& make) const;
 
     mutable std::mutex forms_mutex_;  ///< of the next two
     mutable Form flat_;

@@ -13,13 +13,6 @@ std::shared_ptr<const MeshData> shared(MeshData&& data) {
     return std::make_shared<const MeshData>(std::move(data));
 }
 
-/// The form of a mesh without weights, which the mesh itself keeps.
-std::shared_ptr<const MeshData>
-plain_form(const Mesh& mesh, const std::shared_ptr<const MeshData>& base, const MeshForm& form) {
-    const auto plain = form.flat ? mesh.flat_shaded(base) : base;
-    return form.tangents < 0 ? plain : mesh.with_tangents(plain, form.tangents, form.flat);
-}
-
 /// The form of a mesh with weights. The weights are noted last, so that an exception leaves nothing
 /// that counts as finished.
 std::shared_ptr<const MeshData> morphed_form(Deformation& kept, std::vector<float> weights) {
@@ -54,6 +47,12 @@ MeshForm form_for(const MeshData& mesh, const MaterialValue& material) {
     const bool made =
         traits.uses_tangents && !mesh.tangents() && mesh.uvs(traits.tangent_uv_set) != nullptr;
     return {material.surface.flat_shading, made ? traits.tangent_uv_set : -1};
+}
+
+std::shared_ptr<const MeshData>
+plain_form(const Mesh& mesh, const std::shared_ptr<const MeshData>& base, const MeshForm& form) {
+    const auto plain = form.flat ? mesh.flat_shaded(base) : base;
+    return form.tangents < 0 ? plain : mesh.with_tangents(plain, form.tangents, form.flat);
 }
 
 bool may_deform(const NodeValue& value, const MeshData& mesh) {

@@ -28,6 +28,11 @@ struct MeshForm {
 /// Tangents are made if the material needs them and the mesh has only the uvs for them.
 MeshForm form_for(const MeshData& mesh, const MaterialValue& material);
 
+/// The form of a mesh without weights, which the mesh itself keeps.
+/// @param base the vertices of the mesh at some moment.
+std::shared_ptr<const MeshData>
+plain_form(const Mesh& mesh, const std::shared_ptr<const MeshData>& base, const MeshForm& form);
+
 /// What morph targets and joints made of a mesh. Nodes keep it, so that equal weights and joints
 /// give the same data again, and others become an update of the same mesh on the GPU.
 struct Deformation {

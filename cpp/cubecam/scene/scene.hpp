@@ -122,8 +122,15 @@ public:
     /// moved and nothing else changed, only these nodes are read again.
     std::shared_ptr<const SceneSnapshot> snapshot(const Effects& effects = {}) const;
 
+    /// The same, or null if tangents or flat faces of large meshes must be made first, which may
+    /// take seconds: snapshot() makes them, with polls (core/interrupts.hpp) and without locks.
+    std::shared_ptr<const SceneSnapshot> ready_snapshot(const Effects& effects = {}) const;
+
 private:
     std::shared_ptr<const SceneSnapshot> kept_snapshot() const;
+    /// Reads everything. Returns null if `shared` has left out forms of large meshes.
+    std::shared_ptr<const SceneSnapshot> read_snapshot(const Effects& effects,
+                                                       SharedReads& shared) const;
     /// Updates the nodes that were moved, or got other weights, since the snapshot was valid.
     /// Returns false if the snapshot must be made anew, since a mesh became translucent or opaque.
     bool follow_moves(SceneSnapshot& snapshot) const;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <tuple>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -80,7 +81,11 @@ NodeSnapshot* find_node(std::vector<NodeSnapshot>& nodes, std::int32_t id) {
 /// users see one moment, and is kept alive, so that no new object gets its address.
 class SharedReads {
 public:
-    explicit SharedReads(const Scene* first) { numbers_.emplace(first, 0); }
+    /// @param postpones whether form_of() leaves out the forms of large meshes that are not kept,
+    ///     for make_postponed().
+    SharedReads(const Scene* first, bool postpones) : postpones_(postpones) {
+        numbers_.emplace(first, 0);
+    }
 
     const Material::State& state_of(const std::shared_ptr<Material>& material) {
         const auto found = materials_.find(material);
@@ -100,25 +105,31 @@ public:
         return data;
     }
 
-    /// The data of a mesh with flat faces, made from the same moment of the mesh.
-    const std::shared_ptr<const MeshData>& flat_data_of(const std::shared_ptr<Mesh>& mesh) {
-        auto& data = flat_meshes_[mesh];
-        if (!data) data = mesh->flat_shaded(data_of(mesh));
-        return data;
-    }
-
     /// The form of a mesh that a node draws: with flat faces or not, and with tangents if the
     /// material needs them and the mesh has only the uvs from which they are made.
     std::shared_ptr<const MeshData> form_of(const std::shared_ptr<Mesh>& mesh,
                                             const MaterialValue& material) {
-        const MeshForm form = form_for(*data_of(mesh), material);
-        const std::shared_ptr<const MeshData>& plain =
-            form.flat ? flat_data_of(mesh) : data_of(mesh);
-        if (form.tangents < 0) return plain;
-        auto& data = tangent_meshes_[{mesh, form.tangents + (form.flat ? 2 : 0)}];
-        if (!data) data = mesh->with_tangents(plain, form.tangents, form.flat);
-        return data;
+        const auto& data = data_of(mesh);
+        const MeshForm form = form_for(*data, material);
+        if (!form.flat && form.tangents < 0) return data;
+        auto& made = forms_[{mesh, form.tangents, form.flat}];
+        if (made) return made;
+        if (postpones_ && takes_long(*data) && !is_kept(*mesh, data, form)) {
+            postponed_.push_back({mesh, data, form});
+            return data;
+        }
+        made = plain_form(*mesh, data, form);
+        return made;
     }
+
+    /// Makes the forms that form_of() left out: no graph is locked, so a signal handler may run.
+    /// The meshes keep them.
+    void make_postponed() const {
+        for (const auto& [mesh, data, form] : postponed_) plain_form(*mesh, data, form);
+    }
+
+    /// Whether forms were left out; what was read is then of no use.
+    bool postponed() const { return !postponed_.empty(); }
 
     LightValue value_of(const Light& light) {
         Light::State state = light.state();
@@ -194,11 +205,28 @@ private:
         return snapshot;
     }
 
+    /// Whether the tangents or the flat faces of a mesh may take a tenth of a second.
+    static bool takes_long(const MeshData& mesh) { return mesh.triangles()->size() > 20'000; }
+
+    static bool is_kept(const Mesh& mesh, const std::shared_ptr<const MeshData>& data,
+                        const MeshForm& form) {
+        if (form.flat && !mesh.keeps_flat_shaded(*data)) return false;
+        const auto plain = form.flat ? mesh.flat_shaded(data) : data;
+        return form.tangents < 0 || mesh.keeps_tangents(*plain, form.tangents, form.flat);
+    }
+
+    struct Postponed {
+        std::shared_ptr<Mesh> mesh;
+        std::shared_ptr<const MeshData> data;
+        MeshForm form;
+    };
+
+    const bool postpones_;
+    std::vector<Postponed> postponed_;
     std::unordered_map<std::shared_ptr<Material>, Material::State> materials_;
     std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> meshes_;
-    std::unordered_map<std::shared_ptr<Mesh>, std::shared_ptr<const MeshData>> flat_meshes_;
-    std::map<std::pair<std::shared_ptr<Mesh>, int>, std::shared_ptr<const MeshData>>
-        tangent_meshes_;  // by set of uvs, then of flat meshes
+    std::map<std::tuple<std::shared_ptr<Mesh>, int, bool>, std::shared_ptr<const MeshData>>
+        forms_;  // by set of uvs (-1: no tangents are made) and flatness
     std::unordered_map<std::shared_ptr<CubeMap>, std::shared_ptr<const CubeMapData>> cubes_;
     std::unordered_map<const RenderTexture*, std::size_t> indices_;  // into `textures`
     std::unordered_map<const Scene*, std::size_t> numbers_;
@@ -403,8 +431,28 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
     if (effects.empty()) {
         if (auto kept = kept_snapshot()) return kept;
     }
+    {
+        SharedReads shared(this, /*postpones=*/true);
+        if (auto made = read_snapshot(effects, shared)) return made;
+        shared.make_postponed();
+    }
+    // Now all is made at once: a handler or a thread that updates meshes again and again cannot
+    // keep this call from its end.
+    SharedReads shared(this, /*postpones=*/false);
+    return read_snapshot(effects, shared);
+}
+
+std::shared_ptr<const SceneSnapshot> Scene::ready_snapshot(const Effects& effects) const {
+    if (effects.empty()) {
+        if (auto kept = kept_snapshot()) return kept;
+    }
+    SharedReads shared(this, /*postpones=*/true);
+    return read_snapshot(effects, shared);
+}
+
+std::shared_ptr<const SceneSnapshot> Scene::read_snapshot(const Effects& effects,
+                                                          SharedReads& shared) const {
     const std::uint64_t newest = newest_revision();  // before anything is read
-    SharedReads shared(this);
     std::uint64_t changes = 0;
     auto snapshot = std::make_shared<SceneSnapshot>(snapshot_alone(shared, &changes));
     for (const auto& effect : effects) {
@@ -416,6 +464,7 @@ std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) con
         const std::shared_ptr<const Scene> next = shared.others[i];  // the vector may grow
         snapshot->others.push_back(next->snapshot_alone(shared));
     }
+    if (shared.postponed()) return nullptr;
     snapshot->textures = std::move(shared.textures);
     // The parents of cameras may be in any scene, so no scene is locked here.
     for (RenderTextureSnapshot& texture : snapshot->textures) {

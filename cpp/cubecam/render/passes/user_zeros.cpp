@@ -373,8 +373,7 @@ private:
         const std::size_t open = gl::after_bracket(tokens, at + 1, limit);
         if (open >= limit || tokens[open].text != "{") return;
         const std::size_t close = gl::after_bracket(tokens, open, limit) - 1;
-        const bool closed = tokens[close].text == "}" && !outline_.uncertain;
-        if (!closed || has_conditions(open, close)) return;
+        if (tokens[close].text != "}" || outline_.uncertain) return;
         std::string notes;
         std::vector<std::pair<std::string, std::string>> passed;  // notes and values
         for (std::size_t i = open + 1; i < close; ++i) {
@@ -389,8 +388,9 @@ private:
                 std::size_t end = i;
                 std::vector<GlslName> names = declared_at(i, close, end);
                 const std::size_t label = next_label(end, close);
+                const bool always = condition_depth(open, i) == 0;  // no #if leaves it out
                 std::erase_if(names, [&](const GlslName& name) {
-                    return name.is("const") || !mentioned(name.name, label, close);
+                    return !always || name.is("const") || !mentioned(name.name, label, close);
                 });
                 const std::string values = zeros_of(names);
                 if (values.empty()) continue;
@@ -433,6 +433,16 @@ private:
                                       directive.before_token > begin &&
                                       directive.before_token <= end;
                            });
+    }
+
+    /// In how many conditions that begin after the token `begin` the token `at` stands.
+    int condition_depth(std::size_t begin, std::size_t at) const {
+        int depth = 0;
+        for (const GlslText::Directive& directive : text_.directives()) {
+            if (directive.before_token <= begin || directive.before_token > at) continue;
+            depth += directive.word.starts_with("if") ? 1 : directive.word == "endif" ? -1 : 0;
+        }
+        return depth;
     }
 
     /// Whole declarations in macros: `#define BEGIN float sum; int count;`.
