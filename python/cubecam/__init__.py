@@ -76,6 +76,7 @@ __all__ = [
     "Viewer",
     "__version__",
     "brdf",
+    "doctor",
     "explore",
     "fresnel",
     "load_cubemap",

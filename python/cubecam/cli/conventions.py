@@ -56,7 +56,9 @@ def section_of(text: str, words: str) -> str:
         found += lines[at:end]
     if not found:
         known = "; ".join(lines[at].lstrip("# ") for at in titles[1:])
-        raise ValueError(f"--section: expected words of a title, got {words!r}; the titles are: {known}")
+        raise ValueError(
+            f"--section: expected words of a title, got {words!r}; the titles are: {known}"
+        )
     return "\n".join(found).strip() + "\n"
 
 

@@ -1,4 +1,4 @@
-"""`cubecam doctor`: what is missing on this machine and the command that mends it; what its driver draws, with --selftest."""
+"""`cubecam doctor`: what is missing and the command that mends it; with --selftest, whether the driver draws right."""
 
 from __future__ import annotations
 
@@ -51,5 +51,3 @@ def doctor(device: str | None, as_json: bool, selftest: bool) -> None:
 
 def _paint(text: str, color: str) -> str:
     return click.style(text, fg=color)
-
-

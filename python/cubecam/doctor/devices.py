@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .drawing import Drawing
-from .findings import Finding
+from .findings import Finding, Status
 from .system import System
 
 __all__ = ["check_devices", "check_variables"]
@@ -29,7 +29,10 @@ def check_devices(system: System, drawing: Drawing, device: str | None) -> list[
             "gpu",
             "warning",
             f"device {item['index']} ({item['name']}) is a GPU that does not start: {item['problem']}",
-            (f"# see what is said about {item['drm_node'] or 'its driver'} here", "cubecam doctor --device gpu"),
+            (
+                f"# see what is said about {item['drm_node'] or 'its driver'} here",
+                "cubecam doctor --device gpu",
+            ),
         )
         for item in broken
     ]
@@ -38,9 +41,15 @@ def check_devices(system: System, drawing: Drawing, device: str | None) -> list[
         names = ", ".join(f"device {item['index']} ({item['name']})" for item in sound)
         reason = _why_software(system, device)
         text = f"{names} is a GPU that can be used, and pictures are drawn in software{reason}"
-        found.append(Finding("gpu", "warning" if not reason else "note", text, ("cubecam doctor --device gpu",)))
+        found.append(
+            Finding(
+                "gpu", "warning" if not reason else "note", text, ("cubecam doctor --device gpu",)
+            )
+        )
     elif sound:
-        found.append(Finding("gpu", "ok", "GPUs: " + ", ".join(str(item["name"]) for item in sound)))
+        found.append(
+            Finding("gpu", "ok", "GPUs: " + ", ".join(str(item["name"]) for item in sound))
+        )
     elif drawing.works and not broken:
         found.append(Finding("gpu", "note", "EGL lists no GPU: pictures are drawn in software"))
     return found
@@ -54,7 +63,8 @@ def check_variables(system: System, drawing: Drawing, device: str | None) -> lis
         if value.lower() in _OFF:
             continue
         text = f"{name}={value} is set: {effect}"
-        status = "note" if drawing.works else "warning"
+        # The error of a driver that does not start names the variables that choose it.
+        status: Status = "problem" if name in drawing.error else "note"
         found.append(Finding("variables", status, text, (f"unset {name}",)))
     value = system.environ.get("CUBECAM_DEVICE", "")
     if value and device in (None, "auto"):

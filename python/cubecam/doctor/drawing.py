@@ -108,7 +108,11 @@ def check_drawing(system: System, drawing: Drawing, device: str | None) -> list[
         info = drawing.chosen
         kind = "software" if info["software"] else "GPU"
         return [
-            Finding("drawing", "ok", f"a picture was drawn by {info['renderer']} ({kind}), OpenGL {info['version']}")
+            Finding(
+                "drawing",
+                "ok",
+                f"a picture was drawn by {info['renderer']} ({kind}), OpenGL {info['version']}",
+            )
         ]
     cure: tuple[str, ...] = ()
     if drawing.crashed:
@@ -116,7 +120,17 @@ def check_drawing(system: System, drawing: Drawing, device: str | None) -> list[
     elif device not in (None, "auto") and any(not item["problem"] for item in drawing.devices):
         names = ", ".join(f"{item['index']}: {item['name']}" for item in drawing.devices)
         cure = (f"# these devices are there: {names}", "cubecam doctor --device auto")
-    return [Finding("drawing", "problem", f"no picture was drawn: {drawing.error}", cure)]
+    return [
+        Finding(
+            "drawing", "problem", f"no picture was drawn: {_without_advice(drawing.error)}", cure
+        )
+    ]
+
+
+def _without_advice(error: str) -> str:
+    """Leave out of a ContextError what it advises: the other findings say what fits this machine."""
+    first, *lines = error.partition(". To install it:")[0].splitlines()
+    return "\n".join([first, *(line for line in lines if line.startswith(" "))])
 
 
 def _without_a_driver(system: System) -> tuple[str, ...]:
@@ -128,5 +142,3 @@ def _without_a_driver(system: System) -> tuple[str, ...]:
         return ("# a driver that crashes is broken or too old: install a newer version of it",)
     lines = [f"export __EGL_VENDOR_LIBRARY_FILENAMES={file}" for file in files]
     return ("# one of the drivers crashes; one of these lines leaves out the others:", *lines)
-
-

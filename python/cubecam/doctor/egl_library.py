@@ -41,8 +41,7 @@ def _check_chosen(system: System, drawing: Drawing, chosen: str) -> Finding:
     if not problem:
         return Finding("egl-library", "ok", f"{VARIABLE}={chosen} can be loaded")
     other = system.library_problem(LIBRARY)
-    cure = (f"unset {VARIABLE}",)
-    if other:  # the usual one is missing, too
-        cure = (*cure, *install_mesa(system))
+    # The usual one may be missing, too.
+    cure = (f"unset {VARIABLE}", *(install_mesa(system) if other else ()))
     text = f"{VARIABLE}={chosen} cannot be loaded: {problem}"
     return Finding("egl-library", drawing.blocking, text, cure)

@@ -47,5 +47,3 @@ def all_findings(system: System, device: str | None = None, error: str = "") -> 
     found += check_cache(system)
     found += check_extras()
     return found
-
-

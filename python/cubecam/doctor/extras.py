@@ -19,7 +19,15 @@ EXTRAS: dict[str, tuple[str, tuple[str, ...]]] = {
     "window": ("live views in windows", ("rendercanvas", "PySide6")),
     "jupyter": (
         "live views in notebooks",
-        ("anywidget", "ipykernel", "ipywidgets", "matplotlib", "rendercanvas", "simplejpeg", "trimesh"),
+        (
+            "anywidget",
+            "ipykernel",
+            "ipywidgets",
+            "matplotlib",
+            "rendercanvas",
+            "simplejpeg",
+            "trimesh",
+        ),
     ),
     "gltf": ("compressed glTF", ("DracoPy", "opengl_basisu", "zstd", "meshopt")),
     "ktx2": ("compressed KTX2", ("opengl_basisu", "zstd")),

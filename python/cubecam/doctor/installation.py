@@ -29,7 +29,9 @@ def check_module(system: System, error: str = "") -> list[Finding]:
         except ImportError as failed:
             error = str(failed)
     installed = here()
-    where = f"in {installed.folder}, Python {platform.python_version()} ({sys.executable}), {_libc()}"
+    where = (
+        f"in {installed.folder}, Python {platform.python_version()} ({sys.executable}), {_libc()}"
+    )
     if error:
         return [explain(system, installed, error), Finding("python", "note", f"cubecam {where}")]
     return [Finding("module", "ok", f"cubecam {version} {where}"), *_check_version(version)]
@@ -47,7 +49,7 @@ def _check_version(version: str) -> list[Finding]:
 
 
 def check_copies(paths: list[str], used: Path) -> list[Finding]:
-    """Look for further packages named cubecam on sys.path: the first one is imported, and pip may change another one."""
+    """Look for a second cubecam on sys.path: the first one is imported, and pip may change another one."""
     found = list(dict.fromkeys(_packages(paths)))
     others = [folder for folder in found if folder != used]
     if not others:
@@ -82,7 +84,10 @@ def check_script(path: str | None, prefix: str = sys.prefix) -> list[Finding]:
     if Path(python).parent.parent.resolve() == Path(prefix).resolve():
         return []
     text = f"the command {path} runs {python}, and this is the Python of {prefix}"
-    cure = (f"{sys.executable} -m cubecam doctor", "hash -r  # after installing again, a shell may remember the old one")
+    cure = (
+        f"{sys.executable} -m cubecam doctor",
+        "hash -r  # after installing again, a shell may remember the old one",
+    )
     return [Finding("copies", "note", text, cure)]
 
 

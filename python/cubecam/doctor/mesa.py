@@ -11,7 +11,13 @@ from .vendors import MESA
 __all__ = ["check_mesa"]
 
 VARIABLE = "LIBGL_DRIVERS_PATH"
-_FOLDERS = ("/usr/lib/*-linux-gnu", "/usr/lib64", "/usr/lib", "/usr/local/lib", "/usr/local/lib/*-linux-gnu")
+_FOLDERS = (
+    "/usr/lib/*-linux-gnu",
+    "/usr/lib64",
+    "/usr/lib",
+    "/usr/local/lib",
+    "/usr/local/lib/*-linux-gnu",
+)
 
 
 def check_mesa(system: System, drawing: Drawing) -> list[Finding]:
@@ -20,13 +26,17 @@ def check_mesa(system: System, drawing: Drawing) -> list[Finding]:
         return []
     chosen = system.environ.get(VARIABLE)
     if chosen:
-        drivers = [name for folder in chosen.split(":") for name in system.glob(f"{folder}/*_dri.so")]
+        drivers = [
+            name for folder in chosen.split(":") for name in system.glob(f"{folder}/*_dri.so")
+        ]
         if not drivers:
             text = f"{VARIABLE}={chosen}: there is no driver (*_dri.so) in it"
             return [Finding("mesa-drivers", drawing.blocking, text, (f"unset {VARIABLE}",))]
     else:
         drivers = [name for folder in _FOLDERS for name in system.glob(f"{folder}/dri/*_dri.so")]
-        drivers += [name for folder in _FOLDERS for name in system.glob(f"{folder}/libgallium-*.so")]
+        drivers += [
+            name for folder in _FOLDERS for name in system.glob(f"{folder}/libgallium-*.so")
+        ]
     if drivers:
         return [Finding("mesa-drivers", "ok", f"Mesa's drivers are in {_folder(drivers[0])}")]
     if drawing.works:  # they lie elsewhere

@@ -14,8 +14,6 @@ from .system import System
 
 __all__ = ["Installed", "explain", "here"]
 
-OLDEST_PYTHON = (3, 10)
-
 
 @dataclass(frozen=True)
 class Installed:
@@ -23,7 +21,6 @@ class Installed:
 
     folder: Path
     python: str = sys.executable
-    version: tuple[int, int] = sys.version_info[:2]
     suffixes: tuple[str, ...] = tuple(importlib.machinery.EXTENSION_SUFFIXES)
     platform: str = sys.platform
 
@@ -51,11 +48,6 @@ def _reason(system: System, installed: Installed, error: str) -> tuple[str, tupl
     if not installed.platform.startswith("linux"):
         text = f"cubecam runs on Linux, and this is {installed.platform}"
         return text, ("# README.md says how: Docker on macOS, WSL on Windows",)
-    if installed.version < OLDEST_PYTHON:
-        shown = "{}.{}".format(*installed.version)
-        return f"expected Python 3.10 or newer, got {shown} ({installed.python})", (
-            "# install cubecam for a newer Python: python3.12 -m pip install cubecam",
-        )
     modules = sorted(path.name for path in installed.folder.glob("_core*.so"))
     fitting = [name for name in modules if name[len("_core") :] in installed.suffixes]
     if not modules:
@@ -63,8 +55,9 @@ def _reason(system: System, installed: Installed, error: str) -> tuple[str, tupl
         return text, (installed.reinstall,)
     if not fitting:
         expected = f"_core{installed.suffixes[0]}"
-        return f"the compiled module is for another Python or processor: expected {expected}, got {', '.join(modules)}", (
-            installed.reinstall,
+        return (
+            f"the compiled module is for another Python or processor: expected {expected}, got {', '.join(modules)}",
+            (installed.reinstall,),
         )
     return _loader_reason(system, installed, fitting[0], error)
 
@@ -82,7 +75,9 @@ def _loader_reason(
             f"{installed.python} -m pip install --no-binary cubecam cubecam",
         )
     if re.search(r"version `(GLIBCXX|CXXABI)_[\d.]+' not found", error):
-        lines = ["# an older libstdc++.so.6 is found first; that of the system, or of conda, is newer:"]
+        lines = [
+            "# an older libstdc++.so.6 is found first; that of the system, or of conda, is newer:"
+        ]
         if system.environ.get("LD_LIBRARY_PATH"):
             lines.append(f"unset LD_LIBRARY_PATH  # is {system.environ['LD_LIBRARY_PATH']}")
         if system.environ.get("CONDA_PREFIX"):

@@ -34,6 +34,7 @@ def _refused(system: System, node: str) -> Finding:
     group = name or str(number)
     text = f"no right to open {node}, the way to a GPU: it belongs to the group {group} ({number})"
     user = system.user() or str(system.uid)
+    cure: tuple[str, ...]
     if container_sign(system):
         cure = (
             "# start the container with the device and its group:",
@@ -62,5 +63,8 @@ def _without_nodes(system: System) -> list[Finding]:
         flags = "--gpus all -e NVIDIA_DRIVER_CAPABILITIES=all" if nvidia else "--device /dev/dri"
         cure = ("# if the container shall use it:", f"docker run {flags} IMAGE")
     else:
-        cure = ("# its kernel driver is not loaded; the reason is often in the kernel's log:", "sudo dmesg | grep -iE 'drm|nvidia|amdgpu|i915|xe'")
+        cure = (
+            "# its kernel driver is not loaded; the reason is often in the kernel's log:",
+            "sudo dmesg | grep -iE 'drm|nvidia|amdgpu|i915|xe'",
+        )
     return [Finding("render-nodes", "note", text, cure)]

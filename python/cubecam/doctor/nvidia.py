@@ -42,8 +42,17 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
     """Look for NVIDIA's EGL where there is an NVIDIA GPU."""
     ran = system.run(["nvidia-smi", "-L"])
     if ran.code not in (0, None) and "mismatch" in (ran.out + ran.err).lower():
-        text = "NVIDIA's libraries and its kernel module have different versions: " + _line(ran.out + ran.err)
-        return [Finding("nvidia", drawing.blocking, text, ("# restart the machine, or load the module again",))]
+        text = "NVIDIA's libraries and its kernel module have different versions: " + _line(
+            ran.out + ran.err
+        )
+        return [
+            Finding(
+                "nvidia",
+                drawing.blocking,
+                text,
+                ("# restart the machine, or load the module again",),
+            )
+        ]
     signs = nvidia_signs(system)
     if not signs:
         return []

@@ -63,8 +63,7 @@ def install_mesa(system: System) -> tuple[str, ...]:
     known = _distribution(system)
     if known is None:
         return (
-            "# install the packages with libEGL.so.1, libEGL_mesa.so.0 and Mesa's DRI drivers (often called "
-            "libglvnd and mesa)",
+            "# install libEGL.so.1, libEGL_mesa.so.0 and Mesa's drivers, often called libglvnd and mesa",
         )
     return _commands(system, known, known.mesa)
 
@@ -73,7 +72,9 @@ def install_nvidia(system: System, branch: str) -> tuple[str, ...]:
     """Give the commands that install libEGL_nvidia.so.0 for a driver of a branch, such as "535"; "" if not known."""
     known = _distribution(system)
     if known is None or not known.nvidia or ("{branch}" in known.nvidia and not branch):
-        return ("# install the OpenGL part of NVIDIA's driver: libEGL_nvidia.so.0 and 10_nvidia.json",)
+        return (
+            "# install the OpenGL part of NVIDIA's driver: libEGL_nvidia.so.0 and 10_nvidia.json",
+        )
     return _commands(system, known, known.nvidia.format(branch=branch))
 
 

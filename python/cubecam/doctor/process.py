@@ -39,8 +39,16 @@ def check_helper(drawing: Drawing, folder: Path) -> list[Finding]:
     if told:
         reason = told[0].partition("cannot be started: ")[2].partition(". A source")[0]
         text = f"{file} cannot be started: {reason}"
-        return [Finding("shader-trial", "warning", text, (f"{file}  # what does it print?", *_again(folder)))]
-    return [Finding("shader-trial", "ok", "shaders are tried in a process of their own")] if drawing.works else []
+        return [
+            Finding(
+                "shader-trial", "warning", text, (f"{file}  # what does it print?", *_again(folder))
+            )
+        ]
+    return (
+        [Finding("shader-trial", "ok", "shaders are tried in a process of their own")]
+        if drawing.works
+        else []
+    )
 
 
 def _noexec(file: Path) -> Finding:
@@ -80,7 +88,11 @@ def check_limits(system: System) -> list[Finding]:
         text = f"{int(left) >> 20} MiB of memory are left ({limit}): a driver and a large picture take more"
         found.append(Finding("memory", "warning", text, _more_memory(limit)))
     else:
-        shown = "memory without a limit" if left == float("inf") else f"{int(left) >> 20} MiB of memory are left"
+        shown = (
+            "memory without a limit"
+            if left == float("inf")
+            else f"{int(left) >> 20} MiB of memory are left"
+        )
         found.append(Finding("memory", "ok", f"{shown} ({limit})"))
     files = resource.getrlimit(resource.RLIMIT_NOFILE)[0]
     if files < LEAST_FILES:

@@ -25,7 +25,10 @@ def as_lines(
         first, *more = finding.text.splitlines() or [""]
         lines.append(f"{status} {finding.name}: {first}")
         lines += [f"         {line}" for line in more]
-        lines += [f"           {paint(line, 'bright_black') if line.startswith('#') else line}" for line in finding.cure]
+        lines += [
+            f"           {paint(line, 'bright_black') if line.startswith('#') else line}"
+            for line in finding.cure
+        ]
     return lines
 
 
@@ -42,7 +45,10 @@ def as_json(findings: Iterable[Finding], tests: Iterable[Measurement] | None = N
     """Give one JSON object."""
     listed = list(findings)
     works = all(finding.status != "problem" for finding in listed)
-    report: dict[str, object] = {"works": works, "findings": [asdict(finding) for finding in listed]}
+    report: dict[str, object] = {
+        "works": works,
+        "findings": [asdict(finding) for finding in listed],
+    }
     if tests is not None:
         report["selftest"] = [_numbers(test) for test in tests]
     return json.dumps(report, indent=2)

@@ -14,7 +14,9 @@ from pathlib import Path
 __all__ = ["Ran", "System", "os_release"]
 
 #: Loads a library in a process of its own, since the code that a library runs when it is loaded may crash.
-_LOAD = "import ctypes, sys\ntry:\n ctypes.CDLL(sys.argv[1])\nexcept OSError as e:\n sys.exit(str(e))"
+_LOAD = (
+    "import ctypes, sys\ntry:\n ctypes.CDLL(sys.argv[1])\nexcept OSError as e:\n sys.exit(str(e))"
+)
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,9 @@ class System:
     root: Path = Path("/")
     environ: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
     uid: int = field(default_factory=os.geteuid)
-    groups: frozenset[int] = field(default_factory=lambda: frozenset({*os.getgroups(), os.getegid()}))
+    groups: frozenset[int] = field(
+        default_factory=lambda: frozenset({*os.getgroups(), os.getegid()})
+    )
     machine: str = field(default_factory=platform.machine)
     python: str = sys.executable
 
@@ -134,4 +138,3 @@ def _fields(text: str) -> Iterator[tuple[str, str]]:
 
 def _text(output: bytes | None) -> str:
     return (output or b"").decode("utf-8", "replace")
-

@@ -81,7 +81,10 @@ def _broken(system: System, drawing: Drawing, file: str, library: str, problem: 
     elif "mesa" in library:
         cure = install_mesa(system)
     else:
-        cure = (f"# install {library}, or remove the file that names it:", f"{system.sudo()}rm {file}")
+        cure = (
+            f"# install {library}, or remove the file that names it:",
+            f"{system.sudo()}rm {file}",
+        )
     text = f"{file} names {library}, which cannot be loaded: {problem}"
     return Finding("egl-vendors", drawing.blocking, text, cure)
 
@@ -103,12 +106,8 @@ def _check_variables(system: System, drawing: Drawing) -> list[Finding]:
 
 def _unset(system: System, drawing: Drawing, variable: str, text: str) -> Finding:
     there = [name for folder in DEFAULT_FOLDERS for name in system.glob(f"{folder}/*.json")]
-    cure = (f"unset {variable}",)
-    if there:
-        cure = (*cure, f"# without it libglvnd reads {', '.join(there)}")
-    else:
-        cure = (*cure, *install_mesa(system))
-    return Finding("egl-vendors", drawing.blocking, text, cure)
+    then = (f"# without it libglvnd reads {', '.join(there)}",) if there else install_mesa(system)
+    return Finding("egl-vendors", drawing.blocking, text, (f"unset {variable}", *then))
 
 
 def _folders(system: System) -> list[str]:

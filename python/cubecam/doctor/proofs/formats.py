@@ -15,7 +15,11 @@ __all__ = ["prove_formats"]
 SIZE = 8
 NEAR, FAR = 0.25, 8.0
 #: Half of a step of 8 bits, for what lies between two of them.
-COLORS = {"rgba8": (51 / 255, 0.4, 0.8), "rgba16f": (0.25, 3.5, 0.125), "rgba32f": (1 / 3, 1e-5, 4e4)}
+COLORS = {
+    "rgba8": (51 / 255, 0.4, 0.8),
+    "rgba16f": (0.25, 3.5, 0.125),
+    "rgba32f": (1 / 3, 1e-5, 4e4),
+}
 KINDS = {"rgba8": np.uint8, "rgba16f": np.float16, "rgba32f": np.float32}
 #: A lookup at a texel's centre: a GPU rounds the weights of the neighbours to 1/256.
 LOOKUP = 2e-3
@@ -41,7 +45,9 @@ def _drawn(renderer: Any, name: str) -> Measurement:
         failure = f"expected {np.dtype(KINDS[name])}, got {faces.dtype}"
         return Measurement("formats", f"{name}, drawn", float("nan"), 0.0, failure)
     whole = np.broadcast_to(expected.astype(KINDS[name]), faces[..., :3].shape)
-    return Measurement("formats", f"{name}, a colour drawn and read", worst(faces[..., :3], whole), 0.0)
+    return Measurement(
+        "formats", f"{name}, a colour drawn and read", worst(faces[..., :3], whole), 0.0
+    )
 
 
 def _there_and_back(renderer: Any, name: str) -> Measurement:
@@ -71,8 +77,12 @@ def _room(renderer: Any) -> list[Measurement]:
     ids = np.full(z.shape, node.id)
     return [
         Measurement("formats", "z", worst(cube.z, z), 1e-5),
-        Measurement("formats", "distance", worst(cube.distance, 1.5 * np.linalg.norm(rays, axis=-1)), 1e-5),
-        Measurement("formats", "depth", worst(cube.depth, FAR * (z - NEAR) / (z * (FAR - NEAR))), 1e-5),
+        Measurement(
+            "formats", "distance", worst(cube.distance, 1.5 * np.linalg.norm(rays, axis=-1)), 1e-5
+        ),
+        Measurement(
+            "formats", "depth", worst(cube.depth, FAR * (z - NEAR) / (z * (FAR - NEAR))), 1e-5
+        ),
         Measurement("formats", "normals", worst(cube.normal, normals), 1e-5),
         Measurement("formats", "ids", worst(cube.id, ids), 0.0),
         Measurement("formats", "labels", worst(cube.label, np.full(z.shape, -7)), 0.0),

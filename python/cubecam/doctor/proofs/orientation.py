@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -16,13 +16,17 @@ SIZE = 16
 BACKGROUND = (0.0625, 0.125, 0.25)
 
 
-def rectangles() -> list[tuple[int, float, tuple[tuple[float, float], ...], tuple[float, ...]]]:
+#: Axis, place along it, ranges along the other two axes, colour.
+Rectangle: TypeAlias = tuple[int, float, tuple[tuple[float, float], ...], tuple[float, ...]]
+
+
+def rectangles() -> list[Rectangle]:
     """Give two rectangles in the direction of each axis: a large one, and before it a mark in a corner.
 
     Their edges lie between the texels of faces of 16, and neither has a symmetry: a face that is exchanged, mirrored or
     turned shows other texels.
     """
-    found = []
+    found: list[Rectangle] = []
     for axis in range(3):
         for sign in (1, -1):
             count = 2 * axis + (sign < 0)

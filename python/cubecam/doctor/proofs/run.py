@@ -41,7 +41,7 @@ def main(words: list[str]) -> None:
     """Print each measurement as JSON in a line; `words` may have a device."""
     from ..._core import Renderer
 
-    device: str | int = words[0] if words and words[0] else "auto"
+    device = words[0] if words and words[0] else "auto"
     with Renderer(device=int(device) if device.isdecimal() else device) as renderer:
         for found in prove(renderer):
             sys.stdout.write(json.dumps(dataclasses.asdict(found)) + "\n")

@@ -32,15 +32,25 @@ def prove_seams(renderer: Any) -> list[Measurement]:
     count = len(step) // 2  # each edge is met from both sides
     # The eye looks at the same walls across an edge: no step is longer than that of the walls.
     return [
-        Measurement("seams", f"steps across 12 edges, at {count} places", worst(step, right), TOLERANCE),
-        Measurement("seams", "places of the walls along the edges", worst(got[here], expected[here]), TOLERANCE),
+        Measurement(
+            "seams", f"steps across 12 edges, at {count} places", worst(step, right), TOLERANCE
+        ),
+        Measurement(
+            "seams",
+            "places of the walls along the edges",
+            worst(got[here], expected[here]),
+            TOLERANCE,
+        ),
     ]
 
 
 def _walls(matrix: Any) -> Any:
     """Give the points at which the rays of all texels meet the walls."""
     rays = reference.directions(SIZE)
-    start, inside = np.array(EYE) @ matrix, rays @ matrix  # by the transpose: into the room's own axes
+    start, inside = (
+        np.array(EYE) @ matrix,
+        rays @ matrix,
+    )  # by the transpose: into the room's own axes
     with np.errstate(divide="ignore"):
         steps = (np.sign(inside) * np.array(ROOM) / 2 - start) / inside
     return np.array(EYE) + np.where(inside == 0, np.inf, steps).min(-1, keepdims=True) * rays

@@ -35,5 +35,9 @@ def prove_shader(renderer: Any) -> list[Measurement]:
     seen = frame.id == ball.id
     expected = GAIN * (0.5 + 0.5 * frame.normal[seen].astype(float))
     untried = [str(item.message) for item in caught if UNAVAILABLE in str(item.message)]
-    failure = untried[0] if untried else "" if seen.any() else "expected a ball in the picture, got none"
-    return [Measurement("shader", what, worst(frame.color[seen][:, :3], expected), TOLERANCE, failure)]
+    failure = (
+        untried[0] if untried else "" if seen.any() else "expected a ball in the picture, got none"
+    )
+    return [
+        Measurement("shader", what, worst(frame.color[seen][:, :3], expected), TOLERANCE, failure)
+    ]
