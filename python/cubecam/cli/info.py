@@ -57,7 +57,7 @@ def info(device: str | None, as_json: bool) -> None:
 
         click.echo(json.dumps(found, indent=2))
     elif found["error"]:
-        complain(f"{found['error']}\n`cubecam doctor` says what is missing here")
+        complain(found["error"])
     if found["error"]:
         raise SystemExit(1)
 

@@ -80,7 +80,7 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
 
 def _branch(system: System) -> str:
     """The branch of the kernel module, which the packages of the libraries have in their names."""
-    found = re.search(r"Kernel Module\D*(\d+)\.\d+", system.read("/proc/driver/nvidia/version"))
+    found = re.search(r"Kernel Module.*?\s(\d+)\.\d+", system.read("/proc/driver/nvidia/version"))
     return found[1] if found else ""
 
 

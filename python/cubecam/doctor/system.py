@@ -68,9 +68,13 @@ class System:
         """Say whether this user may read, write or execute a file (os.access)."""
         return os.access(self.path(name), mode)
 
+    def group_number(self, name: str) -> int:
+        """Give the number of a file's group."""
+        return self.path(name).stat().st_gid
+
     def group_of(self, name: str) -> tuple[int, str]:
         """Give the number and the name of a file's group; the name is "" where /etc/group has none."""
-        number = self.path(name).stat().st_gid
+        number = self.group_number(name)
         for line in self.read("/etc/group").splitlines():
             parts = line.split(":")
             if len(parts) >= 3 and parts[2] == str(number):
