@@ -120,7 +120,10 @@ def test_a_sound_egl_library(tmp_path):
 
 
 def test_no_vendor_file(tmp_path):
-    found = only(check_vendors(machine(tmp_path), NOT_DRAWN))
+    there = only(check_vendors(machine(tmp_path), NOT_DRAWN))
+    assert there.cure[-1].endswith(f"| sudo tee {VENDORS}/50_mesa.json")  # the library is there
+    without = machine(tmp_path, libraries=("libEGL.so.1", "libGLdispatch.so.0"))
+    found = only(check_vendors(without, NOT_DRAWN))
     assert found.status == "problem"
     assert "/etc/glvnd/egl_vendor.d or /usr/share/glvnd/egl_vendor.d" in found.text
     assert "libegl-mesa0" in found.cure[-1]
@@ -151,7 +154,10 @@ def test_one_sound_driver_makes_another_one_a_warning(tmp_path):
 def test_a_vendor_file_that_cannot_be_read(tmp_path, text):
     files = {f"{VENDORS}/50_mesa.json": MESA_JSON, f"{VENDORS}/60_x.json": text}
     _, broken = check_vendors(machine(tmp_path, files), DRAWN)
+    assert broken.status == "warning"
     assert "60_x.json: expected" in broken.text
+    alone = only(check_vendors(machine(tmp_path / "b", {f"{VENDORS}/60_x.json": text}), NOT_DRAWN))
+    assert alone.status == "problem"
     assert broken.cure == (f"sudo rm {VENDORS}/60_x.json",)
 
 

@@ -9,13 +9,12 @@ from .findings import Finding
 from .packages import install_nvidia
 from .surroundings import container_sign
 from .system import System
-from .vendors import DEFAULT_FOLDERS, library_of, vendor_files
+from .vendors import library_of, vendor_file_cure, vendor_files
 
 __all__ = ["check_nvidia", "nvidia_cure", "nvidia_signs"]
 
 LIBRARY = "libEGL_nvidia.so.0"
 CAPABILITIES = "NVIDIA_DRIVER_CAPABILITIES"
-_JSON = '{"file_format_version": "1.0.0", "ICD": {"library_path": "libEGL_nvidia.so.0"}}'
 
 
 def nvidia_signs(system: System) -> list[str]:
@@ -64,12 +63,8 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
         text = f"an NVIDIA GPU ({where}), left out by __EGL_VENDOR_LIBRARY_FILENAMES"
         return [Finding("nvidia", "warning", text, ("unset __EGL_VENDOR_LIBRARY_FILENAMES",))]
     if not system.library_problem(LIBRARY):
-        folder = DEFAULT_FOLDERS[1]
         text = f"an NVIDIA GPU ({where}) and {LIBRARY}, and no vendor file that names it"
-        cure = (
-            f"{system.sudo()}mkdir -p {folder}",
-            f"echo '{_JSON}' | {system.sudo()}tee {folder}/10_nvidia.json",
-        )
+        cure = vendor_file_cure(system, "10_nvidia.json", LIBRARY)
         return [Finding("nvidia", "warning", text, cure)]
     text = f"an NVIDIA GPU ({where}), and no {LIBRARY}: pictures are not drawn on it"
     allowed = system.environ.get(CAPABILITIES)

@@ -13,7 +13,14 @@ from .findings import Finding
 from .packages import install_mesa
 from .system import System
 
-__all__ = ["DEFAULT_FOLDERS", "check_vendors", "has_glvnd", "library_of", "vendor_files"]
+__all__ = [
+    "DEFAULT_FOLDERS",
+    "check_vendors",
+    "has_glvnd",
+    "library_of",
+    "vendor_file_cure",
+    "vendor_files",
+]
 
 DEFAULT_FOLDERS = ("/etc/glvnd/egl_vendor.d", "/usr/share/glvnd/egl_vendor.d")
 FILENAMES = "__EGL_VENDOR_LIBRARY_FILENAMES"
@@ -42,6 +49,16 @@ def library_of(system: System, file: str) -> str | None:
         return None
 
 
+def vendor_file_cure(system: System, name: str, library: str) -> tuple[str, ...]:
+    """Give the commands that write a vendor file for a library."""
+    folder = DEFAULT_FOLDERS[1]
+    text = json.dumps({"file_format_version": "1.0.0", "ICD": {"library_path": library}})
+    return (
+        f"{system.sudo()}mkdir -p {folder}",
+        f"echo '{text}' | {system.sudo()}tee {folder}/{name}",
+    )
+
+
 def check_vendors(system: System, drawing: Drawing) -> list[Finding]:
     """Read the vendor files, and load the library that each names."""
     if system.environ.get("CUBECAM_EGL_LIBRARY") or not has_glvnd(system):
@@ -53,13 +70,17 @@ def check_vendors(system: System, drawing: Drawing) -> list[Finding]:
     if not files:
         folders = " or ".join(_folders(system))
         text = f"no driver: there is no vendor file in {folders}"
-        return [Finding("egl-vendors", drawing.blocking, text, install_mesa(system))]
+        # The library may be there without its file, which a package that is installed does not bring again.
+        there = not system.library_problem(MESA)
+        cure = vendor_file_cure(system, "50_mesa.json", MESA) if there else install_mesa(system)
+        return [Finding("egl-vendors", drawing.blocking, text, cure)]
     found, sound = [], []
     for file in files:
         library = library_of(system, file)
         if library is None:
             text = f'{file}: expected {{"ICD": {{"library_path": ...}}}}, got another text'
-            found.append(Finding("egl-vendors", "warning", text, (f"{system.sudo()}rm {file}",)))
+            cure = (f"{system.sudo()}rm {file}",)
+            found.append(Finding("egl-vendors", drawing.blocking, text, cure))
             continue
         problem = system.library_problem(library)
         if problem:

@@ -45,5 +45,6 @@ def worst(got: Any, expected: Any) -> float:
     one, other = np.asarray(got, np.float64), np.asarray(expected, np.float64)
     if one.shape != other.shape:
         raise ValueError(f"expected an array of shape {other.shape}, got {one.shape}")
-    difference = np.where(one == other, 0.0, np.abs(one - other))  # infinity equals infinity
+    with np.errstate(invalid="ignore"):  # infinity equals infinity
+        difference = np.where(one == other, 0.0, np.abs(one - other))
     return float(np.nan_to_num(difference, nan=np.inf).max(initial=0.0))
