@@ -1,7 +1,10 @@
 """`cubecam doctor --selftest`: it passes on a driver that draws right, and fails for each mistake that it looks for."""
 
 import time
+from collections.abc import Callable
+from functools import partial
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -82,18 +85,12 @@ def flipped_face(faces, face, axis):
     return faces
 
 
-SWAPS = {
+SWAPS: dict[str, Callable[[Any], Any]] = {
     "+X and -X exchanged": lambda faces: faces[[1, 0, 2, 3, 4, 5]],
     "all mirrored": lambda faces: faces[:, :, ::-1],
     "all upside down": lambda faces: faces[:, ::-1],
-    **{
-        f"face {face} mirrored": lambda faces, f=face: flipped_face(faces, f, 1)
-        for face in range(6)
-    },
-    **{
-        f"face {face} upside down": lambda faces, f=face: flipped_face(faces, f, 0)
-        for face in range(6)
-    },
+    **{f"face {face} mirrored": partial(flipped_face, face=face, axis=1) for face in range(6)},
+    **{f"face {face} upside down": partial(flipped_face, face=face, axis=0) for face in range(6)},
     "all turned": lambda faces: np.rot90(faces, axes=(1, 2)),
     "+Y turned": lambda faces: np.concatenate(
         [faces[:2], np.rot90(faces[2:3], axes=(1, 2)), faces[3:]]
