@@ -15,9 +15,11 @@ from click.testing import CliRunner
 import cubecam as cc
 from cubecam.cli import app
 from cubecam.cli.conventions import conventions_file, section_of
+from tests.gl.fakes import build_fake
 from tests.helpers import need_no_sanitizer, need_terminals, run_python
 
 ROOT = Path(__file__).resolve().parents[2]
+EGL = ROOT / "cpp" / "cubecam" / "gl" / "egl.cpp"
 PACKAGE = Path(cc.__file__).parent
 DOCUMENT = (ROOT / "docs" / "conventions.md").read_text(encoding="utf-8")
 
@@ -78,6 +80,42 @@ def test_a_wrong_path_of_drivers():
     (one,) = [one for one in found["findings"] if one["name"] == "mesa-drivers"]
     assert one["status"] == ("warning" if found["works"] else "problem")
     assert one["cure"] == ["unset LIBGL_DRIVERS_PATH"]
+
+
+@pytest.fixture(scope="module")
+def fake(tmp_path_factory):
+    return build_fake(tmp_path_factory.mktemp("fake"))
+
+
+@pytest.mark.llvmpipe("the stand-in has llvmpipe below it")
+def test_a_gpu_that_does_not_start(fake):
+    done = cubecam("doctor", "--json", CUBECAM_EGL_LIBRARY=str(fake), FAKE_GPU="1")
+    report = json.loads(done.stdout)
+    (one,) = [one for one in report["findings"] if one["name"] == "gpu"]
+    assert (report["works"], one["status"]) == (True, "warning")
+    assert "is a GPU that does not start: " in one["text"]
+    wanted = cubecam(
+        "doctor", "--json", "--device", "gpu", CUBECAM_EGL_LIBRARY=str(fake), FAKE_GPU="1"
+    )
+    assert wanted.returncode == 1
+    assert "drawing" in problems(wanted)
+
+
+def test_a_library_that_crashes(tmp_path):
+    """The doctor lives on, and names the signal."""
+    source, library = tmp_path / "crash.c", tmp_path / "libcrash.so"
+    source.write_text(
+        "#include <stdlib.h>\n#include <stdio.h>\nvoid* eglGetProcAddress(const char* n) { abort(); }\n"
+        + "".join(
+            f"void* {name}(void) {{ abort(); }}\n"
+            for name in re.findall(r'"(egl(?!GetProcAddress)\w+)"', EGL.read_text())
+        )
+    )
+    compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc")
+    subprocess.run([str(compiler), "-shared", "-fPIC", str(source), "-o", str(library)], check=True)
+    done = cubecam("doctor", CUBECAM_EGL_LIBRARY=str(library))
+    assert done.returncode == 1
+    assert "was ended by SIGABRT while listing the devices" in done.stdout
 
 
 def test_a_device_that_does_not_exist():
