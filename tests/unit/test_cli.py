@@ -420,13 +420,15 @@ PRINTING = {
     "completion": ["--show-completion", "fish"],
     "info": ["info"],
     "json": ["info", "--json"],
+    "doctor": ["doctor"],
+    "conventions": ["conventions"],
     "convert": ["convert", "sky.png", "-o", "out.png"],
     "capture": ["capture", "box.obj", "-o", "out.exr", "--size", "8"],
     "list": ["example", "--list"],
     "example": ["example", "P15", "--frames", "1", "--size", "8", "-o", "out.png"],
     "demo": ["demo", "--out", "out", "--frames", "1", "--size", "16"],
 }
-DRAWING = ("capture", "example", "demo")
+DRAWING = ("capture", "example", "demo", "doctor")
 printing = pytest.mark.parametrize(
     "arguments",
     [

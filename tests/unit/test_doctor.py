@@ -302,6 +302,12 @@ def test_no_right_to_the_gpu_in_a_container(tmp_path):
     assert "docker run --device /dev/dri --group-add 104 IMAGE" in found.cure
 
 
+def test_a_user_without_a_name_is_that_of_a_container(tmp_path):
+    found = only(check_nodes(with_node(tmp_path, name=""), DRAWN))
+    assert "docker run --device /dev/dri --group-add 992 IMAGE" in found.cure
+    assert "joined" not in found.text
+
+
 def test_a_group_that_the_session_does_not_have_yet(tmp_path):
     found = only(check_nodes(with_node(tmp_path, "render:x:992:bob,alice"), DRAWN))
     assert "joined after this session began" in found.text

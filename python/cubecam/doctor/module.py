@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.machinery
+import os
 import platform
 import re
 import sys
@@ -67,7 +68,7 @@ def _loader_reason(
 ) -> tuple[str, tuple[str, ...]]:
     """Explain what the loader of the system says."""
     file = installed.folder / name
-    text = f"{file} cannot be loaded: {error}"
+    text = f"{file} cannot be loaded: {error.removeprefix(f'{file}: ')}"
     if found := re.search(r"version `(GLIBC_[\d.]+)' not found", error):
         have = "-".join(part for part in platform.libc_ver() if part)
         return f"{text} (this system has {have})", (
@@ -97,8 +98,19 @@ def _loader_reason(
             f"{system.sudo()}apt-get install -y {package}  # Debian, Ubuntu; others: the package with {missing[1]}",
         )
     if "failed to map segment" in error or "Operation not permitted" in error:
-        return f"{text}; its folder is perhaps on a file system mounted with noexec", (
-            f"findmnt -T {installed.folder}",
-            "# install into another folder: python3 -m venv ~/venv && ~/venv/bin/pip install cubecam",
-        )
+        mount = _noexec_mount(installed.folder)
+        why = f"{mount} is mounted with noexec" if mount else "this system forbids to execute it"
+        first = f"sudo mount -o remount,exec {mount}" if mount else f"findmnt -T {installed.folder}"
+        other = "# or install elsewhere: python3 -m venv ~/venv && ~/venv/bin/pip install cubecam"
+        return f"{text}; {why}", (first, other)
     return text, (installed.reinstall,)
+
+
+def _noexec_mount(folder: Path) -> Path | None:
+    """Give the place at which the folder's file system is mounted, if nothing on it may be executed."""
+    if not os.statvfs(folder).f_flag & os.ST_NOEXEC:
+        return None
+    place = folder.resolve()
+    while not place.is_mount() and place != place.parent:
+        place = place.parent
+    return place

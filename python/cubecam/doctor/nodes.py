@@ -33,9 +33,10 @@ def _refused(system: System, node: str) -> Finding:
     number, name = system.group_of(node)
     group = name or str(number)
     text = f"no right to open {node}, the way to a GPU: it belongs to the group {group} ({number})"
-    user = system.user() or str(system.uid)
+    user = system.user()
     cure: tuple[str, ...]
-    if container_sign(system):
+    # A user without a name is that of a container, too: docker run --user.
+    if container_sign(system) or not user:
         cure = (
             "# start the container with the device and its group:",
             f"docker run --device /dev/dri --group-add {number} IMAGE",

@@ -30,12 +30,8 @@ def check_helper(drawing: Drawing, folder: Path) -> list[Finding]:
         return [Finding("shader-trial", "warning", text, _again(folder))]
     mode = file.stat().st_mode
     if not mode & stat.S_IXUSR or not os.access(file, os.X_OK):
-        if _on_noexec(file):
-            return [_noexec(file)]
         text = f"{file} may not be executed: shaders are compiled without a trial"
         return [Finding("shader-trial", "warning", text, (f"chmod +x {file}",))]
-    if _on_noexec(file):
-        return [_noexec(file)]
     if told:
         reason = told[0].partition("cannot be started: ")[2].partition(". A source")[0]
         text = f"{file} cannot be started: {reason}"
@@ -49,27 +45,6 @@ def check_helper(drawing: Drawing, folder: Path) -> list[Finding]:
         if drawing.works
         else []
     )
-
-
-def _noexec(file: Path) -> Finding:
-    mount = _mount_of(file)
-    text = f"{file} may not be executed: {mount} is mounted with noexec"
-    cure = (
-        f"sudo mount -o remount,exec {mount}",
-        "# or install into a folder elsewhere: python3 -m venv ~/venv && ~/venv/bin/pip install cubecam",
-    )
-    return Finding("shader-trial", "warning", text, cure)
-
-
-def _on_noexec(file: Path) -> bool:
-    return bool(os.statvfs(file).f_flag & os.ST_NOEXEC)
-
-
-def _mount_of(file: Path) -> Path:
-    place = file.resolve()
-    while not place.is_mount() and place != place.parent:
-        place = place.parent
-    return place
 
 
 def _again(folder: Path) -> tuple[str, ...]:

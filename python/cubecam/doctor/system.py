@@ -93,7 +93,7 @@ class System:
         for line in self.read("/etc/group").splitlines():
             parts = line.split(":")
             if len(parts) == 4 and parts[0] == group:
-                return self.user() in parts[3].split(",")
+                return self.user() in parts[3].split(",") and self.user() != ""
         return False
 
     def run(
