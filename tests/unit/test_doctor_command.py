@@ -299,7 +299,7 @@ def test_the_conventions_in_a_terminal():
     need_terminals()
     ours, theirs = pty.openpty()
     with subprocess.Popen(
-        [sys.executable, "-m", "cubecam", "conventions", "--section", "six faces"],
+        [sys.executable, "-m", "cubecam", "conventions", "--section", "panoramas"],
         env={**os.environ, "COLUMNS": "100", "TERM": "xterm-256color"},
         stdout=theirs,
     ) as process:
@@ -318,8 +318,10 @@ def test_the_conventions_in_a_terminal():
     shown = text.decode()
     assert "\x1b[" in shown
     assert "##" not in shown
-    assert "| face |" not in shown  # a table of Markdown is drawn as one
-    assert "The order is +X -X +Y -Y +Z -Z" in re.sub(r"\x1b\[[\d;]*m", "", shown)
+    assert "| left edge |" not in shown  # a table of Markdown is drawn as one
+    plain = re.sub(r"\x1b\[[\d;]*m", "", shown)
+    assert "Columns run to the right as the viewer turns to the right." in plain
+    assert "](" not in plain
 
 
 def test_sections():

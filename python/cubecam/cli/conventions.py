@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 
@@ -81,5 +82,6 @@ def _lay_out(text: str) -> None:
     from rich.markdown import Markdown
 
     console = Console()
-    # Links lead to other pages of the documents: their addresses would be paths that are not here.
-    console.print(Markdown(text, hyperlinks=True), width=min(console.width, _WIDEST))
+    # Links lead to other documents, which are not in the package: their words are enough.
+    words = re.sub(r"\[([^\]]+)\]\([^)]*\)", r"\1", text)
+    console.print(Markdown(words), width=min(console.width, _WIDEST))
