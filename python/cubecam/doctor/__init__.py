@@ -6,14 +6,10 @@ missing. ``examine()`` looks for causes, ``selftest()`` compares pictures of thi
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from .findings import Finding
+from .proofs.measurement import Measurement
 
-if TYPE_CHECKING:
-    from .proofs.measurement import Measurement
-
-__all__ = ["Finding", "examine", "selftest"]
+__all__ = ["Finding", "Measurement", "examine", "selftest"]
 
 
 def examine(device: str | int | None = None) -> list[Finding]:

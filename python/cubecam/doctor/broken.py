@@ -25,6 +25,8 @@ def refuse(error: ImportError) -> NoReturn:
     from .module import explain, here
     from .system import System
 
+    if "subinterpreter" in str(error):  # the module itself says why, and nothing is broken
+        raise error
     words = _words_of_command()
     if words is not None and words[:1] == ["doctor"]:
         raise SystemExit(run_without_the_core(words[1:], str(error)))
