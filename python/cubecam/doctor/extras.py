@@ -41,15 +41,14 @@ def check_extras() -> list[Finding]:
     missing = {name: lacks for name in EXTRAS if (lacks := _missing(name))}
     there = [name for name in EXTRAS if name not in missing]
     found = [Finding("extras", "ok", f"installed extras: {', '.join(there)}")] if there else []
-    found += [
-        Finding(
-            "extras",
-            "note",
-            f"{EXTRAS[name][0]}: not installed ({', '.join(lacks)})",
-            (f'pip install "cubecam[{name}]"',),
-        )
+    lines = [
+        f'pip install "cubecam[{name}]"  # {EXTRAS[name][0]} ({", ".join(lacks)})'
         for name, lacks in missing.items()
     ]
+    if lines:
+        found.append(
+            Finding("extras", "note", "packages that only some features need:", tuple(lines))
+        )
     return found
 
 
