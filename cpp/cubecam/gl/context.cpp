@@ -101,9 +101,9 @@ std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
 }  // namespace
 
 LargestSide largest_side(const Limits& limits, bool face) noexcept {
-    LargestSide least = face ? LargestSide{limits.max_cube_map_texture_size,
-                                           "GL_MAX_CUBE_MAP_TEXTURE_SIZE"}
-                             : LargestSide{limits.max_texture_size, "GL_MAX_TEXTURE_SIZE"};
+    LargestSide least =
+        face ? LargestSide{limits.max_cube_map_texture_size, "GL_MAX_CUBE_MAP_TEXTURE_SIZE"}
+             : LargestSide{limits.max_texture_size, "GL_MAX_TEXTURE_SIZE"};
     for (const LargestSide& other :
          {LargestSide{limits.max_framebuffer_width, "GL_MAX_FRAMEBUFFER_WIDTH"},
           LargestSide{limits.max_framebuffer_height, "GL_MAX_FRAMEBUFFER_HEIGHT"},
