@@ -22,7 +22,9 @@ DIST = ROOT / "dist"
 LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
 LARGEST = 5_000_000  # bytes
 HELPER = "cubecam/_shader_trial"  # the program that tries users' GLSL
-EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md", HELPER)
+EXPECTED = (
+    "cubecam/_core.pyi", "cubecam/conventions.md", "cubecam/data/CREDITS.md", "cubecam/py.typed", HELPER,
+)  # fmt: skip
 #: A source with which Mesa's compiler crashes: only the helper may notice.
 TRIAL = """
 import cubecam as cc
