@@ -40,7 +40,7 @@ test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile 
 	cmake --preset debug -G Ninja -DPython_EXECUTABLE=$(abspath $(PY)) && cmake --build --preset debug && ctest --preset debug
 	@$(PY) -m pytest -m build tests/build $(PYTEST_ARGS)
 
-test-browser: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages and JupyterLab with Chromium, which apt installs
+test-browser: docs $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages, JupyterLab and the site with Chromium, which apt installs
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
@@ -75,8 +75,9 @@ bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL an
 gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check
 	@$(PY) scripts/gpu_check.py $(GPU_ARGS)
 
-docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
-	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam
+docs: $(VENV)/.installed $(VENV)/.deps-docs $(VENV)/.deps-jupyter ## build the site in docs/_build/html: run its code, check its links
+	@$(PY) -m sphinx -b html -W --keep-going -j auto -q -d docs/_build/doctrees docs docs/_build/html
+	@$(PY) scripts/check_site.py docs/_build/html
 
 gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the README and of docs/howto into docs/images
 	@$(PY) scripts/gallery.py
@@ -105,7 +106,7 @@ mutants: $(VENV)/.installed $(VENV)/.deps-test ## break the sources one place at
 	@$(PY) tests/mutation.py
 
 clean: ## remove everything that make made
-	rm -rf .venv build dist out docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks tests/failures
+	rm -rf .venv build dist out docs/_build docs/gallery docs/lessons docs/project .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks tests/failures
 	find cpp python scripts tests benchmarks -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
 $(VENV)/.deps: pyproject.toml scripts/system.py scripts/packages.py
