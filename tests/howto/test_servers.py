@@ -32,7 +32,8 @@ def test_info_prints_what_the_page_shows():
 
 
 def test_every_command_of_cubecam_exists():
-    for line in re.findall(r"^cubecam ([\w-]+)(?: --(\w+))?", text_of(NAME), re.MULTILINE):
+    lines = "\n".join(fenced(NAME, "sh"))
+    for line in re.findall(r"^cubecam ([\w-]+)(?: --(\w+))?", lines, re.MULTILINE):
         command = app.commands[line[0]]
         assert not line[1] or f"--{line[1]}" in {o for p in command.params for o in p.opts}
 
@@ -57,7 +58,9 @@ def test_the_images_install_what_the_page_says():
         assert re.search(r"NVIDIA_DRIVER_CAPABILITIES=\S*graphics", text)
         assert "XDG_CACHE_HOME=/tmp/cache" in text
         assert re.search(r"^USER 1000", text, re.MULTILINE)
-    for line in re.findall(r"^docker run --rm cubecam.*$|^docker build .*?cubecam \.", text_of(NAME), re.MULTILINE):
+    for line in re.findall(
+        r"^docker run --rm cubecam.*$|^docker build .*?cubecam \.", text_of(NAME), re.MULTILINE
+    ):
         assert line.split(" --selftest")[0] in ours
     assert re.search(r"^image:", text_of("Makefile"), re.MULTILINE)
 
