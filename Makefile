@@ -21,7 +21,7 @@ SANITIZE_ARGS ?=
 WHEELS_ARGS ?=
 
 # The list has folders, too, since a removed file changes only its folder.
-SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
+SOURCES := CMakeLists.txt pyproject.toml docs/conventions.md $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
 CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help

@@ -29,7 +29,13 @@ from typing import Any
 LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
 LARGEST = 5_000_000  # bytes
 HELPER = "cubecam/_shader_trial"  # the program that tries users' GLSL
-EXPECTED = ("cubecam/_core.pyi", "cubecam/py.typed", "cubecam/data/CREDITS.md", HELPER)
+EXPECTED = (
+    "cubecam/_core.pyi",
+    "cubecam/conventions.md",
+    "cubecam/data/CREDITS.md",
+    "cubecam/py.typed",
+    HELPER,
+)
 LICENCES = ("LICENSE", "licenses/{}.txt", "python/cubecam/data/CREDITS.md")
 COMPONENTS = ("glad", "glm", "pybind11")  # compiled into the extension
 #: The newest symbols that an image of each tag has (PEP 600; auditwheel's manylinux-policy.json).
