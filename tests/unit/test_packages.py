@@ -219,6 +219,8 @@ def test_the_conda_recipe_needs_what_the_project_needs(project):
     assert listed["run"] == run | {"python"}
     build = set(conda_names(project["build-system"]["requires"]))
     assert listed["host"] == build | {"glm", "pip", "python"}
+    (command,) = project["project"]["scripts"].items()
+    assert "    - " + " = ".join(command) + "\n" in text
     for file in ("LICENSE", *(f"licenses/{path.name}" for path in (ROOT / "licenses").iterdir())):
         assert f"    - {file}\n" in text
 
@@ -245,7 +247,7 @@ def test_the_image_gets_what_a_wheel_is_made_of(project):
     allowed = {line[1:] for line in lines if line.startswith("!")}
     licences = {path.partition("/")[0] for path in project["project"]["license-files"]}
     assert allowed == licences | {
-        "CMakeLists.txt", "README.md", "pyproject.toml", "cmake", "cpp", "shaders",
+        "CMakeLists.txt", "README.md", "pyproject.toml", "cmake", "cpp", "docs/conventions.md", "shaders",
     }  # fmt: skip
     assert {"*", "**/*.so", "python/cubecam/_shader_trial"} <= set(lines)
 
