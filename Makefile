@@ -8,23 +8,28 @@ PYTEST_ARGS ?=
 # Processes of pytest. All tests of a file run in one process, so that they share its renderers.
 WORKERS ?= auto
 PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
+DOCKER ?= docker
 BENCH_ARGS ?=
+CONDA_ARGS ?=
 FUZZ_ARGS ?=
 GPU_ARGS ?=
+IMAGE_ARGS ?=
 NOTEBOOK_ARGS ?=
+RELEASE_ARGS ?=
 SOAK_ARGS ?=
 SANITIZE_ARGS ?=
+WHEELS_ARGS ?=
 
 # The list has folders, too, since a removed file changes only its folder.
-SOURCES := CMakeLists.txt pyproject.toml $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
+SOURCES := CMakeLists.txt pyproject.toml docs/conventions.md $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
 CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery notebooks sdist wheel sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 demo: $(VENV)/.installed ## set up, build, and render a scene with a mirror ball to out/
 	@$(PY) -m cubecam demo --out out
@@ -86,12 +91,26 @@ gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the READM
 notebooks: $(VENV)/.installed $(VENV)/.deps-test ## run the notebooks and write their outputs; NOTEBOOK_ARGS="03 08" chooses
 	@$(PY) scripts/notebooks.py $(NOTEBOOK_ARGS)
 
-sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dist/ and build a wheel from it alone
-	@$(PY) -m build --quiet --sdist --outdir dist .
-	@$(PY) -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir build/from-sdist dist/cubecam-*.tar.gz
+sdist: $(VENV)/.deps $(VENV)/.deps-packages ## write the source distribution into dist/ and build a wheel from it, with no network
+	@$(PY) scripts/sdist.py
 
-wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
+wheel: $(VENV)/.deps $(VENV)/.deps-packages ## build a wheel into dist/, check what is in it, and run the demo from it
 	@$(PY) scripts/wheel.py
+
+wheels: $(VENV)/.deps $(VENV)/.deps-packages ## build the wheels of a release into dist/ in the images of manylinux_2_28; needs Docker
+	@$(PY) -m cibuildwheel --platform linux --output-dir dist $(WHEELS_ARGS)
+
+image: ## build the container image, draw the demo's picture with it to out/image, try its driver; DOCKER=podman
+	$(DOCKER) build --tag cubecam $(IMAGE_ARGS) .
+	mkdir -p out/image
+	$(DOCKER) run --rm --network none --user "$$(id -u):$$(id -g)" --volume "$(CURDIR)/out/image:/out" cubecam
+	$(DOCKER) run --rm --network none cubecam doctor --selftest
+
+conda: $(VENV)/.deps $(VENV)/.deps-conda ## build the conda package into dist/conda; CONDA_ARGS="--render" only reads the recipe
+	@$(PY) scripts/conda.py $(CONDA_ARGS)
+
+release-check: $(VENV)/.deps $(VENV)/.deps-packages ## check that the tree and dist/ are ready for a release: versions, changelog, tag, packages
+	@$(PY) scripts/release.py $(RELEASE_ARGS)
 
 sanitize: $(VENV)/.deps-test ## run the tests with modules for AddressSanitizer and UndefinedBehaviorSanitizer, then for ThreadSanitizer
 	@$(PY) scripts/sanitize.py $(SANITIZE_ARGS)

@@ -12,7 +12,7 @@ os.environ["MPLBACKEND"] = "agg"
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
 sys.path.insert(0, str(Path(__file__).parent))
 
-from _ext.repository import package_hash
+from _ext.repository import files_url, package_hash
 
 import cubecam
 
@@ -53,8 +53,7 @@ nitpick_ignore_regex = [
     (r"py:.*", r"(Axes|Figure|Normalize|Colormap|Console|Self|AnyLight|AnyCamera|MutableMapping)"),
 ]
 
-# The repository's address, such as https://host/cubecam/blob/main, if links to its sources are wanted.
-cubecam_repository = os.environ.get("CUBECAM_REPOSITORY", "")
+cubecam_repository = files_url()
 cubecam_hash = package_hash()
 
 # ----- text

@@ -53,9 +53,18 @@ void bind_stats(py::module_& m) {
 void bind_info(py::module_& m) {
     bindings::declare<gl::Limits>(m, "Limits", "The greatest values that the driver allows.")
         .def_readonly("max_texture_size", &gl::Limits::max_texture_size,
-                      "int: pixels along a side of a frame.")
+                      "int: pixels along a side of a texture.")
         .def_readonly("max_cube_map_texture_size", &gl::Limits::max_cube_map_texture_size,
-                      "int: pixels along an edge of a face.")
+                      "int: pixels along an edge of a face of a cubemap that is looked up.")
+        .def_property_readonly(
+            "max_frame_size",
+            [](const gl::Limits& limits) { return gl::largest_side(limits, false).pixels; },
+            "int: pixels along a side of a frame that can be drawn.")
+        .def_property_readonly(
+            "max_face_size",
+            [](const gl::Limits& limits) { return gl::largest_side(limits, true).pixels; },
+            "int: pixels along an edge of a face that can be captured; a driver may draw smaller "
+            "ones than it looks up.")
         .def_readonly("max_array_texture_layers", &gl::Limits::max_array_texture_layers, "int")
         .def_readonly("max_samples", &gl::Limits::max_samples, "int: samples of each pixel (MSAA).")
         .def_readonly("max_color_attachments", &gl::Limits::max_color_attachments, "int");

@@ -30,8 +30,8 @@ COPIED = {
 }
 #: What has another place in the site, or is shown by another page.
 PAGES = {**COPIED, "README.md": "index.md", "notebooks": "lessons.md"}
-#: Folders whose README.md is their page; it gets all other pages of the folder as children.
-FOLDERS = ("howto", "explanation", "adr")
+#: Folders whose README.md is their page in the site, and the pages that are its children there.
+FOLDERS = {"howto": ["*"], "explanation": ["*", "/gpu", "/security"], "adr": ["*"]}
 
 _FENCE = re.compile(r"^( *)(```+|~~~+)")
 _LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
@@ -41,8 +41,8 @@ def turned_links(text: str, source: Path, page: Path, url: str = "") -> str:
     """Turn the links of a document to the pages of the site.
 
     source, page : the file in the repository, and its place below docs/.
-    url : where the repository's files are shown, such as "https://host/cubecam/blob/main"; without one, a link to a
-        file that the site does not have becomes plain text.
+    url : where the repository's files are shown, such as "https://HOST/OWNER/cubecam/blob/main"; without one, a link
+        to a file that the site does not have becomes plain text.
     """
     lines, fence = [], ""
     for line in text.split("\n"):
@@ -122,7 +122,16 @@ def turn_page(app: Sphinx, docname: str, source: list[str]) -> None:
     source[0] = turned_links(source[0], page, page, app.config.cubecam_repository)
     folder, _, name = docname.partition("/")
     if folder in FOLDERS and name == "README":
-        source[0] += "\n\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"
+        children = "\n".join(FOLDERS[folder])
+        source[0] += f"\n\n```{{toctree}}\n:hidden:\n:glob:\n\n{children}\n```\n"
+
+
+def files_url() -> str:
+    """Give the address at which the repository shows its files; empty if pyproject.toml and the environment name none."""
+    settings = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    found = re.search(r'^repository = "(.+)"', settings, re.MULTILINE)
+    address = os.environ.get("CUBECAM_REPOSITORY") or (found[1] if found else "")
+    return f"{address.rstrip('/')}/blob/v{cubecam.__version__}" if address else ""
 
 
 def package_hash() -> str:

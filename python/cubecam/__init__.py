@@ -16,14 +16,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from . import _attach, _core
+try:
+    from . import _core
+except ImportError as _error:  # the module is missing, or does not fit the system
+    from .doctor.broken import refuse
+
+    refuse(_error)
+
+from . import _attach
 from . import typing as typing
 from ._core import *  # noqa: F403 - what _core.__all__ lists, so that a new class is exported at once
 from ._core import __version__
 from ._late import late_names
 
 if TYPE_CHECKING:
-    from . import explore, plot
+    from . import doctor, explore, plot
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
@@ -49,6 +56,7 @@ else:
         },
         modules=[
             "demo",
+            "doctor",
             "examples",
             "explore",
             "io",
@@ -68,6 +76,7 @@ __all__ = [
     "Viewer",
     "__version__",
     "brdf",
+    "doctor",
     "explore",
     "fresnel",
     "load_cubemap",

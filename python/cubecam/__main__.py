@@ -1,6 +1,30 @@
 """`python -m cubecam` is the command `cubecam`."""
 
-from .cli import main
+from __future__ import annotations
+
+import sys
+
+__all__ = ["main"]
+
+
+def main() -> None:
+    """Run the command; `cubecam doctor` runs without the packages that the others need.
+
+    Raises
+    ------
+    ImportError
+        If such a package is missing, and another command was asked for.
+    """
+    try:
+        from .cli import main as run
+    except ImportError:
+        if sys.argv[1:2] != ["doctor"]:
+            raise
+        from .doctor.broken import run_without_the_core
+
+        raise SystemExit(run_without_the_core(sys.argv[2:], "")) from None
+    run()
+
 
 if __name__ == "__main__":
     main()

@@ -6344,7 +6344,7 @@ class Shadow:
     ----------
     size : int
         Texels along a side of the map; a point light has six maps. At least 8, and more for a larger radius;
-        at most ``info.limits.max_texture_size``.
+        at most ``info.limits.max_frame_size``.
     radius : float
         Radius of the percentage-closer filter (Reeves, Salesin and Cook, 1987) in texels, from 0 to 16: a box
         of ``2 * radius + 1`` texels. 0 gives the hardest edge.
@@ -8279,7 +8279,19 @@ class Limits:
     @property
     def max_cube_map_texture_size(self) -> int:
         """
-        int: pixels along an edge of a face.
+        int: pixels along an edge of a face of a cubemap that is looked up.
+        """
+
+    @property
+    def max_face_size(self) -> int:
+        """
+        int: pixels along an edge of a face that can be captured; a driver may draw smaller ones than it looks up.
+        """
+
+    @property
+    def max_frame_size(self) -> int:
+        """
+        int: pixels along a side of a frame that can be drawn.
         """
 
     @property
@@ -8291,7 +8303,7 @@ class Limits:
     @property
     def max_texture_size(self) -> int:
         """
-        int: pixels along a side of a frame.
+        int: pixels along a side of a texture.
         """
 
 class RendererInfo:

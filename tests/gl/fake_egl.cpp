@@ -20,6 +20,9 @@ constexpr std::int32_t reset_strategy = 0x31BD;
 constexpr std::int32_t track_references = 0x3352;
 constexpr unsigned gl_renderer = 0x1F01;
 constexpr unsigned max_texture_image_units = 0x8872;
+constexpr unsigned max_framebuffer_width = 0x9315;
+constexpr unsigned max_framebuffer_height = 0x9316;
+constexpr unsigned max_viewport_dims = 0x0D3A;
 constexpr unsigned free_memory_nvx = 0x9049;
 constexpr unsigned free_memory_ati = 0x87FC;
 constexpr unsigned link_status = 0x8B82;
@@ -112,6 +115,17 @@ void get_integer(unsigned name, int* value) {
     const char* units = variable("FAKE_UNITS");
     if (name == max_texture_image_units && units != nullptr) {
         *value = std::atoi(units);
+        return;
+    }
+    // Zink looks up larger textures than it draws into.
+    const char* drawn = variable("FAKE_LARGEST_DRAWN");
+    if ((name == max_framebuffer_height || name == max_framebuffer_width) && drawn != nullptr) {
+        *value = std::atoi(drawn);
+        return;
+    }
+    const char* seen = variable("FAKE_LARGEST_VIEWPORT");
+    if (name == max_viewport_dims && seen != nullptr) {
+        value[0] = value[1] = std::atoi(seen);
         return;
     }
     const bool memory = name == free_memory_nvx || name == free_memory_ati;

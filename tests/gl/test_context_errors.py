@@ -26,6 +26,7 @@ def test_no_egl_library(call):
     text = refused(call, CUBECAM_EGL_LIBRARY="libnowhere.so.9")
     assert "libnowhere.so.9" in text
     assert "libegl1" in text
+    assert "`cubecam doctor`" in text
 
 
 @pytest.mark.llvmpipe("variables that choose another driver change the advice")
@@ -35,6 +36,7 @@ def test_no_device(tmp_path):
     for word in ("device", "surfaceless", "default"):
         assert word in text.lower()
     assert "libgl1-mesa-dri" in text
+    assert "`cubecam doctor`" in text
 
 
 def test_after_a_failure_the_process_lives_on():

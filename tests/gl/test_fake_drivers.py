@@ -340,6 +340,42 @@ else:
     )
 
 
+@pytest.mark.parametrize(
+    ("variable", "limit"),
+    [
+        ("FAKE_LARGEST_DRAWN", "GL_MAX_FRAMEBUFFER_WIDTH"),
+        ("FAKE_LARGEST_VIEWPORT", "GL_MAX_VIEWPORT_DIMS"),
+    ],
+)
+def test_the_largest_face_is_what_can_be_drawn(fake, variable, limit):
+    """A driver that looks up larger textures than it draws into: `info` tells the size that a capture accepts."""
+    run_fake(
+        fake,
+        f"""
+renderer = cc.Renderer(device="software")
+limits = renderer.info.limits
+assert limits.max_face_size == limits.max_frame_size == 40, (limits.max_face_size, limits.max_frame_size)
+assert limits.max_cube_map_texture_size > 40 < limits.max_texture_size
+assert renderer.capture(cc.Scene(), size=40).size == 40
+assert renderer.render(cc.Scene(), camera, (40, 40)).size == (40, 40)
+draws = (lambda: renderer.capture(cc.Scene(), size=41), lambda: renderer.render(cc.Scene(), camera, (41, 8)),
+         lambda: renderer.render(cc.Scene(), camera, (8, 41)))
+for draw in draws:
+    try:
+        draw()
+    except ValueError as error:
+        assert "expected 1 to 40 pixels ({limit} of " in str(error), error
+    else:
+        raise AssertionError("expected a ValueError")
+from click.testing import CliRunner
+from cubecam.cli import app
+text = CliRunner().invoke(app, ["info", "--device", "software"]).output
+assert "largest frame: 40, largest face: 40" in text, text
+""",
+        **{variable: 40},
+    )
+
+
 TOO_OLD = """
 import cubecam as cc
 try:

@@ -14,6 +14,9 @@ CAMERA: dict[str, Any] = {"fov": 50, "position": (0, 0, 3), "target": (0, 0, 0)}
 
 def test_captures_over_the_limit_name_it(renderer):
     limit = renderer.info.limits.max_cube_map_texture_size
+    drawn = renderer.info.limits.max_face_size
+    with pytest.raises(ValueError, match=f"expected 1 to {drawn} pixels"):
+        renderer.capture(cc.Scene(), size=drawn + 1)
     with pytest.raises(ValueError, match=r"expected 1 to \d+ pixels \(GL_MAX_\w+ of ") as refused:
         renderer.capture(cc.Scene(), size=limit + 1)
     largest, name = re.findall(r"to (\d+) pixels \(GL_MAX_(\w+)", str(refused.value))[0]

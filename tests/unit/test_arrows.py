@@ -40,6 +40,7 @@ PYTHON_ORDER = (
     "_array_types",  # needs numpy
     "typing",
     "_core",
+    "doctor",  # runs when the core cannot be loaded: it imports it in functions alone
     "_checks",  # what a bool, an int, a float and a str are
     "_calls",  # errors of wrong calls, in words
     "_late",
@@ -69,6 +70,7 @@ PYTHON_ORDER = (
 PYTHON_KNOWS = {
     "_checks": {"typing", "_core"},
     "_calls": {"_checks"},
+    "doctor": {"_core"},
     "_late": set(),
     "_warnings": set(),
     "navigation": {"_core", "_checks", "_calls"},

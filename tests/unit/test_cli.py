@@ -56,7 +56,19 @@ def test_the_command_is_installed(start):
 
 
 @pytest.mark.parametrize(
-    "command", ["info", "demo", "render", "bake", "convert", "capture", "example", "view"]
+    "command",
+    [
+        "info",
+        "doctor",
+        "demo",
+        "render",
+        "bake",
+        "convert",
+        "capture",
+        "example",
+        "view",
+        "conventions",
+    ],
 )
 def test_every_command_has_help(command):
     result = cubecam(command, "--help")
@@ -69,7 +81,18 @@ def test_every_command_has_help(command):
 TYPE_NAMES = (
     r"\b(TEXT|INTEGER|FLOAT|RANGE|BOOLEAN|PATH|FILENAME|CHOICE)\b|x>=|<(str|int|float|bool)|\["
 )
-COMMANDS = ["info", "demo", "render", "bake", "convert", "capture", "example", "view"]
+COMMANDS = [
+    "info",
+    "doctor",
+    "demo",
+    "render",
+    "bake",
+    "convert",
+    "capture",
+    "example",
+    "view",
+    "conventions",
+]
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -79,7 +102,16 @@ def test_help_says_what_to_write_and_not_types(command):
     assert re.search(TYPE_NAMES, rows) is None
     for line in text.splitlines():
         assert len(line) <= 100
-    flags = {"--help", "--version", "--json", "--half", "--srgb", "--list", "--all"} | {
+    flags = {
+        "--help",
+        "--version",
+        "--json",
+        "--half",
+        "--srgb",
+        "--list",
+        "--all",
+        "--selftest",
+    } | {
         "--live",
         "--page",
         "--window",
@@ -388,13 +420,15 @@ PRINTING = {
     "completion": ["--show-completion", "fish"],
     "info": ["info"],
     "json": ["info", "--json"],
+    "doctor": ["doctor"],
+    "conventions": ["conventions"],
     "convert": ["convert", "sky.png", "-o", "out.png"],
     "capture": ["capture", "box.obj", "-o", "out.exr", "--size", "8"],
     "list": ["example", "--list"],
     "example": ["example", "P15", "--frames", "1", "--size", "8", "-o", "out.png"],
     "demo": ["demo", "--out", "out", "--frames", "1", "--size", "16"],
 }
-DRAWING = ("capture", "example", "demo")
+DRAWING = ("capture", "example", "demo", "doctor")
 printing = pytest.mark.parametrize(
     "arguments",
     [

@@ -100,4 +100,5 @@ def test_a_documented_name_exists(name):
 def test_the_index_lists_every_page():
     index = (ROOT / "docs/reference/index.md").read_text(encoding="utf-8")
     block = re.findall(r"```\{toctree\}\n:hidden:\n\n(.*?)```", index, re.DOTALL)[0]
-    assert sorted(block.split()) == [page.stem for page in PAGES if page.stem != "index"]
+    listed = sorted(set(block.split()) - {"../conventions"})
+    assert listed == [page.stem for page in PAGES if page.stem != "index"]

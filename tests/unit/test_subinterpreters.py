@@ -38,6 +38,7 @@ def test_an_import_in_a_subinterpreter_is_refused():
 module, made = interpreters()
 for interpreter in made:
     assert run(module, interpreter, "import sys") == ""
+    assert "doctor" not in run(module, interpreter, "import cubecam")
     for code in ("import cubecam", "import cubecam", "from cubecam import Mesh", "import cubecam._core"):
         text = run(module, interpreter, code)
         assert "ImportError" in text and "subinterpreter" in text, text

@@ -22,7 +22,7 @@ Parameters
 ----------
 size : int
     Texels along a side of the map; a point light has six maps. At least 8, and more for a larger radius;
-    at most ``info.limits.max_texture_size``.
+    at most ``info.limits.max_frame_size``.
 radius : float
     Radius of the percentage-closer filter (Reeves, Salesin and Cook, 1987) in texels, from 0 to 16: a box
     of ``2 * radius + 1`` texels. 0 gives the hardest edge.

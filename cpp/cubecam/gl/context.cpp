@@ -42,7 +42,7 @@ std::string candidate_in_words(const Candidate& candidate) {
     } else if (list.kind != DeviceKind::gpu) {
         text += "\n" + egl::software_hint();
     }
-    throw ContextError(text + "\n" + egl::gpu_hint());
+    throw ContextError(text + "\n" + egl::gpu_hint() + "\n" + egl::doctor_hint());
 }
 
 /// Adds a notice if the context renders in software although EGL lists a GPU.
@@ -99,6 +99,20 @@ std::unique_ptr<Context::Impl> start_first(CandidateList list, bool debug) {
 }
 
 }  // namespace
+
+LargestSide largest_side(const Limits& limits, bool face) noexcept {
+    LargestSide least =
+        face ? LargestSide{limits.max_cube_map_texture_size, "GL_MAX_CUBE_MAP_TEXTURE_SIZE"}
+             : LargestSide{limits.max_texture_size, "GL_MAX_TEXTURE_SIZE"};
+    for (const LargestSide& other :
+         {LargestSide{limits.max_framebuffer_width, "GL_MAX_FRAMEBUFFER_WIDTH"},
+          LargestSide{limits.max_framebuffer_height, "GL_MAX_FRAMEBUFFER_HEIGHT"},
+          LargestSide{limits.max_viewport_width, "GL_MAX_VIEWPORT_DIMS"},
+          LargestSide{limits.max_viewport_height, "GL_MAX_VIEWPORT_DIMS"}}) {
+        if (other.pixels < least.pixels) least = other;
+    }
+    return least;
+}
 
 Context::Context(const ContextOptions& options) {
     egl::library();  // first, so that a missing library or a forked child gets a clear message

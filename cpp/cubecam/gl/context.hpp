@@ -54,6 +54,17 @@ struct Limits {
     double max_anisotropy = 1.0;
 };
 
+/// The most pixels along a side of a picture that can be drawn, and the name of the limit that says
+/// so.
+struct LargestSide {
+    int pixels;
+    const char* limit;
+};
+
+/// The longest side of a face of a cube or of a frame. A driver may look up larger textures than it
+/// draws into (zink); of equal limits the first is named.
+LargestSide largest_side(const Limits& limits, bool face) noexcept;
+
 /// An OpenGL 4.5 core context without a window, current on no thread between CurrentScopes.
 ///
 /// Any thread may use a context, one thread at a time: its owner holds a mutex. Contexts share

@@ -106,9 +106,9 @@ void fill(Table& table, void* library) {
 
 std::string library_hint() {
     return "To install it: apt install libegl1 libgl1-mesa-dri (Debian, Ubuntu); dnf install "
-           "mesa-libEGL "
-           "mesa-dri-drivers (Fedora). Set CUBECAM_EGL_LIBRARY to the path of an EGL library that "
-           "lies elsewhere.";
+           "mesa-libEGL mesa-dri-drivers (Fedora). Set CUBECAM_EGL_LIBRARY to the path of an EGL "
+           "library that lies elsewhere.\n" +
+           doctor_hint();
 }
 
 }  // namespace
@@ -182,6 +182,11 @@ std::string error_name(Int error) {
     std::snprintf(number.data(), number.size(), "0x%04X", static_cast<unsigned>(error));
     return std::string(error >= success && place < names.size() ? names[place] : "EGL error") +
            " (" + number.data() + ")";
+}
+
+std::string doctor_hint() {
+    return "`cubecam doctor` looks for what is missing here, and names the command that installs "
+           "or sets it.";
 }
 
 std::string software_hint() {

@@ -1,4 +1,4 @@
-"""The command `cubecam`: info, demo, render, bake, convert, capture, example, view.
+"""The command `cubecam`: info, doctor, demo, render, bake, convert, capture, example, view, conventions.
 
 Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 130 for Ctrl-C, which
 leaves no unfinished file; 141 if the program that reads the output has ended, as in `cubecam info | head -1`.
@@ -19,7 +19,9 @@ from .bake import bake
 from .capture import capture
 from .common import FILE, WholeNumber, device_option, failures_reported, parse_device
 from .completion import completion_options
+from .conventions import conventions
 from .convert import convert
+from .doctor import doctor
 from .example import example
 from .help import Command, Group, option
 from .info import info
@@ -63,7 +65,9 @@ def demo(out: str, frames: int, size: int, device: str | None) -> None:
         run(out, frames=frames, size=size, device=parse_device(device))
 
 
-for _command in (info, demo, render, bake, convert, capture, example, view):
+for _command in (
+    info, doctor, demo, render, bake, convert, capture, example, view, conventions,
+):  # fmt: skip
     app.add_command(_command)
 
 

@@ -18,8 +18,8 @@ _CHOSEN = (
     "renderer", "vendor", "version", "glsl_version", "egl_version", "platform", "software", "layered",
 )  # fmt: skip
 _LIMITS = (
-    "max_texture_size", "max_cube_map_texture_size", "max_array_texture_layers", "max_samples",
-    "max_color_attachments",
+    "max_frame_size", "max_face_size", "max_texture_size", "max_cube_map_texture_size",
+    "max_array_texture_layers", "max_samples", "max_color_attachments",
 )  # fmt: skip
 
 
@@ -86,6 +86,6 @@ def _chosen_lines(chosen: Any) -> list[str]:
         f"chosen: {chosen.renderer} ({'software' if chosen.software else 'GPU'}, {chosen.vendor})",
         f"OpenGL {chosen.version}, GLSL {chosen.glsl_version}, EGL {chosen.egl_version}, {chosen.platform} platform",
         f"all views of a mesh in one call: {'yes' if chosen.layered else 'no'}",
-        f"largest frame: {limits.max_texture_size}, largest face: {limits.max_cube_map_texture_size}",
+        f"largest frame: {limits.max_frame_size}, largest face: {limits.max_face_size}",
         f"most layers: {limits.max_array_texture_layers}, most samples: {limits.max_samples}",
     ]

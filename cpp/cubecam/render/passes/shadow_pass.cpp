@@ -53,9 +53,7 @@ struct Casters {
 
 ShadowPass::ShadowPass(const gl::Context& context, GpuCache& cache, Programs& programs)
     : context_(&context), gl_(&context.gl()), cache_(&cache), programs_(&programs) {
-    const gl::Limits& limits = context.limits();
-    largest_ = std::min(
-        {limits.max_texture_size, limits.max_framebuffer_width, limits.max_framebuffer_height});
+    largest_ = gl::largest_side(context.limits(), false).pixels;
     GLint units = 0;
     gl_->GetIntegerv(GL_MAX_TEXTURE_IMAGE_UNITS, &units);
     // A surface looks up at least one texture of its own.

@@ -74,14 +74,7 @@ TargetDescription describe_target(const gl::Context& context, const TargetReques
     const std::int64_t height = request.height;
     const std::string got =
         faces ? std::to_string(width) : std::to_string(width) + " x " + std::to_string(height);
-    // The first of the smallest limits is named.
-    using Limit = std::pair<int, const char*>;
-    const auto [largest, limit] =
-        std::min({faces ? Limit(limits.max_cube_map_texture_size, "GL_MAX_CUBE_MAP_TEXTURE_SIZE")
-                        : Limit(limits.max_texture_size, "GL_MAX_TEXTURE_SIZE"),
-                  Limit(limits.max_framebuffer_width, "GL_MAX_FRAMEBUFFER_WIDTH"),
-                  Limit(limits.max_framebuffer_height, "GL_MAX_FRAMEBUFFER_HEIGHT")},
-                 [](const Limit& a, const Limit& b) { return a.first < b.first; });
+    const auto [largest, limit] = gl::largest_side(limits, faces);
     if (width < 1 || height < 1 || width > largest || height > largest) {
         throw std::invalid_argument("size: expected 1 to " + std::to_string(largest) + " pixels" +
                                     on(limit) + ", got " + got);

@@ -1,0 +1,83 @@
+"""An NVIDIA GPU whose driver has no EGL here: a container without the right to draw, or a driver for computing only."""
+
+from __future__ import annotations
+
+import re
+
+from .drawing import Drawing
+from .findings import Finding
+from .packages import install_nvidia
+from .surroundings import container_sign
+from .system import System
+from .vendors import library_of, vendor_file_cure, vendor_files
+
+__all__ = ["check_nvidia", "nvidia_cure", "nvidia_signs"]
+
+LIBRARY = "libEGL_nvidia.so.0"
+CAPABILITIES = "NVIDIA_DRIVER_CAPABILITIES"
+
+
+def nvidia_signs(system: System) -> list[str]:
+    """List what says that there is an NVIDIA GPU that this system may use."""
+    signs = [name for name in ("/dev/nvidia0", "/dev/nvidiactl") if system.exists(name)]
+    if system.run(["nvidia-smi", "-L"]).code == 0:
+        signs.append("nvidia-smi")
+    return signs
+
+
+def nvidia_cure(system: System) -> tuple[str, ...]:
+    """Say how this system gets NVIDIA's EGL."""
+    if container_sign(system):
+        return (
+            "# start the container with the right to draw (NVIDIA Container Toolkit on the host):",
+            f"docker run --gpus all -e {CAPABILITIES}=all IMAGE",
+            "# or, in the image's Dockerfile:",
+            f"ENV {CAPABILITIES}=all",
+        )
+    return install_nvidia(system, _branch(system))
+
+
+def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
+    """Look for NVIDIA's EGL where there is an NVIDIA GPU."""
+    ran = system.run(["nvidia-smi", "-L"])
+    if ran.code not in (0, None) and "mismatch" in (ran.out + ran.err).lower():
+        text = "NVIDIA's libraries and its kernel module have different versions: " + _line(
+            ran.out + ran.err
+        )
+        return [
+            Finding(
+                "nvidia",
+                drawing.blocking,
+                text,
+                ("# restart the machine, or load the module again",),
+            )
+        ]
+    signs = nvidia_signs(system)
+    if not signs:
+        return []
+    where = ", ".join(signs)
+    libraries = [library_of(system, file) or "" for file in vendor_files(system)]
+    if any("nvidia" in library for library in libraries):
+        return [Finding("nvidia", "ok", f"an NVIDIA GPU ({where}) with a vendor file of EGL")]
+    if system.environ.get("__EGL_VENDOR_LIBRARY_FILENAMES"):
+        text = f"an NVIDIA GPU ({where}), left out by __EGL_VENDOR_LIBRARY_FILENAMES"
+        return [Finding("nvidia", "warning", text, ("unset __EGL_VENDOR_LIBRARY_FILENAMES",))]
+    if not system.library_problem(LIBRARY):
+        text = f"an NVIDIA GPU ({where}) and {LIBRARY}, and no vendor file that names it"
+        cure = vendor_file_cure(system, "10_nvidia.json", LIBRARY)
+        return [Finding("nvidia", "warning", text, cure)]
+    text = f"an NVIDIA GPU ({where}), and no {LIBRARY}: pictures are not drawn on it"
+    allowed = system.environ.get(CAPABILITIES)
+    if allowed is not None and container_sign(system):
+        text += f"; {CAPABILITIES}={allowed} lacks graphics"
+    return [Finding("nvidia", "warning", text, nvidia_cure(system))]
+
+
+def _branch(system: System) -> str:
+    """The branch of the kernel module, which the packages of the libraries have in their names."""
+    found = re.search(r"Kernel Module.*?\s(\d+)\.\d+", system.read("/proc/driver/nvidia/version"))
+    return found[1] if found else ""
+
+
+def _line(text: str) -> str:
+    return next((line.strip() for line in text.splitlines() if line.strip()), "")

@@ -1,0 +1,61 @@
+"""All proofs, one after the other, in this process or in one of their own."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from ..drawing import child, end_in_words, read_lines
+from ..system import System
+from .measurement import Measurement
+
+__all__ = ["NAMES", "main", "prove", "prove_apart"]
+
+NAMES = ("orientation", "seams", "formats", "mirrors", "shader")
+#: How long all of them may take, in seconds: they take one to three.
+LONGEST = 120.0
+
+
+def prove(renderer: Any) -> Iterator[Measurement]:
+    """Measure everything with a renderer; an exception fails its test and does not end the others."""
+    for name in NAMES:
+        try:
+            yield from _proof(name)(renderer)
+        except Exception as error:
+            text = f"{type(error).__name__}: {error}"
+            yield Measurement(name, "no picture", float("nan"), 0.0, text)
+
+
+def _proof(name: str) -> Callable[[Any], list[Measurement]]:
+    import importlib
+
+    module = importlib.import_module(f".{name}", __package__)
+    function: Callable[[Any], list[Measurement]] = getattr(module, f"prove_{name}")
+    return function
+
+
+def main(words: list[str]) -> None:
+    """Print each measurement as JSON in a line; `words` may have a device."""
+    from ..._core import Renderer
+
+    device = words[0] if words and words[0] else "auto"
+    with Renderer(device=int(device) if device.isdecimal() else device) as renderer:
+        for found in prove(renderer):
+            sys.stdout.write(json.dumps(dataclasses.asdict(found)) + "\n")
+            sys.stdout.flush()
+
+
+def prove_apart(system: System, device: str | None) -> list[Measurement]:
+    """Measure everything in a process of its own, so that a driver that crashes fails a test and ends nothing else."""
+    ran = system.run([system.python, *child("proofs.run", device or "")], timeout=LONGEST)
+    found = [Measurement(**line) for line in read_lines(ran.out) if "tolerance" in line]
+    if ran.code != 0:
+        last = [line for line in ran.err.splitlines() if line.strip()][-1:]
+        text = f"the process {end_in_words(ran, LONGEST)}" + (f": {last[0]}" if last else "")
+        done = {one.name for one in found}
+        name = next((name for name in NAMES if name not in done), NAMES[-1])
+        found.append(Measurement(name, "no picture", float("nan"), 0.0, text))
+    return found
