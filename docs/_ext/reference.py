@@ -134,7 +134,7 @@ class Api(Directive):
         lines = StringList(text.splitlines(), source="the docstrings of cubecam")
         node = nodes.container(classes=["api"])
         self.state.nested_parse(lines, self.content_offset, node)
-        return node.children
+        return [*node.children]
 
 
 class ApiIndex(Directive):
@@ -184,7 +184,8 @@ class NameRole(SphinxRole):
 
     def _link(self, name: str) -> tuple[list[nodes.Node], list[nodes.system_message]]:
         role: Any = self.env.get_domain("py").role("obj")
-        return role("obj", "", f"{self.text} <{name}>", self.lineno, self.inliner)
+        made, messages = role("obj", "", f"{self.text} <{name}>", self.lineno, self.inliner)
+        return made, messages
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

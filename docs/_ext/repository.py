@@ -127,7 +127,7 @@ def turn_page(app: Sphinx, docname: str, source: list[str]) -> None:
 
 
 def files_url() -> str:
-    """Give the address at which the repository shows its files; empty if pyproject.toml and the environment name none."""
+    """Give the address of the repository's files; empty if pyproject.toml and the environment name none."""
     settings = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     found = re.search(r'^repository = "(.+)"', settings, re.MULTILINE)
     address = os.environ.get("CUBECAM_REPOSITORY") or (found[1] if found else "")
