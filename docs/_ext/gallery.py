@@ -11,17 +11,19 @@ import inspect
 import io
 import shutil
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
-from sphinx.application import Sphinx
-from sphinx.config import Config
 
 from cubecam import examples
 
 from .repository import DOCS
+
+if TYPE_CHECKING:  # the functions are tested without Sphinx
+    from sphinx.application import Sphinx
+    from sphinx.config import Config
 
 SCRIPTS = DOCS / "_build" / "gallery"
 PAGES = DOCS / "gallery"

@@ -11,12 +11,13 @@ import json
 import os
 import re
 from pathlib import Path
-from typing import Any
-
-from sphinx.application import Sphinx
-from sphinx.config import Config
+from typing import TYPE_CHECKING, Any
 
 import cubecam
+
+if TYPE_CHECKING:  # the functions are tested without Sphinx
+    from sphinx.application import Sphinx
+    from sphinx.config import Config
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
