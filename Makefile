@@ -8,12 +8,17 @@ PYTEST_ARGS ?=
 # Processes of pytest. All tests of a file run in one process, so that they share its renderers.
 WORKERS ?= auto
 PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
+DOCKER ?= docker
 BENCH_ARGS ?=
+CONDA_ARGS ?=
 FUZZ_ARGS ?=
 GPU_ARGS ?=
+IMAGE_ARGS ?=
 NOTEBOOK_ARGS ?=
+RELEASE_ARGS ?=
 SOAK_ARGS ?=
 SANITIZE_ARGS ?=
+WHEELS_ARGS ?=
 
 # The list has folders, too, since a removed file changes only its folder.
 SOURCES := CMakeLists.txt pyproject.toml docs/conventions.md $(shell find cpp cmake shaders python -not -path '*/__pycache__*' 2>/dev/null)
@@ -21,10 +26,10 @@ CXX_FILES = $(shell find cpp \( -name '*.cpp' -o -name '*.hpp' \))
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery notebooks sdist wheel sanitize fuzz soak mutants clean
+.PHONY: help demo test test-fast test-build test-browser test-interop test-lowest dev lint format stubs bench gpu-check docs gallery notebooks sdist wheel wheels image conda release-check sanitize fuzz soak mutants clean
 
 help: ## list the targets
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-13s %s\n", $$1, $$2 }' Makefile
 
 demo: $(VENV)/.installed ## set up, build, and render a scene with a mirror ball to out/
 	@$(PY) -m cubecam demo --out out
@@ -40,7 +45,7 @@ test-build: $(VENV)/.installed $(VENV)/.deps-test ## run all tests that compile 
 	cmake --preset debug -G Ninja -DPython_EXECUTABLE=$(abspath $(PY)) && cmake --build --preset debug && ctest --preset debug
 	@$(PY) -m pytest -m build tests/build $(PYTEST_ARGS)
 
-test-browser: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages and JupyterLab with Chromium, which apt installs
+test-browser: docs $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages, JupyterLab and the site with Chromium, which apt installs
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
@@ -75,8 +80,9 @@ bench: $(VENV)/.installed $(VENV)/.deps-bench ## compare with moderngl, ZenGL an
 gpu-check: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-bench ## try the GPU: tests, benchmarks, readback, 1,000 probes, pictures, one JSON in out/gpu_check
 	@$(PY) scripts/gpu_check.py $(GPU_ARGS)
 
-docs: $(VENV)/.installed $(VENV)/.deps-docs ## write the API reference to docs/_build/html
-	$(PY) -m pdoc --docformat numpy --output-directory docs/_build/html cubecam
+docs: $(VENV)/.installed $(VENV)/.deps-docs $(VENV)/.deps-jupyter ## build the site in docs/_build/html: run its code, check its links
+	@$(PY) -m sphinx -b html -W --keep-going -j auto -q -d docs/_build/doctrees docs docs/_build/html
+	@$(PY) scripts/check_site.py docs/_build/html
 
 gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the README and of docs/howto into docs/images
 	@$(PY) scripts/gallery.py
@@ -85,12 +91,26 @@ gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the READM
 notebooks: $(VENV)/.installed $(VENV)/.deps-test ## run the notebooks and write their outputs; NOTEBOOK_ARGS="03 08" chooses
 	@$(PY) scripts/notebooks.py $(NOTEBOOK_ARGS)
 
-sdist: $(VENV)/.deps $(VENV)/.deps-dev ## write the source distribution into dist/ and build a wheel from it alone
-	@$(PY) -m build --quiet --sdist --outdir dist .
-	@$(PY) -m pip wheel --quiet --no-deps --no-build-isolation --wheel-dir build/from-sdist dist/cubecam-*.tar.gz
+sdist: $(VENV)/.deps $(VENV)/.deps-packages ## write the source distribution into dist/ and build a wheel from it, with no network
+	@$(PY) scripts/sdist.py
 
-wheel: $(VENV)/.deps $(VENV)/.deps-dev ## build a wheel into dist/, check what it links, and run the demo from it
+wheel: $(VENV)/.deps $(VENV)/.deps-packages ## build a wheel into dist/, check what is in it, and run the demo from it
 	@$(PY) scripts/wheel.py
+
+wheels: $(VENV)/.deps $(VENV)/.deps-packages ## build the wheels of a release into dist/ in the images of manylinux_2_28; needs Docker
+	@$(PY) -m cibuildwheel --platform linux --output-dir dist $(WHEELS_ARGS)
+
+image: ## build the container image, draw the demo's picture with it to out/image, try its driver; DOCKER=podman
+	$(DOCKER) build --tag cubecam $(IMAGE_ARGS) .
+	mkdir -p out/image
+	$(DOCKER) run --rm --network none --user "$$(id -u):$$(id -g)" --volume "$(CURDIR)/out/image:/out" cubecam
+	$(DOCKER) run --rm --network none cubecam doctor --selftest
+
+conda: $(VENV)/.deps $(VENV)/.deps-conda ## build the conda package into dist/conda; CONDA_ARGS="--render" only reads the recipe
+	@$(PY) scripts/conda.py $(CONDA_ARGS)
+
+release-check: $(VENV)/.deps $(VENV)/.deps-packages ## check that the tree and dist/ are ready for a release: versions, changelog, tag, packages
+	@$(PY) scripts/release.py $(RELEASE_ARGS)
 
 sanitize: $(VENV)/.deps-test ## run the tests with modules for AddressSanitizer and UndefinedBehaviorSanitizer, then for ThreadSanitizer
 	@$(PY) scripts/sanitize.py $(SANITIZE_ARGS)
@@ -105,7 +125,7 @@ mutants: $(VENV)/.installed $(VENV)/.deps-test ## break the sources one place at
 	@$(PY) tests/mutation.py
 
 clean: ## remove everything that make made
-	rm -rf .venv build dist out docs/_build .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks tests/failures
+	rm -rf .venv build dist out docs/_build docs/gallery docs/lessons docs/project .pytest_cache .mypy_cache .ruff_cache .hypothesis .benchmarks tests/failures
 	find cpp python scripts tests benchmarks -name __pycache__ -prune -exec rm -rf {} + 2>/dev/null || true
 
 $(VENV)/.deps: pyproject.toml scripts/system.py scripts/packages.py

@@ -1,4 +1,4 @@
-"""Run the programs of docs/howto and keep their pictures in docs/images; `make gallery` calls this script.
+"""Run the programs of docs/howto and docs/explanation and keep their pictures in docs/images; `make gallery` does.
 
 Each file has at most 200 KB, as a test demands.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import re
+import sys
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -31,21 +32,31 @@ _PROJECTIONS = (
     "dual_paraboloid",
     "cylindrical",
 )
-#: For each page, the pictures that its program writes and their files in docs/images.
+#: For each page of docs, the pictures that its programs write and their files in docs/images.
 PICTURES = {
-    "seams.md": {"seams.png": "howto-seams.png"},
-    "random_scenes.md": {"sample.png": "howto-random-scenes.png"},
-    "plots.md": {"plots.png": "howto-plots.jpg"},
-    "reflection.md": {"reflection.png": "howto-reflection.jpg"},
-    "glb_in_a_probe.md": {"ball.png": "howto-ball.jpg"},
-    "own_pictures.md": {"ball.png": "howto-own-pictures.jpg"},
-    "projections.md": {f"{name}.jpg": f"howto-projection-{name}.jpg" for name in _PROJECTIONS},
+    "howto/seams.md": {"seams.png": "howto-seams.png"},
+    "howto/random_scenes.md": {"sample.png": "howto-random-scenes.png"},
+    "howto/plots.md": {"plots.png": "howto-plots.jpg"},
+    "howto/reflection.md": {"reflection.png": "howto-reflection.jpg"},
+    "howto/glb_in_a_probe.md": {"ball.png": "howto-ball.jpg"},
+    "howto/own_pictures.md": {"ball.png": "howto-own-pictures.jpg"},
+    "howto/projections.md": {
+        f"{name}.jpg": f"howto-projection-{name}.jpg" for name in _PROJECTIONS
+    },
+    "howto/orientation.md": {"orientation.png": "howto-orientation.png"},
+    "howto/own_materials.md": {"first.png": "howto-own-materials.jpg"},
+    "explanation/views.md": {"views.png": "why-views.jpg"},
+    "explanation/keys.md": {"keys.png": "why-keys.jpg"},
+    "explanation/what_cubemaps_get_wrong.md": {"wrong.png": "why-wrong.jpg"},
 }
 
 
-def main() -> None:
+def main(pages: list[str]) -> None:
+    """Draw the pictures of all pages, or of those whose names are given (`howto/seams.md`)."""
     for page, pictures in PICTURES.items():
-        text = (ROOT / "docs" / "howto" / page).read_text(encoding="utf-8")
+        if pages and page not in pages:
+            continue
+        text = (ROOT / "docs" / page).read_text(encoding="utf-8")
         scope: dict[str, Any] = {}
         with tempfile.TemporaryDirectory() as folder:
             os.chdir(folder)
@@ -60,4 +71,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import cubecam as cc
 from cubecam.io import ktx2
 from tests.interop.directions import DIRECTIONS, sky, sky_cube
 
@@ -29,6 +30,18 @@ def test_a_radiance_panorama(tmp_path, page):
     argument = {"kind": "hdr", "url": "/sky.hdr", "mode": "mirror"}
     found = np.array(page("three.html", {**argument, "directions": DIRECTIONS.tolist()}))
     assert np.abs(found - sky(DIRECTIONS)).max() < 0.02
+
+
+@pytest.mark.parametrize("kind", ["png", "six_png"])
+def test_pictures_of_8_bits(kind, tmp_path, page):
+    """As docs/howto/three_js.md says; light above 1 is left out, since 8 bits end there."""
+    half = cc.CubeMap(0.5 * sky_cube().faces)
+    half.save(tmp_path / "sky.png", layout="equirect", center="+x", tonemap=None)
+    half.save(tmp_path / "{face}.png", convention="three", tonemap=None)
+    url = "/sky.png" if kind == "png" else [path.replace("hdr", "png") for path in SIX]
+    argument = {"kind": kind, "url": url, "mode": "mirror", "directions": DIRECTIONS.tolist()}
+    found = np.array(page("three.html", argument))
+    assert np.abs(2 * found - sky(DIRECTIONS)).max() < 0.04
 
 
 def test_a_ktx2_panorama(tmp_path, page):

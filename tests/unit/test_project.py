@@ -168,4 +168,4 @@ def test_a_wheel_that_lacks_hardening_is_found(soft, tmp_path):
     options = [*HARDENED, *([soft] if soft else [])]
     library = tmp_path / "a.so"
     subprocess.run([compiler, "-shared", "-fPIC", *options, source, "-o", library], check=True)
-    assert load_script("wheel").missing_hardening(library) == ([SOFT[soft]] if soft else [])
+    assert load_script("check_wheel").missing_hardening(library) == ([SOFT[soft]] if soft else [])

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 import click
 
-__all__ = ["Command", "Group", "Option", "argument", "option"]
+__all__ = ["Command", "Group", "Option", "argument", "option", "rows_by_title"]
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -59,7 +59,8 @@ class _Argument(click.Argument):
         self.text = help  # click has a section of its own for what stands in `help`
 
 
-def _write_parameters(parameters: list[click.Parameter], formatter: click.HelpFormatter) -> None:
+def rows_by_title(parameters: list[click.Parameter]) -> dict[str, list[tuple[str, str]]]:
+    """For each group of parameters their names and what they mean; the site's reference is made of it, too."""
     groups: dict[str, list[tuple[str, str]]] = {}
     for parameter in parameters:
         if isinstance(parameter, _Argument):
@@ -69,7 +70,11 @@ def _write_parameters(parameters: list[click.Parameter], formatter: click.HelpFo
             words = " ".join(text for text in (parameter.help, _default(parameter)) if text)
             title = getattr(parameter, "group", "Options")
             groups.setdefault(title, []).append((_names(parameter), words))
-    for title, rows in groups.items():
+    return groups
+
+
+def _write_parameters(parameters: list[click.Parameter], formatter: click.HelpFormatter) -> None:
+    for title, rows in rows_by_title(parameters).items():
         with formatter.section(title):
             formatter.write_dl(rows)
 
