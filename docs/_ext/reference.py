@@ -43,9 +43,8 @@ def _entry(item: Item) -> str:
 
 
 def _head(item: Item) -> str:
-    role = "data" if item.kind == "type" else item.kind
     heads = item.signatures or [""]
-    head = f".. py:{role}:: "
+    head = f".. py:{item.kind}:: "
     return head + ("\n" + " " * len(head)).join(f"{item.short}{one}" for one in heads)
 
 

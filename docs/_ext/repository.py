@@ -24,13 +24,14 @@ DOCS = ROOT / "docs"
 
 #: Documents outside of docs/, and their pages.
 COPIED = {
+    "README.md": "project/readme.md",
     "CHANGELOG.md": "project/changelog.md",
     "CONTRIBUTING.md": "project/contributing.md",
     "SECURITY.md": "project/security_policy.md",
     "python/cubecam/data/CREDITS.md": "project/credits.md",
 }
 #: What has another place in the site, or is shown by another page.
-PAGES = {**COPIED, "README.md": "index.md", "notebooks": "lessons.md"}
+PAGES = {**COPIED, "notebooks": "lessons.md"}
 #: Folders whose README.md is their page in the site, and the pages that are its children there.
 FOLDERS = {"howto": ["*"], "explanation": ["*", "/gpu", "/security"], "adr": ["*"]}
 
@@ -67,6 +68,8 @@ def _turned(match: re.Match[str], source: Path, page: Path, url: str) -> str:
     if not there.exists() or not there.is_relative_to(ROOT):
         return match[0]  # Sphinx reports it
     place = place_in_site(there)
+    if place == COPIED["README.md"] and not anchor:
+        place = "index.md"
     if place is not None:
         path = os.path.relpath(DOCS / place, page.parent)
         return f"{mark}[{words}]({path}{hash_}{anchor})"

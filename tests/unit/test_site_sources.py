@@ -40,6 +40,7 @@ def turned(extension):
         ("../conventions.md#numbers", "../conventions.md#numbers"),
         ("../../CHANGELOG.md", "../project/changelog.md"),
         ("../../README.md", "../index.md"),
+        ("../../README.md#explore", "../project/readme.md#explore"),
         (
             "../../notebooks/03-reflection-and-refraction.ipynb",
             "../lessons/03-reflection-and-refraction.ipynb",
