@@ -93,6 +93,16 @@ def test_root_needs_no_sudo(tmp_path):
     )
 
 
+def test_a_container_without_sudo_needs_its_dockerfile(tmp_path):
+    system = machine(tmp_path, {"/.dockerenv": ""}, libraries=())
+    found = only(check_egl_library(system, NOT_DRAWN))
+    packages = "libegl1 libegl-mesa0 libgl1-mesa-dri"
+    assert found.cure[-1] == f"RUN apt-get update && apt-get install -y {packages}"
+    write(tmp_path, {"/usr/bin/sudo": ""})
+    found = only(check_egl_library(system, NOT_DRAWN))
+    assert found.cure[-1] == f"sudo apt-get install -y {packages}"
+
+
 def test_an_egl_library_that_the_loader_does_not_find(tmp_path):
     place = "/usr/lib/x86_64-linux-gnu/libEGL.so.1"
     found = only(check_egl_library(machine(tmp_path, {place: ""}, libraries=()), NOT_DRAWN))
@@ -231,6 +241,54 @@ def test_nvidia_in_a_container_without_the_right_to_draw(tmp_path, files, progra
     assert found.status == "warning"
     assert "NVIDIA_DRIVER_CAPABILITIES=compute,utility lacks graphics" in found.text
     assert "docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=all IMAGE" in found.cure
+
+
+def test_nvidia_in_a_container_that_says_nothing_of_rights(tmp_path):
+    system = machine(tmp_path, {"/dev/nvidia0": "", "/.dockerenv": ""})
+    found = only(check_nvidia(system, DRAWN))
+    assert "NVIDIA_DRIVER_CAPABILITIES is not set" in found.text
+    assert "docker run --gpus all -e NVIDIA_DRIVER_CAPABILITIES=all IMAGE" in found.cure
+
+
+@pytest.mark.parametrize("value", ["all", "compute, graphics"])
+def test_nvidia_in_a_container_of_a_host_without_egl(tmp_path, value):
+    """The container has the right to draw: no other start of it helps."""
+    system = machine(
+        tmp_path,
+        {"/dev/nvidia0": "", "/.dockerenv": ""},
+        environ={"NVIDIA_DRIVER_CAPABILITIES": value},
+    )
+    found = only(check_nvidia(system, DRAWN))
+    assert "lacks" not in found.text
+    assert "on the host" in found.cure[0]
+    assert not any("docker run" in line for line in found.cure)
+
+
+def test_nvidia_in_wsl(tmp_path):
+    """The driver is that of Windows: NVIDIA's packages for Linux would break it."""
+    files = {
+        "/proc/version": "Linux version 5.15.1-microsoft-standard-WSL2",
+        f"{VENDORS}/50_mesa.json": MESA_JSON,
+    }
+    assert check_nvidia(machine(tmp_path, files, release=UBUNTU, programs=SMI), DRAWN) == []
+
+
+@pytest.mark.parametrize("branch", ["570", "570-server"])
+def test_nvidia_packages_of_the_installed_kind(tmp_path, branch):
+    installed = f"/var/lib/dpkg/info/libnvidia-compute-{branch}:amd64.list"
+    found = only(
+        check_nvidia(machine(tmp_path, {"/dev/nvidia0": "", installed: ""}, release=UBUNTU), DRAWN)
+    )
+    assert found.cure[-1] == f"sudo apt-get install -y libnvidia-gl-{branch}"
+
+
+@pytest.mark.parametrize(
+    ("release", "source"), [(FEDORA, "RPM Fusion"), (DEBIAN, "non-free"), (ARCH, "")]
+)
+def test_where_nvidias_packages_are(tmp_path, release, source):
+    found = only(check_nvidia(machine(tmp_path, {"/dev/nvidia0": ""}, release=release), DRAWN))
+    told = [line for line in found.cure if line.startswith("#")]
+    assert source in only(told) if source else not told
 
 
 def test_nvidia_for_computing_only(tmp_path):
@@ -378,6 +436,9 @@ def test_wsl(tmp_path):
     found = check_surroundings(machine(tmp_path, {**files, "/dev/dxg": ""}))[1]
     assert "export LIBGL_ALWAYS_SOFTWARE=1" in found.cure
     assert any("GALLIUM_DRIVER=d3d12" in line for line in found.cure)
+    container = check_surroundings(machine(tmp_path / "other", {**files, "/.dockerenv": ""}))[1]
+    assert any("docker run --device /dev/dxg" in line for line in container.cure)
+    assert not any("wsl --" in line for line in container.cure)
 
 
 # Devices and variables

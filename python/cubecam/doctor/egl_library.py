@@ -5,6 +5,7 @@ from __future__ import annotations
 from .drawing import Drawing
 from .findings import Finding
 from .packages import install_mesa
+from .rights import as_root
 from .system import System
 
 __all__ = ["LIBRARY", "check_egl_library"]
@@ -26,7 +27,7 @@ def check_egl_library(system: System, drawing: Drawing) -> list[Finding]:
     places = [place for folder in _FOLDERS for place in system.glob(f"{folder}/{LIBRARY}")]
     if places and "cannot open shared object file" in problem and LIBRARY in problem:
         cure = (
-            f"{system.sudo()}ldconfig",
+            *as_root(system, "ldconfig"),
             "# or, if that changes nothing:",
             f"export {VARIABLE}={places[0]}",
         )

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .findings import Finding
+from .rights import as_root
 from .system import System
 
 __all__ = ["Installed", "explain", "here"]
@@ -48,7 +49,9 @@ def explain(system: System, installed: Installed, error: str) -> Finding:
 def _reason(system: System, installed: Installed, error: str) -> tuple[str, tuple[str, ...]]:
     if not installed.platform.startswith("linux"):
         text = f"cubecam runs on Linux, and this is {installed.platform}"
-        return text, ("# README.md says how: Docker on macOS, WSL on Windows",)
+        return text, (
+            "# on macOS run it in Docker; on Windows in WSL 2 (wsl --install) or in Docker",
+        )
     modules = sorted(path.name for path in installed.folder.glob("_core*.so"))
     fitting = [name for name in modules if name[len("_core") :] in installed.suffixes]
     if not modules:
@@ -72,7 +75,7 @@ def _loader_reason(
     if found := re.search(r"version `(GLIBC_[\d.]+)' not found", error):
         have = "-".join(part for part in platform.libc_ver() if part)
         return f"{text} (this system has {have})", (
-            f"# {found[1]} or newer is needed: use a newer system, or build on this one:",
+            f"# {found[1]} or newer is needed: use a newer system, or build here with a C++20 compiler:",
             f"{installed.python} -m pip install --no-binary cubecam cubecam",
         )
     if re.search(r"version `(GLIBCXX|CXXABI)_[\d.]+' not found", error):
@@ -94,8 +97,9 @@ def _loader_reason(
     if missing := re.search(r"(lib[\w+.-]+): cannot open shared object file", error):
         packages = {"libstdc++.so.6": "libstdc++6", "libgcc_s.so.1": "libgcc-s1"}
         package = packages.get(missing[1], missing[1])
-        return f"{text}", (
-            f"{system.sudo()}apt-get install -y {package}  # Debian, Ubuntu; others: the package with {missing[1]}",
+        return text, (
+            f"# on Debian and Ubuntu; elsewhere the package that has {missing[1]}:",
+            *as_root(system, f"apt-get install -y {package}"),
         )
     if "failed to map segment" in error or "Operation not permitted" in error:
         mount = _noexec_mount(installed.folder)

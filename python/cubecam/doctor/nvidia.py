@@ -7,7 +7,7 @@ import re
 from .drawing import Drawing
 from .findings import Finding
 from .packages import install_nvidia
-from .surroundings import container_sign
+from .surroundings import container_sign, in_wsl
 from .system import System
 from .vendors import library_of, vendor_file_cure, vendor_files
 
@@ -28,6 +28,11 @@ def nvidia_signs(system: System) -> list[str]:
 def nvidia_cure(system: System) -> tuple[str, ...]:
     """Say how this system gets NVIDIA's EGL."""
     if container_sign(system):
+        if _may_draw(system):
+            return (
+                "# the host's driver has no EGL; on the host, install the OpenGL part of NVIDIA's driver,",
+                "# such as libnvidia-gl-NUMBER on Ubuntu, and start the container again",
+            )
         return (
             "# start the container with the right to draw (NVIDIA Container Toolkit on the host):",
             f"docker run --gpus all -e {CAPABILITIES}=all IMAGE",
@@ -37,8 +42,16 @@ def nvidia_cure(system: System) -> tuple[str, ...]:
     return install_nvidia(system, _branch(system))
 
 
+def _may_draw(system: System) -> bool:
+    """Say whether this container was started with NVIDIA's right to draw."""
+    words = system.environ.get(CAPABILITIES, "").replace(" ", "").split(",")
+    return "graphics" in words or "all" in words
+
+
 def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
     """Look for NVIDIA's EGL where there is an NVIDIA GPU."""
+    if in_wsl(system):
+        return []  # the driver is that of Windows, reached by Mesa's d3d12; NVIDIA's for Linux must not be installed
     ran = system.run(["nvidia-smi", "-L"])
     if ran.code not in (0, None) and "mismatch" in (ran.out + ran.err).lower():
         text = "NVIDIA's libraries and its kernel module have different versions: " + _line(
@@ -68,13 +81,21 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
         return [Finding("nvidia", "warning", text, cure)]
     text = f"an NVIDIA GPU ({where}), and no {LIBRARY}: pictures are not drawn on it"
     allowed = system.environ.get(CAPABILITIES)
-    if allowed is not None and container_sign(system):
-        text += f"; {CAPABILITIES}={allowed} lacks graphics"
+    if container_sign(system) and not _may_draw(system):
+        text += (
+            f"; {CAPABILITIES}={allowed} lacks graphics"
+            if allowed
+            else f"; {CAPABILITIES} is not set"
+        )
     return [Finding("nvidia", "warning", text, nvidia_cure(system))]
 
 
 def _branch(system: System) -> str:
-    """The branch of the kernel module, which the packages of the libraries have in their names."""
+    """The branch of the kernel module, such as "570"; packages of the libraries have it in their names."""
+    # Ubuntu's packages of one branch are of two kinds, libnvidia-compute-570 and -570-server, and exclude each other.
+    for name in system.glob("/var/lib/dpkg/info/libnvidia-compute-*.list"):
+        if installed := re.search(r"libnvidia-compute-(\d+(-server)?)(:\w+)?\.list$", name):
+            return installed[1]
     found = re.search(r"Kernel Module.*?\s(\d+)\.\d+", system.read("/proc/driver/nvidia/version"))
     return found[1] if found else ""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from .rights import as_root
 from .system import System, os_release
 
 __all__ = ["install_mesa", "install_nvidia"]
@@ -16,6 +17,7 @@ class _Distribution:
     install: str
     mesa: str  # the EGL library, Mesa's part of it, and the software driver
     nvidia: str  # the GL part of NVIDIA's driver; {branch} is the driver's branch, such as 535
+    source: str = ""  # where that package is, if not in the distribution itself
 
 
 _DISTRIBUTIONS = (
@@ -32,6 +34,7 @@ _DISTRIBUTIONS = (
         "apt-get install -y",
         "libegl1 libegl-mesa0 libgl1-mesa-dri",
         "nvidia-egl-icd",
+        "in Debian's components contrib and non-free",
     ),
     _Distribution(
         frozenset({"fedora", "rhel", "centos", "almalinux", "rocky", "amzn"}),
@@ -39,6 +42,7 @@ _DISTRIBUTIONS = (
         "dnf install -y",
         "libglvnd-egl mesa-libEGL mesa-dri-drivers",
         "xorg-x11-drv-nvidia-libs",
+        "of RPM Fusion; in NVIDIA's own repository it is called nvidia-driver-libs",
     ),
     _Distribution(
         frozenset({"arch", "archlinux", "manjaro"}),
@@ -54,6 +58,7 @@ _DISTRIBUTIONS = (
         "zypper install -y",
         "libglvnd Mesa-libEGL1 Mesa-dri",
         "nvidia-gl-G06",
+        "of NVIDIA's repository for openSUSE",
     ),
 )
 
@@ -69,13 +74,17 @@ def install_mesa(system: System) -> tuple[str, ...]:
 
 
 def install_nvidia(system: System, branch: str) -> tuple[str, ...]:
-    """Give the commands that install libEGL_nvidia.so.0 for a driver of a branch, such as "535"; "" if not known."""
+    """Give the commands that install libEGL_nvidia.so.0.
+
+    `branch` is that of the driver, such as "535" or "535-server"; "" if it is not known.
+    """
     known = _distribution(system)
     if known is None or not known.nvidia or ("{branch}" in known.nvidia and not branch):
         return (
             "# install the OpenGL part of NVIDIA's driver: libEGL_nvidia.so.0 and 10_nvidia.json",
         )
-    return _commands(system, known, known.nvidia.format(branch=branch))
+    where = (f"# {known.nvidia} is {known.source}:",) if known.source else ()
+    return (*where, *_commands(system, known, known.nvidia.format(branch=branch)))
 
 
 def _distribution(system: System) -> _Distribution | None:
@@ -90,6 +99,5 @@ def _distribution(system: System) -> _Distribution | None:
 
 
 def _commands(system: System, known: _Distribution, packages: str) -> tuple[str, ...]:
-    sudo = system.sudo()
-    first = (f"{sudo}{known.update}",) if known.update else ()
-    return (*first, f"{sudo}{known.install} {packages}")
+    first = (known.update,) if known.update else ()
+    return as_root(system, *first, f"{known.install} {packages}")

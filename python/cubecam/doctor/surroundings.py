@@ -60,6 +60,10 @@ def check_surroundings(system: System) -> list[Finding]:
 
 def _wsl(system: System) -> Finding:
     if not system.exists("/dev/dxg"):
+        if container_sign(system):
+            text = "a container in WSL without /dev/dxg: pictures are drawn in software"
+            share = "docker run --device /dev/dxg --volume /usr/lib/wsl:/usr/lib/wsl IMAGE"
+            return Finding("wsl", "note", text, ("# for the GPU of Windows:", share))
         return Finding(
             "wsl",
             "note",

@@ -123,10 +123,6 @@ class System:
         lines = [line for line in ran.err.splitlines() if line.strip()]
         return lines[-1] if lines else f"loading it ended with status {ran.code}"
 
-    def sudo(self) -> str:
-        """Give what stands before a command that only root may run."""
-        return "" if self.uid == 0 else "sudo "
-
 
 def os_release(system: System) -> Mapping[str, str]:
     """Read /etc/os-release: ID, ID_LIKE, PRETTY_NAME and others."""

@@ -11,6 +11,7 @@ import json
 from .drawing import Drawing
 from .findings import Finding
 from .packages import install_mesa
+from .rights import as_root
 from .system import System
 
 __all__ = [
@@ -53,10 +54,7 @@ def vendor_file_cure(system: System, name: str, library: str) -> tuple[str, ...]
     """Give the commands that write a vendor file for a library."""
     folder = DEFAULT_FOLDERS[1]
     text = json.dumps({"file_format_version": "1.0.0", "ICD": {"library_path": library}})
-    return (
-        f"{system.sudo()}mkdir -p {folder}",
-        f"echo '{text}' | {system.sudo()}tee {folder}/{name}",
-    )
+    return as_root(system, f"mkdir -p {folder}", f"echo '{text}' | tee {folder}/{name}")
 
 
 def check_vendors(system: System, drawing: Drawing) -> list[Finding]:
@@ -79,7 +77,7 @@ def check_vendors(system: System, drawing: Drawing) -> list[Finding]:
         library = library_of(system, file)
         if library is None:
             text = f'{file}: expected {{"ICD": {{"library_path": ...}}}}, got another text'
-            cure = (f"{system.sudo()}rm {file}",)
+            cure = as_root(system, f"rm {file}")
             found.append(Finding("egl-vendors", drawing.blocking, text, cure))
             continue
         problem = system.library_problem(library)
@@ -104,7 +102,7 @@ def _broken(system: System, drawing: Drawing, file: str, library: str, problem: 
     else:
         cure = (
             f"# install {library}, or remove the file that names it:",
-            f"{system.sudo()}rm {file}",
+            *as_root(system, f"rm {file}"),
         )
     text = f"{file} names {library}, which cannot be loaded: {problem}"
     return Finding("egl-vendors", drawing.blocking, text, cure)
