@@ -99,7 +99,7 @@ sphinx_gallery_conf = {
     "min_reported_time": 1e9,
     "write_computation_times": False,
     "copyfile_regex": "",
-    "thumbnail_size": (400, 300),
+    "thumbnail_size": (320, 320),
     "default_thumb_file": None,
     "abort_on_example_error": True,
     "remove_config_comments": True,
