@@ -49,7 +49,7 @@ test-browser: docs $(VENV)/.deps-test $(VENV)/.deps-browser ## drive pages, Jupy
 	@$(PYTHON) scripts/system.py --browser
 	@$(PY) -m pytest -m browser tests/browser $(PYTEST_ARGS)
 
-test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV)/.deps-light $(VENV)/.bpy ## open files in three.js, Babylon.js, ktx-parse, Filament and Blender; needs npm and Chromium
+test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV)/.deps-light $(VENV)/.deps-peers $(VENV)/.bpy ## compare with three.js, Babylon.js, ktx-parse, Filament, Blender, moderngl, pygfx, VTK; needs npm and Chromium
 	@$(PYTHON) scripts/system.py --browser
 	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
 

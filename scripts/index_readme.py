@@ -1,6 +1,7 @@
-"""The README for a package index: links and pictures with whole addresses, since an index shows no files of a repository.
+"""The README for a package index, which shows no files of a repository: links and pictures with whole addresses.
 
-`[[tool.dynamic-metadata]]` of pyproject.toml names this module, so that every build calls it. The address of the repository comes from one of two places:
+`[[tool.dynamic-metadata]]` of pyproject.toml names this module, so that every build calls it. The address of the
+repository comes from one of two places:
 
 - the environment variable CUBECAM_REPOSITORY, which a release sets, for example "https://HOST/OWNER/cubecam";
 - the key `repository` beside it in pyproject.toml.
@@ -28,7 +29,7 @@ _LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
 
 
 def whole_links(text: str, repository: str, version: str) -> str:
-    """Give relative links of Markdown the address of the repository, at the tag of a version; "" takes the links out."""
+    """Give relative links of Markdown the address of the repository, at a version's tag; "" takes the links out."""
 
     def replace(match: re.Match[str]) -> str:
         picture, words, target = match.groups()

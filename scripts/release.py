@@ -27,6 +27,7 @@ STATED = {
     "pyproject.toml": r'^version = "(.+)"$',
     "CITATION.cff": r"^version: (.+)$",
     "conda/recipe.yaml": r'^  version: "(.+)"$',
+    "python/cubecam/_core.pyi": r'^__version__: str = "(.+)"$',
 }
 
 

@@ -7,7 +7,11 @@ from click.testing import CliRunner
 
 import cubecam as cc
 from cubecam.cli import app
+from cubecam.doctor.mesa import check_mesa
+from cubecam.doctor.packages import _DISTRIBUTIONS
+from cubecam.doctor.report import as_lines
 from tests.documents import ROOT, text_of
+from tests.fake_system import DEBIAN, NOT_DRAWN, FakeSystem, write
 from tests.howto.pages import fenced, printed
 
 NAME = "docs/howto/servers_and_docker.md"
@@ -38,9 +42,16 @@ def test_every_command_of_cubecam_exists():
         assert not line[1] or f"--{line[1]}" in {o for p in command.params for o in p.opts}
 
 
-def test_the_packages_are_those_that_doctor_names():
-    from cubecam.doctor.packages import _DISTRIBUTIONS
+def test_doctor_prints_what_the_page_shows(tmp_path):
+    """On a Debian in a folder, as root, with Mesa's EGL and without its drivers."""
+    library = "/usr/lib/x86_64-linux-gnu/libEGL_mesa.so.0"
+    write(tmp_path, {"/etc/os-release": DEBIAN, library: ""})
+    system = FakeSystem(root=tmp_path, uid=0)
+    said = "\n".join(as_lines(check_mesa(system, NOT_DRAWN)))
+    assert said.strip() == fenced(NAME, "console")[0].strip()
 
+
+def test_the_packages_are_those_that_doctor_names():
     text = text_of(NAME)
     for known in _DISTRIBUTIONS:
         if "alpine" in known.names:

@@ -123,6 +123,21 @@ def test_pyvista_lights_a_ball_by_the_panorama(tmp_path):
     plotter.close()
 
 
+def test_xarray_names_the_axes(tmp_path, monkeypatch):
+    """The block of docs/howto/bulk_data.md, after the one that captures."""
+    pytest.importorskip("xarray")
+    name = "docs/howto/bulk_data.md"
+    scope = run_block(python_blocks(name)[0], name, tmp_path, monkeypatch)
+    scope = run_block(fenced(name, "py")[0], name, tmp_path, monkeypatch, scope)
+    data, store = scope["data"], scope["store"]
+    assert data.color.dims == ("sample", "face", "t", "s", "channel")
+    np.testing.assert_array_equal(data.color.sel(face="-Z"), store["color"][:][:, 5])
+    assert (
+        (scope["nearest"] > 1.4) & (scope["nearest"] < 1.6)
+    ).all()  # 2.01 to the middle, less .5
+    assert scope["above"].shape == (8, 4)
+
+
 def test_pygfx_shows_the_same_sky(both):
     pytest.importorskip("wgpu")
     theirs, ours = both("from_pygfx.md", "pygfx")

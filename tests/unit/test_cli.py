@@ -533,7 +533,10 @@ def complete(shell, words):
 
 shells = pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 COMPLETED = {
-    "commands": (["cubecam", "c"], {("plain", "convert"), ("plain", "capture")}),
+    "commands": (
+        ["cubecam", "c"],
+        {("plain", "convert"), ("plain", "capture"), ("plain", "conventions")},
+    ),
     "options": (["cubecam", "info", "--j"], {("plain", "--json")}),
     "choices": (
         ["cubecam", "convert", "a.png", "--layout", "c"],

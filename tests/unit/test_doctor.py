@@ -616,7 +616,9 @@ def test_extras_are_those_of_the_project():
         for line in section.splitlines()
         if " = [" in line and line[0].isalpha()
     }
-    of_developers = {"test", "browser", "light", "bench", "docs", "lowest", "dev"}
+    of_developers = {
+        "test", "browser", "light", "bench", "peers", "docs", "lowest", "dev", "packages", "conda",
+    }  # fmt: skip
     assert declared - of_developers == set(EXTRAS)
     assert {finding.status for finding in check_extras()} <= {"ok", "note"}
 

@@ -8,9 +8,11 @@ from email import message_from_string
 
 import pytest
 
-from scripts.index_readme import dynamic_metadata, whole_links
 from tests.documents import ROOT, text_of
+from tests.helpers import load_script
 
+SCRIPT = load_script("index_readme")
+dynamic_metadata, whole_links = SCRIPT.dynamic_metadata, SCRIPT.whole_links
 ADDRESS = "https://example.org/someone/cubecam"
 
 

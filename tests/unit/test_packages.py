@@ -129,13 +129,19 @@ def test_a_bill_of_materials_is_valid_by_the_schema(scripts):
         check_wheel.validate(wrong)
 
 
+def test_the_files_that_state_the_version_agree(scripts):
+    assert len(set(scripts("release").versions().values())) == 1
+
+
 def write_release(
     root, version="1.2.3", changelog="## Unreleased\n\n## 1.2.3 - 2026-01-02\n\n- New.\n"
 ):
-    (root / "conda").mkdir(exist_ok=True)
+    for folder in ("conda", "python/cubecam"):
+        (root / folder).mkdir(parents=True)
     (root / "pyproject.toml").write_text('[project]\nversion = "1.2.3"\n')
     (root / "CITATION.cff").write_text(f"cff-version: 1.2.0\nversion: {version}\n")
     (root / "conda" / "recipe.yaml").write_text('context:\n  version: "1.2.3"\n')
+    (root / "python" / "cubecam" / "_core.pyi").write_text('__version__: str = "1.2.3"\n')
     (root / "CHANGELOG.md").write_text("# Changelog\n\n" + changelog)
 
 

@@ -185,8 +185,7 @@ std::string error_name(Int error) {
 }
 
 std::string doctor_hint() {
-    return "`cubecam doctor` looks for what is missing here, and names the command that installs "
-           "or sets it.";
+    return "`cubecam doctor` looks at this machine, and names the command that mends it.";
 }
 
 std::string software_hint() {

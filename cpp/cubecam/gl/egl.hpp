@@ -26,7 +26,7 @@ std::string error_name(Int error);
 /// Texts that say what to install or set if no context could be started.
 std::string software_hint();
 std::string gpu_hint();
-/// Names the command that looks for what is missing on this machine.
+/// Names the command that finds the cause on this machine.
 std::string doctor_hint();
 /// For drivers that start and offer an older OpenGL.
 std::string version_hint();
