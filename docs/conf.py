@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-os.environ["MPLBACKEND"] = "agg"
+os.environ.pop("MPLBACKEND", None)  # kernels show their figures only with their own backend
 # Lessons run in kernels of their own, which say so on each start.
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
 sys.path.insert(0, str(Path(__file__).parent))
