@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-os.environ["MPLBACKEND"] = "agg"
+os.environ.pop("MPLBACKEND", None)  # kernels show their figures only with their own backend
 # Lessons run in kernels of their own, which say so on each start.
 os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"
 sys.path.insert(0, str(Path(__file__).parent))
@@ -99,7 +99,7 @@ sphinx_gallery_conf = {
     "min_reported_time": 1e9,
     "write_computation_times": False,
     "copyfile_regex": "",
-    "thumbnail_size": (400, 300),
+    "thumbnail_size": (320, 320),
     "default_thumb_file": None,
     "abort_on_example_error": True,
     "remove_config_comments": True,

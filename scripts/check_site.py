@@ -2,12 +2,15 @@
 
     python scripts/check_site.py docs/_build/html
 
-Every local link leads to a file and, with a #, to a name on that page; every page of the sources was written; and no
-page loads a script, a style, a font or a picture from elsewhere. What is wrong is printed, one line each.
+Every local link leads to a file and, with a #, to a name on that page; every page of the sources was written; a
+lesson has its pictures; and no page loads a script, a style, a font or a picture from elsewhere. What is wrong is
+printed, one line each.
 """
 
 from __future__ import annotations
 
+import json
+import re
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
@@ -115,12 +118,31 @@ def unwritten(sources: Path, root: Path) -> list[str]:
     ]
 
 
+def without_pictures(lessons: Path, root: Path) -> list[str]:
+    """List lessons whose page has fewer pictures than the notebook had when its outputs were committed."""
+    found = []
+    for path in sorted(lessons.glob("*.ipynb")):
+        cells = json.loads(path.read_text(encoding="utf-8"))["cells"]
+        wanted = sum(
+            any(kind.startswith("image/") for kind in output.get("data", {}))
+            for cell in cells
+            for output in cell.get("outputs", ())
+        )
+        page = root / "lessons" / f"{path.stem}.html"
+        got = len(re.findall(r"<img[^>]*_images/", page.read_text(encoding="utf-8")))
+        if got < wanted:
+            found.append(f"lessons/{page.name}: expected {wanted} pictures, got {got}")
+    return found
+
+
 def main(arguments: list[str]) -> int:
     if len(arguments) != 1:
         print(__doc__, file=sys.stderr)
         return 2
     root = Path(arguments[0]).resolve()
-    found = problems(root) + unwritten(root.parent.parent, root)
+    sources = root.parents[1]
+    found = problems(root) + unwritten(sources, root)
+    found += without_pictures(sources.parent / "notebooks", root)
     for line in found:
         print(line)
     pages = sum(1 for _ in root.rglob("*.html"))

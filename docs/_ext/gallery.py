@@ -92,6 +92,7 @@ def script_of(name: str) -> str:
         "#",
         f"# .. literalinclude:: /../python/cubecam/examples/{name}.py",
         "#    :language: python",
+        "#    :start-at: from __future__",  # after the docstring, which stands above
         "",
     ]
     return "\n".join(lines)

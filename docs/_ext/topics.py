@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 REFERENCE = Path(__file__).resolve().parent.parent / "reference"
+_LISTED = re.compile(r"```{toctree}\n:hidden:\n\n(.*?)```", re.DOTALL)
 _BLOCK = re.compile(r"^\.\. api::\n((?:[ ]{3}.*\n|\n)*)", re.MULTILINE)
 
 
@@ -14,12 +15,18 @@ _BLOCK = re.compile(r"^\.\. api::\n((?:[ ]{3}.*\n|\n)*)", re.MULTILINE)
 def names_by_page() -> dict[str, list[str]]:
     """For each page the full names of its directives ``api``, in order."""
     found = {}
-    for path in sorted(REFERENCE.glob("*.md")):
+    listed = _LISTED.findall((REFERENCE / "index.md").read_text(encoding="utf-8"))[0].split()
+    for path in sorted(REFERENCE.glob("*.md"), key=lambda path: _place(path.stem, listed)):
         text = path.read_text(encoding="utf-8")
         found[path.stem] = [
             full_name(name) for block in _BLOCK.findall(text) for name in block.split()
         ]
     return found
+
+
+def _place(page: str, listed: list[str]) -> tuple[int, str]:
+    """Sort pages as the index has them; one that it forgets comes last."""
+    return (listed.index(page) if page in listed else len(listed), page)
 
 
 def full_name(name: str) -> str:

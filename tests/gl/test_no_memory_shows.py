@@ -167,6 +167,13 @@ LEFT_UNDONE = {
         ),
         constant(*BLACK),
     ),
+    "past a declaration that has conditions": (
+        (
+            "switch (int(s.uv.x * 2.0)) { case 0: float y =\n#ifndef real\n 1.0;\n#else\n 5.0;\n#endif\n"
+            " case 1: return s.uv.x < 0.5 ? vec3(y) : vec3(0.0); } return vec3(0.0);"
+        ),
+        where(RIGHT, BLACK, (5, 5, 5, 1)),
+    ),
     "hidden by macros": (
         "FLOAT(a1), b1; HIGH float c1; TABLE d1; return vec3(a1 + b1, c1, d1[int(s.uv.x * 299.0)]);",
         constant(*BLACK),

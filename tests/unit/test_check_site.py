@@ -1,5 +1,7 @@
 """scripts/check_site.py finds links that lead nowhere, and what a page loads from elsewhere."""
 
+import json
+
 import pytest
 
 from tests.helpers import load_script
@@ -63,6 +65,19 @@ def test_a_style_that_loads_a_font(script, site):
 
 def test_an_empty_folder_is_no_site(script, tmp_path):
     assert script.problems(tmp_path) == [f"{tmp_path}: expected pages, got none"]
+
+
+def test_a_lesson_without_its_pictures(script, site, tmp_path):
+    outputs = [{"data": {"image/png": ""}}, {"data": {"text/plain": ""}}, {"text": ""}]
+    (tmp_path / "01.ipynb").write_text(json.dumps({"cells": [{"outputs": outputs}, {}]}))
+    (site / "lessons").mkdir()
+    page = site / "lessons" / "01.html"
+    page.write_text('<img src="../_images/a.png">')
+    assert script.without_pictures(tmp_path, site) == []
+    page.write_text('<img src="../_static/logo.svg">')
+    assert script.without_pictures(tmp_path, site) == [
+        "lessons/01.html: expected 1 pictures, got 0"
+    ]
 
 
 def test_a_source_without_a_page(script, site):

@@ -252,10 +252,28 @@ def test_the_image_gets_what_a_wheel_is_made_of(project):
     lines = (ROOT / ".dockerignore").read_text().splitlines()
     allowed = {line[1:] for line in lines if line.startswith("!")}
     licences = {path.partition("/")[0] for path in project["project"]["license-files"]}
-    assert allowed == licences | {
+    providers = [one["provider"] for one in project["tool"]["dynamic-metadata"]]
+    assert allowed == licences | {f"{one['path']}/{one['module']}.py" for one in providers} | {
         "CMakeLists.txt", "README.md", "pyproject.toml", "cmake", "cpp", "docs/conventions.md", "shaders",
     }  # fmt: skip
     assert {"*", "**/*.so", "python/cubecam/_shader_trial"} <= set(lines)
+
+
+def test_the_image_can_read_what_a_wheel_says(tmp_path):
+    """The metadata are made from the files alone that .dockerignore lets in."""
+    pytest.importorskip("scikit_build_core")  # an environment without the tools that build
+    lines = (ROOT / ".dockerignore").read_text().splitlines()
+    for name in (line[1:] for line in lines if line.startswith("!")):
+        source, target = ROOT / name, tmp_path / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if source.is_dir():
+            shutil.copytree(source, target, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+        else:
+            shutil.copy(source, target)
+    program = "from scikit_build_core.build import prepare_metadata_for_build_wheel as p; p('made')"
+    subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=True)
+    (found,) = tmp_path.glob("made/*.dist-info/METADATA")
+    assert "Name: cubecam" in found.read_text(encoding="utf-8")
 
 
 def test_the_image_is_not_root_and_has_egl():

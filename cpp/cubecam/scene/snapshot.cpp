@@ -116,7 +116,7 @@ public:
         if (made) return made;
         if (postpones_ && takes_long(*data) && !is_kept(*mesh, data, form)) {
             postponed_.push_back({mesh, data, form});
-            return data;
+            return made = data;  // other nodes may have the same mesh
         }
         made = plain_form(*mesh, data, form);
         return made;

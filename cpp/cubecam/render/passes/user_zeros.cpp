@@ -388,7 +388,8 @@ private:
                 std::size_t end = i;
                 std::vector<GlslName> names = declared_at(i, close, end);
                 const std::size_t label = next_label(end, close);
-                const bool always = condition_depth(open, i) == 0;  // no #if leaves it out
+                // No #if leaves it out, or a part of it.
+                const bool always = condition_depth(open, i) == 0 && !has_conditions(i, end);
                 std::erase_if(names, [&](const GlslName& name) {
                     return !always || name.is("const") || !mentioned(name.name, label, close);
                 });
