@@ -42,6 +42,7 @@ _PRIVATE_TYPES = {
     "Part": "int | str",
     "Picture": "Frame | CubeMap | Image",
     "Source": "PathLike | Sequence[PathLike]",
+    "Status": "Literal['ok', 'note', 'warning', 'problem']",
     "Textures": "MutableMapping",
     "Uniforms": "MutableMapping",
 }

@@ -23,6 +23,7 @@ MODULES = [
     "navigation",
     "demo",
     "pictures",
+    "doctor",
 ]
 
 

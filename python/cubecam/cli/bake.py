@@ -52,7 +52,7 @@ Program: TypeAlias = Literal["three", "babylon", "unity", "godot", "blender", "f
     metavar="FILE",
     group="Of a scene",
     help="The light from all around, as for cubecam render.",
-    note=f"the file's own lights and environment; without any {Path(SAMPLE_LIGHT).stem}",
+    note=f"the file's own lights and environment, or {Path(SAMPLE_LIGHT).stem} if it has none",
 )
 @option(
     "--size",

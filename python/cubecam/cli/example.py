@@ -84,7 +84,7 @@ def _is_name(word: str) -> bool:
     type=FILE,
     metavar="FILE",
     help="The file to write: a still .png, .jpg or .exr, or an animation .png, .gif, .webp or .mp4 "
-    "(.mp4 needs the command ffmpeg). With --all: a folder.",
+    "(.mp4 needs imageio-ffmpeg or the command ffmpeg). With --all: a folder.",
     note="the program's name with .png",
 )
 @option(

@@ -104,7 +104,7 @@ def _backgrounds(ctx: Any, param: Any, incomplete: str) -> list[CompletionItem]:
     metavar="FILE",
     shell_complete=_environments,
     help="The light from all around: a panorama or a cubemap, or the name of a sample photograph, such as studio.",
-    note=f"the file's own lights and environment; without any {Path(SAMPLE_LIGHT).stem}",
+    note=f"the file's own lights and environment, or {Path(SAMPLE_LIGHT).stem} if it has none",
 )
 @option(
     "--variant", metavar="NAME", help="The variant of the materials.", note="the file's first look"

@@ -232,7 +232,7 @@ class LiveView:
         Parameters
         ----------
         path : str or os.PathLike
-            A name that ends in .mp4 (needs the command ffmpeg), .png, .gif or .webp.
+            A name that ends in .mp4 (needs imageio-ffmpeg or the command ffmpeg), .png, .gif or .webp.
         seconds : float
             How long the film is.
         fps : float
