@@ -74,6 +74,7 @@ def test_code_is_left_alone(turned):
     assert turned(text) == "```md\n[a](../../CHANGELOG.md)\n```\n[a](../project/changelog.md)"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", examples.NAMES)
 def test_each_example_gives_a_program(name, extension):
     text = extension("gallery").script_of(name)

@@ -61,8 +61,10 @@ def read_drawing(ran: Ran) -> Drawing:
         told.update(line)
     error, crashed = str(told.get("error", "")), False
     if not error and (ran.code != 0 or "warnings" not in told):
-        crashed = ran.code is None or ran.code < 0
-        error = f"the process {end_in_words(ran, LONGEST)} while {told.get('step', 'importing cubecam')}"
+        crashed = ran.late or (ran.code is not None and ran.code < 0)
+        error = f"the process {end_in_words(ran, LONGEST)}"
+        if ran.late or ran.code is not None:
+            error += f" while {told.get('step', 'importing cubecam')}"
         last = [line for line in ran.err.splitlines() if line.strip()][-1:]
         error += f": {last[0]}" if last else ""
     return Drawing(
@@ -89,8 +91,10 @@ def read_lines(text: str) -> list[dict[str, Any]]:
 
 def end_in_words(ran: Ran, longest: float) -> str:
     """Say how a process ended: by a signal, with a status, or not at all in its time."""
-    if ran.code is None:
+    if ran.late:
         return f"gave no answer within {longest:.0f} s"
+    if ran.code is None:
+        return "could not be started"
     if ran.code >= 0:
         return f"ended with status {ran.code}"
     try:

@@ -8,7 +8,7 @@ from .drawing import Drawing
 from .findings import Finding
 from .packages import install_nvidia
 from .surroundings import container_sign
-from .system import System
+from .system import Ran, System
 from .vendors import library_of, vendor_file_cure, vendor_files
 
 __all__ = ["check_nvidia", "nvidia_cure", "nvidia_signs"]
@@ -19,15 +19,23 @@ CAPABILITIES = "NVIDIA_DRIVER_CAPABILITIES"
 
 def nvidia_signs(system: System) -> list[str]:
     """List what says that there is an NVIDIA GPU that this system may use."""
-    signs = [name for name in ("/dev/nvidia0", "/dev/nvidiactl") if system.exists(name)]
-    if system.run(["nvidia-smi", "-L"]).code == 0:
-        signs.append("nvidia-smi")
-    return signs
+    return _signs(system, system.run(["nvidia-smi", "-L"]))
+
+
+def _signs(system: System, smi: Ran) -> list[str]:
+    files = [name for name in ("/dev/nvidia0", "/dev/nvidiactl") if system.exists(name)]
+    return [*files, "nvidia-smi"] if smi.code == 0 else files
 
 
 def nvidia_cure(system: System) -> tuple[str, ...]:
     """Say how this system gets NVIDIA's EGL."""
     if container_sign(system):
+        if _may_draw(system):
+            # The runtime brings what the host has: it has the part of the driver for computing alone.
+            return (
+                "# install the OpenGL part of NVIDIA's driver (libEGL_nvidia.so.0) on the host, and start again:",
+                f"docker run --gpus all -e {CAPABILITIES}=all IMAGE",
+            )
         return (
             "# start the container with the right to draw (NVIDIA Container Toolkit on the host):",
             f"docker run --gpus all -e {CAPABILITIES}=all IMAGE",
@@ -52,7 +60,7 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
                 ("# restart the machine, or load the module again",),
             )
         ]
-    signs = nvidia_signs(system)
+    signs = _signs(system, ran)  # nvidia-smi takes seconds where nothing keeps the driver awake
     if not signs:
         return []
     where = ", ".join(signs)
@@ -68,9 +76,14 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
         return [Finding("nvidia", "warning", text, cure)]
     text = f"an NVIDIA GPU ({where}), and no {LIBRARY}: pictures are not drawn on it"
     allowed = system.environ.get(CAPABILITIES)
-    if allowed is not None and container_sign(system):
+    if allowed is not None and container_sign(system) and not _may_draw(system):
         text += f"; {CAPABILITIES}={allowed} lacks graphics"
     return [Finding("nvidia", "warning", text, nvidia_cure(system))]
+
+
+def _may_draw(system: System) -> bool:
+    """Say whether the container's variable asks for the libraries that draw."""
+    return bool({"all", "graphics"} & set(system.environ.get(CAPABILITIES, "").split(",")))
 
 
 def _branch(system: System) -> str:

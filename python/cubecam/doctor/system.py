@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import platform
-import pwd
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
@@ -21,11 +20,12 @@ _LOAD = (
 
 @dataclass(frozen=True)
 class Ran:
-    """How a program ended; `code` is None if it could not be started or gave no answer in time."""
+    """How a program ended; `code` is None if it could not be started, or gave no answer in time and is `late`."""
 
     code: int | None
     out: str = ""
     err: str = ""
+    late: bool = False
 
 
 @dataclass(frozen=True)
@@ -34,12 +34,12 @@ class System:
 
     root: Path = Path("/")
     environ: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
-    uid: int = field(default_factory=os.geteuid)
+    uid: int = field(default_factory=lambda: _number_of("geteuid"))
     groups: frozenset[int] = field(
-        default_factory=lambda: frozenset({*os.getgroups(), os.getegid()})
+        default_factory=lambda: frozenset({*_groups(), _number_of("getegid")})
     )
     machine: str = field(default_factory=platform.machine)
-    python: str = sys.executable
+    python: str = sys.executable or ""
 
     def path(self, name: str) -> Path:
         """Give a path below the root for one that begins with /."""
@@ -83,6 +83,8 @@ class System:
 
     def user(self) -> str:
         """Give the user's name; "" if the number has none, as in containers."""
+        import pwd  # which Windows lacks
+
         try:
             return pwd.getpwuid(self.uid).pw_name
         except KeyError:
@@ -110,8 +112,8 @@ class System:
                 check=False,
             )
         except subprocess.TimeoutExpired as late:
-            return Ran(None, _text(late.stdout), _text(late.stderr))
-        except OSError as error:
+            return Ran(None, _text(late.stdout), _text(late.stderr), late=True)
+        except (OSError, ValueError) as error:  # ValueError: a null byte in a word
             return Ran(None, "", str(error))
         return Ran(done.returncode, _text(done.stdout), _text(done.stderr))
 
@@ -138,6 +140,17 @@ def _fields(text: str) -> Iterator[tuple[str, str]]:
         key, equals, value = line.partition("=")
         if equals:
             yield key.strip(), value.strip().strip("\"'")
+
+
+def _number_of(name: str) -> int:
+    """Call os.geteuid or os.getegid; Windows, on which only an error is explained, lacks both."""
+    function = getattr(os, name, None)
+    return function() if function else -1
+
+
+def _groups() -> list[int]:
+    function = getattr(os, "getgroups", None)
+    return function() if function else []
 
 
 def _text(output: bytes | None) -> str:
