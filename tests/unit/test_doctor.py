@@ -751,6 +751,8 @@ def test_the_report():
         "           # why",
         "           do it",
     ]
+    (line,) = as_lines([Finding("c", "note", "CUBECAM_DEVICE=\udcff")])
+    assert line == r"note     c: CUBECAM_DEVICE=\udcff"
     assert verdict(findings) == "No picture can be drawn as asked: 1 problem, no warnings."
     assert verdict(findings[:1]) == "Pictures can be drawn; no warnings."
     report = json.loads(as_json(findings))
