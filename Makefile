@@ -84,7 +84,7 @@ docs: $(VENV)/.installed $(VENV)/.deps-docs $(VENV)/.deps-jupyter ## build the s
 	@$(PY) -m sphinx -b html -W --keep-going -j auto -q -d docs/_build/doctrees docs docs/_build/html
 	@$(PY) scripts/check_site.py docs/_build/html
 
-gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the README and of docs/howto into docs/images
+gallery: $(VENV)/.installed $(VENV)/.deps-test ## draw the pictures of the README, docs/howto and docs/explanation into docs/images
 	@$(PY) scripts/gallery.py
 	@$(PY) scripts/howto.py
 

@@ -787,6 +787,14 @@ def test_a_bare_system_in_a_folder(tmp_path):
     assert problems == ["egl-library", "drawing"]
 
 
+def test_a_library_that_crashes_when_it_is_loaded(tmp_path):
+    script = tmp_path / "python"
+    script.write_text("#!/bin/sh\nkill -SEGV $$\n")
+    script.chmod(0o755)
+    problem = System(python=str(script)).library_problem("libEGL.so.1")
+    assert problem == "a process that loads it was ended by SIGSEGV"
+
+
 def test_libraries_and_files_of_this_machine():
     system = System()
     assert system.library_problem("libc.so.6") == ""

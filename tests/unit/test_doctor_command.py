@@ -127,13 +127,8 @@ def test_a_device_that_does_not_exist():
 
 def copy_of_the_package(folder):
     """Copy the package, without the data, so that a test may break it."""
-    left_out = shutil.ignore_patterns("data", "examples", "__pycache__")
+    left_out = shutil.ignore_patterns("*.exr", "*.glb", "__pycache__")
     shutil.copytree(PACKAGE, folder / "cubecam", ignore=left_out)
-    # An installed package has it beside its modules.
-    (folder / "cubecam" / "data").mkdir()
-    for name in ("__init__.py",):
-        shutil.copy(PACKAGE / "data" / name, folder / "cubecam" / "data" / name)
-    shutil.copytree(PACKAGE / "examples", folder / "cubecam" / "examples")
     return folder
 
 

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import os
 import platform
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-__all__ = ["Ran", "System", "os_release"]
+__all__ = ["Ran", "System", "end_in_words", "os_release"]
 
+#: How long a program may take that only looks, in seconds.
+LONGEST = 20.0
 #: Loads a library in a process of its own, since the code that a library runs when it is loaded may crash.
 _LOAD = (
     "import ctypes, sys\ntry:\n ctypes.CDLL(sys.argv[1])\nexcept OSError as e:\n sys.exit(str(e))"
@@ -98,14 +101,12 @@ class System:
                 return self.user() in parts[3].split(",") and self.user() != ""
         return False
 
-    def run(
-        self, command: Sequence[str], timeout: float = 20, environ: Mapping[str, str] | None = None
-    ) -> Ran:
+    def run(self, command: Sequence[str], timeout: float = LONGEST) -> Ran:
         """Run a program and wait for its end."""
         try:
             done = subprocess.run(
                 list(command),
-                env={**self.environ, **(environ or {})},
+                env=dict(self.environ),
                 stdin=subprocess.DEVNULL,
                 capture_output=True,
                 timeout=timeout,
@@ -119,15 +120,30 @@ class System:
 
     def library_problem(self, name: str) -> str:
         """Say why a library cannot be loaded; "" if it can."""
-        ran = self.run([self.python, "-I", "-S", "-c", _LOAD, name])
+        ran = self.run([self.python, "-I", "-S", "-c", _LOAD, name], timeout=LONGEST)
         if ran.code == 0:
             return ""
         lines = [line for line in ran.err.splitlines() if line.strip()]
-        return lines[-1] if lines else f"loading it ended with status {ran.code}"
+        return lines[-1] if lines else f"a process that loads it {end_in_words(ran, LONGEST)}"
 
     def sudo(self) -> str:
         """Give what stands before a command that only root may run."""
         return "" if self.uid == 0 else "sudo "
+
+
+def end_in_words(ran: Ran, longest: float) -> str:
+    """Say how a process ended: by a signal, with a status, or not at all in its time."""
+    if ran.late:
+        return f"gave no answer within {longest:.0f} s"
+    if ran.code is None:
+        return "could not be started"
+    if ran.code >= 0:
+        return f"ended with status {ran.code}"
+    try:
+        name = signal.Signals(-ran.code).name
+    except ValueError:
+        name = f"signal {-ran.code}"
+    return f"was ended by {name}"
 
 
 def os_release(system: System) -> Mapping[str, str]:

@@ -8,8 +8,8 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ..drawing import child, end_in_words, read_lines
-from ..system import System
+from ..drawing import child, read_lines
+from ..system import System, end_in_words
 from .measurement import Measurement
 
 __all__ = ["NAMES", "main", "prove", "prove_apart"]
