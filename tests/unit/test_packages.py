@@ -247,6 +247,20 @@ def test_the_conda_recipe_is_one_for_rattler_build(scripts):
             assert f"gxx_{system}" in recipe["requirements"]["build"]
 
 
+def test_a_source_distribution_inside_another_repository_has_no_files_of_git(
+    scripts, tmp_path, monkeypatch
+):
+    if shutil.which("git") is None:
+        pytest.skip("without git")
+    sdist, inner = scripts("sdist"), tmp_path / "cubecam-1"
+    inner.mkdir()
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
+    monkeypatch.setattr(sdist, "ROOT", inner)
+    assert sdist.tracked_files() is None
+    monkeypatch.setattr(sdist, "ROOT", tmp_path)
+    assert sdist.tracked_files() == set()
+
+
 def test_the_image_gets_what_a_wheel_is_made_of(project):
     """.dockerignore lets in the files that the build reads, and no module of the machine's own."""
     lines = (ROOT / ".dockerignore").read_text().splitlines()
