@@ -86,6 +86,7 @@ def wheel_with(folder, change=None, leave_out=()):
     files["cubecam-1.dist-info/sboms/cubecam.cdx.json"] = json.dumps(bill)
     path = folder / "cubecam-1-cp312-cp312-linux_x86_64.whl"
     with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("cubecam-1.dist-info/sboms/", "")  # as auditwheel lists folders
         for name, text in files.items():
             if not name.endswith(tuple(leave_out) or ("\0",)):
                 archive.writestr(name, text)
