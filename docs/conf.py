@@ -31,6 +31,7 @@ extensions = [
     "_ext.reference",
     "_ext.commands",
     "_ext.mathml",
+    "_ext.widgets",
 ]
 exclude_patterns = [
     "_build",

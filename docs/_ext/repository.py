@@ -46,17 +46,21 @@ def turned_links(text: str, source: Path, page: Path, url: str = "") -> str:
     url : where the repository's files are shown, such as "https://HOST/OWNER/cubecam/blob/main"; without one, a link
         to a file that the site does not have becomes plain text.
     """
-    lines, fence = [], ""
-    for line in text.split("\n"):
+    parts: list[str] = [""]  # prose and code by turns
+    fence = ""
+    for line in text.splitlines(keepends=True):
         mark = _FENCE.match(line)
         if mark and not fence:
             fence = mark[2]
-        elif mark and mark[2].startswith(fence) and line.strip() == mark[2]:
+            parts.append("")
+        parts[-1] += line
+        if mark and parts[-1] != line and mark[2].startswith(fence) and line.strip() == mark[2]:
             fence = ""
-        elif not fence:
-            line = _LINK.sub(lambda match: _turned(match, source, page, url), line)
-        lines.append(line)
-    return "\n".join(lines)
+            parts.append("")
+    return "".join(
+        part if index % 2 else _LINK.sub(lambda match: _turned(match, source, page, url), part)
+        for index, part in enumerate(parts)
+    )
 
 
 def _turned(match: re.Match[str], source: Path, page: Path, url: str) -> str:
