@@ -472,6 +472,12 @@ def test_a_gpu_that_was_passed_over(tmp_path, environ, device, reason, status):
     assert reason in found.text
 
 
+def test_several_gpus_that_were_passed_over(tmp_path):
+    drawing = Drawing((LLVMPIPE, GPU, {**GPU, "index": 2}), DRAWN.chosen)
+    text = only(check_devices(machine(tmp_path), drawing, None)).text
+    assert "device 1 (AMD Radeon), device 2 (AMD Radeon) are GPUs that can be used" in text
+
+
 def test_gpus_that_are_used(tmp_path):
     assert only(check_devices(machine(tmp_path), GPU_DRAWN, None)).status == "ok"
     assert "no GPU" in only(check_devices(machine(tmp_path), DRAWN, None)).text
@@ -495,6 +501,16 @@ def test_variables(tmp_path, name):
     error = Drawing(error=f"ContextError: {name}=x is set: without it another driver may start.")
     assert only(check_variables(system, error, None)).status == "problem"
     assert check_variables(machine(tmp_path, environ={name: "0"}), DRAWN, None) == []
+
+
+def test_a_variable_that_wsl_needs(tmp_path):
+    """What the doctor advises in WSL is not to be undone, unless nothing is drawn with it."""
+    files = {"/proc/version": "Linux version 5.15.1-microsoft-standard-WSL2"}
+    system = machine(tmp_path, files, environ={"GALLIUM_DRIVER": "d3d12"})
+    assert only(check_variables(system, DRAWN, None)).cure == ()
+    assert only(check_variables(system, NOT_DRAWN, None)).cure == ("unset GALLIUM_DRIVER",)
+    elsewhere = machine(tmp_path / "other", environ={"GALLIUM_DRIVER": "d3d12"})
+    assert only(check_variables(elsewhere, DRAWN, None)).cure == ("unset GALLIUM_DRIVER",)
 
 
 def test_a_device_that_a_variable_names(tmp_path):

@@ -92,6 +92,10 @@ def test_a_source_file_is_a_link_only_where_the_repository_is_known(turned):
     assert turned(text, url=URL) == f"[stubs]({URL}/python/cubecam/_core.pyi)"
 
 
+def test_a_link_may_begin_on_one_line_and_end_on_the_next(turned):
+    assert turned("[a\nb](../../CHANGELOG.md)\n") == "[a\nb](../project/changelog.md)\n"
+
+
 def test_code_is_left_alone(turned):
     text = "```md\n[a](../../CHANGELOG.md)\n```\n[a](../../CHANGELOG.md)"
     assert turned(text) == "```md\n[a](../../CHANGELOG.md)\n```\n[a](../project/changelog.md)"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from .drawing import Drawing
 from .findings import Finding, Status
+from .surroundings import in_wsl
 from .system import System
 
 __all__ = ["check_devices", "check_variables"]
@@ -40,7 +41,8 @@ def check_devices(system: System, drawing: Drawing, device: str | None) -> list[
     if sound and drawing.works and drawing.chosen["software"]:
         names = ", ".join(f"device {item['index']} ({item['name']})" for item in sound)
         reason = _why_software(system, device)
-        text = f"{names} is a GPU that can be used, and pictures are drawn in software{reason}"
+        are = "is a GPU" if len(sound) == 1 else "are GPUs"
+        text = f"{names} {are} that can be used, and pictures are drawn in software{reason}"
         found.append(
             Finding(
                 "gpu", "warning" if not reason else "note", text, ("cubecam doctor --device gpu",)
@@ -65,7 +67,9 @@ def check_variables(system: System, drawing: Drawing, device: str | None) -> lis
         text = f"{name}={value} is set: {effect}"
         # The error of a driver that does not start names the variables that choose it.
         status: Status = "problem" if name in drawing.error else "note"
-        found.append(Finding("variables", status, text, (f"unset {name}",)))
+        # In WSL the doctor itself advises this one.
+        wanted = in_wsl(system) and (name, value) == ("GALLIUM_DRIVER", "d3d12") and drawing.works
+        found.append(Finding("variables", status, text, () if wanted else (f"unset {name}",)))
     value = system.environ.get("CUBECAM_DEVICE", "")
     if value and device in (None, "auto"):
         text = f"CUBECAM_DEVICE={value} is set: a Renderer takes this device unless it is told another one"
