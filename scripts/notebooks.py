@@ -14,6 +14,7 @@ import io
 import os
 import re
 import sys
+from importlib.metadata import version
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
@@ -43,6 +44,8 @@ _PALETTE = 8
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
 #: matplotlib may choose another size, and then both are compared as `_COARSE` x `_COARSE` pixels.
 _APART, _APART_COARSE, _COARSE = 1.0, 12.0, 24
+#: The same where matplotlib is older than 3.11, which gave letters other shapes and places.
+_APART_OTHER_LETTERS = 6.0
 #: Printed numbers are equal within this share, within 2 of the last digit, or where both are rounding errors.
 _SHARE, _ROUNDING = 0.02, 2e-5
 _NUMBER = re.compile(r"-?\d[\d,]*\.?\d*(?:e[+-]?\d+)?")
@@ -224,8 +227,12 @@ def _picture_of(output: Any) -> Image.Image | None:
     return None
 
 
+def _letters_are_new() -> bool:
+    return tuple(int(part) for part in version("matplotlib").split(".")[:2]) >= (3, 11)
+
+
 def _pictures_apart(new: Image.Image, old: Image.Image) -> str:
-    limit = _APART
+    limit = _APART if _letters_are_new() else _APART_OTHER_LETTERS
     if new.size != old.size:
         coarse = (_COARSE, _COARSE)
         new, old = (p.resize(coarse, Image.Resampling.BOX) for p in (new, old))

@@ -34,6 +34,10 @@ def build() -> Path:
 
 def tracked_files() -> set[str] | None:
     """The files of the repository, or None outside one, in an unpacked source distribution."""
+    if not (
+        ROOT / ".git"
+    ).exists():  # one that is unpacked inside another repository has no files there
+        return None
     command = ["git", "-C", str(ROOT), "ls-files", "-z"]
     try:
         listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout

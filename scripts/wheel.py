@@ -34,8 +34,7 @@ def run(*command: str | Path) -> None:
 
 
 def build() -> Path:
-    before = set(DIST.glob("*.whl"))
-    for old in before:
+    for old in DIST.glob("*.whl"):
         old.unlink()
     run(
         sys.executable, "-m", "pip", "wheel", "--quiet", "--no-build-isolation", "--no-deps",

@@ -55,7 +55,7 @@ class FakeSystem(System):
             return ""
         return f"{name}: cannot open shared object file: No such file or directory"
 
-    def run(self, command, timeout=20, environ=None):
+    def run(self, command, timeout=20):
         """Answer for programs that are there."""
         return self.programs.get(command[0], Ran(None, "", f"{command[0]}: not found"))
 

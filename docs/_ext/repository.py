@@ -37,7 +37,8 @@ PAGES = {**COPIED, "notebooks": "lessons.md"}
 FOLDERS: dict[str, list[str]] = {"howto": [], "explanation": ["/gpu", "/security"], "adr": []}
 
 _FENCE = re.compile(r"^( *)(```+|~~~+)")
-_LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
+#: The words may go on in the next line, and hold other brackets.
+_LINK = re.compile(r"(!?)\[((?:[^\[\]\n]|\n(?!\s*\n)|\[[^\[\]]*\])*)\]\(([^()\s]+)\)")
 
 
 def turned_links(text: str, source: Path, page: Path, url: str = "") -> str:
@@ -47,21 +48,27 @@ def turned_links(text: str, source: Path, page: Path, url: str = "") -> str:
     url : where the repository's files are shown, such as "https://HOST/OWNER/cubecam/blob/main"; without one, a link
         to a file that the site does not have becomes plain text.
     """
-    parts: list[str] = [""]  # prose and code by turns
+    return "\n".join(
+        part if code else _LINK.sub(lambda match: _turned(match, source, page, url), part)
+        for code, part in _parts(text)
+    )
+
+
+def _parts(text: str) -> list[tuple[bool, str]]:
+    """Split Markdown into blocks of code, which are left alone, and what is between them."""
+    parts: list[tuple[bool, list[str]]] = []
     fence = ""
-    for line in text.splitlines(keepends=True):
+    for line in text.split("\n"):
         mark = _FENCE.match(line)
+        code = bool(mark or fence)
         if mark and not fence:
             fence = mark[2]
-            parts.append("")
-        parts[-1] += line
-        if mark and parts[-1] != line and mark[2].startswith(fence) and line.strip() == mark[2]:
+        elif mark and mark[2].startswith(fence) and line.strip() == mark[2]:
             fence = ""
-            parts.append("")
-    return "".join(
-        part if index % 2 else _LINK.sub(lambda match: _turned(match, source, page, url), part)
-        for index, part in enumerate(parts)
-    )
+        if not parts or parts[-1][0] != code:
+            parts.append((code, []))
+        parts[-1][1].append(line)
+    return [(code, "\n".join(lines)) for code, lines in parts]
 
 
 def _turned(match: re.Match[str], source: Path, page: Path, url: str) -> str:

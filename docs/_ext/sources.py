@@ -67,7 +67,6 @@ class Item:
     doc: str = ""
     static: bool = False
     classmethod: bool = False
-    settable: bool = False
     bases: list[str] = field(default_factory=list)
     members: list[Item] = field(default_factory=list)
 
@@ -247,7 +246,6 @@ def _member(name: str, found: list[ast.FunctionDef], documented: dict[str, str])
             "property",
             type=declared,
             doc=text or documented.get(first.name, ""),
-            settable=any(word.endswith(".setter") for word in decorators),
         )
     made = _function(name, found, method=True)
     made.kind = "method"

@@ -17,12 +17,12 @@ def main() -> None:
     """
     try:
         from .cli import main as run
-    except ImportError:
+    except ImportError as error:
         if sys.argv[1:2] != ["doctor"]:
             raise
         from .doctor.broken import run_without_the_core
 
-        raise SystemExit(run_without_the_core(sys.argv[2:], "")) from None
+        raise SystemExit(run_without_the_core(sys.argv[2:], "", str(error))) from None
     run()
 
 

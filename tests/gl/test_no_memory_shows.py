@@ -174,6 +174,14 @@ LEFT_UNDONE = {
         ),
         where(RIGHT, BLACK, (5, 5, 5, 1)),
     ),
+    "a switch that begins in two ways": (
+        (
+            "\n#ifdef real\n switch (int(s.uv.x * 2.0)) {\n#else\n switch (0) {\n#endif\n case 0: ;\n#ifdef nothing\n"
+            " float y = 5.0;\n#endif\n case 1: ;\n#ifdef nothing\n return vec3(y);\n#endif\n return vec3(1.0); }"
+            " return vec3(0.5);"
+        ),
+        constant(1, 1, 1, 1),
+    ),
     "hidden by macros": (
         "FLOAT(a1), b1; HIGH float c1; TABLE d1; return vec3(a1 + b1, c1, d1[int(s.uv.x * 299.0)]);",
         constant(*BLACK),

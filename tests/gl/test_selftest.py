@@ -19,7 +19,7 @@ from cubecam.doctor.proofs.orientation import prove_orientation
 from cubecam.doctor.proofs.run import NAMES, prove, prove_apart
 from cubecam.doctor.proofs.seams import prove_seams
 from cubecam.doctor.proofs.shader import prove_shader
-from cubecam.doctor.system import Ran
+from cubecam.doctor.system import Ran, System
 from tests.fake_system import FakeSystem
 from tests.helpers import DEVICE
 from tests.reference import cube_faces
@@ -221,6 +221,19 @@ def test_a_driver_that_crashes_fails_a_test(tmp_path):
     assert done.passed
     assert (crashed.name, crashed.passed) == ("seams", False)
     assert crashed.failure == "the process was ended by SIGSEGV: boom"
+
+
+def test_a_driver_that_ends_the_process_without_an_error_fails_a_test(tmp_path):
+    system = FakeSystem(root=tmp_path, programs={FakeSystem().python: Ran(0, "", "")})
+    (ended,) = prove_apart(system, None)
+    assert (ended.name, ended.passed) == ("orientation", False)
+    assert ended.failure == "the process ended with status 0"
+
+
+def test_a_device_that_does_not_start_fails_a_test():
+    (refused,) = prove_apart(System(), "no such card")
+    assert (refused.name, refused.passed) == ("orientation", False)
+    assert refused.failure.startswith('ContextError: no device "no such card": ')
 
 
 def test_a_measurement_that_is_no_number_fails():

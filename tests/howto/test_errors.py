@@ -41,7 +41,9 @@ def test_the_program_raises_the_message(code, message, tmp_path, monkeypatch):
     if re.search(r"^import (os|multiprocessing|resource)$", code, re.MULTILINE):
         script = tmp_path / "program.py"
         script.write_text(code, encoding="utf-8")
-        done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=120)
+        done = subprocess.run(
+            [sys.executable, script], cwd=tmp_path, capture_output=True, text=True, timeout=120
+        )
         assert done.returncode == 1
         said = re.sub(r"\ncubecam\.", "\n", done.stderr)
         assert re.search(rf"^{pattern(message)}\s*\Z", said, re.DOTALL | re.MULTILINE), said

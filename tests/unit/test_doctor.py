@@ -1,8 +1,6 @@
 """The doctor's checks, each on a machine made in a folder: what is missing is found, with what mends it."""
 
 import json
-import shutil
-import stat
 import sys
 from pathlib import Path
 
@@ -452,6 +450,9 @@ def test_a_gpu_that_does_not_start(tmp_path):
     assert "device 1 (AMD Radeon)" in found.text
     assert "EGL_NOT_INITIALIZED" in found.text
     assert "cubecam doctor --device gpu" in found.cure
+    assert (
+        len(only(check_devices(machine(tmp_path), drawing, "gpu")).cure) == 1
+    )  # just that was asked
 
 
 @pytest.mark.parametrize(
@@ -545,12 +546,14 @@ def test_lines_of_a_driver_are_left_out():
 
 @pytest.mark.parametrize(
     ("code", "words"),
-    [(-11, "was ended by SIGSEGV while starting the driver"), (None, "gave no answer within 90 s")],
+    [
+        (-11, "was ended by SIGSEGV while starting the driver"),
+        (None, "gave no answer within 90 s while starting the driver"),
+    ],
 )
 def test_a_driver_that_crashes_or_hangs(tmp_path, code, words):
-    drawing = read_drawing(
-        told({"step": "listing the devices"}, {"step": "starting the driver"}, code=code)
-    )
+    steps = told({"step": "listing the devices"}, {"step": "starting the driver"}).out
+    drawing = read_drawing(Ran(code, steps, late=code is None))
     assert drawing.crashed
     files = {f"{VENDORS}/10_nvidia.json": NVIDIA_JSON, f"{VENDORS}/50_mesa.json": MESA_JSON}
     found = only(check_drawing(machine(tmp_path, files), drawing, None))
@@ -565,6 +568,17 @@ def test_an_error_without_its_advice(tmp_path):
     found = only(check_drawing(machine(tmp_path), drawing, "gpu"))
     assert found.text == "no picture was drawn: ContextError: no context:\n  1. device 0: no"
     assert found.cure == ("# these devices are there: 0: llvmpipe", "cubecam doctor --device auto")
+
+
+def test_a_process_that_cannot_be_started(tmp_path):
+    """No driver is blamed for what the system refuses."""
+    drawing = read_drawing(Ran(None, "", "[Errno 11] Resource temporarily unavailable"))
+    assert not drawing.crashed
+    found = only(check_drawing(machine(tmp_path), drawing, None))
+    assert found.text == (
+        "no picture was drawn: the process could not be started: [Errno 11] Resource temporarily unavailable"
+    )
+    assert found.cure == ()
 
 
 def test_an_error_of_the_interpreter():
@@ -660,12 +674,24 @@ def test_a_second_package(tmp_path):
     assert installation.check_copies(paths[:1], (tmp_path / "a" / "cubecam").resolve()) == []
 
 
+def test_a_link_to_the_package_is_no_second_one(tmp_path):
+    write(tmp_path, {"/a/cubecam/__init__.py": ""})
+    (tmp_path / "b").mkdir()
+    (tmp_path / "b" / "cubecam").symlink_to(tmp_path / "a" / "cubecam")
+    unreadable = "/" + 5000 * "x"  # no file may have such a name
+    paths = [str(tmp_path / "a"), str(tmp_path / "b"), unreadable]
+    assert installation.check_copies(paths, (tmp_path / "a" / "cubecam").resolve()) == []
+
+
 def test_a_command_of_another_python(tmp_path):
     script = tmp_path / "cubecam"
     script.write_text("#!/opt/other/bin/python3\nimport cubecam\n")
     found = only(installation.check_script(str(script)))
     assert "/opt/other/bin/python3" in found.text
     script.write_text(f"#!{sys.prefix}/bin/python\n")
+    assert installation.check_script(str(script)) == []
+    (tmp_path / "bin").symlink_to(Path(sys.prefix) / "bin")
+    script.write_text(f"#!{tmp_path}/bin/python\n")
     assert installation.check_script(str(script)) == []
     script.write_text("#!/bin/sh\n")
     assert installation.check_script(str(script)) == []
@@ -683,6 +709,14 @@ def test_requirements():
     assert old.status == "warning"
     assert "expected 999.1 or newer, got" in old.text
     assert only(installation.check_requirements(["numpy>=1.24"])).status == "ok"
+
+
+def test_versions_of_requirements(monkeypatch):
+    """Two numbers are three with a zero; what a broken update left behind has none."""
+    monkeypatch.setattr("importlib.metadata.version", {"a": "2", "b": None}.get)
+    assert only(installation.check_requirements(["a>=2.0"])).status == "ok"
+    assert only(installation.check_requirements(["a>=2.0.1"])).status == "warning"
+    assert "b is missing" in only(installation.check_requirements(["b>=1"])).text
 
 
 def test_extras_are_those_of_the_project():
@@ -705,6 +739,11 @@ def test_an_extra_that_is_missing(monkeypatch):
     (found,) = [finding for finding in check_extras() if finding.cure]
     assert found.status == "note"
     assert 'pip install "cubecam[plot]"  # cc.plot (no_such_module)' in found.cure
+
+
+def test_a_module_without_a_specification_is_missing(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", type(sys)("matplotlib"))
+    assert any('"cubecam[plot]"' in line for found in check_extras() for line in found.cure)
 
 
 # The process
@@ -776,6 +815,8 @@ def test_the_report():
         "           # why",
         "           do it",
     ]
+    (line,) = as_lines([Finding("c", "note", "CUBECAM_DEVICE=\udcff")])
+    assert line == r"note     c: CUBECAM_DEVICE=\udcff"
     assert verdict(findings) == "No picture can be drawn as asked: 1 problem, no warnings."
     assert verdict(findings[:1]) == "Pictures can be drawn; no warnings."
     report = json.loads(as_json(findings))
@@ -810,14 +851,20 @@ def test_a_bare_system_in_a_folder(tmp_path):
     assert problems == ["egl-library", "drawing"]
 
 
+def test_a_library_that_crashes_when_it_is_loaded(tmp_path):
+    script = tmp_path / "python"
+    script.write_text("#!/bin/sh\nkill -SEGV $$\n")
+    script.chmod(0o755)
+    problem = System(python=str(script)).library_problem("libEGL.so.1")
+    assert problem == "a process that loads it was ended by SIGSEGV"
+
+
 def test_libraries_and_files_of_this_machine():
     system = System()
     assert system.library_problem("libc.so.6") == ""
     assert "no-such.so" in system.library_problem("no-such.so")
     assert system.run(["no-such-program"]).code is None
-    assert (
-        system.run([sys.executable, "-c", "import time; time.sleep(60)"], timeout=0.2).code is None
-    )
+    assert not system.run(["no-such-program"]).late
+    assert "null byte" in system.run([sys.executable, "\0"]).err
+    assert system.run([sys.executable, "-c", "import time; time.sleep(60)"], timeout=0.2).late
     assert system.group_of("/dev/null")[0] == Path("/dev/null").stat().st_gid
-    assert shutil.which("sh")
-    assert stat.S_ISDIR(system.path("/etc").stat().st_mode)

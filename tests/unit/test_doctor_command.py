@@ -87,6 +87,7 @@ def fake(tmp_path_factory):
     return build_fake(tmp_path_factory.mktemp("fake"))
 
 
+@pytest.mark.slow
 @pytest.mark.llvmpipe("the stand-in has llvmpipe below it")
 def test_a_gpu_that_does_not_start(fake):
     done = cubecam("doctor", "--json", CUBECAM_EGL_LIBRARY=str(fake), FAKE_GPU="1")
@@ -126,13 +127,8 @@ def test_a_device_that_does_not_exist():
 
 def copy_of_the_package(folder):
     """Copy the package, without the data, so that a test may break it."""
-    left_out = shutil.ignore_patterns("data", "examples", "__pycache__")
+    left_out = shutil.ignore_patterns("*.exr", "*.glb", "__pycache__")
     shutil.copytree(PACKAGE, folder / "cubecam", ignore=left_out)
-    # An installed package has it beside its modules.
-    (folder / "cubecam" / "data").mkdir()
-    for name in ("__init__.py",):
-        shutil.copy(PACKAGE / "data" / name, folder / "cubecam" / "data" / name)
-    shutil.copytree(PACKAGE / "examples", folder / "cubecam" / "examples")
     return folder
 
 
@@ -186,12 +182,34 @@ def test_a_program_of_a_broken_installation(broken):
     assert "--force-reinstall" in done.stderr
 
 
+def test_another_system_is_named_before_what_it_lacks(broken):
+    """Windows has neither pwd nor resource; Python finds that out before anything else would."""
+    program = """
+import os, pathlib, platform, subprocess, sys
+for name in ("geteuid", "getegid", "getgroups"):
+    delattr(os, name)
+sys.modules |= {"pwd": None, "resource": None}
+sys.platform = "win32"
+import cubecam
+"""
+    done = run_python(program, check=False, PYTHONPATH=broken)
+    assert done.returncode == 1
+    assert (
+        "ImportError: cubecam cannot be loaded: cubecam runs on Linux, and this is win32"
+        in done.stderr
+    )
+
+
 def test_a_missing_package(tmp_path):
     """Without click there is no command line, and the doctor runs."""
     (tmp_path / "click.py").write_text("raise ModuleNotFoundError('No module named click')\n")
     done = cubecam("doctor", package=tmp_path)
+    assert done.returncode == 1
     assert "ok       module: " in done.stdout
     assert "ok       drawing: " in done.stdout
+    assert (
+        "problem  command: the command line cannot be loaded: No module named click" in done.stdout
+    )
     other = cubecam("info", package=tmp_path)
     assert other.returncode == 1
     assert "No module named click" in other.stderr

@@ -86,6 +86,7 @@ def wheel_with(folder, change=None, leave_out=()):
     files["cubecam-1.dist-info/sboms/cubecam.cdx.json"] = json.dumps(bill)
     path = folder / "cubecam-1-cp312-cp312-linux_x86_64.whl"
     with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("cubecam-1.dist-info/sboms/", "")  # as auditwheel lists folders
         for name, text in files.items():
             if not name.endswith(tuple(leave_out) or ("\0",)):
                 archive.writestr(name, text)
@@ -245,6 +246,20 @@ def test_the_conda_recipe_is_one_for_rattler_build(scripts):
             recipe = variant.recipe.to_dict()
             assert recipe["build"]["string"].startswith(f"py{python.replace('.', '')}h")
             assert f"gxx_{system}" in recipe["requirements"]["build"]
+
+
+def test_a_source_distribution_inside_another_repository_has_no_files_of_git(
+    scripts, tmp_path, monkeypatch
+):
+    if shutil.which("git") is None:
+        pytest.skip("without git")
+    sdist, inner = scripts("sdist"), tmp_path / "cubecam-1"
+    inner.mkdir()
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True)
+    monkeypatch.setattr(sdist, "ROOT", inner)
+    assert sdist.tracked_files() is None
+    monkeypatch.setattr(sdist, "ROOT", tmp_path)
+    assert sdist.tracked_files() == set()
 
 
 def test_the_image_gets_what_a_wheel_is_made_of(project):

@@ -38,13 +38,22 @@ def refuse(error: ImportError) -> NoReturn:
     raise ImportError(f"{text}\n  `cubecam doctor` says more", name="cubecam._core") from error
 
 
-def run_without_the_core(words: list[str], error: str) -> int:
-    """Print what the doctor finds, and give the exit code."""
+def run_without_the_core(words: list[str], error: str, command: str = "") -> int:
+    """Print what the doctor finds, and give the exit code.
+
+    error, command : the texts of the ImportErrors, if the core or the command line cannot be loaded.
+    """
     from .examination import all_findings
+    from .findings import Finding
+    from .module import here
     from .report import as_json, as_lines, verdict
     from .system import System
 
     findings = all_findings(System(), error=error)
+    if command:
+        # The package that is missing may be one that no other finding names, such as one of click's own.
+        text = f"the command line cannot be loaded: {command}"
+        findings.append(Finding("command", "problem", text, (here().reinstall,)))
     if "--json" in words:
         print(as_json(findings))
     else:

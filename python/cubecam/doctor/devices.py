@@ -32,7 +32,7 @@ def check_devices(system: System, drawing: Drawing, device: str | None) -> list[
             f"device {item['index']} ({item['name']}) is a GPU that does not start: {item['problem']}",
             (
                 f"# see what is said about {item['drm_node'] or 'its driver'} here",
-                "cubecam doctor --device gpu",
+                *(("cubecam doctor --device gpu",) if device in (None, "auto") else ()),
             ),
         )
         for item in broken

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import signal
 import sys
 from dataclasses import dataclass, field
 from typing import Any
 
 from .findings import Finding, Status
-from .system import Ran, System
+from .system import Ran, System, end_in_words
 
-__all__ = ["Drawing", "check_drawing", "child", "end_in_words", "read_lines", "try_drawing"]
+__all__ = ["Drawing", "check_drawing", "child", "read_lines", "try_drawing"]
 
 #: How long the process may take, in seconds; starting a driver takes one, and some ten on a GPU that sleeps.
 LONGEST = 90.0
@@ -61,8 +60,10 @@ def read_drawing(ran: Ran) -> Drawing:
         told.update(line)
     error, crashed = str(told.get("error", "")), False
     if not error and (ran.code != 0 or "warnings" not in told):
-        crashed = ran.code is None or ran.code < 0
-        error = f"the process {end_in_words(ran, LONGEST)} while {told.get('step', 'importing cubecam')}"
+        crashed = ran.late or (ran.code is not None and ran.code < 0)
+        error = f"the process {end_in_words(ran, LONGEST)}"
+        if ran.late or ran.code is not None:
+            error += f" while {told.get('step', 'importing cubecam')}"
         last = [line for line in ran.err.splitlines() if line.strip()][-1:]
         error += f": {last[0]}" if last else ""
     return Drawing(
@@ -85,19 +86,6 @@ def read_lines(text: str) -> list[dict[str, Any]]:
         if isinstance(value, dict):
             found.append(value)
     return found
-
-
-def end_in_words(ran: Ran, longest: float) -> str:
-    """Say how a process ended: by a signal, with a status, or not at all in its time."""
-    if ran.code is None:
-        return f"gave no answer within {longest:.0f} s"
-    if ran.code >= 0:
-        return f"ended with status {ran.code}"
-    try:
-        name = signal.Signals(-ran.code).name
-    except ValueError:
-        name = f"signal {-ran.code}"
-    return f"was ended by {name}"
 
 
 def check_drawing(system: System, drawing: Drawing, device: str | None) -> list[Finding]:

@@ -63,5 +63,8 @@ def _is_there(module: str) -> bool:
         return any(map(_is_there, ("compression.zstd", "backports.zstd")))
     try:
         return importlib.util.find_spec(module) is not None
-    except ModuleNotFoundError:  # the package above it
+    except (
+        ModuleNotFoundError,
+        ValueError,
+    ):  # the package above it; a module without a specification
         return False

@@ -38,11 +38,8 @@ def check_module(system: System, error: str = "") -> list[Finding]:
 
 
 def _check_version(version: str) -> list[Finding]:
-    try:
-        told = importlib.metadata.version("cubecam")
-    except importlib.metadata.PackageNotFoundError:
-        return []  # a source tree on PYTHONPATH
-    if told == version:
+    told = _version_of("cubecam")
+    if told in ("", version):  # "": a source tree on PYTHONPATH
         return []
     text = f"the imported module is version {version}, and pip has installed version {told}"
     return [Finding("copies", "warning", text, _reinstall())]
@@ -63,8 +60,9 @@ def check_copies(paths: list[str], used: Path) -> list[Finding]:
 
 def _packages(paths: list[str]) -> Iterator[Path]:
     for entry in paths:
-        folder = Path(entry or ".").resolve() / "cubecam"
-        if (folder / "__init__.py").is_file():
+        folder = (Path(entry or ".") / "cubecam").resolve()  # may be a link to a checkout
+        # Path.is_file() raises where this user may not look.
+        if os.path.isfile(folder / "__init__.py"):  # noqa: PTH113
             yield folder
 
 
@@ -80,8 +78,8 @@ def check_script(path: str | None, prefix: str = sys.prefix) -> list[Finding]:
     python = first[2:].strip().strip('"')
     if not first.startswith("#!") or "python" not in python:
         return []
-    # The link to the interpreter is not followed: environments link to one interpreter.
-    if Path(python).parent.parent.resolve() == Path(prefix).resolve():
+    # The link to the interpreter is not followed: environments link to one interpreter. /bin may be a link to /usr/bin.
+    if Path(python).parent.resolve().parent == Path(prefix).resolve():
         return []
     text = f"the command {path} runs {python}, and this is the Python of {prefix}"
     cure = (
@@ -106,9 +104,8 @@ def check_requirements(requires: list[str] | None = None) -> list[Finding]:
         if found is None:
             continue
         name, least = found[1], found[2] or "0"
-        try:
-            have = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
+        have = _version_of(name)
+        if not have:
             wrong.append((f"{name} is missing", line))
             continue
         if _numbers(have) < _numbers(least):
@@ -123,13 +120,25 @@ def check_requirements(requires: list[str] | None = None) -> list[Finding]:
     return [Finding("requirements", "ok", ", ".join(sound))] if sound else []
 
 
+def _version_of(package: str) -> str:
+    """Give the version of an installed package; "" if it is not there, or is what an update left behind."""
+    try:
+        return importlib.metadata.version(package) or ""
+    except (
+        importlib.metadata.PackageNotFoundError,
+        KeyError,
+    ):  # KeyError: metadata without a version, from 3.14 on
+        return ""
+
+
 def found_script() -> str | None:
     """Give the path of the command that a shell finds."""
     return shutil.which("cubecam")
 
 
 def _numbers(version: str) -> tuple[int, ...]:
-    return tuple(int(part) for part in re.findall(r"\d+", version.partition("+")[0])[:3])
+    found = [int(part) for part in re.findall(r"\d+", version.partition("+")[0])[:3]]
+    return tuple(found + [0] * (3 - len(found)))  # 2 is 2.0.0
 
 
 def _libc() -> str:

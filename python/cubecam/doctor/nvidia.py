@@ -8,7 +8,7 @@ from .drawing import Drawing
 from .findings import Finding
 from .packages import install_nvidia
 from .surroundings import container_sign, in_wsl
-from .system import System
+from .system import Ran, System
 from .vendors import library_of, vendor_file_cure, vendor_files
 
 __all__ = ["check_nvidia", "nvidia_cure", "nvidia_signs"]
@@ -19,10 +19,12 @@ CAPABILITIES = "NVIDIA_DRIVER_CAPABILITIES"
 
 def nvidia_signs(system: System) -> list[str]:
     """List what says that there is an NVIDIA GPU that this system may use."""
-    signs = [name for name in ("/dev/nvidia0", "/dev/nvidiactl") if system.exists(name)]
-    if system.run(["nvidia-smi", "-L"]).code == 0:
-        signs.append("nvidia-smi")
-    return signs
+    return _signs(system, system.run(["nvidia-smi", "-L"]))
+
+
+def _signs(system: System, smi: Ran) -> list[str]:
+    files = [name for name in ("/dev/nvidia0", "/dev/nvidiactl") if system.exists(name)]
+    return [*files, "nvidia-smi"] if smi.code == 0 else files
 
 
 def nvidia_cure(system: System) -> tuple[str, ...]:
@@ -65,7 +67,7 @@ def check_nvidia(system: System, drawing: Drawing) -> list[Finding]:
                 ("# restart the machine, or load the module again",),
             )
         ]
-    signs = nvidia_signs(system)
+    signs = _signs(system, ran)  # nvidia-smi takes seconds where nothing keeps the driver awake
     if not signs:
         return []
     where = ", ".join(signs)

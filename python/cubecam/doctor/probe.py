@@ -26,7 +26,7 @@ def main(words: list[str]) -> None:
     try:
         _probe(chosen)
     except Exception as error:
-        _tell(error=f"{type(error).__name__}: {error}", kind=type(error).__name__)
+        _tell(error=f"{type(error).__name__}: {error}")
 
 
 def _probe(device: str | int) -> None:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import os
-import resource
 import stat
 from pathlib import Path
 
 from .drawing import Drawing
 from .findings import Finding
+from .module import Installed
 from .system import System
 
 __all__ = ["check_cache", "check_helper", "check_limits"]
@@ -48,13 +48,13 @@ def check_helper(drawing: Drawing, folder: Path) -> list[Finding]:
 
 
 def _again(folder: Path) -> tuple[str, ...]:
-    from .module import Installed
-
     return (Installed(folder).reinstall,)
 
 
 def check_limits(system: System) -> list[Finding]:
     """Look whether memory and files suffice for a driver."""
+    import resource  # which Windows lacks
+
     from .._core import _memory_left
 
     found = []

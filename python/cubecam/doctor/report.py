@@ -29,7 +29,8 @@ def as_lines(
             f"           {paint(line, 'bright_black') if line.startswith('#') else line}"
             for line in finding.cure
         ]
-    return lines
+    # Names of files and variables may hold bytes that are no text.
+    return [line.encode("utf-8", "backslashreplace").decode() for line in lines]
 
 
 def verdict(findings: Iterable[Finding]) -> str:

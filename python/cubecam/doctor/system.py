@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import os
 import platform
-import pwd
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-__all__ = ["Ran", "System", "os_release"]
+__all__ = ["Ran", "System", "end_in_words", "os_release"]
 
+#: How long a program may take that only looks, in seconds.
+LONGEST = 20.0
 #: Loads a library in a process of its own, since the code that a library runs when it is loaded may crash.
 _LOAD = (
     "import ctypes, sys\ntry:\n ctypes.CDLL(sys.argv[1])\nexcept OSError as e:\n sys.exit(str(e))"
@@ -21,11 +23,12 @@ _LOAD = (
 
 @dataclass(frozen=True)
 class Ran:
-    """How a program ended; `code` is None if it could not be started or gave no answer in time."""
+    """How a program ended; `code` is None if it could not be started, or gave no answer in time and is `late`."""
 
     code: int | None
     out: str = ""
     err: str = ""
+    late: bool = False
 
 
 @dataclass(frozen=True)
@@ -34,12 +37,12 @@ class System:
 
     root: Path = Path("/")
     environ: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
-    uid: int = field(default_factory=os.geteuid)
+    uid: int = field(default_factory=lambda: _number_of("geteuid"))
     groups: frozenset[int] = field(
-        default_factory=lambda: frozenset({*os.getgroups(), os.getegid()})
+        default_factory=lambda: frozenset({*_groups(), _number_of("getegid")})
     )
     machine: str = field(default_factory=platform.machine)
-    python: str = sys.executable
+    python: str = sys.executable or ""
 
     def path(self, name: str) -> Path:
         """Give a path below the root for one that begins with /."""
@@ -83,6 +86,8 @@ class System:
 
     def user(self) -> str:
         """Give the user's name; "" if the number has none, as in containers."""
+        import pwd  # which Windows lacks
+
         try:
             return pwd.getpwuid(self.uid).pw_name
         except KeyError:
@@ -96,32 +101,45 @@ class System:
                 return self.user() in parts[3].split(",") and self.user() != ""
         return False
 
-    def run(
-        self, command: Sequence[str], timeout: float = 20, environ: Mapping[str, str] | None = None
-    ) -> Ran:
+    def run(self, command: Sequence[str], timeout: float = LONGEST) -> Ran:
         """Run a program and wait for its end."""
         try:
             done = subprocess.run(
                 list(command),
-                env={**self.environ, **(environ or {})},
+                env=dict(self.environ),
                 stdin=subprocess.DEVNULL,
                 capture_output=True,
                 timeout=timeout,
                 check=False,
             )
         except subprocess.TimeoutExpired as late:
-            return Ran(None, _text(late.stdout), _text(late.stderr))
-        except OSError as error:
+            return Ran(None, _text(late.stdout), _text(late.stderr), late=True)
+        except (OSError, ValueError) as error:  # ValueError: a null byte in a word
             return Ran(None, "", str(error))
         return Ran(done.returncode, _text(done.stdout), _text(done.stderr))
 
     def library_problem(self, name: str) -> str:
         """Say why a library cannot be loaded; "" if it can."""
-        ran = self.run([self.python, "-I", "-S", "-c", _LOAD, name])
+        ran = self.run([self.python, "-I", "-S", "-c", _LOAD, name], timeout=LONGEST)
         if ran.code == 0:
             return ""
         lines = [line for line in ran.err.splitlines() if line.strip()]
-        return lines[-1] if lines else f"loading it ended with status {ran.code}"
+        return lines[-1] if lines else f"a process that loads it {end_in_words(ran, LONGEST)}"
+
+
+def end_in_words(ran: Ran, longest: float) -> str:
+    """Say how a process ended: by a signal, with a status, or not at all in its time."""
+    if ran.late:
+        return f"gave no answer within {longest:.0f} s"
+    if ran.code is None:
+        return "could not be started"
+    if ran.code >= 0:
+        return f"ended with status {ran.code}"
+    try:
+        name = signal.Signals(-ran.code).name
+    except ValueError:
+        name = f"signal {-ran.code}"
+    return f"was ended by {name}"
 
 
 def os_release(system: System) -> Mapping[str, str]:
@@ -134,6 +152,17 @@ def _fields(text: str) -> Iterator[tuple[str, str]]:
         key, equals, value = line.partition("=")
         if equals:
             yield key.strip(), value.strip().strip("\"'")
+
+
+def _number_of(name: str) -> int:
+    """Call os.geteuid or os.getegid; Windows, on which only an error is explained, lacks both."""
+    function = getattr(os, name, None)
+    return function() if function else -1
+
+
+def _groups() -> list[int]:
+    function = getattr(os, "getgroups", None)
+    return function() if function else []
 
 
 def _text(output: bytes | None) -> str:

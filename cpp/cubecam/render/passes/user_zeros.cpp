@@ -373,7 +373,8 @@ private:
         const std::size_t open = gl::after_bracket(tokens, at + 1, limit);
         if (open >= limit || tokens[open].text != "{") return;
         const std::size_t close = gl::after_bracket(tokens, open, limit) - 1;
-        if (tokens[close].text != "}" || outline_.uncertain) return;
+        const bool closed = tokens[close].text == "}" && !outline_.uncertain;
+        if (!closed || !conditions_nest(at, close)) return;
         std::string notes;
         std::vector<std::pair<std::string, std::string>> passed;  // notes and values
         for (std::size_t i = open + 1; i < close; ++i) {
@@ -434,6 +435,23 @@ private:
                                       directive.before_token > begin &&
                                       directive.before_token <= end;
                            });
+    }
+
+    /// Whether all conditions of which a part stands between two tokens begin and end there.
+    bool conditions_nest(std::size_t begin, std::size_t end) const {
+        int depth = 0;
+        for (const GlslText::Directive& directive : text_.directives()) {
+            const bool inside = directive.before_token > begin && directive.before_token <= end;
+            if (!inside || !directive.is_conditional()) continue;
+            if (directive.word.starts_with("if")) {
+                ++depth;
+            } else if (depth == 0) {
+                return false;
+            } else if (directive.word == "endif") {
+                --depth;
+            }
+        }
+        return depth == 0;
     }
 
     /// In how many conditions that begin after the token `begin` the token `at` stands.

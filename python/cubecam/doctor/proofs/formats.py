@@ -14,7 +14,7 @@ __all__ = ["prove_formats"]
 
 SIZE = 8
 NEAR, FAR = 0.25, 8.0
-#: Half of a step of 8 bits, for what lies between two of them.
+#: Colours that each format holds exactly: steps of 1/255, halves, floats.
 COLORS = {
     "rgba8": (51 / 255, 0.4, 0.8),
     "rgba16f": (0.25, 3.5, 0.125),

@@ -8,8 +8,8 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ..drawing import child, end_in_words, read_lines
-from ..system import System
+from ..drawing import child, read_lines
+from ..system import System, end_in_words
 from .measurement import Measurement
 
 __all__ = ["NAMES", "main", "prove", "prove_apart"]
@@ -25,8 +25,7 @@ def prove(renderer: Any) -> Iterator[Measurement]:
         try:
             yield from _proof(name)(renderer)
         except Exception as error:
-            text = f"{type(error).__name__}: {error}"
-            yield Measurement(name, "no picture", float("nan"), 0.0, text)
+            yield _without_picture(name, f"{type(error).__name__}: {error}")
 
 
 def _proof(name: str) -> Callable[[Any], list[Measurement]]:
@@ -42,20 +41,34 @@ def main(words: list[str]) -> None:
     from ..._core import Renderer
 
     device = words[0] if words and words[0] else "auto"
-    with Renderer(device=int(device) if device.isdecimal() else device) as renderer:
+    try:
+        renderer = Renderer(device=int(device) if device.isdecimal() else device)
+    except Exception as error:
+        _tell(_without_picture(NAMES[0], f"{type(error).__name__}: {error}"))
+        return
+    with renderer:
         for found in prove(renderer):
-            sys.stdout.write(json.dumps(dataclasses.asdict(found)) + "\n")
-            sys.stdout.flush()
+            _tell(found)
+
+
+def _tell(found: Measurement) -> None:
+    sys.stdout.write(json.dumps(dataclasses.asdict(found)) + "\n")
+    sys.stdout.flush()
+
+
+def _without_picture(name: str, failure: str) -> Measurement:
+    return Measurement(name, "no picture", float("nan"), 0.0, failure)
 
 
 def prove_apart(system: System, device: str | None) -> list[Measurement]:
     """Measure everything in a process of its own, so that a driver that crashes fails a test and ends nothing else."""
     ran = system.run([system.python, *child("proofs.run", device or "")], timeout=LONGEST)
     found = [Measurement(**line) for line in read_lines(ran.out) if "tolerance" in line]
-    if ran.code != 0:
+    done = {one.name for one in found}
+    left = [name for name in NAMES if name not in done]
+    # A driver may end a process with any status, also with that of success.
+    if ran.code != 0 or (left and all(one.passed for one in found)):
         last = [line for line in ran.err.splitlines() if line.strip()][-1:]
         text = f"the process {end_in_words(ran, LONGEST)}" + (f": {last[0]}" if last else "")
-        done = {one.name for one in found}
-        name = next((name for name in NAMES if name not in done), NAMES[-1])
-        found.append(Measurement(name, "no picture", float("nan"), 0.0, text))
+        found.append(_without_picture(left[0] if left else NAMES[-1], text))
     return found
