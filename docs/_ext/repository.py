@@ -32,8 +32,9 @@ COPIED = {
 }
 #: What has another place in the site, or is shown by another page.
 PAGES = {**COPIED, "notebooks": "lessons.md"}
-#: Folders whose README.md is their page in the site, and the pages that are its children there.
-FOLDERS = {"howto": ["*"], "explanation": ["*", "/gpu", "/security"], "adr": ["*"]}
+#: Folders whose README.md is their page in the site, and which pages are its children there, besides those of the
+#: folder that it links to. Sphinx reports a page that no index names.
+FOLDERS: dict[str, list[str]] = {"howto": [], "explanation": ["/gpu", "/security"], "adr": []}
 
 _FENCE = re.compile(r"^( *)(```+|~~~+)")
 #: The words may go on in the next line, and hold other brackets.
@@ -137,8 +138,15 @@ def turn_page(app: Sphinx, docname: str, source: list[str]) -> None:
     source[0] = turned_links(source[0], page, page, app.config.cubecam_repository)
     folder, _, name = docname.partition("/")
     if folder in FOLDERS and name == "README":
-        children = "\n".join(FOLDERS[folder])
-        source[0] += f"\n\n```{{toctree}}\n:hidden:\n:glob:\n\n{children}\n```\n"
+        children = "\n".join([*listed_pages(source[0]), *FOLDERS[folder]])
+        source[0] += f"\n\n```{{toctree}}\n:hidden:\n\n{children}\n```\n"
+
+
+def listed_pages(text: str) -> list[str]:
+    """Give the names of the pages of its own folder that an index links to, in its order."""
+    targets = [match[3].partition("#")[0] for match in _LINK.finditer(text)]
+    own = [target.removesuffix(".md") for target in targets if re.fullmatch(r"[\w-]+\.md", target)]
+    return list(dict.fromkeys(own))
 
 
 def files_url() -> str:

@@ -84,7 +84,7 @@ class TestWhatCubemapsGetWrong:
     def test_the_figures_of_the_table(self):
         text = text_of(self.NAME)
         assert np.degrees(np.arcsin(np.sin(np.radians(75)) / 55.4)) < 1
-        assert "below one degree from 55 radii" in text
+        assert "below one degree from about 55 radii" in text
         assert round(np.degrees(np.arctan(1 / 3))) == 18
         assert "18 degrees" in text
         assert abs(3**-1.5 - 1 / 5) < 0.01  # solid angles at a corner and in the middle

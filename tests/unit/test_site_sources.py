@@ -96,6 +96,15 @@ def test_a_link_may_begin_on_one_line_and_end_on_the_next(turned):
     assert turned("[a\nb](../../CHANGELOG.md)\n") == "[a\nb](../project/changelog.md)\n"
 
 
+def test_the_pages_of_a_folder_stand_in_the_order_of_its_index(extension):
+    listed = extension("repository").listed_pages
+    text = "[b](b.md), [a\nb](a-1.md#part), [again](b.md), [c](../c.md), ![d](d.png), [e](https://w3.org/e.md)"
+    assert listed(text) == ["b", "a-1"]
+    howto = listed((DOCS / "howto/README.md").read_text(encoding="utf-8"))
+    assert howto[0] == "servers_and_docker"
+    assert set(howto) == {path.stem for path in (DOCS / "howto").glob("*.md")} - {"README"}
+
+
 def test_code_is_left_alone(turned):
     text = "```md\n[a](../../CHANGELOG.md)\n```\n[a](../../CHANGELOG.md)"
     assert turned(text) == "```md\n[a](../../CHANGELOG.md)\n```\n[a](../project/changelog.md)"
