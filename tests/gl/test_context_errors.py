@@ -101,7 +101,7 @@ def test_a_device_is_chosen_by_index_name_part_and_uuid():
     for device in cc.devices():
         choices: list[int | str] = [device.index, device.name, device.name.split()[0].upper()[:6]]
         if device.uuid:
-            choices.append(device.uuid)
+            choices += [device.uuid, f"GPU-{device.uuid}", f"GPU-{device.uuid}".lower()]
         for choice in choices:
             with cc.Renderer(device=choice) as renderer:
                 assert renderer.info.device.name == device.name or device.name in str(

@@ -85,8 +85,10 @@ void add_by_name(CandidateList& list, const std::string& name) {
     const std::vector<DeviceInfo> infos = list_devices();
     const std::vector<egl::Device> devices = egl::query_devices();
     const std::string wanted = lower_case(name);
+    // nvidia-smi and CUDA_VISIBLE_DEVICES write GPU- before a UUID.
+    const std::string uuid = wanted.starts_with("gpu-") ? wanted.substr(4) : wanted;
     for (std::size_t i = 0; i < std::min(infos.size(), devices.size()); ++i) {
-        if (lower_case(infos[i].uuid) == wanted ||
+        if (lower_case(infos[i].uuid) == uuid ||
             lower_case(infos[i].name).find(wanted) != std::string::npos) {
             list.candidates.push_back({egl::Platform::device, devices[i], infos[i]});
         }
