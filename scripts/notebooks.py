@@ -42,10 +42,9 @@ _DRAWING = 8192
 #: The largest change of a channel, of 255, with which a picture counts as a drawing of few colours.
 _PALETTE = 8
 #: Pictures are equal if they differ by this much of 255, on average over all pixels of one size; another version of
-#: matplotlib may choose another size, and then both are compared as `_COARSE` x `_COARSE` pixels.
+#: matplotlib may choose another size, and before 3.11 letters have other shapes; then both are compared as
+#: `_COARSE` x `_COARSE` pixels.
 _APART, _APART_COARSE, _COARSE = 1.0, 12.0, 24
-#: The same where matplotlib is older than 3.11, which gave letters other shapes and places.
-_APART_OTHER_LETTERS = 6.0
 #: Printed numbers are equal within this share, within 2 of the last digit, or where both are rounding errors.
 _SHARE, _ROUNDING = 0.02, 2e-5
 _NUMBER = re.compile(r"-?\d[\d,]*\.?\d*(?:e[+-]?\d+)?")
@@ -232,8 +231,8 @@ def _letters_are_new() -> bool:
 
 
 def _pictures_apart(new: Image.Image, old: Image.Image) -> str:
-    limit = _APART if _letters_are_new() else _APART_OTHER_LETTERS
-    if new.size != old.size:
+    limit = _APART
+    if new.size != old.size or not _letters_are_new():
         coarse = (_COARSE, _COARSE)
         new, old = (p.resize(coarse, Image.Resampling.BOX) for p in (new, old))
         limit = _APART_COARSE

@@ -1512,9 +1512,9 @@ MUTATIONS = [
     ),
     Mutation(
         "flat shading: an update goes unseen",
-        "geometry/mesh.cpp",
-        "{ return form.data && form.of == revision; }",
-        "{ return form.data != nullptr; }",
+        "geometry/mesh.hpp",
+        "{ return data && of == plain.revision(); }",
+        "{ return data != nullptr; }",
         FLAT,
     ),
     Mutation(

@@ -21,6 +21,7 @@ STUB = ast.parse((PACKAGE / "_core.pyi").read_text(encoding="utf-8"))
 
 RIGHT = """\
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,7 +50,7 @@ def picture(tonemap: Tonemap | None = None) -> Pixels:
     width: int = frame.size[0]
     height: int = frame.color.shape[0]
     rgb = frame.color[..., :3]
-    halved: NDArray[np.floating] = frame.color * 0.5
+    halved: NDArray[np.floating[Any]] = frame.color * 0.5
     print(nearest, ids.max(), width, height, halved, rgb.mean(), frame.outputs["id"].dtype)
     cube.save(Path("cube.exr"), layout="equirect", center="+z")
     cc.plot.cross(cube, arrows=True).set_title("probe")
