@@ -53,11 +53,11 @@ LONG_CALLS = {
         "m.update(uvs=u + np.float32(random.random())); m.with_tangents()",
     ),
     "tangents of a scene": (
-        "m = cc.Mesh.sphere(1, 900, 500); u = m.uvs; s = bumpy_scene(m)",
+        "m = cc.Mesh.sphere(1, 700, 400); u = m.uvs; s = bumpy_scene(m)",
         "m.update(uvs=u + np.float32(random.random())); r.render(s, cam, (8, 8))",
     ),
     "flat faces of a scene": (
-        "m = cc.Mesh.sphere(1, 1000, 600); p = m.positions; s = bumpy_scene(m, flat_shading=True)",
+        "m = cc.Mesh.sphere(1, 600, 400); p = m.positions; s = bumpy_scene(m, flat_shading=True)",
         "m.update(positions=p * np.float32(1 + random.random())); r.render(s, cam, (8, 8))",
     ),
     "sphere": ("pass", "cc.Mesh.sphere(1, 2500, 1500)"),
