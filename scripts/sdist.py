@@ -34,9 +34,8 @@ def build() -> Path:
 
 def tracked_files() -> set[str] | None:
     """The files of the repository, or None outside one, in an unpacked source distribution."""
-    if not (
-        ROOT / ".git"
-    ).exists():  # one that is unpacked inside another repository has no files there
+    # A source distribution that is unpacked inside another repository has no files in that one.
+    if not (ROOT / ".git").exists():
         return None
     command = ["git", "-C", str(ROOT), "ls-files", "-z"]
     try:
@@ -64,7 +63,7 @@ def check_files(sdist: Path) -> None:
 def without_network() -> list[str]:
     if subprocess.run([*NO_NETWORK, "true"], stderr=subprocess.DEVNULL).returncode == 0:
         return list(NO_NETWORK)
-    print("no network of its own may be made here; only pip and CMake are told to stay offline")
+    print("this user may not cut a process off the network; pip and CMake are told to stay offline")
     return []
 
 

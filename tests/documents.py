@@ -10,9 +10,14 @@ def text_of(name):
     return (ROOT / name).read_text(encoding="utf-8")
 
 
+def fenced(name, language):
+    """The fenced blocks of one language in a document, in order."""
+    return re.findall(rf"```{language}\n(.*?)```", text_of(name), flags=re.DOTALL)
+
+
 def python_blocks(name):
     """The fenced Python blocks of a document, in order."""
-    return re.findall(r"```python\n(.*?)```", text_of(name), flags=re.DOTALL)
+    return fenced(name, "python")
 
 
 def run_block(code, name, folder, monkeypatch, scope=None):

@@ -19,7 +19,7 @@ from PIL import Image
 
 from cubecam import examples
 
-from .repository import DOCS
+from .repository import DOCS, write_changed
 
 if TYPE_CHECKING:  # the functions are tested without Sphinx
     from sphinx.application import Sphinx
@@ -124,15 +124,10 @@ def write_scripts(app: Sphinx, config: Config) -> None:
         shutil.rmtree(PAGES, ignore_errors=True)
         shutil.rmtree(SCRIPTS, ignore_errors=True)
     SCRIPTS.mkdir(parents=True, exist_ok=True)
-    _write(SCRIPTS / "GALLERY_HEADER.rst", _HEAD)
+    write_changed(SCRIPTS / "GALLERY_HEADER.rst", _HEAD)
     for index, name in enumerate(examples.NAMES, 1):
-        _write(SCRIPTS / f"plot_{index:02}_{name}.py", script_of(name))
+        write_changed(SCRIPTS / f"plot_{index:02}_{name}.py", script_of(name))
     stamp.write_text(config.cubecam_hash)
-
-
-def _write(path: Path, text: str) -> None:
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8")
 
 
 def scrape(block: Any, block_vars: dict[str, Any], conf: dict[str, Any]) -> str:

@@ -106,7 +106,7 @@ def copy_sources(app: Sphinx, config: Config) -> None:
     url = config.cubecam_repository
     for name, place in COPIED.items():
         text = (ROOT / name).read_text(encoding="utf-8")
-        _write(DOCS / place, turned_links(text, ROOT / name, DOCS / place, url))
+        write_changed(DOCS / place, turned_links(text, ROOT / name, DOCS / place, url))
     wanted = set()
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
         notebook = json.loads(path.read_text(encoding="utf-8"))
@@ -116,14 +116,15 @@ def copy_sources(app: Sphinx, config: Config) -> None:
                 cell["source"] = turned_links("".join(cell["source"]), path, target, url)
             else:  # the site's outputs are those of its own build
                 cell["outputs"], cell["execution_count"] = [], None
-        _write(target, json.dumps(notebook))
+        write_changed(target, json.dumps(notebook))
         wanted.add(path.name)
     for path in (DOCS / "lessons").glob("*.ipynb"):
         if path.name not in wanted:
             path.unlink()
 
 
-def _write(path: Path, text: str) -> None:
+def write_changed(path: Path, text: str) -> None:
+    """Write a file, but for one that holds this text already: Sphinx would read it again."""
     if not path.exists() or path.read_text(encoding="utf-8") != text:
         path.parent.mkdir(exist_ok=True)
         path.write_text(text, encoding="utf-8")

@@ -13,7 +13,7 @@ def main() -> None:
     Raises
     ------
     ImportError
-        If such a package is missing, and another command was asked for.
+        If a package is missing that the command needs; `cubecam doctor` needs none.
     """
     try:
         from .cli import main as run

@@ -57,7 +57,7 @@ def page(request, chromium, address):
     made.on(
         "request",
         lambda asked: (
-            wrong.append(f"asked for {asked.url}")
+            wrong.append(f"the page loads {asked.url}")
             if not asked.url.startswith((address, "data:", "blob:"))
             else None
         ),

@@ -2,7 +2,7 @@
 
 import re
 
-from tests.documents import ROOT, python_blocks, text_of
+from tests.documents import ROOT, fenced, python_blocks
 
 HOWTO = sorted(path.relative_to(ROOT).as_posix() for path in (ROOT / "docs/howto").glob("*.md"))
 EXPLANATION = sorted(
@@ -11,11 +11,6 @@ EXPLANATION = sorted(
 PAGES = HOWTO + EXPLANATION
 PROGRAMS = [name for name in PAGES if python_blocks(name)]
 SIX = ("px", "nx", "py", "ny", "pz", "nz")
-
-
-def fenced(name, language):
-    """The fenced blocks of one language in a page, in order."""
-    return re.findall(rf"```{language}\n(.*?)```", text_of(name), flags=re.DOTALL)
 
 
 def printed(name):

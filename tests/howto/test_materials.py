@@ -41,7 +41,7 @@ def test_the_message_is_that_of_the_page(pages):
     _, scope = pages(NAME)
     said = re.escape(printed(NAME).strip()).replace(r"\.\.\.", ".*")
     if "surfce" not in scope["message"].split("\n\n")[0]:
-        pytest.skip("another compiler's words")
+        pytest.skip("the page shows the words of Mesa's compiler")
     assert re.fullmatch(said, scope["message"].strip(), re.DOTALL)
 
 

@@ -10,9 +10,9 @@ from cubecam.cli import app
 from cubecam.doctor.mesa import check_mesa
 from cubecam.doctor.packages import _DISTRIBUTIONS
 from cubecam.doctor.report import as_lines
-from tests.documents import ROOT, text_of
+from tests.documents import ROOT, fenced, text_of
 from tests.fake_system import DEBIAN, NOT_DRAWN, FakeSystem, write
-from tests.howto.pages import fenced, printed
+from tests.howto.pages import printed
 
 NAME = "docs/howto/servers_and_docker.md"
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.documents import python_blocks, run_block
-from tests.howto.pages import fenced
+from tests.documents import fenced, python_blocks, run_block
 from tests.interop.directions import DIRECTIONS, sky, sky_cube
 
 pytestmark = [

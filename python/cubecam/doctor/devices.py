@@ -72,7 +72,7 @@ def check_variables(system: System, drawing: Drawing, device: str | None) -> lis
         found.append(Finding("variables", status, text, () if wanted else (f"unset {name}",)))
     value = system.environ.get("CUBECAM_DEVICE", "")
     if value and device in (None, "auto"):
-        text = f"CUBECAM_DEVICE={value} is set: a Renderer takes this device unless it is told another one"
+        text = f"CUBECAM_DEVICE={value} is set: a Renderer takes this device unless its argument names another one"
         # The error of a device that does not exist says where its name comes from.
         status = "problem" if "CUBECAM_DEVICE" in drawing.error else "note"
         found.append(Finding("variables", status, text, ("unset CUBECAM_DEVICE",)))

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from .findings import Finding, Status
-from .system import Ran, System, end_in_words
+from .system import Ran, System
 
-__all__ = ["Drawing", "check_drawing", "child", "read_lines", "try_drawing"]
+__all__ = ["Drawing", "check_drawing", "child", "device_of", "read_lines", "try_drawing"]
 
 #: How long the process may take, in seconds; starting a driver takes one, and some ten on a GPU that sleeps.
 LONGEST = 90.0
@@ -38,18 +38,27 @@ class Drawing:
         return "warning" if self.works else "problem"
 
 
-def child(module: str, *words: str) -> list[str]:
-    """Give the arguments of an interpreter that runs `main` of a module of this package, with this sys.path."""
+def child(module: str, device: str | None) -> list[str]:
+    """Give the arguments of an interpreter that runs `main` of a module of this package, with this sys.path.
+
+    `main` gets a list of one text, of which `device_of` makes the device.
+    """
     code = (
         "import sys; sys.path[:] = sys.argv[1].split('\\n'); "
         f"from cubecam.doctor.{module} import main; main(sys.argv[2:])"
     )
-    return ["-c", code, "\n".join(sys.path), *words]
+    return ["-c", code, "\n".join(sys.path), device or ""]
+
+
+def device_of(words: list[str]) -> str | int:
+    """Give the device for a `Renderer` that `child` has handed over; digits are an index."""
+    device = words[0] if words and words[0] else "auto"
+    return int(device) if device.isdecimal() else device
 
 
 def try_drawing(system: System, device: str | None) -> Drawing:
     """Let a process of its own list the devices and draw."""
-    ran = system.run([system.python, *child("probe", device or "")], timeout=LONGEST)
+    ran = system.run([system.python, *child("probe", device)], timeout=LONGEST)
     return read_drawing(ran)
 
 
@@ -61,11 +70,10 @@ def read_drawing(ran: Ran) -> Drawing:
     error, crashed = str(told.get("error", "")), False
     if not error and (ran.code != 0 or "warnings" not in told):
         crashed = ran.late or (ran.code is not None and ran.code < 0)
-        error = f"the process {end_in_words(ran, LONGEST)}"
+        error = f"the process {ran.end(LONGEST)}"
         if ran.late or ran.code is not None:
             error += f" while {told.get('step', 'importing cubecam')}"
-        last = [line for line in ran.err.splitlines() if line.strip()][-1:]
-        error += f": {last[0]}" if last else ""
+        error += f": {ran.last_line}" if ran.last_line else ""
     return Drawing(
         tuple(told.get("devices", ())),
         {**told.get("chosen", {}), "index": told.get("index", -1)} if "chosen" in told else {},

@@ -42,7 +42,8 @@ def _check_version(version: str) -> list[Finding]:
     if told in ("", version):  # "": a source tree on PYTHONPATH
         return []
     text = f"the imported module is version {version}, and pip has installed version {told}"
-    return [Finding("copies", "warning", text, _reinstall())]
+    cure = (f"{sys.executable} -m pip install --force-reinstall --no-deps cubecam",)
+    return [Finding("copies", "warning", text, cure)]
 
 
 def check_copies(paths: list[str], used: Path) -> list[Finding]:
@@ -52,7 +53,10 @@ def check_copies(paths: list[str], used: Path) -> list[Finding]:
     if not others:
         return []
     text = f"cubecam is imported from {used}, and is also in {', '.join(map(str, others))}"
-    cure = ("# remove what is not wanted; pip shows and removes its own:", *_reinstall("uninstall"))
+    cure: tuple[str, ...] = (
+        "# remove what is not wanted; pip shows and removes its own:",
+        f"{sys.executable} -m pip uninstall cubecam",
+    )
     if os.environ.get("PYTHONPATH"):
         cure = (f"unset PYTHONPATH  # is {os.environ['PYTHONPATH']}", *cure)
     return [Finding("copies", "warning", text, cure)]
@@ -144,8 +148,3 @@ def _numbers(version: str) -> tuple[int, ...]:
 def _libc() -> str:
     name, version = platform.libc_ver()
     return f"{name} {version}" if name else "a C library that is not glibc"
-
-
-def _reinstall(verb: str = "install") -> tuple[str, ...]:
-    options = "--force-reinstall --no-deps " if verb == "install" else ""
-    return (f"{sys.executable} -m pip {verb} {options}cubecam",)

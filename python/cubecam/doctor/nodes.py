@@ -52,10 +52,11 @@ def _refused(system: System, node: str) -> Finding:
 
 
 def _without_nodes(system: System) -> list[Finding]:
+    every = graphics_cards(system)
     # NVIDIA's own driver draws without these files.
-    cards = [card for card in graphics_cards(system) if not card.startswith("NVIDIA")]
-    if not cards and graphics_cards(system) and not nvidia_signs(system):
-        cards = graphics_cards(system)
+    cards = [card for card in every if not card.startswith("NVIDIA")]
+    if every and not cards and not nvidia_signs(system):
+        cards = every
     if not cards:
         return []
     text = f"{', '.join(cards)}: the machine has this GPU, and there is no /dev/dri/renderD* to reach it"

@@ -10,6 +10,8 @@ import sys
 import warnings
 from typing import Any
 
+from .drawing import device_of
+
 __all__ = ["main"]
 
 _DEVICE = ("index", "name", "vendor", "driver", "software", "drm_node", "platform", "problem")
@@ -20,11 +22,8 @@ _COLOR = (0.25, 0.5, 0.75)
 
 def main(words: list[str]) -> None:
     """Print one JSON object a line; `words` may have a device, as text."""
-    chosen: str | int = words[0] if words and words[0] else "auto"
-    if isinstance(chosen, str) and chosen.isdecimal():
-        chosen = int(chosen)
     try:
-        _probe(chosen)
+        _probe(device_of(words))
     except Exception as error:
         _tell(error=f"{type(error).__name__}: {error}")
 

@@ -50,12 +50,11 @@ def check_surroundings(system: System) -> list[Finding]:
     sign = container_sign(system)
     if sign:
         parts.append(f"in a container ({sign})")
-    if in_wsl(system):
+    wsl = in_wsl(system)
+    if wsl:
         parts.append("in WSL")
     found = [Finding("system", "ok", ", ".join(parts))]
-    if in_wsl(system):
-        found.append(_wsl(system))
-    return found
+    return [*found, _wsl(system)] if wsl else found
 
 
 def _wsl(system: System) -> Finding:

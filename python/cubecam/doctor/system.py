@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-__all__ = ["Ran", "System", "end_in_words", "os_release"]
+__all__ = ["Ran", "System", "os_release"]
 
 #: How long a program may take that only looks, in seconds.
 LONGEST = 20.0
@@ -29,6 +29,25 @@ class Ran:
     out: str = ""
     err: str = ""
     late: bool = False
+
+    @property
+    def last_line(self) -> str:
+        """The last line of its errors that is not empty; "" if there is none."""
+        return next((line for line in reversed(self.err.splitlines()) if line.strip()), "")
+
+    def end(self, longest: float) -> str:
+        """Say how it ended: by a signal, with a status, or not at all in its time."""
+        if self.late:
+            return f"gave no answer within {longest:.0f} s"
+        if self.code is None:
+            return "could not be started"
+        if self.code >= 0:
+            return f"ended with status {self.code}"
+        try:
+            name = signal.Signals(-self.code).name
+        except ValueError:
+            name = f"signal {-self.code}"
+        return f"was ended by {name}"
 
 
 @dataclass(frozen=True)
@@ -123,23 +142,7 @@ class System:
         ran = self.run([self.python, "-I", "-S", "-c", _LOAD, name], timeout=LONGEST)
         if ran.code == 0:
             return ""
-        lines = [line for line in ran.err.splitlines() if line.strip()]
-        return lines[-1] if lines else f"a process that loads it {end_in_words(ran, LONGEST)}"
-
-
-def end_in_words(ran: Ran, longest: float) -> str:
-    """Say how a process ended: by a signal, with a status, or not at all in its time."""
-    if ran.late:
-        return f"gave no answer within {longest:.0f} s"
-    if ran.code is None:
-        return "could not be started"
-    if ran.code >= 0:
-        return f"ended with status {ran.code}"
-    try:
-        name = signal.Signals(-ran.code).name
-    except ValueError:
-        name = f"signal {-ran.code}"
-    return f"was ended by {name}"
+        return ran.last_line or f"a process that loads it {ran.end(LONGEST)}"
 
 
 def os_release(system: System) -> Mapping[str, str]:

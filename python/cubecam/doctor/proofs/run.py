@@ -8,8 +8,8 @@ import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from ..drawing import child, read_lines
-from ..system import System, end_in_words
+from ..drawing import child, device_of, read_lines
+from ..system import System
 from .measurement import Measurement
 
 __all__ = ["NAMES", "main", "prove", "prove_apart"]
@@ -40,9 +40,8 @@ def main(words: list[str]) -> None:
     """Print each measurement as JSON in a line; `words` may have a device."""
     from ..._core import Renderer
 
-    device = words[0] if words and words[0] else "auto"
     try:
-        renderer = Renderer(device=int(device) if device.isdecimal() else device)
+        renderer = Renderer(device=device_of(words))
     except Exception as error:
         _tell(_without_picture(NAMES[0], f"{type(error).__name__}: {error}"))
         return
@@ -62,13 +61,12 @@ def _without_picture(name: str, failure: str) -> Measurement:
 
 def prove_apart(system: System, device: str | None) -> list[Measurement]:
     """Measure everything in a process of its own, so that a driver that crashes fails a test and ends nothing else."""
-    ran = system.run([system.python, *child("proofs.run", device or "")], timeout=LONGEST)
+    ran = system.run([system.python, *child("proofs.run", device)], timeout=LONGEST)
     found = [Measurement(**line) for line in read_lines(ran.out) if "tolerance" in line]
     done = {one.name for one in found}
     left = [name for name in NAMES if name not in done]
     # A driver may end a process with any status, also with that of success.
     if ran.code != 0 or (left and all(one.passed for one in found)):
-        last = [line for line in ran.err.splitlines() if line.strip()][-1:]
-        text = f"the process {end_in_words(ran, LONGEST)}" + (f": {last[0]}" if last else "")
+        text = f"the process {ran.end(LONGEST)}" + (f": {ran.last_line}" if ran.last_line else "")
         found.append(_without_picture(left[0] if left else NAMES[-1], text))
     return found

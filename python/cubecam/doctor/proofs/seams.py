@@ -47,10 +47,8 @@ def prove_seams(renderer: Any) -> list[Measurement]:
 def _walls(matrix: Any) -> Any:
     """Give the points at which the rays of all texels meet the walls."""
     rays = reference.directions(SIZE)
-    start, inside = (
-        np.array(EYE) @ matrix,
-        rays @ matrix,
-    )  # by the transpose: into the room's own axes
+    # By the transpose: into the room's own axes.
+    start, inside = np.array(EYE) @ matrix, rays @ matrix
     with np.errstate(divide="ignore"):
         steps = (np.sign(inside) * np.array(ROOM) / 2 - start) / inside
     return np.array(EYE) + np.where(inside == 0, np.inf, steps).min(-1, keepdims=True) * rays
