@@ -18,6 +18,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -103,12 +104,13 @@ std::variant<CameraValue, StereoValue> to_camera(const SeenBy& camera) {
 }
 
 /// The scene at the moment of the call. Where much must be calculated first, other threads and
-/// signal handlers run meanwhile.
+/// signal handlers run meanwhile, and the moment is after that.
 std::shared_ptr<const SceneSnapshot> snapshot_of(const Scene& scene,
                                                  const Scene::Effects& effects = {}) {
-    if (auto ready = scene.ready_snapshot(effects)) return ready;
-    const bindings::Unlocked unlocked;
-    return scene.snapshot(effects);
+    return scene.snapshot(effects, [](const std::function<void()>& work) {
+        const bindings::Unlocked unlocked;
+        work();
+    });
 }
 
 PyFrame

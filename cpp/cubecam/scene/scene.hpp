@@ -114,17 +114,19 @@ public:
     std::shared_ptr<Node> restore(std::int32_t id);
 
     using Effects = std::vector<std::shared_ptr<ImageEffect>>;
+    using AroundWork = std::function<void(const std::function<void()>& work)>;
 
     /// Returns the current state of everything on which a picture depends, including the scenes of
     /// render textures, which are read one after the other, and the effects of the frame.
     ///
     /// The last snapshot is kept and returned again while nothing in it has changed. If nodes were
     /// moved and nothing else changed, only these nodes are read again.
-    std::shared_ptr<const SceneSnapshot> snapshot(const Effects& effects = {}) const;
-
-    /// The same, or null if tangents or flat faces of large meshes must be made first, which may
-    /// take seconds: snapshot() makes them, with polls (core/interrupts.hpp) and without locks.
-    std::shared_ptr<const SceneSnapshot> ready_snapshot(const Effects& effects = {}) const;
+    ///
+    /// Tangents and flat faces of large meshes may take seconds. They are made first, with polls
+    /// (core/interrupts.hpp) and without locks of the core; a host that holds a lock of its own
+    /// releases it in `around`, which must call its argument.
+    std::shared_ptr<const SceneSnapshot> snapshot(const Effects& effects = {},
+                                                  const AroundWork& around = {}) const;
 
 private:
     std::shared_ptr<const SceneSnapshot> kept_snapshot() const;

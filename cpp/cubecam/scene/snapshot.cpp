@@ -427,26 +427,20 @@ private:
     Elsewhere elsewhere_;
 };
 
-std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects) const {
+std::shared_ptr<const SceneSnapshot> Scene::snapshot(const Effects& effects,
+                                                     const AroundWork& around) const {
     if (effects.empty()) {
         if (auto kept = kept_snapshot()) return kept;
     }
     {
         SharedReads shared(this, /*postpones=*/true);
         if (auto made = read_snapshot(effects, shared)) return made;
-        shared.make_postponed();
+        const auto work = [&shared] { shared.make_postponed(); };
+        around ? around(work) : work();
     }
     // Now all is made at once: a handler or a thread that updates meshes again and again cannot
     // keep this call from its end.
     SharedReads shared(this, /*postpones=*/false);
-    return read_snapshot(effects, shared);
-}
-
-std::shared_ptr<const SceneSnapshot> Scene::ready_snapshot(const Effects& effects) const {
-    if (effects.empty()) {
-        if (auto kept = kept_snapshot()) return kept;
-    }
-    SharedReads shared(this, /*postpones=*/true);
     return read_snapshot(effects, shared);
 }
 
