@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from cubecam.examples import shared_cubemap as example
+from cubecam.truth import shading
 from tests.programs.oracle import GREY, Look, lit, mesh, moved, quad, scaled
-from tests.reference import raycast, shading
+from tests.reference import raycast
 from tests.reference.raycast import interior
 
 SIZE = (128, 64)

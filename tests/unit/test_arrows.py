@@ -62,6 +62,7 @@ PYTHON_ORDER = (
     "_arguments",
     "_attach",
     "cubecam",  # the package itself: __init__.py
+    "truth",  # the same scene by exact rays
     "examples",
     "demo",
     "cli",
@@ -185,6 +186,16 @@ def test_python_imports_go_down():
         f"{file} of {part} imports {other}"
         for file, part, other in arrows
         if other not in allowed(part, PYTHON_ORDER, PYTHON_KNOWS)
+    ]
+    assert wrong == []
+
+
+def test_shading_is_plain_numpy():
+    """It judges the renderer, so nothing of it may come from there."""
+    wrong = [
+        f"{file} imports {other}"
+        for file, part, other in python_arrows()
+        if file.parts[:2] == ("truth", "shading") and other != "truth"
     ]
     assert wrong == []
 

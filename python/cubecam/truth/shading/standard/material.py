@@ -1,12 +1,13 @@
 """Parameters of the material, the geometry that it shades, and what surrounds it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from ..shading import dot
-from ..transforms import normalised
+from ..vectors import Array, dot, normalised
 
 
 @dataclass
@@ -63,12 +64,12 @@ class Surface:
     tangent: Any = None
     scale: Any = (1.0, 1.0, 1.0)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.n = self.geometric_n if self.n is None else self.n
         self.clearcoat_n = self.geometric_n if self.clearcoat_n is None else self.clearcoat_n
 
 
-def _nothing(directions, *_):
+def _nothing(directions: Array, *_: Any) -> Array:
     return np.zeros(np.shape(directions))
 
 
@@ -86,7 +87,7 @@ class Environment:
     size: int = 1
     behind: Any = field(default=_nothing)
 
-    def with_ambient(self, ambient):
+    def with_ambient(self, ambient: Any) -> Environment:
         """The same with a uniform radiance from all sides added: an ambient light is nothing else."""
         if not np.any(ambient):
             return self
@@ -99,24 +100,25 @@ class Environment:
         )
 
 
-def occluded(texel, strength):
+def occluded(texel: Any, strength: Any) -> Array:
     """Section 3.9.3: 1 + strength (texel - 1)."""
-    return 1 + strength * (np.asarray(texel, float) - 1)
+    result: Array = 1 + strength * (np.asarray(texel, float) - 1)
+    return result
 
 
-def bitangent(n, tangent):
+def bitangent(n: Array, tangent: Array) -> Array:
     """Section 3.7.2.1: cross(normal, tangent.xyz) * tangent.w."""
     return np.cross(n, tangent[..., :3]) * tangent[..., 3:]
 
 
-def mapped_normal(n, tangent, texel, scale=1.0):
+def mapped_normal(n: Array, tangent: Array, texel: Any, scale: Any = 1.0) -> Array:
     """Section 3.9.3: the texel (..., 3) from 0..1 to -1..1, x and y times the scale, in the tangent frame."""
     x, y, z = np.moveaxis(2 * np.asarray(texel, float)[..., :3] - 1, -1, 0)
     x, y, z = x[..., None] * scale, y[..., None] * scale, z[..., None]
     return normalised(x * tangent[..., :3] + y * bitangent(n, tangent) + z * n)
 
 
-def anisotropy_direction(rotation, texel=(1.0, 0.5)):
+def anisotropy_direction(rotation: Any, texel: Any = (1.0, 0.5)) -> Array:
     """KHR_materials_anisotropy: red and green from 0..1 to -1..1, normalised, turned by a rotation in degrees."""
     texel = np.asarray(texel, float)
     direction = normalised(2 * texel[..., :2] - 1)
@@ -125,7 +127,7 @@ def anisotropy_direction(rotation, texel=(1.0, 0.5)):
     return np.stack([c * x - s * y, s * x + c * y], -1)
 
 
-def anisotropy_frame(surface, direction):
+def anisotropy_frame(surface: Surface, direction: Any) -> tuple[Array, Array, Array]:
     """(t, b, n): the direction of more roughness, made orthogonal to the mapped normal; b stands on both."""
     direction = np.asarray(direction, float)
     along = direction[..., :1] * surface.tangent[..., :3] + direction[..., 1:] * bitangent(

@@ -3,18 +3,23 @@
 Everything is a sum over midpoints. The error halves with each doubling of both counts or falls faster.
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
+from ..vectors import Array
 from .microfacets import SMALLEST_SHEEN_ALPHA, charlie, charlie_visibility, smith_half
 
 
-def _midpoints(count):
+def _midpoints(count: int) -> Array:
     return (np.arange(count) + 0.5) / count
 
 
-def _half_vectors(alpha, turns, steps):
+def _half_vectors(alpha: float, turns: int, steps: int) -> tuple[Array, Array, Array]:
     """x and z of half vectors, and the share of facets that each stands for, for a viewer in the plane y = 0.
 
     Facets are cut into shares that become smaller towards the steep ones, where the integrand has its bends.
@@ -29,7 +34,7 @@ def _half_vectors(alpha, turns, steps):
     return (sine * np.cos(phi)).ravel(), z, share
 
 
-def _scale_and_bias(n_v, roughness, turns=24, steps=256):
+def _scale_and_bias(n_v: Any, roughness: float, turns: int = 24, steps: int = 256) -> Array:
     """For one roughness: (..., 2) of n_v (...,)."""
     alpha = max(float(roughness) ** 2, 1e-4)
     x, z, share = _half_vectors(alpha, turns, steps)
@@ -44,7 +49,7 @@ def _scale_and_bias(n_v, roughness, turns=24, steps=256):
     return np.stack([(weight * (1 - grazing)) @ share, (weight * grazing) @ share], -1)
 
 
-def _sheen_albedo(n_v, roughness, turns=64, steps=256):
+def _sheen_albedo(n_v: Any, roughness: float, turns: int = 64, steps: int = 256) -> Array:
     """The integral of D V n.l over the hemisphere of l, for one sheen roughness.
 
     In the angle between h and n the distribution has no peak that midpoints miss, except at the horizon, where
@@ -66,7 +71,8 @@ def _sheen_albedo(n_v, roughness, turns=64, steps=256):
     lit = (n_l > 0) & (v_h > 0)
     n_l = np.where(lit, n_l, 1)
     value = charlie(z, roughness) * charlie_visibility(cosine, n_l, roughness) * n_l * 4 * v_h
-    return np.where(lit, value / density, 0).mean(-1)
+    result: Array = np.where(lit, value / density, 0).mean(-1)
+    return result
 
 
 #: Cosines of the table, denser where the terms change faster; and roughnesses for maps of them.
@@ -75,11 +81,11 @@ ROUGHNESSES = np.linspace(0, 1, 65)
 
 
 @lru_cache(maxsize=256)
-def _row(function, roughness):
+def _row(function: Callable[[Array, float], Array], roughness: float) -> Array:
     return function(COSINES, roughness)
 
 
-def _looked_up(function, n_v, roughness):
+def _looked_up(function: Callable[[Array, float], Array], n_v: Any, roughness: Any) -> Array:
     """The integral at arrays of cosines and roughnesses, interpolated over the cosine.
 
     A few values of roughness are taken as they are; for more of them, it interpolates between ROUGHNESSES.
@@ -100,14 +106,15 @@ def _looked_up(function, n_v, roughness):
     fy, fx = (place - low)[..., None], (along - left)[..., None]
     at_low = rows[low, left] * (1 - fx) + rows[low, left + 1] * fx
     at_high = rows[high, left] * (1 - fx) + rows[high, left + 1] * fx
-    return at_low * (1 - fy) + at_high * fy
+    result: Array = at_low * (1 - fy) + at_high * fy
+    return result
 
 
-def brdf_terms(n_v, roughness):
+def brdf_terms(n_v: Any, roughness: Any) -> Array:
     """A and B of single scattering, F0 A + F90 B, for arrays (...): (..., 2)."""
     return _looked_up(_scale_and_bias, n_v, roughness)
 
 
-def sheen_albedo(n_v, sheen_roughness):
+def sheen_albedo(n_v: Any, sheen_roughness: Any) -> Array:
     """E of KHR_materials_sheen for arrays (...): (...)."""
     return _looked_up(_sheen_albedo, n_v, sheen_roughness)[..., 0]

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from ..cube_faces import direction_to_face_uv
-from ..sampling import mip_levels, pad_faces, sample_padded
-from .material import Environment
+from cubecam.truth.shading.standard.material import Environment
+
+from .cube_faces import direction_to_face_uv
+from .sampling import mip_levels, pad_faces, sample_padded
 
 
 class Levels:

@@ -4,8 +4,13 @@ The text approximates Belcour and Barla 2017, "A Practical Extension to Microfac
 Iridescence": Schlick's Fresnel at both interfaces, no polarisation, two orders of interference.
 """
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
 
+from ..vectors import Array
 from .microfacets import schlick
 
 XYZ_TO_REC709 = np.array(
@@ -17,17 +22,19 @@ XYZ_TO_REC709 = np.array(
 )
 
 
-def ior_to_f0(transmitted, incident):
-    return ((transmitted - incident) / (transmitted + incident)) ** 2
+def ior_to_f0(transmitted: Any, incident: Any) -> Array:
+    result: Array = ((transmitted - incident) / (transmitted + incident)) ** 2
+    return result
 
 
-def f0_to_ior(f0):
+def f0_to_ior(f0: Any) -> Array:
     """The index of a dielectric in air that reflects f0 at normal incidence."""
     root = np.sqrt(f0)
-    return (1 + root) / (1 - root)
+    result: Array = (1 + root) / (1 - root)
+    return result
 
 
-def sensitivity(path, shift):
+def sensitivity(path: Any, shift: Any) -> Array:
     """The eye's colour matching functions, as Gaussians, in the Fourier domain, in linear Rec. 709.
 
     path: the optical path difference in nanometres; shift: the phase, (..., 3).
@@ -49,10 +56,13 @@ def sensitivity(path, shift):
         * np.exp(-4.5282e09 * phase[..., 0] ** 2)
     )
     xyz = xyz + np.stack([second, 0 * second, 0 * second], axis=-1)
-    return (xyz / 1.0685e-7) @ XYZ_TO_REC709.T
+    result: Array = (xyz / 1.0685e-7) @ XYZ_TO_REC709.T
+    return result
 
 
-def iridescent_fresnel(cosine, film_ior, thickness, base_f0, outside_ior=1.0):
+def iridescent_fresnel(
+    cosine: Any, film_ior: Any, thickness: Any, base_f0: Any, outside_ior: float = 1.0
+) -> Array:
     """The film's reflectance (..., 3), not below 0.
 
     cosine: (..., 1) of the angle outside. thickness: nanometres, (..., 1). base_f0: (..., 3), of the base in air.
@@ -84,7 +94,8 @@ def iridescent_fresnel(cosine, film_ior, thickness, base_f0, outside_ior=1.0):
     return np.where(cosine_2_squared < 0, 1.0, np.maximum(total, 0))
 
 
-def schlick_to_f0(reflectance, cosine):
+def schlick_to_f0(reflectance: Any, cosine: Any) -> Array:
     """The f0 with which Schlick's formula gives a reflectance at a cosine, with f90 = 1; between 0 and 1."""
     grazing = np.minimum((1 - np.clip(cosine, 0, 1)) ** 5, 0.9999)
-    return np.clip((reflectance - grazing) / (1 - grazing), 0, 1)
+    result: Array = np.clip((reflectance - grazing) / (1 - grazing), 0, 1)
+    return result

@@ -5,15 +5,18 @@
 Each of dielectric and metal is a `Fresnel`, F0 and F90; the rest of both is shared.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ..shading import Ambient, Point, Spot, dot, falloff, reflect, refract, way_to
-from ..transforms import normalised
+from ..lights import Ambient, Directional, Light, Point, Spot, falloff, way_to
+from ..vectors import Array, Numbers, dot, normalised, reflect, refract
 from .iridescence import iridescent_fresnel, schlick_to_f0
-from .material import Environment, anisotropy_frame
+from .material import Environment, Parameters, Surface, anisotropy_frame
 from .microfacets import (
     SMALLEST_ALPHA,
     max3,
@@ -35,15 +38,16 @@ class Fresnel:
     f90: Any
     film: Any = None  # (share, ior, thickness)
 
-    def at(self, cosine):
+    def at(self, cosine: Any) -> Array:
         """Of a microfacet."""
         f = schlick(self.f0, self.f90, cosine)
         if self.film is None:
             return f
         share, ior, thickness = self.film
-        return mix(f, iridescent_fresnel(cosine, ior, thickness, self.f0), share)
+        result: Array = mix(f, iridescent_fresnel(cosine, ior, thickness, self.f0), share)
+        return result
 
-    def for_environment(self, n_v):
+    def for_environment(self, n_v: Any) -> Fresnel:
         """The same without a film: its colour at n.v becomes a part of F0."""
         if self.film is None:
             return self
@@ -52,7 +56,7 @@ class Fresnel:
         return Fresnel(mix(self.f0, film, share), self.f90)
 
 
-def fresnels(p):
+def fresnels(p: Parameters) -> tuple[Fresnel, Fresnel]:
     """(dielectric, metal): KHR_materials_ior, KHR_materials_specular, KHR_materials_iridescence."""
     from_ior = ((np.asarray(p.ior, float) - 1) / (np.asarray(p.ior, float) + 1)) ** 2
     f0 = np.minimum(from_ior * np.asarray(p.specular_color, float), 1) * p.specular_weight
@@ -62,23 +66,24 @@ def fresnels(p):
     return Fresnel(f0, p.specular_weight, film), Fresnel(np.asarray(p.color, float), 1.0, film)
 
 
-def facing(n, v):
+def facing(n: Array, v: Array) -> Array:
     return np.clip(dot(n, v), 1e-4, 1)
 
 
-def dominant_direction(n, r, roughness):
+def dominant_direction(n: Array, r: Array, roughness: Any) -> Array:
     """Where most of a rough reflection comes from: Lagarde and de Rousiers 2014, section 4.9.3; not normalised."""
     a = np.asarray(roughness, float) ** 2
-    return mix(n, r, (1 - a) * (np.sqrt(1 - a) + a))
+    result: Array = mix(n, r, (1 - a) * (np.sqrt(1 - a) + a))
+    return result
 
 
-def alphas(p):
+def alphas(p: Parameters) -> tuple[Any, Any]:
     """(alpha_t, alpha_b): along the direction of anisotropy, and across it."""
     alpha = np.asarray(p.roughness, float) ** 2
     return mix(alpha, 1, np.asarray(p.anisotropy, float) ** 2), alpha
 
 
-def lobe_frame(p, surface):
+def lobe_frame(p: Parameters, surface: Surface) -> tuple[Array, Array, Array]:
     if np.any(p.anisotropy):
         return anisotropy_frame(surface, p.anisotropy_direction)
     return (*frame_around(surface.n), surface.n)
@@ -87,7 +92,7 @@ def lobe_frame(p, surface):
 # --- lights -----------------------------------------------------------------------------------------------------------
 
 
-def arriving(light, position):
+def arriving(light: Point | Directional | Spot, position: Array) -> tuple[Array, Array]:
     """(l, the irradiance of a surface that faces the light): lux of a directional light, else candela."""
     l, distance = way_to(light, position)  # noqa: E741
     irradiance = np.asarray(light.color, float) * light.intensity
@@ -98,7 +103,7 @@ def arriving(light, position):
     return l, np.broadcast_to(irradiance, position.shape)
 
 
-def lit_base(p, surface, l):  # noqa: E741
+def lit_base(p: Parameters, surface: Surface, l: Array) -> Array:  # noqa: E741
     """The BRDF of dielectric and metal for one light, sheen included, times n.l."""
     n, v = surface.n, surface.v
     n_l = np.maximum(dot(n, l), 0)
@@ -122,10 +127,11 @@ def lit_base(p, surface, l):  # noqa: E741
         )
         material = material * (1 - max3(sheen_color) * albedo)
         material = material + sheen_color * sheen_brdf(n, v, l, p.sheen_roughness)
-    return material * n_l
+    result: Array = material * n_l
+    return result
 
 
-def lit_coat(p, surface, l):  # noqa: E741
+def lit_coat(p: Parameters, surface: Surface, l: Array) -> Array:  # noqa: E741
     """The clear coat's lobe for one light, without its Fresnel term."""
     n = surface.clearcoat_n
     alpha = np.maximum(np.asarray(p.clearcoat_roughness, float) ** 2, SMALLEST_ALPHA)
@@ -135,7 +141,7 @@ def lit_coat(p, surface, l):  # noqa: E741
 # --- the environment --------------------------------------------------------------------------------------------------
 
 
-def scattered(fresnel, a, b):
+def scattered(fresnel: Fresnel, a: Numbers, b: Numbers) -> tuple[Array, Array]:
     """(Fss, Fms): Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting"."""
     single = fresnel.f0 * a + fresnel.f90 * b
     missing = 1 - (a + b)
@@ -143,7 +149,7 @@ def scattered(fresnel, a, b):
     return single, single * average / (1 - average * missing) * missing
 
 
-def reflection_direction(p, surface):
+def reflection_direction(p: Parameters, surface: Surface) -> Array:
     """Where the one lookup of "levels" goes; KHR_materials_anisotropy bends the normal it reflects about."""
     n, v = surface.n, surface.v
     if np.any(p.anisotropy):
@@ -155,7 +161,14 @@ def reflection_direction(p, surface):
     return dominant_direction(n, reflect(-v, n), p.roughness)
 
 
-def reflected(p, surface, environment, of_environment, a, b):
+def reflected(
+    p: Parameters,
+    surface: Surface,
+    environment: Environment,
+    of_environment: Sequence[Fresnel],
+    a: Array,
+    b: Array,
+) -> list[Array]:
     """The single-scattered specular radiance of each Fresnel in `of_environment`."""
     if p.specular == "levels":
         radiance = environment.radiance(reflection_direction(p, surface), p.roughness)
@@ -169,7 +182,7 @@ def reflected(p, surface, environment, of_environment, a, b):
         hammersley(p.specular_samples),
         environment.size,
     )
-    totals = [0.0 for _ in of_environment]
+    totals: list[Any] = [0.0 for _ in of_environment]
     for l, v_h, weight, lod in lobes:  # noqa: E741
         radiance = environment.mip(l, lod) * weight
         totals = [
@@ -179,7 +192,7 @@ def reflected(p, surface, environment, of_environment, a, b):
     return [total / p.specular_samples for total in totals]
 
 
-def surrounded_base(p, surface, environment):
+def surrounded_base(p: Parameters, surface: Surface, environment: Environment) -> Array:
     """Dielectric, metal and sheen in the environment."""
     n_v = facing(surface.n, surface.v)
     terms = brdf_terms(n_v[..., 0], np.broadcast_to(p.roughness, n_v.shape)[..., 0])
@@ -196,7 +209,9 @@ def surrounded_base(p, surface, environment):
         results.append((single + fms * around) * p.occlusion)
         left = 1 - max3(fss + fms) if left is None else left
     diffuse = mix(around * p.occlusion, transmitted(p, surface, environment), p.transmission)
-    material = mix(results[0] + left * np.asarray(p.color, float) * diffuse, results[1], p.metallic)
+    material: Array = mix(
+        results[0] + left * np.asarray(p.color, float) * diffuse, results[1], p.metallic
+    )
 
     sheen_color = np.asarray(p.sheen_color, float)
     if np.any(sheen_color):
@@ -206,7 +221,7 @@ def surrounded_base(p, surface, environment):
     return material
 
 
-def transmitted(p, surface, environment):
+def transmitted(p: Parameters, surface: Surface, environment: Environment) -> Array | float:
     """What shows through, without the colour of the surface: KHR_materials_transmission, _volume and _dispersion."""
     if not np.any(p.transmission):
         return 0.0
@@ -227,7 +242,7 @@ def transmitted(p, surface, environment):
     return np.stack(channels, -1)
 
 
-def surrounded_coat(p, surface, environment):
+def surrounded_coat(p: Parameters, surface: Surface, environment: Environment) -> Array:
     """The clear coat's lobe in the environment, without its Fresnel term."""
     n, v = surface.clearcoat_n, surface.v
     direction = dominant_direction(n, reflect(-v, n), p.clearcoat_roughness)
@@ -236,13 +251,20 @@ def surrounded_coat(p, surface, environment):
         n_v = facing(n, v)[..., 0]
         terms = brdf_terms(n_v, np.broadcast_to(p.clearcoat_roughness, (*n_v.shape, 1))[..., 0])
         radiance = radiance * terms.sum(-1, keepdims=True)
-    return radiance * p.occlusion
+    result: Array = radiance * p.occlusion
+    return result
 
 
 # --- the sum ----------------------------------------------------------------------------------------------------------
 
 
-def shade(p, surface, lights=(), environment=None, visibility=None):
+def shade(
+    p: Parameters,
+    surface: Surface,
+    lights: Sequence[Light] = (),
+    environment: Environment | None = None,
+    visibility: Sequence[Array | None] | None = None,
+) -> Array:
     """The radiance (..., 3) of pixels.
 
     visibility: for each light the share (..., 1) that arrives, or None if all of it does.
@@ -256,7 +278,7 @@ def shade(p, surface, lights=(), environment=None, visibility=None):
             ambient = ambient + np.asarray(light.color, float) * light.intensity
     environment = (environment or Environment()).with_ambient(ambient)
 
-    base = surrounded_base(p, surface, environment)
+    base: Array = surrounded_base(p, surface, environment)
     base = base + np.asarray(p.emissive, float) * p.emissive_strength
     coated = np.any(p.clearcoat)
     coat = surrounded_coat(p, surface, environment) if coated else 0.0
@@ -264,8 +286,9 @@ def shade(p, surface, lights=(), environment=None, visibility=None):
         if isinstance(light, Ambient):
             continue
         l, irradiance = arriving(light, surface.position)  # noqa: E741
-        if visibility is not None and visibility[index] is not None:
-            irradiance = irradiance * visibility[index]
+        share = None if visibility is None else visibility[index]
+        if share is not None:
+            irradiance = irradiance * share
         base = base + lit_base(p, surface, l) * irradiance
         if coated:
             coat = coat + lit_coat(p, surface, l) * irradiance

@@ -1,9 +1,13 @@
 """Directions by importance sampling: Hammersley's points, visible normals of GGX, and which mip level each looks up."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
 import numpy as np
 
-from ..shading import dot
-from ..transforms import normalised
+from ..vectors import Array, dot, normalised
 from .microfacets import (
     smith_half_anisotropic,
     trowbridge_reitz_anisotropic,
@@ -13,7 +17,7 @@ from .microfacets import (
 LOD_BIAS = 0.25
 
 
-def radical_inverse(index):
+def radical_inverse(index: Any) -> Array:
     """The bits of an index mirrored at the point: 1 -> .1, 2 -> .01, 3 -> .11 in base 2."""
     index = np.asarray(index, np.uint64)
     result, weight = np.zeros(index.shape), 0.5
@@ -23,13 +27,13 @@ def radical_inverse(index):
     return result
 
 
-def hammersley(count):
+def hammersley(count: int) -> Array:
     """(count, 2) points in the unit square: i / count and the radical inverse of i, both half a cell further."""
     index = np.arange(count)
     return np.stack([(index + 0.5) / count, radical_inverse(index) + 0.5 / count], -1)
 
 
-def frame_around(n):
+def frame_around(n: Array) -> tuple[Array, Array]:
     """Tangent and bitangent of normals (..., 3): Duff et al. 2017, "Building an Orthonormal Basis, Revisited"."""
     x, y, z = n[..., 0], n[..., 1], n[..., 2]
     sign = np.where(z >= 0, 1.0, -1.0)
@@ -39,7 +43,7 @@ def frame_around(n):
     return t, np.stack([b, sign + y * y * a, -y], -1)
 
 
-def visible_normal(v, point, alpha_t, alpha_b):
+def visible_normal(v: Array, point: Sequence[float] | Array, alpha_t: Any, alpha_b: Any) -> Array:
     """The half vector of one point, in the frame t, b, n, in which v (..., 3) is given: density D G1(v) v.h / n.v.
 
     Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical Caps": v as the surface of a hemisphere sees
@@ -57,7 +61,14 @@ def visible_normal(v, point, alpha_t, alpha_b):
     return normalised(half * stretch)
 
 
-def sampled_lobes(frame, v, alpha_t, alpha_b, points, size):
+def sampled_lobes(
+    frame: tuple[Array, Array, Array],
+    v: Array,
+    alpha_t: Any,
+    alpha_b: Any,
+    points: Sequence[Sequence[float]] | Array,
+    size: int,
+) -> Iterator[tuple[Array, Array, Array, Array]]:
     """For each point, yield (l, v.h, weight, lod).
 
     weight: G1(l), the estimator's factor of Fresnel and radiance: the BRDF times n.l over the density of l, which is

@@ -1,0 +1,1 @@
+"""The same scene by exact rays, beside every approximation of the renderer."""
