@@ -143,7 +143,10 @@ class Geometry:
 
         origins, directions = np.asarray(origins, float), np.asarray(directions, float)
         rays = _Rays(self, origins, directions, start)
-        found = self._whole.occluded(rays.moved, directions, reach)
+        # Embree's distances are rounded, and what lies just before the end must not be missed.
+        ends = np.broadcast_to(reach, len(origins)) * 1.00001
+        ends = ends + 64 * _ROUNDING * rays.size / rays.length
+        found = self._whole.occluded(rays.moved, directions, ends)
         rows = np.flatnonzero(found)
         # Embree says that there is something, in float32: only what is there in float64 counts.
         if len(rows):
@@ -292,13 +295,11 @@ class _Tree:
         return rows, self._places[met[rows]]
 
     def occluded(self, origins: Array, directions: Array, reach: Array) -> Bools:
-        """Return whether rays meet anything before `reach`; a little farther is possible."""
+        """Return whether rays meet anything before `reach` (R,)."""
         if self._scene is None or not len(origins):
             return np.zeros(len(origins), bool)
-        ends = np.minimum(np.broadcast_to(reach, len(origins)) * 1.00001, 1e37)
-        met = self._scene.run(
-            _float32(origins), _float32(directions), dists=_float32(ends), query="OCCLUDED"
-        )
+        ends = _float32(np.minimum(reach, 1e37))  # Embree's own infinity
+        met = self._scene.run(_float32(origins), _float32(directions), dists=ends, query="OCCLUDED")
         found: Bools = np.asarray(met) >= 0
         return found
 
