@@ -16,6 +16,7 @@ from .. import _core
 from .._calls import checked_call
 from .._checks import pair, real_number, whole_number
 from .eyes import CameraEye, CubeEye, Eye
+from .matrices import luminance
 from .outputs import OUTPUTS, outputs_of
 from .pictures import TruthCube, TruthFrame, cube_of, frame_of
 from .progress import bar
@@ -66,7 +67,7 @@ class _Sums:
 
     def luminance(self) -> npt.NDArray[np.float64]:
         with np.errstate(divide="ignore", invalid="ignore"):
-            mean = self.color[:, :3] @ np.array([0.2126, 0.7152, 0.0722]) / self.samples
+            mean = luminance(self.color) / self.samples
         return np.asarray(np.where(self.samples > 0, mean, 0.0))
 
     def noise(self) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .light_directions import DOWN, FORWARD, RIGHT
+from .matrices import placed, turned
 from .paths import Whole
 from .sampler import Array
 
@@ -66,15 +67,13 @@ class CameraEye:
         to_world = np.linalg.inv(self.to_clip @ self.view)
         ends = []
         for depth in (-1.0, 1.0):
-            clip = np.stack([x, y, np.full_like(x, depth), np.ones_like(x)], axis=-1)
-            end = clip @ to_world.T
-            ends.append(end[:, :3] / end[:, 3:])
+            ends.append(placed(to_world, np.stack([x, y, np.full_like(x, depth)], axis=-1)))
         way = ends[1] - ends[0]
         length = np.linalg.norm(way, axis=-1)
         return Rays(ends[0], way / length[:, None], length)
 
     def depth(self, pixel: Whole, position: Array) -> tuple[Array, Array]:
-        in_view = position @ self.view[:3, :3].T + self.view[:3, 3]
+        in_view = placed(self.view, position)
         z = -in_view[:, 2]
         parallel = self.to_clip[3, 2] == 0
         return z - self.near if parallel else np.linalg.norm(in_view, axis=-1), z
@@ -100,7 +99,8 @@ class CubeEye:
         place = np.broadcast_to(place, (len(pixel), 2))
         s = 2 * (column + place[:, 0]) / self.texels - 1
         t = 2 * (row + place[:, 1]) / self.texels - 1
-        way = (FORWARD[face] + s[:, None] * RIGHT[face] + t[:, None] * DOWN[face]) @ self.turn.T
+        way = FORWARD[face] + s[:, None] * RIGHT[face] + t[:, None] * DOWN[face]
+        way = turned(self.turn, way)
         length = np.sqrt(1 + s * s + t * t)
         return Rays(
             self.position + self.near * way,
@@ -110,5 +110,5 @@ class CubeEye:
 
     def depth(self, pixel: Whole, position: Array) -> tuple[Array, Array]:
         away = position - self.position
-        forward = FORWARD[pixel // self.texels**2] @ self.turn.T
+        forward = turned(self.turn, FORWARD[pixel // self.texels**2])
         return np.linalg.norm(away, axis=-1), (away * forward).sum(-1)

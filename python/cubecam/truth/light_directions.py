@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .matrices import luminance, turned
 from .sampler import Array
 
 #: Faces with more texels than this along an edge are averaged, which only makes the choice of directions coarser.
@@ -36,16 +37,18 @@ class LightDirections:
     """
 
     def __init__(self, faces: Array, turn: Array) -> None:
+        # Only the proportions matter: 8 bits need no division.
         light = np.nan_to_num(np.asarray(faces, np.float64)[..., :3], posinf=65504.0)
+        light = np.broadcast_to(light, (*light.shape[:3], 3))  # grey has one channel
         light = _halved(np.maximum(light, 0), _LARGEST)
         n = light.shape[1]
         middles = (2 * np.arange(n) + 1) / n - 1
         a, b = np.meshgrid(middles, middles)
         angle = (1 + a * a + b * b) ** -1.5
         # Lookups are bilinear, so a texel also shows its neighbours: none has a chance of 0 beside a bright one.
-        luminance = light @ np.array([0.2126, 0.7152, 0.0722])
-        luminance = np.maximum(luminance, _spread(luminance) / 4)
-        weights = (luminance * angle).reshape(-1)
+        bright = luminance(light)
+        bright = np.maximum(bright, _spread(bright) / 4)
+        weights = (bright * angle).reshape(-1)
         total = weights.sum()
         self.dark = not total > 0
         chance = weights / total if not self.dark else np.full(weights.shape, 1 / weights.size)
@@ -65,13 +68,12 @@ class LightDirections:
         t = 2 * (row + numbers[:, 2]) / self._n - 1
         towards = FORWARD[face] + s[:, None] * RIGHT[face] + t[:, None] * DOWN[face]
         length = np.sqrt(1 + s * s + t * t)
-        # The rows of the matrix from the world to the cube are the cube's axes in the world.
-        directions = (towards / length[:, None]) @ self._turn
+        directions = turned(self._turn.T, towards / length[:, None])
         return directions, (self._density[texel] * length**3)[:, None]
 
     def density(self, directions: Array) -> Array:
         """Give the density per solid angle (R, 1) with which `sample` draws unit directions (R, 3)."""
-        d = directions @ self._turn.T
+        d = turned(self._turn, directions)
         size = np.abs(d)
         x = (size[:, 0] >= size[:, 1]) & (size[:, 0] >= size[:, 2])
         axis = np.where(x, 0, np.where(size[:, 1] >= size[:, 2], 1, 2))
@@ -99,9 +101,9 @@ def _halved(light: Array, largest: int) -> Array:
     return np.asarray(light.reshape(6, small, by, small, by, 3).mean(axis=(2, 4)))
 
 
-def _spread(luminance: Array) -> Array:
+def _spread(bright: Array) -> Array:
     """Give the largest luminance of a texel and its eight neighbours on the same face."""
-    n = luminance.shape[1]
-    padded = np.pad(luminance, ((0, 0), (1, 1), (1, 1)), mode="edge")
+    n = bright.shape[1]
+    padded = np.pad(bright, ((0, 0), (1, 1), (1, 1)), mode="edge")
     around = [padded[:, i : i + n, j : j + n] for i in range(3) for j in range(3)]
     return np.asarray(np.max(around, axis=0))

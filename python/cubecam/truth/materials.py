@@ -7,19 +7,18 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .bodies import Bodies
+from .far_light import FarLight
 from .geometry import Geometry
 from .glass import glass_way
-from .light_directions import LightDirections
 from .paths import Flags, Paths, Whole
 from .records import BasicRecord, GlassRecord, MirrorRecord, PhongRecord, StandardRecord
 from .sampler import Array, pairs
 from .shading.fresnel import schlick
 from .shading.lights import Ambient, way_to
 from .shading.phong_model import phong
-from .shading.standard.shade import arriving, lit_base, lit_coat
 from .shading.vectors import dot, reflect
 from .snapshot import Snapshot
-from .surfaces import Points, basic_color, phong_parameters, standard_point
+from .surfaces import Points, basic_color, phong_parameters
 
 #: Pairs of random numbers that a path uses at each surface; pair 0 is the place in the pixel.
 _PAIRS = 4
@@ -66,6 +65,10 @@ class Group:
         """Whether each ray meets the body that it runs in from within."""
         return self.points.back & (self.paths.bodies[:, 0] == self.points.node)
 
+    def take(self, rows: Whole) -> Group:
+        """Give some of the paths with their points."""
+        return Group(self.paths.rows(rows), self.points.take(rows), self.material)
+
     def numbers(self, seed: int, pair: int) -> Array:
         """Give (R, 2) random numbers for one of the pairs of this surface."""
         p = self.paths
@@ -82,8 +85,7 @@ class Materials:
         What stops the light of lamps with shadows.
     captured : Geometry
         What surfaces reflect, and what therefore stops light from far away.
-    directions : dict of int to LightDirections
-        For the indices of surroundings that are brighter in some directions.
+    far : FarLight
     bodies : Bodies
     bounces, seed : int
         As for `Tracer`.
@@ -94,18 +96,17 @@ class Materials:
         snapshot: Snapshot,
         casters: Geometry | None,
         captured: Geometry,
-        directions: dict[int, LightDirections],
+        far: FarLight,
         bodies: Bodies,
         *,
         bounces: int,
         seed: int,
     ) -> None:
         self._snapshot, self._casters, self._captured = snapshot, casters, captured
-        self._directions, self._bodies = directions, bodies
+        self._far, self._bodies = far, bodies
         self._bounces, self._seed = bounces, seed
         nodes = snapshot.nodes
         self._receives = np.array([n.receive_shadow for n in nodes], np.bool_)
-        self._surroundings = np.array([n.surroundings for n in nodes], np.int64)
 
     def shade(self, group: Group) -> Shaded:
         """Shade the points that a group of paths meets."""
@@ -145,10 +146,10 @@ class Materials:
     def _mirror(self, group: Group, material: MirrorRecord) -> Shaded:
         points, paths = group.points, group.paths
         direction = reflect(paths.direction, points.normal)
-        weight = np.broadcast_to(material.env_weight * material.tint, direction.shape)
+        weight = np.broadcast_to(material.env_weight * material.tint[:3], direction.shape)
         if material.f0 is not None:
             weight = weight * schlick(material.f0, -dot(paths.direction, points.normal))
-        light = np.broadcast_to(material.color_weight * material.color, direction.shape)
+        light = np.broadcast_to(material.color_weight * material.color[:3], direction.shape)
         one = np.ones((len(paths), 1))
         return Shaded(light, one, [Way(np.arange(len(paths)), direction, weight)])
 
@@ -166,7 +167,7 @@ class Materials:
         )
         # The tint colours the light once, where it enters.
         goes_in = way.through & ~inside
-        weight = way.weight * np.where(goes_in[:, None], material.tint, 1.0)
+        weight = way.weight * np.where(goes_in[:, None], material.tint[:3], 1.0)
         ways = [
             Way(
                 np.arange(len(paths)),
@@ -197,35 +198,4 @@ class Materials:
         return share
 
     def _standard(self, group: Group, material: StandardRecord) -> Shaded:
-        points, paths = group.points, group.paths
-        p, surface, alpha = standard_point(self._snapshot, group.material, points)
-        everything = np.arange(len(paths))
-        if material.unlit:
-            return Shaded(np.broadcast_to(p.color, (len(paths), 3)), alpha)
-        numbers = np.concatenate(
-            [group.numbers(self._seed, _FACET), group.numbers(self._seed, _CHOICE)], axis=1
-        )[:, :3]
-        inside = group.inside
-        light = np.zeros((len(paths), 3))
-        ways = []
-        out = np.flatnonzero(~inside)
-        if len(out):
-            part = group.take(out)
-            p_out, surface_out = rows_of(p, out), rows_of(surface, out)
-            light[out] = self._lit(part, p_out, surface_out) + self._sky_lit(part, p_out, surface_out)
-            found = sample(p_out, surface_out, numbers[out])
-            ways.append(
-                Way(
-                    everything[out],
-                    found.l,
-                    found.weight,
-                    density=np.where(found.transmitted, 0.0, found.pdf[:, 0]),
-                    entered=found.transmitted & (_whole(p_out.thickness, len(out)) > 0),
-                    channel=found.channel,
-                    ambient=True,
-                )
-            )
-        within = np.flatnonzero(inside)
-        if len(within):
-            ways.append(self._exit(group.take(within), within, rows_of(p, within), ...))
-        return Shaded(light, alpha, ways)
+        raise NotImplementedError

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import CubeMap
+from .matrices import turned
 from .textures import Array, Lookup
 
 Kind: TypeAlias = Literal["basic", "phong", "mirror", "glass", "standard"]
@@ -36,7 +37,7 @@ class Radiance:
         if self.kind == "color":
             found[:] = self.color
         elif self.cube is not None and len(directions):
-            texels = self.cube.sample(directions @ self.turn.T)
+            texels = self.cube.sample(turned(self.turn, directions))
             found[:, :3] = self.scale * texels[:, :3].astype(np.float64)
             found[:, 3] = 1
         return found

@@ -6,10 +6,9 @@ import numpy as np
 
 from .bodies import Bodies
 from .geometry import Geometry, Hits
-from .light_directions import LightDirections
+from .far_light import FarLight
 from .materials import Group, Materials, Way
 from .paths import Flags, Paths, Whole, entered, joined, left_body
-from .records import Radiance
 from .sampler import Array
 from .snapshot import Snapshot
 from .surfaces import Points, surface_points
@@ -50,18 +49,13 @@ class Tracer:
         needs_shadows = any(snapshot.shadows)
         self._casters = Geometry(snapshot, casting[snapshot.node]) if needs_shadows else None
         self._material = np.array([n.material for n in nodes], np.int64)
-        self._surroundings = np.array([n.surroundings for n in nodes], np.int64)
+        self._far = FarLight(snapshot)
         self._bodies = Bodies(snapshot)
-        self._directions = {
-            index: LightDirections(around.cube.faces, around.turn)
-            for index, around in self._around().items()
-            if around.cube is not None
-        }
         self._materials = Materials(
             snapshot,
             self._casters,
             self._captured,
-            self._directions,
+            self._far,
             self._bodies,
             bounces=bounces,
             seed=seed,
@@ -96,7 +90,7 @@ class Tracer:
         missed = hits.triangle < 0
         if missed.any():
             lost = paths.rows(missed)
-            add(sums, lost.slot, lost.factor * self._from_afar(lost))
+            add(sums, lost.slot, lost.factor * self._far.light(lost))
         met = np.flatnonzero(~missed)
         if not len(met):
             return paths.rows(met)
@@ -183,7 +177,7 @@ class Tracer:
         gone.unblocked = gone.bounces > self.bounces
         gone.start, gone.left = hits.triangle[rows], points.node
         gone.reflected = np.ones(len(rows), np.bool_)
-        gone.surroundings = self._surroundings[points.node]
+        gone.surroundings = self._far.seen_from(points.node, gone.unblocked)
         gone.ambient = np.full(len(rows), way.ambient)
         gone.density = np.zeros(len(rows)) if way.density is None else way.density[mine]
         if way.entered is not None:
@@ -195,29 +189,6 @@ class Tracer:
         if way.channel is not None:
             gone.channel = way.channel[mine]
         return gone.rows(gone.factor[:, :3].any(axis=1))
-
-    # --- light from far away ------------------------------------------------------------------------------------------
-
-    def _around(self) -> dict[int, Radiance]:
-        everything = dict(enumerate(self.snapshot.surroundings))
-        return {**everything, -1: self.snapshot.background}
-
-    def _from_afar(self, paths: Paths) -> Array:
-        """Give what rays see that meet nothing: (R, 4)."""
-        light = np.zeros((len(paths), 4))
-        for index in np.unique(paths.surroundings):
-            rows = np.flatnonzero(paths.surroundings == index)
-            around = self.snapshot.background if index < 0 else self.snapshot.surroundings[index]
-            seen = around.at(paths.direction[rows])
-            directions = self._directions.get(int(index))
-            if directions is not None and not directions.dark:
-                own = paths.density[rows, None]
-                other = directions.density(paths.direction[rows])
-                # The balance heuristic: E. Veach, "Robust Monte Carlo Methods", 1997, section 9.2.2.
-                seen[:, :3] *= np.where(own > 0, own / np.maximum(own + other, 1e-300), 1.0)
-            light[rows] = seen
-        light[:, :3] += np.where(paths.ambient[:, None], self.snapshot.ambient, 0.0)
-        return light
 
 
 def taken(hits: Hits, rows: Whole | Flags) -> Hits:

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .eyes import Eye
+from .matrices import luminance
 from .paths import first_paths
 from .sampler import Array, pairs
 from .snapshot import Snapshot
@@ -15,8 +16,6 @@ from .tracer import Tracer
 
 #: Paths of a piece: enough that numpy's own cost for each call does not matter, few enough for the processor's caches.
 PATHS = 1 << 16
-
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 @dataclass(frozen=True)
@@ -72,4 +71,4 @@ def drawn(job: Job, tracer: Tracer, piece: Piece) -> tuple[Array, Array]:
         rays.origin, rays.direction, rays.reach, each_pixel, each_sample, np.arange(count)
     )
     light = tracer.light(paths, count).reshape(len(pixel), len(sample), 4)
-    return light.sum(axis=1), ((light[..., :3] @ _LUMINANCE) ** 2).sum(axis=1)
+    return light.sum(axis=1), (luminance(light) ** 2).sum(axis=1)

@@ -6,6 +6,7 @@ user's script again in each of them, unless it is written for that.
 
 from __future__ import annotations
 
+import os
 import pickle
 import queue
 import struct
@@ -47,6 +48,7 @@ class Workers:
                     stdin=subprocess.PIPE,
                     stdout=subprocess.PIPE,
                     start_new_session=True,  # Ctrl-C is for this process alone
+                    env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
                 )
                 self._processes.append(process)
                 _send(process, job)
