@@ -7,7 +7,9 @@ import numpy as np
 from .bodies import Bodies
 from .geometry import Geometry, Hits
 from .far_light import FarLight
-from .materials import Group, Materials, Way
+from .groups import Group, Way
+from .lamps import Lamps
+from .materials import Materials
 from .paths import Flags, Paths, Whole, entered, joined, left_body
 from .sampler import Array
 from .snapshot import Snapshot
@@ -46,19 +48,12 @@ class Tracer:
         self._seen = Geometry(snapshot, seen[snapshot.node])
         same = bool((seen == captured).all())
         self._captured = self._seen if same else Geometry(snapshot, captured[snapshot.node])
-        needs_shadows = any(snapshot.shadows)
-        self._casters = Geometry(snapshot, casting[snapshot.node]) if needs_shadows else None
         self._material = np.array([n.material for n in nodes], np.int64)
         self._far = FarLight(snapshot)
         self._bodies = Bodies(snapshot)
+        lamps = Lamps(snapshot, Geometry(snapshot, casting[snapshot.node]))
         self._materials = Materials(
-            snapshot,
-            self._casters,
-            self._captured,
-            self._far,
-            self._bodies,
-            bounces=bounces,
-            seed=seed,
+            snapshot, lamps, self._far, self._bodies, self._captured, bounces=bounces, seed=seed
         )
 
     # --- rays ---------------------------------------------------------------------------------------------------------
