@@ -48,8 +48,7 @@ def random_directions(rng, count):
 def ids_of(snapshot, hits):
     """The ids of the nodes that rays met, 0 for none."""
     ids = np.array([node.id for node in snapshot.nodes])
-    found = np.where(hits.triangle >= 0, ids[snapshot.node[hits.triangle]], 0)
-    return found
+    return np.where(hits.triangle >= 0, ids[snapshot.node[hits.triangle]], 0)
 
 
 def seen(scene, camera, size):
