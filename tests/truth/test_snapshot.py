@@ -7,28 +7,14 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth.records import BlendRecord, StandardRecord
-from cubecam.truth.shading import Directional, Point, Spot
+from cubecam.truth.records import BlendRecord
+from cubecam.truth.shading import Directional, Point, Spot, normalised
 from cubecam.truth.snapshot import read
-from tests.compare import assert_close
 from tests.gl.bent import Bent
 from tests.gl.world import smooth_environment
 from tests.reference import transforms as ref
-
-CAMERA = cc.PerspectiveCamera(position=(0, 0, 3), fov=60)
-
-
-def one(material=None, **more):
-    """A scene of one plane that faces the camera."""
-    scene = cc.Scene()
-    node = scene.add(
-        cc.Mesh.plane(2, 2),
-        material,
-        rotation=cc.axis_angle((1, 0, 0), 90),
-        name="wall",
-        **more,
-    )
-    return scene, node
+from tests.truth.rays import FRONT as CAMERA
+from tests.truth.rays import materials_of, one
 
 
 def test_records_say_what_nodes_are():
@@ -72,8 +58,8 @@ def test_a_snapshot_is_plain_data(rng):
     for name in ("corners", "normals", "uvs", "tangents", "colors", "places", "node"):
         assert np.array_equal(getattr(before, name), getattr(after, name)), name
     place = np.array([[0.3, 0.4]])
-    for name, lookup in before.materials[0].maps.items():
-        assert np.array_equal(lookup.at(place), after.materials[0].maps[name].at(place))
+    for name, lookup in materials_of(before)[0].maps.items():
+        assert np.array_equal(lookup.at(place), materials_of(after)[0].maps[name].at(place))
     directions = np.array([[1, 2, 3.0]])
     for one_, other in zip(before.surroundings, after.surroundings, strict=True):
         assert np.array_equal(one_.at(directions), other.at(directions))
@@ -113,8 +99,8 @@ def test_flat_shading_has_the_normals_of_the_planes():
     across = np.cross(
         found.corners[:, 1] - found.corners[:, 0], found.corners[:, 2] - found.corners[:, 0]
     )
-    unit = ref.normalised(found.normals)
-    np.testing.assert_allclose(unit, np.repeat(ref.normalised(across)[:, None], 3, 1), atol=1e-6)
+    unit = normalised(found.normals)
+    np.testing.assert_allclose(unit, np.repeat(normalised(across)[:, None], 3, 1), atol=1e-6)
 
 
 @pytest.mark.parametrize("mirrored", [False, True])
@@ -125,9 +111,7 @@ def test_skins_and_weights_bend_meshes(rng, normals, mirrored):
     bent.pose(rng, mirrored=mirrored)
     found, want = read(bent.scene), read(bent.baked(material))
     np.testing.assert_allclose(found.corners, want.corners, atol=1e-5)
-    np.testing.assert_allclose(
-        ref.normalised(found.normals), ref.normalised(want.normals), atol=2e-4
-    )
+    np.testing.assert_allclose(normalised(found.normals), normalised(want.normals), atol=2e-4)
     np.testing.assert_allclose(found.uvs, want.uvs, atol=1e-6)
     np.testing.assert_allclose(found.colors, want.colors, atol=1e-6)
     if normals:  # else the renderer makes tangents before the joints move them
@@ -153,7 +137,7 @@ def test_variants_show_as_they_are_set():
     scene.variant = "night"
     found = read(scene)
     assert found.nodes[0].kind == "basic"
-    assert found.materials[0].color.tolist() == [0, 0, 1, 1]
+    assert materials_of(found)[0].color.tolist() == [0, 0, 1, 1]
 
 
 def test_lights_are_in_the_world():
@@ -178,123 +162,6 @@ def test_lights_are_in_the_world():
     assert (spot.angle, spot.penumbra, spot.decay, spot.range) == (20, 0.5, 0, np.inf)
     assert found.shadows == [False, True, True]
     np.testing.assert_allclose(found.ambient, (0.7, 0.4, 0.8), atol=1e-6)
-
-
-BACKGROUNDS = {
-    "none": {},
-    "color": {"background": (0.2, 0.4, 3, 0.5)},
-    "environment": {
-        "environment": cc.CubeMap(smooth_environment(16)),
-        "environment_intensity": 1.5,
-        "environment_rotation": cc.axis_angle((1, 2, 3), 70),
-    },
-    "translucent cube": {
-        "environment": cc.CubeMap(smooth_environment(2)),
-        "environment_intensity": 1.5,
-        "environment_rotation": cc.axis_angle((1, 2, 3), 70),
-        "background": cc.CubeMap(
-            np.concatenate([smooth_environment(16), np.full((6, 16, 16, 1), 0.25)], axis=-1)
-        ),
-    },
-    "grey cube": {"background": cc.CubeMap(smooth_environment(16)[..., :1])},
-}
-
-
-@pytest.mark.parametrize("name", BACKGROUNDS)
-def test_backgrounds_are_as_the_renderer_shows_them(renderer, name):
-    scene = cc.Scene(**BACKGROUNDS[name])
-    frame = renderer.render(scene, CAMERA, (24, 16), format="rgba32f")
-    _, directions = ref.pixel_rays(CAMERA.view, CAMERA.projection(1.5), (24, 16))
-    got = read(scene).background.at(directions.reshape(-1, 3)).reshape(16, 24, 4)
-    assert_close(got, frame.color, "sky")
-
-
-def test_surroundings_are_those_of_the_node():
-    scene, node = one(cc.MirrorMaterial())
-    scene.environment = cc.CubeMap(smooth_environment(4))
-    scene.background = (0.1, 0.2, 0.3)
-    other = scene.add(cc.Mesh.box(1), cc.MirrorMaterial())
-    last = scene.add(cc.Mesh.box(1), cc.MirrorMaterial())
-    other.environment = last.environment = cc.CubeMap(np.full((6, 1, 1, 3), 0.5, np.float32))
-    scene.add(cc.Mesh.box(1), cc.MirrorMaterial(), environment=cc.Probe())
-    found = read(scene)
-    up = np.array([[0, 1.0, 0]])
-    seen = [found.surroundings[each.surroundings].at(up)[0].tolist() for each in found.nodes]
-    np.testing.assert_allclose(seen[0][:3], scene.environment.sample((0, 1, 0)))
-    assert seen[1] == seen[2] == [0.5, 0.5, 0.5, 1]
-    np.testing.assert_allclose(seen[3], (0.1, 0.2, 0.3, 1), rtol=1e-6)
-    assert found.nodes[1].surroundings == found.nodes[2].surroundings
-    assert node.id == found.nodes[0].id
-
-
-BLENDS = [
-    "alpha",
-    "alpha_keep",
-    "additive",
-    "multiply",
-    "premultiplied",
-    cc.Blend("src_alpha", "one_minus_src_color"),
-    cc.Blend("one_minus_src_alpha", "src_alpha", src_alpha="one", dst_alpha="one_minus_src_alpha"),
-    cc.Blend("src_color", "src_color", src_alpha="src_alpha_saturate", dst_alpha="zero"),
-    cc.Blend("zero", "one_minus_src_color", src_alpha="one_minus_src_color"),
-]
-
-
-@pytest.mark.parametrize("blend", BLENDS, ids=str)
-def test_blending_is_that_of_the_renderer(renderer, blend):
-    picture = np.full((1, 1, 4), (0.9, 0.3, 0.6, 0.8), np.float32)
-    color = np.array((0.5, 0.7, 0.4, 0.6))
-    scene, _ = one(cc.BasicMaterial(color=color, map=picture, opacity=0.75, blend=blend))
-    behind = np.array((0.2, 0.8, 0.5, 0.7))
-    scene.background = behind
-    got = renderer.render(scene, CAMERA, (9, 9), format="rgba32f").color[4, 4]
-    record = read(scene).nodes[0]
-    np.testing.assert_allclose(record.opacity, 0.45, rtol=1e-6)
-    s = (color[:3] * picture[0, 0, :3])[None]
-    a = np.array([[0.45 * 0.8]])
-    plus, times = record.blend.terms(s, a, record.opacity)
-    assert plus.shape == times.shape == (1, 4)
-    assert_close(plus[0] + times[0] * behind, got, "blend")
-
-
-@pytest.mark.parametrize(
-    ("material", "blended"),
-    [
-        (cc.PhongMaterial(), False),
-        (cc.PhongMaterial(opacity=0.9), True),
-        (cc.PhongMaterial(opacity=0.9, blend="opaque"), False),
-        (cc.PhongMaterial(map=np.full((2, 2, 4), 0.5)), True),
-        (cc.PhongMaterial(map=np.full((2, 2, 4), 1.0)), False),
-        (cc.PhongMaterial(map=np.full((2, 2, 4), 254, np.uint8)), True),
-        (cc.MirrorMaterial(tint=(1, 1, 1, 0.5)), True),
-        (cc.GlassMaterial(tint=(1, 1, 1, 0.5)), True),
-        (cc.StandardMaterial(color=(1, 1, 1, 0.5)), True),
-        (cc.StandardMaterial(color=(1, 1, 1, 0.5), alpha_mode="opaque"), False),
-        (cc.StandardMaterial(color=(1, 1, 1, 0.5), alpha_mode="mask"), False),
-        (cc.StandardMaterial(alpha_mode="mask", opacity=0.5), True),
-        (cc.StandardMaterial(alpha_mode="blend"), True),
-        (cc.StandardMaterial(map=cc.Texture(np.full((2, 2, 4), 0.5), scale=(2, 2))), True),
-    ],
-    ids=str,
-)
-def test_what_is_blended(renderer, material, blended):
-    scene, node = one(material)
-    record = read(scene).nodes[0]
-    assert (record.blend is not None) == blended
-    assert record.casts_shadow != blended
-    # Blended surfaces write no id.
-    shown = renderer.render(scene, CAMERA, (3, 3), outputs=("id",)).id[1, 1]
-    assert shown == (0 if blended else node.id)
-
-
-def test_vertex_colors_blend_where_they_count():
-    for used in (False, True):
-        scene, node = one(cc.PhongMaterial(vertex_colors=used))
-        colors = np.full((4, 4), 0.5, np.float32)
-        node.mesh.colors = colors
-        found = read(scene)
-        assert (found.nodes[0].blend is not None) == used
-        assert np.all(found.colors == (0.5 if used else 1))
 
 
 REFUSED = {
@@ -342,16 +209,17 @@ def test_render_textures_come_from_the_caller(rng):
 
     found = read(scene, textures=picture)
     assert asked == [screen], "each texture is rendered once"
-    record = found.materials[0]
-    assert isinstance(record, StandardRecord)
+    record = materials_of(found)[0]
     assert record.maps["map"].wrap == ("mirror", "mirror")
     here = np.array([[0.5, 0.5]])
     assert record.maps["map"].at(here).tolist() == [[1, 0.5, 0.25, 1]], "rgba8 clips"
-    bytes_ = read(scene, textures=lambda _: np.full((1, 1, 4), 128, np.uint8)).materials[0]
+    half = read(scene, textures=lambda _: np.full((1, 1, 4), 128, np.uint8))
     decoded = ((128 / 255 + 0.055) / 1.055) ** 2.4
-    np.testing.assert_allclose(bytes_.maps["map"].at(here), [[decoded] * 3 + [128 / 255]])
+    np.testing.assert_allclose(
+        materials_of(half)[0].maps["map"].at(here), [[decoded] * 3 + [128 / 255]]
+    )
     screen.format = "rgba32f"
-    assert read(scene, textures=picture).materials[0].maps["map"].at(here)[0, 0] == 2
+    assert materials_of(read(scene, textures=picture))[0].maps["map"].at(here)[0, 0] == 2
     screen.effects = [cc.ImageEffect("vec4 effect(vec2 uv) { return vec4(1.0); }")]
     with pytest.raises(
         ValueError, match=r"material\.map: expected a RenderTexture without effects"
@@ -373,9 +241,9 @@ def test_maps_are_shown_where_meshes_have_the_uvs(rng):
     scene.add(plain, material)
     scene.add(cc.Mesh(plain.positions, plain.indices, uvs=plain.uvs, uvs1=plain.uvs), material)
     found = read(scene)
-    shown = [set(found.materials[node.material].maps) for node in found.nodes]
+    shown = [set(materials_of(found)[node.material].maps) for node in found.nodes]
     assert shown[0] == set()
     assert shown[1] == shown[2] == {"map", "normal_map"}
     assert shown[3] == {"map", "normal_map", "metallic_roughness_map"}
     assert len(found.materials) == 3
-    assert [record.tangents for record in found.materials] == [False, True, True]
+    assert [record.tangents for record in materials_of(found)] == [False, True, True]

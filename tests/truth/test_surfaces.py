@@ -1,5 +1,7 @@
 """Points of surfaces: frames, normal maps and other maps as the renderer and the specification have them."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -30,8 +32,13 @@ def test_bumps_reflect_as_the_renderer_shows_them(renderer, rng, name, scale, fr
     """A smooth metal or coat that shows a cube: what is seen tells the normal."""
     bumps = rng.uniform(0.3, 0.7, (6, 5, 3)).astype(np.float32)
     bumps[..., 2] = 1
-    metal = {"normal_map": bumps, "normal_scale": -0.8, "roughness": 0, "color": (1, 1, 1)}
-    coat = {
+    metal: dict[str, Any] = {
+        "normal_map": bumps,
+        "normal_scale": -0.8,
+        "roughness": 0,
+        "color": (1, 1, 1),
+    }
+    coat: dict[str, Any] = {
         "clearcoat_normal_map": cc.Texture(bumps, rotation=30),
         "clearcoat_normal_scale": 0.7,
         "clearcoat": 1,
@@ -41,7 +48,8 @@ def test_bumps_reflect_as_the_renderer_shows_them(renderer, rng, name, scale, fr
         "specular_weight": 0,
     }
     chosen = metal if name == "normal_map" else coat
-    scene = cc.Scene(environment=cc.CubeMap(smooth_environment(64)), background=(0, 0, 0))
+    cube = cc.CubeMap(smooth_environment(64))
+    scene = cc.Scene(environment=cube, background=(0, 0, 0))
     turn = -120 if from_behind else 60
     scene.add(
         cc.Mesh.plane(2, 2),
@@ -54,7 +62,7 @@ def test_bumps_reflect_as_the_renderer_shows_them(renderer, rng, name, scale, fr
     _parameters, surface, _alpha = standard_point(snapshot, 0, points)
     n = surface.n if name == "normal_map" else surface.clearcoat_n
     assert 0.02 < np.abs(n - points.normal).max() < 1
-    seen_light = scene.environment.sample(reflect(-points.v, n)).astype(float)
+    seen_light = cube.sample(reflect(-points.v, n)).astype(float)
     if name != "normal_map":
         cosine = np.clip((n * points.v).sum(axis=1, keepdims=True), 1e-4, 1)
         seen_light *= 0.04 + 0.96 * (1 - cosine) ** 5
@@ -77,7 +85,7 @@ MAPS = {
     "transmission_map": (("transmission", 0),),
     "thickness_map": (("thickness", 1),),
 }
-NUMBERS = {
+NUMBERS: dict[str, Any] = {
     "metallic": 0.8,
     "roughness": 0.9,
     "specular_weight": 0.7,
@@ -94,16 +102,21 @@ def test_maps_multiply_what_stands_beside_them(rng):
     """Channels and factors by glTF 2.0 and the texts of its extensions."""
     texel = rng.uniform(0.2, 0.8, 4).astype(np.float32)
     picture = np.broadcast_to(texel, (1, 1, 4)).copy()
-    colors = {"specular_color": (0.5, 2, 1), "sheen_color": (0.2, 0.3, 0.4), "emissive": (3, 2, 1)}
+    colors: dict[str, Any] = {
+        "specular_color": (0.5, 2, 1),
+        "sheen_color": (0.2, 0.3, 0.4),
+        "emissive": (3, 2, 1),
+    }
     others = [f"{name}_map" for name in colors]
     names = [*MAPS, *others, "anisotropy_map", "iridescence_thickness_map"]
+    maps: dict[str, Any] = dict.fromkeys(names, cc.Image(picture))
     scene = cc.Scene()
     scene.add(
         cc.Mesh.sphere(0.8),
         cc.StandardMaterial(
             **NUMBERS,
             **colors,
-            **dict.fromkeys(names, cc.Image(picture)),
+            **maps,
             anisotropy=0.5,
             anisotropy_rotation=40,
             iridescence_thickness_min=200,
