@@ -1,5 +1,7 @@
 """Scenes that are built twice, for rays and for the oracle, and rays through the pixels of a camera."""
 
+from typing import Any
+
 import numpy as np
 
 import cubecam as cc
@@ -7,6 +9,22 @@ from cubecam.truth.geometry import Geometry
 from cubecam.truth.snapshot import read
 from tests.gl.world import World
 from tests.reference import transforms as ref
+
+#: It looks at the plane of `one`.
+FRONT = cc.PerspectiveCamera(position=(0, 0, 3), fov=60)
+
+
+def one(material=None, **more):
+    """A scene of one plane that faces the camera."""
+    scene = cc.Scene()
+    node = scene.add(
+        cc.Mesh.plane(2, 2),
+        material,
+        rotation=cc.axis_angle((1, 0, 0), 90),
+        name="wall",
+        **more,
+    )
+    return scene, node
 
 
 def random_world(seed):
@@ -48,8 +66,7 @@ def random_directions(rng, count):
 def ids_of(snapshot, hits):
     """The ids of the nodes that rays met, 0 for none."""
     ids = np.array([node.id for node in snapshot.nodes])
-    found = np.where(hits.triangle >= 0, ids[snapshot.node[hits.triangle]], 0)
-    return found
+    return np.where(hits.triangle >= 0, ids[snapshot.node[hits.triangle]], 0)
 
 
 def seen(scene, camera, size):
@@ -60,3 +77,8 @@ def seen(scene, camera, size):
     directions = directions / np.linalg.norm(directions, axis=1, keepdims=True)
     origins = np.broadcast_to(origins, (size[1], size[0], 3)).reshape(-1, 3)
     return snapshot, Geometry(snapshot).cast(origins, directions), origins, directions
+
+
+def materials_of(snapshot) -> list[Any]:
+    """The records of a snapshot's materials; the test knows of which kind they are."""
+    return list(snapshot.materials)

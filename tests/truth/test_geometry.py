@@ -187,7 +187,7 @@ def test_rays_in_a_corner_meet_the_wall(size):
     near = size * np.geomspace(1e-5, 0.5, 40)
     floor = np.stack([size - near, np.ones(40) * 0, size * np.linspace(-0.4, 0.4, 40)], axis=1)
     down = np.broadcast_to((0.0, -1.0, 0.0), floor.shape)
-    first = geometry.cast(floor + (0, size, 0), down)
+    first = geometry.cast(floor - size * down, down)
     assert np.all(snapshot.node[first.triangle] == 0)
     directions = np.broadcast_to((1.0, 0.5, 0.01), floor.shape)
     hits = geometry.cast(floor, directions, start=first.triangle)

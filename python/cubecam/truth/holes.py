@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .interpolation import interpolated
 from .records import Bools, Ints, StandardRecord
 from .snapshot import Snapshot
 from .textures import Array
@@ -32,10 +33,10 @@ def in_holes(snapshot: Snapshot, triangles: Ints, weights: Array, masked: Bools)
         assert isinstance(material, StandardRecord)  # no other material has holes
         rows = np.flatnonzero(nodes == place)
         at, share = triangles[rows], weights[rows]
-        alpha = np.einsum("ri,ri->r", share, snapshot.colors[at][:, :, 3])
+        alpha = interpolated(share, snapshot.colors[at])[:, 3]
         if "map" in material.maps:
-            uv = np.einsum("ri,rij->rj", share, snapshot.uvs[at])
-            uv1 = np.einsum("ri,rij->rj", share, snapshot.uvs1[at])
+            uv = interpolated(share, snapshot.uvs[at])
+            uv1 = interpolated(share, snapshot.uvs1[at])
             alpha = alpha * material.maps["map"].at(uv, uv1)[:, 3]
         found[rows] = alpha * material.color[3] < material.numbers["alpha_cutoff"]
     return found

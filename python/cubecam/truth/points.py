@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from .geometry import Hits
+from .interpolation import interpolated
 from .meshes import unit
 from .records import Bools, Ints
 from .snapshot import Snapshot
@@ -45,8 +44,9 @@ class Points:
     back : ndarray (P,) bool
         Whether the ray met the back.
     lifted : ndarray (P, 3)
-        Points on the rounded surface that the normals describe, from which rays to lights begin: without facets at the
-        edge of light and shadow (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, chapter 4).
+        Points just outside of the rounded surface that the normals describe, from which rays to lights begin: no facets
+        show at the edge of light and shadow (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021,
+        chapter 4).
     """
 
     row: Ints
@@ -92,11 +92,11 @@ def surface_points(
     across = unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
     back = (across * incident).sum(axis=1) > 0
     side = np.where(back, -1.0, 1.0)[:, None]
-    position = _mean(weights, corners)
+    position = interpolated(weights, corners)
     if origins is not None:
         position = origins[row] + hits.distance[row, None] * incident
     at_corners = snapshot.normals[triangle]
-    tangent = _mean(weights, snapshot.tangents[triangle])
+    tangent = interpolated(weights, snapshot.tangents[triangle])
     signs = np.where(tangent[:, 3:] < 0, -1.0, 1.0) * np.any(tangent != 0, axis=1)[:, None]
     return Points(
         row=row,
@@ -105,20 +105,15 @@ def surface_points(
         position=position,
         v=-unit(incident),
         face_normal=side * across,
-        normal=side * unit(_mean(weights, at_corners)),
+        normal=side * unit(interpolated(weights, at_corners)),
         tangent=side * np.concatenate([unit(tangent[:, :3]), signs], axis=1),
-        uv=_mean(weights, snapshot.uvs[triangle]),
-        uv1=_mean(weights, snapshot.uvs1[triangle]),
-        color=_mean(weights, snapshot.colors[triangle]),
-        place=_mean(weights, snapshot.places[triangle]),
+        uv=interpolated(weights, snapshot.uvs[triangle]),
+        uv1=interpolated(weights, snapshot.uvs1[triangle]),
+        color=interpolated(weights, snapshot.colors[triangle]),
+        place=interpolated(weights, snapshot.places[triangle]),
         back=back,
         lifted=_lifted(position, corners, side[:, None] * unit(at_corners), weights),
     )
-
-
-def _mean(weights: Array, values: npt.NDArray[Any]) -> Array:
-    mean: Array = np.einsum("ri,rij->rj", weights, values, dtype=np.float64)
-    return mean
 
 
 def _lifted(position: Array, corners: Array, normals: Array, weights: Array) -> Array:
