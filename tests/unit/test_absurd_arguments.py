@@ -209,6 +209,7 @@ NEEDED: dict[str, Any] = {
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},
     "plot.vectors": lambda: {"field": FACES},
+    "truth.compare": lambda: {"picture": PICTURE, "truth": PICTURE},
     "explore.reflection": lambda: {"environment": cube(), "where": "offscreen", "size": (8, 8)},
     "explore.layout": lambda: {"where": "offscreen", "size": (8, 8)},
     "demo.run": lambda: {"out": "out", "frames": 1, "size": 1},
