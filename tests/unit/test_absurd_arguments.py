@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot
+from cubecam import demo, explore, navigation, plot, truth
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
 from tests import absurd
@@ -259,7 +259,13 @@ def function_of(name, renderer):
     if not owner:
         kinds = {"LayoutView": explore.LayoutView, "ReflectionView": explore.ReflectionView}
         return {**kinds, "CubeView": CubeView}.get(name) or getattr(cc, name)
-    modules = {"plot": plot, "navigation": navigation, "explore": explore, "demo": demo}
+    modules = {
+        "plot": plot,
+        "navigation": navigation,
+        "explore": explore,
+        "demo": demo,
+        "truth": truth,
+    }
     if owner in modules:
         return getattr(modules[owner], member)
     kind = getattr(cc, owner, None)

@@ -526,7 +526,7 @@ shells = pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 COMPLETED = {
     "commands": (
         ["cubecam", "c"],
-        {("plain", "convert"), ("plain", "capture"), ("plain", "conventions")},
+        {("plain", word) for word in ("convert", "capture", "compare", "conventions")},
     ),
     "options": (["cubecam", "info", "--j"], {("plain", "--json")}),
     "choices": (

@@ -211,7 +211,7 @@ class Comparison:
         >>> truth = np.linspace(0, 1, 32 * 32 * 3).reshape(32, 32, 3)
         >>> figure = cc.truth.compare(truth**1.1, truth, flip=False).plot()
         >>> [ax.get_title() for ax in figure.axes[:3]]
-        ['picture', 'truth', 'error: max 0.03505 at row 11, column 9']
+        ['picture', 'truth', 'error: max 0.03505 at row 12, column 10']
         """
         from ._figure import comparison_figure
 

@@ -32,7 +32,7 @@ def comparison_figure(
     cube = found.error.ndim == 3
     # The cross has 3 rows of 4 cells.
     shape = 0.75 if cube else found.error.shape[0] / found.error.shape[1]
-    height = _WIDTH * min(max(shape, 0.2), 2.0) + 0.35
+    height = 0.9 * _WIDTH * min(max(shape, 0.2), 2.0) + 0.35
     rows, columns = (1, 3) if flips is None else (2, 2)
     size = ((_WIDTH + 0.4) * columns, height * rows + 0.7)
     figure, axes = pyplot().subplots(

@@ -87,7 +87,7 @@ def compare(
 
     Examples
     --------
-    >>> import cubecam as cc
+    >>> import cubecam as cc, numpy as np
     >>> truth = np.full((16, 16, 3), 0.5, np.float32)
     >>> picture = truth.copy()
     >>> picture[3, 4, 0] = 0.75
