@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot
+from cubecam import demo, explore, navigation, plot, truth
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
 from tests import absurd
@@ -209,6 +209,7 @@ NEEDED: dict[str, Any] = {
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},
     "plot.vectors": lambda: {"field": FACES},
+    "truth.compare": lambda: {"picture": PICTURE, "truth": PICTURE},
     "explore.reflection": lambda: {"environment": cube(), "where": "offscreen", "size": (8, 8)},
     "explore.layout": lambda: {"where": "offscreen", "size": (8, 8)},
     "demo.run": lambda: {"out": "out", "frames": 1, "size": 1},
@@ -258,7 +259,13 @@ def function_of(name, renderer):
     if not owner:
         kinds = {"LayoutView": explore.LayoutView, "ReflectionView": explore.ReflectionView}
         return {**kinds, "CubeView": CubeView}.get(name) or getattr(cc, name)
-    modules = {"plot": plot, "navigation": navigation, "explore": explore, "demo": demo}
+    modules = {
+        "plot": plot,
+        "navigation": navigation,
+        "explore": explore,
+        "demo": demo,
+        "truth": truth,
+    }
     if owner in modules:
         return getattr(modules[owner], member)
     kind = getattr(cc, owner, None)

@@ -53,6 +53,7 @@ PYTHON_ORDER = (
     "navigation",
     "optics",
     "projections",
+    "truth",  # the same scene by exact rays, and comparisons with it
     "staging",  # light, ground and camera for a model
     "viewer",
     "explore",

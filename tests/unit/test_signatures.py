@@ -15,7 +15,7 @@ import re
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot
+from cubecam import demo, explore, navigation, plot, truth
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
 from cubecam.pictures import results
@@ -146,6 +146,7 @@ BY_POSITION = {
     "results.cube_png": ["cube"],
     "results.frame_png": ["frame"],
     "results.image_png": ["image"],
+    "truth.compare": ["picture", "truth", "mask"],
     "plot.cross": ["cube", "labels"],
     "plot.faces": ["cube"],
     "plot.layout": ["cube"],
@@ -208,6 +209,9 @@ def of_python():
             if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not exported:
                 functions[f"{short}.{name}"] = thing
     functions |= {f"plot.{n}": vars(plot)[n] for n in plot.__all__ if callable(vars(plot)[n])}
+    functions |= {
+        f"truth.{n}": thing for n in truth.__all__ if inspect.isfunction(thing := vars(truth)[n])
+    }
     functions["explore.reflection"] = explore.reflection
     functions["explore.layout"] = explore.layout
     functions["DemoScene.turn"] = demo.DemoScene.turn
@@ -236,7 +240,9 @@ def by_name(name):
 def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
-    modules = {module.__name__.rpartition(".")[2]: module for module in (*MODULES, explore, plot)}
+    modules = {
+        module.__name__.rpartition(".")[2]: module for module in (*MODULES, explore, plot, truth)
+    }
     if not owner:
         return getattr(cc, name)
     if owner in modules:

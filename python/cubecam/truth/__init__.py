@@ -14,6 +14,7 @@ picture against the result. They need the extra `truth`: ``pip install "cubecam[
 
 from __future__ import annotations
 
+from .compare import Comparison, compare
 from .drawing import capture, render
 from .pictures import TruthCube, TruthFrame
 
