@@ -32,8 +32,8 @@ def build() -> cc.Scene:
     return scene
 
 
-def _matt(color: tuple[float, float, float] | str, gloss: float = 0.0, **options: object) -> cc.PhongMaterial:
-    return cc.PhongMaterial(color=color, ka=0.32, kd=0.75, ks=gloss, shininess=40, **options)
+def _matt(color: tuple[float, float, float], gloss: float = 0.0) -> cc.PhongMaterial:
+    return cc.PhongMaterial(color=color, ka=0.32, kd=0.75, ks=gloss, shininess=40)
 
 
 def _box(
@@ -83,7 +83,9 @@ def _shell(scene: cc.Scene) -> None:
     w, h, d = SIZE
     wall, side = _matt(CREAM), _matt(SAGE)
     thick = 0.12
-    floor = cc.PhongMaterial(color=(1, 1, 1), ka=0.32, kd=0.75, ks=0.12, shininess=30, map=_planks())
+    floor = cc.PhongMaterial(
+        color=(1, 1, 1), ka=0.32, kd=0.75, ks=0.12, shininess=30, map=_planks()
+    )
     scene.add(cc.Mesh.plane(w, d), floor, name="floor")
     _box(scene, (-w / 2, h, -d / 2), (w / 2, h + thick, d / 2), _matt(WHITE), "ceiling")
     _box(scene, (-w / 2 - thick, 0, -d / 2), (-w / 2, h, d / 2), side, "left wall")
@@ -143,7 +145,9 @@ def _lamps(scene: cc.Scene) -> None:
     cord.cast_shadow = False
     warm, sky = (1.0, 0.86, 0.68), (0.75, 0.86, 1.0)
     scene.add(
-        cc.PointLight(position=at, color=warm, intensity=1.15, decay=1.0, shadow=cc.Shadow(size=1024))
+        cc.PointLight(
+            position=at, color=warm, intensity=1.15, decay=1.0, shadow=cc.Shadow(size=1024)
+        )
     )
     scene.add(
         cc.DirectionalLight(
@@ -192,7 +196,9 @@ def _shelf(scene: cc.Scene) -> None:
     wood = _matt(OAK, 0.2)
     left, right, z = -1.75, -0.2, -SIZE[2] / 2
     for number, height in enumerate((0.95, 1.35, 1.75)):
-        _box(scene, (left, height, z), (right, height + 0.03, z + 0.26), wood, f"board {number + 1}")
+        _box(
+            scene, (left, height, z), (right, height + 0.03, z + 0.26), wood, f"board {number + 1}"
+        )
         x = left + 0.04
         while x < right - 0.3 - 0.25 * number:
             thick, tall = rng.uniform(0.025, 0.055), rng.uniform(0.2, 0.3)

@@ -1,7 +1,7 @@
 """The same scene by exact rays, and how far a picture is from it.
 
-`render` and `capture` follow rays through a scene with the materials and lights of the renderer, and `compare` measures a
-picture against the result. They need the extra `truth`: ``pip install "cubecam[truth]"``.
+`render` and `capture` follow rays through a scene with the materials and lights of the renderer, and `compare` measures
+a picture against the result. They need the extra `truth`: ``pip install "cubecam[truth]"``.
 
 >>> import cubecam as cc
 >>> scene = cc.Scene(background=(.2, .3, .4))

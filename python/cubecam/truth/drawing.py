@@ -99,8 +99,8 @@ def render(
     """Render a scene by exact rays instead of cubemaps and shadow maps.
 
     Materials and lights are those of the renderer, and so are their formulas. What the renderer approximates is exact:
-    mirrors and glass show what their rays meet, other mirrors included; light passes through both sides of a glass body;
-    rough surfaces gather light from all around, by random samples; shadows have sharp edges.
+    mirrors and glass show what their rays meet, other mirrors included; light passes through both sides of a glass
+    body; rough surfaces gather light from all around, by random samples; shadows have sharp edges.
 
     Parameters
     ----------
@@ -112,8 +112,8 @@ def render(
         How often a path may leave a mirror, a surface of glass or a `StandardMaterial`, at least 0. A glass ball takes
         two. After that, a surface sees its environment as if nothing stood in the way, or black without one.
     samples : int
-        Paths of each pixel, from 1 to 65536. 1: through the middle of the pixel. More are spread over the pixel, so edges are
-        smooth.
+        Paths of each pixel, from 1 to 65536. 1: through the middle of the pixel. More are spread over the pixel, so
+        edges are smooth.
     seed : int
         Of the random numbers, from 0 to 2**32 - 1. A picture is the same for the same seed, whatever `processes` is.
     target_error : float, optional
@@ -122,30 +122,31 @@ def render(
     deadline : float, optional
         Seconds of wall time, above 0, after which the picture is given as it is.
     processes : int, optional
-        Processes that draw, at least 1. None: one for each processor that this process may use, but 1 for a small picture.
+        Processes that draw, at least 1. None: one for each processor that this process may use, but 1 for a small
+        picture.
     outputs : sequence of str
-        Any of "distance", "z", "normal", "position", "id" and "label": what the first opaque surface along the ray through
-        the middle of each pixel is, as `Renderer.render` gives it.
+        Any of "distance", "z", "normal", "position", "id" and "label": what the first opaque surface along the ray
+        through the middle of each pixel is, as `Renderer.render` gives it.
     exclude : sequence of Node
         Nodes of the scene that the picture leaves out, with all nodes below them; mirrors still show them.
     self_hits : bool
-        Whether a node's reflection shows the node itself, as that of a teapot shows its spout. A probe leaves its own node
-        out: False compares with that.
+        Whether a node's reflection shows the node itself, as that of a teapot shows its spout. A probe leaves its own
+        node out: False compares with that.
     progress : bool, optional
         Whether a bar shows the progress. None: if the standard error stream is a terminal.
 
     Returns
     -------
     TruthFrame
-        Float32 colour, linear, with the outputs and with the noise of each pixel. Ctrl-C gives what is done; `complete` is
-        then False.
+        Float32 colour, linear, with the outputs and with the noise of each pixel. Ctrl-C gives what is done; `complete`
+        is then False.
 
     Raises
     ------
     ValueError
-        For a number out of its range, an unknown output, or what rays cannot follow: a `ShaderMaterial`, effects of a render
-        texture, a stencil, ``depth_test=False``, a mask of colours, or a `Blend` that is not a sum. The message
-        names the node.
+        For a number out of its range, an unknown output, or what rays cannot follow: a `ShaderMaterial`, effects of a
+        render texture, a probe as `BasicMaterial.cubemap`, a stencil, ``depth_test=False``, channels that are not
+        written, an opaque surface that writes no depth, or a `Blend` that is not a sum. The message names the node.
     TypeError
         For an argument of another type, such as a `StereoCamera`.
     ImportError
@@ -153,11 +154,11 @@ def render(
 
     Notes
     -----
-    A path is followed from the eye (J. Kajiya, "The Rendering Equation", SIGGRAPH 1986); `StandardMaterial` chooses the next
-    direction by its own lobes and by the brightness of its environment, weighted by the balance heuristic (E. Veach,
-    "Robust Monte Carlo Methods for Light Transport Simulation", 1997). A `PhongMaterial` ends a path: the model has no
-    light from other surfaces. Textures are looked up without mipmaps, and occlusion maps are left out, since rays find
-    what they stand for.
+    A path is followed from the eye (J. Kajiya, "The Rendering Equation", SIGGRAPH 1986); `StandardMaterial` chooses the
+    next direction by its own lobes and by the brightness of its environment, weighted by the balance heuristic
+    (E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997). A `PhongMaterial` ends a path: the
+    model has no light from other surfaces. Textures are looked up without mipmaps, and occlusion maps are left out,
+    since rays find what they stand for.
 
     Examples
     --------
@@ -171,7 +172,9 @@ def render(
     ('float32', 1, True)
     """
     if isinstance(camera, _core.StereoCamera):
-        raise TypeError("camera: expected a PerspectiveCamera or an OrthographicCamera, got a StereoCamera")
+        raise TypeError(
+            "camera: expected a PerspectiveCamera or an OrthographicCamera, got a StereoCamera"
+        )
     if not isinstance(camera, _core.Camera):
         raise TypeError(f"camera: expected a Camera, got {type(camera).__name__}")
     width, height = pair(size, "size")
@@ -230,7 +233,8 @@ def capture(
     Raises
     ------
     ValueError, TypeError, ImportError
-        As `render`; ValueError, too, for a position, distances or a rotation that are not finite, or a rotation of length 0.
+        As `render`; ValueError, too, for a position, distances or a rotation that are not finite, or a rotation of
+        length 0.
 
     Examples
     --------

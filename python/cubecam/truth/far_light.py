@@ -53,8 +53,8 @@ class FarLight:
     def toward(self, around: Whole, numbers: Array) -> tuple[Array, Array, Array]:
         """Choose directions by their brightness.
 
-        Give unit directions (R, 3), their densities (R,), and the light from there (R, 3), for numbers (R, 3); a density is 0
-        where the surroundings are equally bright on all sides, or dark.
+        Give unit directions (R, 3), their densities (R,), and the light from there (R, 3), for numbers (R, 3); a
+        density is 0 where the surroundings are equally bright on all sides, or dark.
         """
         direction = np.zeros((len(around), 3))
         density, light = np.zeros(len(around)), np.zeros((len(around), 3))

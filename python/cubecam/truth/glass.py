@@ -8,9 +8,9 @@ import numpy as np
 
 from .paths import Flags
 from .sampler import Array
+from .shading.fresnel import fresnel_dielectric
 from .shading.standard.microfacets import smith_half
 from .shading.standard.samples import frame_around, visible_normal
-from .shading.fresnel import fresnel_dielectric
 from .shading.vectors import dot, reflect, refract
 
 #: Below this alpha a surface is a perfect mirror; a facet then differs from the surface by less than a thousandth.
@@ -56,7 +56,7 @@ def glass_way(
         tangent, bitangent = frame_around(normal)
         local = np.concatenate([dot(tangent, view), dot(bitangent, view), dot(normal, view)], -1)
         local[:, 2] = np.maximum(local[:, 2], 1e-4)
-        h = visible_normal(local, (numbers[:, 0], numbers[:, 1]), alpha, alpha)
+        h = visible_normal(local, numbers.T, alpha, alpha)
         facet = h[:, :1] * tangent + h[:, 1:2] * bitangent + h[:, 2:] * normal
     cosine = dot(facet, view)
     refracted = refract(-view, facet, eta)

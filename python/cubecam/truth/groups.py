@@ -51,7 +51,8 @@ class Group:
     @property
     def inside(self) -> Flags:
         """Whether each ray meets the body that it runs in from within."""
-        return self.points.back & (self.paths.bodies[:, 0] == self.points.node)
+        own: Flags = self.paths.bodies[:, 0] == self.points.node
+        return self.points.back & own
 
     def take(self, rows: Whole) -> Group:
         """Give some of the paths with their points."""

@@ -9,16 +9,16 @@ from .far_light import FarLight
 from .geometry import Geometry
 from .glass import glass_way
 from .groups import CHOICE, FACET, Group, Shaded, Way
-from .records import BasicRecord, GlassRecord, MirrorRecord, PhongRecord, StandardRecord
-from .sampler import Array
+from .lamps import Lamps
+from .records import BasicRecord, GlassRecord, MirrorRecord, PhongRecord
 from .shading.fresnel import schlick
 from .shading.lights import Ambient
 from .shading.phong_model import phong
 from .shading.vectors import dot, reflect
 from .snapshot import Snapshot
-from .lamps import Lamps
 from .standard_light import StandardLight
 from .surfaces import basic_color, phong_parameters
+
 
 class Materials:
     """The materials of a snapshot, with what `Lamps` and `FarLight` shine on them."""
@@ -35,9 +35,7 @@ class Materials:
         seed: int,
     ) -> None:
         self._snapshot, self._lamps, self._bodies, self._seed = snapshot, lamps, bodies, seed
-        self._standard = StandardLight(
-            snapshot, lamps, far, captured, bounces=bounces, seed=seed
-        )
+        self._standard = StandardLight(snapshot, lamps, far, captured, bounces=bounces, seed=seed)
 
     def shade(self, group: Group) -> Shaded:
         """Shade the points that a group of paths meets."""
@@ -57,7 +55,7 @@ class Materials:
 
     def _phong(self, group: Group) -> Shaded:
         found = phong_parameters(self._snapshot, group.material, group.points)
-        lights = [*self._snapshot.lights, Ambient(self._snapshot.ambient)]
+        lights = [*self._snapshot.lights, Ambient(tuple(self._snapshot.ambient))]
         visibility = [self._lamps.visibility(group, index) for index in range(len(lights) - 1)]
         light = phong(
             group.points.position,
@@ -94,7 +92,12 @@ class Materials:
             [group.numbers(self._seed, FACET), group.numbers(self._seed, CHOICE)], axis=1
         )[:, :3]
         way = glass_way(
-            points.normal, -paths.direction, eta, float(material.roughness) ** 2, material.fresnel, numbers
+            points.normal,
+            -paths.direction,
+            eta,
+            float(material.roughness) ** 2,
+            material.fresnel,
+            numbers,
         )
         # The tint colours the light once, where it enters.
         goes_in = way.through & ~inside

@@ -1,4 +1,4 @@
-"""Small matrices times many vectors, without BLAS: its threads cost more than they bring here, and round differently."""
+"""Small matrices times many vectors, without BLAS, whose threads cost more than they bring and round differently."""
 
 from __future__ import annotations
 

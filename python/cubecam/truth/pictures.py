@@ -30,8 +30,8 @@ class TruthFrame:
     samples : ndarray (H, W) int64
         Paths of each pixel; 0 where the picture was ended before one.
     deviation : ndarray (H, W) float32
-        The standard error of each pixel's luminance, in its units. It is an upper estimate, since the samples of a pixel
-        are spread evenly. Infinite where there is one sample or none.
+        The standard error of each pixel's luminance, in its units. It is an upper estimate, since the samples of a
+        pixel are spread evenly. Infinite where there is one sample or none.
     noise : float
         The root mean square of `deviation` over the root mean square of the luminance: 0.01 is 1 %.
     seconds : float

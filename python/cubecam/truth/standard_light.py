@@ -85,7 +85,8 @@ class StandardLight:
         if not coated:
             return base
         cosine = facing(surface.clearcoat_n, surface.v)
-        return np.asarray(mix(base, coat, p.clearcoat * schlick(0.04, 1.0, cosine)))
+        light: Array = mix(base, coat, p.clearcoat * schlick(0.04, 1.0, cosine))
+        return light
 
     def _from_afar(self, group: Group, bsdf: StandardBsdf) -> Array:
         """Give what the surface sends back of the environment, for one direction that is chosen by its brightness."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from .bodies import Bodies
-from .geometry import Geometry, Hits
 from .far_light import FarLight
+from .geometry import Geometry, Hits
 from .groups import Group, Way
 from .lamps import Lamps
 from .materials import Materials
@@ -14,6 +14,7 @@ from .paths import Flags, Paths, Whole, entered, joined, left_body
 from .sampler import Array
 from .snapshot import Snapshot
 from .surfaces import Points, surface_points
+
 
 class Tracer:
     """Exact rays in a snapshot of a scene.
@@ -106,7 +107,8 @@ class Tracer:
         """Find rays that meet the node that they left, if such hits do not count."""
         if self.self_hits:
             return np.zeros(len(paths), np.bool_)
-        return (paths.left == points.node) & (paths.bodies[:, 0] != points.node)
+        own: Flags = paths.left == points.node
+        return own & (paths.bodies[:, 0] != points.node)
 
     def _absorbed(self, paths: Paths, distance: Array) -> Paths:
         body = paths.bodies[:, 0]
@@ -155,7 +157,9 @@ class Tracer:
             for way in shaded.ways:
                 mine = place[way.rows] >= 0
                 if mine.any():
-                    going.append(self._onward(group, hits, way, mine, onward[place[way.rows[mine]]]))
+                    going.append(
+                        self._onward(group, hits, way, mine, onward[place[way.rows[mine]]])
+                    )
         return [p for p in going if len(p)]
 
     def _onward(self, group: Group, hits: Hits, way: Way, mine: Flags, share: Array) -> Paths:
@@ -183,7 +187,7 @@ class Tracer:
             gone.bodies[out] = left_body(gone.bodies[out])
         if way.channel is not None:
             gone.channel = way.channel[mine]
-        return gone.rows(gone.factor[:, :3].any(axis=1))
+        return gone.rows(np.flatnonzero(gone.factor[:, :3].any(axis=1)))
 
 
 def taken(hits: Hits, rows: Whole | Flags) -> Hits:
