@@ -10,9 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from .shading.standard.microfacets import smith_half_anisotropic, trowbridge_reitz_anisotropic
+from .shading.standard.microfacets import (
+    half_way,
+    smith_half_anisotropic,
+    trowbridge_reitz_anisotropic,
+)
 from .shading.standard.samples import visible_normal
-from .shading.vectors import Array, dot, normalised
+from .shading.vectors import Array, dot
 
 __all__ = ["SMOOTH", "GgxLobe"]
 
@@ -67,7 +71,7 @@ class GgxLobe:
 
     def facets(self, l: Array) -> Array:  # noqa: E741
         """D (R, 1) of the facets that reflect v to l."""
-        h = normalised(self.v + l)
+        h = half_way(self.v, l)
         return trowbridge_reitz_anisotropic(h[:, :1], h[:, 1:2], h[:, 2:], *self.alphas)
 
     def value(self, l: Array) -> Array:  # noqa: E741
@@ -81,11 +85,7 @@ class GgxLobe:
 
         Its integral over the sphere is 1: some reflected directions are below the surface. 0 for mirrors.
         """
-        used = self.faced & ~self.smooth
-        # l = -v is met by no facet; there h would have no length.
-        met = used & (dot(self.v, l) > -1 + 1e-12)
-        safe = np.where(met, l, self.v)
-        return np.where(met, self.facets(safe) * self.half_v / 2, 0.0)
+        return np.where(self.faced & ~self.smooth, self.facets(l) * self.half_v / 2, 0.0)
 
     def facet(self, u: Array) -> Array:
         """Half vectors (R, 3) of the facets that v sees, from points u (R, 2) of the unit square."""

@@ -11,11 +11,11 @@ import numpy.typing as npt
 
 from .ggx import GgxLobe
 from .shading.standard.material import Parameters, Surface, anisotropy_frame
-from .shading.standard.microfacets import max3, mix, schlick, sheen_brdf
+from .shading.standard.microfacets import half_way, max3, mix, schlick, sheen_brdf
 from .shading.standard.samples import frame_around
 from .shading.standard.shade import Fresnel, facing, fresnels, scattered
 from .shading.standard.tables import brdf_terms, sheen_albedo
-from .shading.vectors import Array, dot, normalised, refract
+from .shading.vectors import Array, dot, refract
 
 __all__ = ["Sampled", "StandardBsdf"]
 
@@ -23,6 +23,10 @@ Flags = npt.NDArray[np.bool_]
 
 #: The lobes from which a direction is drawn.
 SPECULAR, COAT, COSINE, UNIFORM, THROUGH = range(5)
+
+
+def _mean(color: Array) -> Array:
+    return dot(color, np.full(3, 1 / 3))
 
 
 @dataclass
@@ -72,7 +76,7 @@ class StandardBsdf:
         self.metallic, self.transmission = self._rows(p.metallic), self._rows(p.transmission)
 
         self.sheen_color = self._rows(p.sheen_color, 3)
-        self.has_sheen = np.any(self.sheen_color > 0, -1)
+        self.has_sheen = max3(self.sheen_color)[:, 0] > 0
         self.sheen_seen = self._sheen_albedo(facing(surface.n, surface.v))
 
         self.coat_share = self._rows(p.clearcoat) * schlick(
@@ -151,10 +155,10 @@ class StandardBsdf:
         fss, fms, metal_fss, metal_fms = self.mean
         share = self._covered(self.sheen_seen)
         entering = (1 - self.metallic) * np.maximum(1 - max3(fss) - max3(fms), 0.05)
-        entering = entering * self.color.mean(-1, keepdims=True)
-        specular = np.maximum(mix(fss, metal_fss, self.metallic).mean(-1, keepdims=True), 0.02)
-        several = mix(fms, metal_fms, self.metallic).mean(-1, keepdims=True)
-        sheen = (self.sheen_color * self.sheen_seen).mean(-1, keepdims=True)
+        entering = entering * _mean(self.color)
+        specular = np.maximum(_mean(mix(fss, metal_fss, self.metallic)), 0.02)
+        several = _mean(mix(fms, metal_fms, self.metallic))
+        sheen = _mean(self.sheen_color) * self.sheen_seen
         estimates = np.concatenate(
             [
                 share * specular * self.base.faced,
@@ -165,7 +169,7 @@ class StandardBsdf:
             ],
             -1,
         )
-        total = estimates.sum(-1, keepdims=True)
+        total = dot(estimates, np.ones(5))
         return np.where(total > 0, estimates / np.where(total > 0, total, 1), (1.0, 0, 0, 0, 0))
 
     # --- reflection ---------------------------------------------------------------------------------------------------
@@ -174,8 +178,7 @@ class StandardBsdf:
         """As the function `evaluate`."""
         s = self.surface
         n_l = np.maximum(dot(s.n, l), 0)
-        opposite = np.linalg.norm(s.v + l, axis=-1, keepdims=True) < 1e-12
-        v_h = dot(s.v, normalised(np.where(opposite, s.n, s.v + l)))
+        v_h = dot(s.v, half_way(s.v, l))
         layer = self.base.value(self.base.local(l))
         diffuse = self.color / np.pi * (1 - self.transmission) * self._below_specular(v_h)
         several, metal_several = self.mean[1], self.mean[3]
@@ -216,7 +219,7 @@ class StandardBsdf:
         lobe = np.where(self._share_of(lobe) > 0, lobe, np.argmax(self.shares, -1))
         place = (u[:, 2] - ends[np.arange(self.count), lobe]) / self._share_of(lobe) + 1
 
-        l = np.zeros((self.count, 3))  # noqa: E741
+        l = np.array(s.n)  # noqa: E741
         delta = np.zeros(self.count, bool)
         for which, lobe_of in ((SPECULAR, self.base), (COAT, self.coat)):
             rows = lobe == which
@@ -224,13 +227,11 @@ class StandardBsdf:
                 h = lobe_of.facet(u)
                 l[rows] = lobe_of.world(2 * dot(lobe_of.v, h) * h - lobe_of.v)[rows]
                 delta[rows] = lobe_of.smooth[rows, 0]
-        for which in (COSINE, UNIFORM):
-            rows = lobe == which
-            z = np.sqrt(1 - u[:, :1]) if which == COSINE else 1 - u[:, :1]
-            turn, flat = 2 * np.pi * u[:, 1:2], np.sqrt(np.maximum(1 - z**2, 0))
-            up = np.concatenate([flat * np.cos(turn), flat * np.sin(turn), z], -1)
-            l[rows] = self.base.world(up)[rows]
-        l = normalised(np.where(l.any(-1, keepdims=True), l, s.n))  # noqa: E741
+        rows = (lobe == COSINE) | (lobe == UNIFORM)
+        z = np.where((lobe == COSINE)[:, None], np.sqrt(1 - u[:, :1]), 1 - u[:, :1])
+        turn, flat = 2 * np.pi * u[:, 1:2], np.sqrt(np.maximum(1 - z**2, 0))
+        up = np.concatenate([flat * np.cos(turn), flat * np.sin(turn), z], -1)
+        l[rows] = self.base.world(up)[rows]
 
         density = np.where(delta[:, None], 0.0, self.pdf(l))
         weight = np.where(density > 0, self.evaluate(l) / np.where(density > 0, density, 1), 0.0)
@@ -286,7 +287,7 @@ class StandardBsdf:
         weight = weight * np.where(
             fresh[:, None], 3.0 * (np.arange(3) == result.channel[:, None]), 1.0
         )
-        world = normalised(np.where(l.any(-1, keepdims=True), lobe.world(l), -self.surface.v))
+        world = lobe.world(l)
         below = (l[:, 2:] < 0) & (dot(self.surface.geometric_n, world) < 0) & lobe.faced
         result.l[rows] = world[rows]
         result.weight[rows] = np.where(below, weight, 0.0)[rows]
@@ -301,14 +302,14 @@ class StandardBsdf:
         v_h = np.maximum(dot(lobe.v, h), 0)
         ior = self._iors(channel)
         bent = refract(-lobe.v, h, ior)
-        total = ~bent.any(-1, keepdims=True)
+        total = dot(bent, bent) == 0
         # Schlick's curve is that of the larger of the two angles, which is the one outside.
         f = np.where(total, 1.0, self._at(self.dielectric, np.where(total, 1.0, -dot(bent, h))))
         back = max3(f)
         reflected = u[:, 2:] < back
         l = np.where(reflected, 2 * v_h * h - lobe.v, bent)  # noqa: E741
         weight = np.where(reflected, f / np.where(reflected, back, 1), 1.0) * lobe.masking(l)
-        world = normalised(lobe.world(l))
+        world = lobe.world(l)
         side = np.where(reflected, 1, -1)
         kept = (
             (side * l[:, 2:] > 0) & (side * dot(self.surface.geometric_n, world) > 0) & lobe.faced

@@ -79,5 +79,5 @@ def way_to(light: Point | Directional | Spot, position: Array) -> tuple[Array, A
             (*position.shape[:-1], 1), np.inf
         )
     offset = np.asarray(light.position, float) - position
-    distance = np.linalg.norm(offset, axis=-1, keepdims=True)
+    distance = np.sqrt(dot(offset, offset))
     return offset / distance, distance

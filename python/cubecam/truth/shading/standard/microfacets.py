@@ -18,7 +18,8 @@ SMALLEST_SHEEN_ALPHA = 1e-3
 
 
 def max3(color: Any) -> Array:
-    result: Array = np.max(color, axis=-1, keepdims=True)
+    color = np.asarray(color)
+    result: Array = np.maximum(np.maximum(color[..., :1], color[..., 1:2]), color[..., 2:])
     return result
 
 
@@ -28,7 +29,7 @@ def mix(a: Any, b: Any, share: Any) -> Any:
 
 def half_way(v: Array, l: Array) -> Array:  # noqa: E741
     h = v + l
-    result: Array = h / np.maximum(np.linalg.norm(h, axis=-1, keepdims=True), 1e-12)
+    result: Array = h / np.maximum(np.sqrt(dot(h, h)), 1e-12)
     return result
 
 
