@@ -11,6 +11,7 @@ from cubecam.truth.points import surface_points
 from cubecam.truth.snapshot import read
 from tests.compare import assert_close
 from tests.reference import raycast
+from tests.reference import transforms as ref
 from tests.truth.rays import ids_of, random_directions, random_world, seen
 
 pytest.importorskip("embreex")
@@ -168,6 +169,37 @@ def test_surfaces_neither_hide_nor_shade_themselves(rng, size, middle):
     assert not np.any(dark[lit])
     beyond = (points.normal * way).sum(axis=1) < -0.3 * np.linalg.norm(way, axis=1)
     assert np.all(dark[beyond])
+
+
+def test_the_triangle_that_a_ray_leaves_never_counts():
+    """A lifted point lies above its triangle, so that a flat ray to a light may run through it."""
+    scene = cc.Scene()
+    scene.add(cc.Mesh.plane(2, 2), cc.PhongMaterial(double_sided=True))
+    geometry = Geometry(read(scene))
+    above, down = np.array([[0.3, 0.01, 0.2]]), np.array([[0.1, -1, 0.0]])
+    hits = geometry.cast(above, down)
+    assert hits.distance[0] == pytest.approx(0.01)
+    assert geometry.cast(above, down, start=hits.triangle).triangle[0] == -1
+    assert geometry.blocked(above, down, np.array([1.0]))
+    assert not geometry.blocked(above, down, np.array([1.0]), start=hits.triangle)
+    assert geometry.blocked(above, down, np.array([1.0]), start=np.array([-1]))
+
+
+def test_origins_on_a_surface_do_not_meet_it(rng):
+    """Even without its triangle, up to the rounding of float64: both sides of this surface would count."""
+    scene = cc.Scene()
+    turn = cc.axis_angle((1, 2, 3), 50)
+    scene.add(cc.Mesh.plane(2, 2), cc.PhongMaterial(double_sided=True), rotation=turn)
+    matrix = ref.rotation(turn)[:3, :3]
+    origins = np.insert(rng.uniform(-0.9, 0.9, (500, 2)), 1, 0, axis=1) @ matrix.T
+    directions = random_directions(rng, 500)
+    geometry = Geometry(read(scene))
+    assert np.all(geometry.cast(origins, directions).triangle == -1)
+    assert not np.any(geometry.blocked(origins, directions, np.full(500, np.inf)))
+    behind = origins - 1e-9 * matrix[:, 1]
+    hits = geometry.cast(behind, directions)
+    upwards = directions @ matrix[:, 1] > 0
+    assert np.all(hits.triangle[~upwards] == -1)
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e4])
