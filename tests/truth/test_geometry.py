@@ -8,6 +8,7 @@ import pytest
 import cubecam as cc
 from cubecam.truth.geometry import Geometry
 from cubecam.truth.points import surface_points
+from cubecam.truth.shading import normalised
 from cubecam.truth.snapshot import read
 from tests.compare import assert_close
 from tests.reference import raycast
@@ -298,6 +299,34 @@ def test_holes_are_where_the_renderer_has_them(renderer, rng):
     inner = raycast.interior(ids)
     assert inner.mean() > 0.4
     assert np.array_equal(ids[inner], frame.id[inner])
+
+
+@pytest.mark.parametrize("place", [(0, 0, 0), (700, -300, 50)])
+@pytest.mark.parametrize("outer", [False, True])
+def test_closed_meshes_have_no_gaps(rng, outer, place):
+    """Rays to corners and edges of triangles meet one of them, also beyond a back face, where halves are searched."""
+    scene = cc.Scene()
+    mesh = cc.Mesh.icosphere(1, subdivisions=3)
+    turn = cc.axis_angle((1, 2, 3), 40)
+    scene.add(mesh, cc.PhongMaterial(), scale=(-1.5, 1.5, 1.5), rotation=turn, position=place)
+    if outer:
+        for size in (1, 2):  # round the place where rays begin
+            scene.add(cc.Mesh.box(size), cc.PhongMaterial(), position=np.add(place, (1, 2, 6)))
+    snapshot = read(scene)
+    corners = snapshot.corners[snapshot.node == 0]
+    share = rng.random((len(corners), 1))
+    edges = share * corners[:, 0] + (1 - share) * corners[:, 1]
+    ends = np.concatenate([corners[:, 0], edges])
+    outward = normalised(ends - place)
+    geometry = Geometry(snapshot)
+    inside = np.zeros(len(outward), np.int64)
+    centre = np.broadcast_to(np.array(place, float), outward.shape)
+    assert np.all(snapshot.node[geometry.cast(centre, outward, inside).triangle] == 0)
+    way = ends - np.add(place, (1, 2, 6))
+    seen_ends = (normalised(way) * outward).sum(axis=1) < -0.1
+    hits = geometry.cast(ends - way, way)
+    assert np.all(snapshot.node[hits.triangle[seen_ends]] == 0)
+    np.testing.assert_allclose(hits.distance[seen_ends], 1, atol=1e-4)
 
 
 def test_chosen_triangles_keep_their_numbers():
