@@ -8,9 +8,11 @@ import pytest
 import cubecam as cc
 from cubecam.truth.geometry import Geometry
 from cubecam.truth.points import surface_points
+from cubecam.truth.shading import normalised
 from cubecam.truth.snapshot import read
 from tests.compare import assert_close
 from tests.reference import raycast
+from tests.reference import transforms as ref
 from tests.truth.rays import ids_of, random_directions, random_world, seen
 
 pytest.importorskip("embreex")
@@ -170,6 +172,37 @@ def test_surfaces_neither_hide_nor_shade_themselves(rng, size, middle):
     assert np.all(dark[beyond])
 
 
+def test_the_triangle_that_a_ray_leaves_never_counts():
+    """A lifted point lies above its triangle, so that a flat ray to a light may run through it."""
+    scene = cc.Scene()
+    scene.add(cc.Mesh.plane(2, 2), cc.PhongMaterial(double_sided=True))
+    geometry = Geometry(read(scene))
+    above, down = np.array([[0.3, 0.01, 0.2]]), np.array([[0.1, -1, 0.0]])
+    hits = geometry.cast(above, down)
+    assert hits.distance[0] == pytest.approx(0.01)
+    assert geometry.cast(above, down, start=hits.triangle).triangle[0] == -1
+    assert geometry.blocked(above, down, np.array([1.0]))
+    assert not geometry.blocked(above, down, np.array([1.0]), start=hits.triangle)
+    assert geometry.blocked(above, down, np.array([1.0]), start=np.array([-1]))
+
+
+def test_origins_on_a_surface_do_not_meet_it(rng):
+    """Even without its triangle, up to the rounding of float64: both sides of this surface would count."""
+    scene = cc.Scene()
+    turn = cc.axis_angle((1, 2, 3), 50)
+    scene.add(cc.Mesh.plane(2, 2), cc.PhongMaterial(double_sided=True), rotation=turn)
+    matrix = ref.rotation(turn)[:3, :3]
+    origins = np.insert(rng.uniform(-0.9, 0.9, (500, 2)), 1, 0, axis=1) @ matrix.T
+    directions = random_directions(rng, 500)
+    geometry = Geometry(read(scene))
+    assert np.all(geometry.cast(origins, directions).triangle == -1)
+    assert not np.any(geometry.blocked(origins, directions, np.full(500, np.inf)))
+    behind = origins - 1e-9 * matrix[:, 1]
+    hits = geometry.cast(behind, directions)
+    upwards = directions @ matrix[:, 1] > 0
+    assert np.all(hits.triangle[~upwards] == -1)
+
+
 @pytest.mark.parametrize("size", [1e-3, 1.0, 1e4])
 def test_rays_in_a_corner_meet_the_wall(size):
     """Offsets must not carry rays through a wall that is near."""
@@ -266,6 +299,34 @@ def test_holes_are_where_the_renderer_has_them(renderer, rng):
     inner = raycast.interior(ids)
     assert inner.mean() > 0.4
     assert np.array_equal(ids[inner], frame.id[inner])
+
+
+@pytest.mark.parametrize("place", [(0, 0, 0), (700, -300, 50)])
+@pytest.mark.parametrize("outer", [False, True])
+def test_closed_meshes_have_no_gaps(rng, outer, place):
+    """Rays to corners and edges of triangles meet one of them, also beyond a back face, where halves are searched."""
+    scene = cc.Scene()
+    mesh = cc.Mesh.icosphere(1, subdivisions=3)
+    turn = cc.axis_angle((1, 2, 3), 40)
+    scene.add(mesh, cc.PhongMaterial(), scale=(-1.5, 1.5, 1.5), rotation=turn, position=place)
+    if outer:
+        for size in (1, 2):  # round the place where rays begin
+            scene.add(cc.Mesh.box(size), cc.PhongMaterial(), position=np.add(place, (1, 2, 6)))
+    snapshot = read(scene)
+    corners = snapshot.corners[snapshot.node == 0]
+    share = rng.random((len(corners), 1))
+    edges = share * corners[:, 0] + (1 - share) * corners[:, 1]
+    ends = np.concatenate([corners[:, 0], edges])
+    outward = normalised(ends - place)
+    geometry = Geometry(snapshot)
+    inside = np.zeros(len(outward), np.int64)
+    centre = np.broadcast_to(np.array(place, float), outward.shape)
+    assert np.all(snapshot.node[geometry.cast(centre, outward, inside).triangle] == 0)
+    way = ends - np.add(place, (1, 2, 6))
+    seen_ends = (normalised(way) * outward).sum(axis=1) < -0.1
+    hits = geometry.cast(ends - way, way)
+    assert np.all(snapshot.node[hits.triangle[seen_ends]] == 0)
+    np.testing.assert_allclose(hits.distance[seen_ends], 1, atol=1e-4)
 
 
 def test_chosen_triangles_keep_their_numbers():

@@ -16,10 +16,13 @@ from .textures import Array
 
 #: The rounding of a float32, relative.
 _ROUNDING = 2.0**-24
+#: Added to directions of length 1, for Embree alone: a ray that meets a corner of triangles exactly may pass between
+#: all of them (about 1 of 400 such rays did), and scenes and cameras are often so even that rays meet corners.
+_ASIDE = 6e-7 * np.array([0.5377, -0.8339, 0.1243])
 #: What counts as the plane of a triangle itself, relative to the coordinates: the rounding of float64.
 _ON_PLANE = 1e-13
-#: Whether hits count: of rays (R,), on triangles (R,), with the weights (R, 3) of their corners.
-_Counts: TypeAlias = Callable[[Ints, Ints, Array], Bools]
+#: Whether hits count, of rays (R,) on triangles (R,) that show their fronts or not (R,).
+_Counts: TypeAlias = Callable[[Ints, Ints, Bools], Bools]
 
 
 @dataclass
@@ -58,9 +61,10 @@ class Geometry:
     Notes
     -----
     Origins are rounded to float32, so a ray that leaves a surface could meet this surface again. Therefore the triangle
-    that it leaves never counts, its origin is moved a few roundings along the normal (C. Waechter and N. Binder, "A
-    Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019, chapter 6), and a hit only counts if
-    it lies in front of the exact origin in float64. Coordinates count from the middle of the triangles.
+    that it leaves never counts, and a hit only counts if it lies in front of the exact origin in float64. What does not
+    count is searched beyond. So that this is rare, origins are moved a few roundings along the normal (C. Waechter and
+    N. Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019, chapter 6).
+    Coordinates count from the middle of the triangles.
 
     Examples
     --------
@@ -89,7 +93,10 @@ class Geometry:
         if len(self._rows):
             points = corners[self._rows].reshape(-1, 3)
             self._middle = (points.min(axis=0) + points.max(axis=0)) / 2
-        self._across = across
+        with np.errstate(all="ignore"):  # those without an area
+            self._area = np.linalg.norm(across, axis=1)
+            self._normal = across / self._area[:, None]
+        self._size = np.abs(corners).max(axis=(1, 2))
         self._masked = nodes_with_holes(snapshot)
         self._any_masked = bool(np.any(self._masked[snapshot.node[self._rows]]))
         self._double = np.array([node.double_sided for node in snapshot.nodes], bool)
@@ -119,13 +126,10 @@ class Geometry:
             The triangle on which a ray begins, which it never meets, or -1.
         """
 
-        def counts(rows: Ints, met: Ints, weights: Array) -> Bools:
+        def counts(rows: Ints, met: Ints, front: Bools) -> Bools:
             nodes = self._snapshot.node[met]
-            front = _dot(self._across[met], directions[rows]) < 0
             good = front | self._double[nodes]
-            if inside is not None:
-                good = np.where(nodes == inside[rows], ~front, good)
-            return self._without_holes(good, met, weights)
+            return good if inside is None else np.where(nodes == inside[rows], ~front, good)
 
         origins, directions = np.asarray(origins, float), np.asarray(directions, float)
         return self._first(_Rays(self, origins, directions, start), counts)
@@ -138,15 +142,15 @@ class Geometry:
         Surfaces stop these rays from either side, except the triangle `start` (R,) and the holes of alpha masks.
         """
 
-        def counts(rows: Ints, met: Ints, weights: Array) -> Bools:
-            return self._without_holes(np.ones(len(met), bool), met, weights)
+        def counts(rows: Ints, met: Ints, front: Bools) -> Bools:
+            return np.ones(len(met), bool)
 
         origins, directions = np.asarray(origins, float), np.asarray(directions, float)
         rays = _Rays(self, origins, directions, start)
         # Embree's distances are rounded, and what lies just before the end must not be missed.
         ends = np.broadcast_to(reach, len(origins)) * 1.00001
         ends = ends + 64 * _ROUNDING * rays.size / rays.length
-        found = self._whole.occluded(rays.moved, directions, ends)
+        found = self._whole.occluded(rays.moved, rays.aimed, ends)
         rows = np.flatnonzero(found)
         # Embree says that there is something, in float32: only what is there in float64 counts.
         if len(rows):
@@ -154,18 +158,11 @@ class Geometry:
             found[rows] = hits.distance < np.broadcast_to(reach, found.shape)[rows]
         return found
 
-    def _without_holes(self, good: Bools, met: Ints, weights: Array) -> Bools:
-        if not self._any_masked:
-            return good
-        rows = np.flatnonzero(good & self._masked[self._snapshot.node[met]])
-        good[rows] = ~in_holes(self._snapshot, met[rows], weights[rows], self._masked)
-        return good
-
     def _first(self, rays: _Rays, counts: _Counts) -> Hits:
         """Find the first hits that count."""
         count = len(rays.origins)
         hits = Hits(np.full(count, -1), np.full(count, np.inf), np.zeros((count, 3)))
-        rows, met = self._whole.nearest(rays.moved, rays.directions)
+        rows, met = self._whole.nearest(rays.moved, rays.aimed)
         distance, weights, good = self._examine(rays, rows, met, counts)
         _note(hits, rows[good], met[good], distance[good], weights[good])
         left = rows[~good]
@@ -181,14 +178,14 @@ class Geometry:
         self, tree: _Tree, rays: _Rays, rows: Ints, begin: Array, counts: _Counts, hits: Hits
     ) -> None:
         """Follow rays through a part of the triangles from just before a distance until a hit counts."""
-        size = rays.size[rows] / np.linalg.norm(rays.directions[rows], axis=1)
+        size = rays.size[rows] / rays.length[rows]
         step = 8 * _ROUNDING * (size + begin)
         passed = begin
         begin = np.maximum(begin - step, 0)
         moved = rays.moved
         while len(rows):
             from_here = moved[rows] + begin[:, None] * rays.directions[rows]
-            some, met = tree.nearest(from_here, rays.directions[rows])
+            some, met = tree.nearest(from_here, rays.aimed[rows])
             rows, begin, step, passed = rows[some], begin[some], step[some], passed[some]
             distance, weights, good = self._examine(rays, rows, met, counts)
             nearer = good & (distance < hits.distance[rows])
@@ -208,27 +205,39 @@ class Geometry:
         self, rays: _Rays, rows: Ints, met: Ints, counts: _Counts
     ) -> tuple[Array, Array, Bools]:
         """Return the exact distances of triangles along rays, the weights of their corners, and whether they count."""
-        corners, across = self._snapshot.corners[met], self._across[met]
-        origins, directions = rays.origins[rows], rays.directions[rows]
-        away = _dot(corners[:, 0] - origins, across)
+        normal, directions = self._normal[met], rays.directions[rows]
+        away = _dot(self._snapshot.corners[met, 0] - rays.origins[rows], normal)
+        towards = _dot(directions, normal)
         with np.errstate(divide="ignore", invalid="ignore"):  # rays in the plane of the triangle
-            distance = away / _dot(directions, across)
-            position = origins + distance[:, None] * directions
-            weights = _weights(corners, across, position)
+            distance = away / towards
         good = np.isfinite(distance) & (distance > 0)
-        area = np.linalg.norm(across, axis=1)
-        size = np.abs(corners - origins[:, None]).max(axis=(1, 2)) + np.abs(origins).max(axis=1)
-        good &= np.abs(away) > _ON_PLANE * size * area
+        good &= np.abs(away) > _ON_PLANE * (self._size[met] + rays.reach[rows])
         if rays.start is not None:
             good &= met != rays.start[rows]
+        good &= counts(rays.rows[rows], met, towards < 0)
         some = np.flatnonzero(good)
-        good[some] = counts(rays.rows[rows[some]], met[some], weights[some])
+        weights = np.zeros((len(met), 3))
+        position = rays.origins[rows[some]] + distance[some, None] * directions[some]
+        weights[some] = self._weights(met[some], position)
+        if self._any_masked:
+            some = some[self._masked[self._snapshot.node[met[some]]]]
+            good[some] = ~in_holes(self._snapshot, met[some], weights[some], self._masked)
         return distance, weights, good
+
+    def _weights(self, triangles: Ints, position: Array) -> Array:
+        """Return the weights (R, 3) of corners at positions, from 0 to 1: Embree's own edge may be a rounding away."""
+        a, b, c = np.moveaxis(self._snapshot.corners[triangles], 1, 0)
+        normal, area = self._normal[triangles], self._area[triangles]
+        v = _dot(np.cross(position - a, c - a), normal) / area
+        w = _dot(np.cross(b - a, position - a), normal) / area
+        weights = np.clip(np.stack([1 - v - w, v, w], axis=1), 0, None)
+        summed: Array = weights / weights.sum(axis=1, keepdims=True)
+        return summed
 
     def _both_halves(self) -> list[_Tree]:
         """Return the triangles in two parts, so that the two sides of one plane are never in the same part."""
         if self._halves is None:
-            side = self._across[self._rows] @ (0.5377, 0.8339, 0.1243) > 0
+            side = self._normal[self._rows] @ (0.5377, 0.8339, 0.1243) > 0
             self._halves = [self._tree(self._rows[side]), self._tree(self._rows[~side])]
         return self._halves
 
@@ -242,9 +251,8 @@ class Geometry:
 
     def facing(self, triangles: Ints, directions: Array) -> tuple[Array, Array]:
         """Return unit normals (R, 3) on the side to which directions lead, and the triangles' greatest coordinates."""
-        across = self._across[triangles]
-        normal = across / np.linalg.norm(across, axis=1, keepdims=True)
-        normal *= np.where(_dot(across, directions) < 0, -1, 1)[:, None]
+        normal = self._normal[triangles]
+        normal = np.where(_dot(normal, directions) < 0, -1, 1)[:, None] * normal
         size = np.abs(self._snapshot.corners[triangles] - self._middle).max(axis=(1, 2))
         return normal, size
 
@@ -259,7 +267,9 @@ class _Rays:
         self.rows: Ints = np.arange(len(origins))
         self.moved = origins - geometry.middle
         self.size = np.abs(self.moved).max(axis=1, initial=0)
+        self.reach = np.abs(origins).max(axis=1, initial=0)
         self.length = np.linalg.norm(directions, axis=1)
+        self.aimed = directions + self.length[:, None] * _ASIDE
         if start is not None:
             some = np.flatnonzero(start >= 0)
             normal, size = geometry.facing(start[some], directions[some])
@@ -270,7 +280,7 @@ class _Rays:
         """Return some of the rays."""
         taken = object.__new__(_Rays)
         taken.start = None if self.start is None else self.start[rows]
-        for name in ("origins", "directions", "rows", "moved", "size", "length"):
+        for name in ("origins", "directions", "rows", "moved", "size", "reach", "length", "aimed"):
             setattr(taken, name, getattr(self, name)[rows])
         return taken
 
@@ -315,17 +325,6 @@ def _note(hits: Hits, rows: Ints, met: Ints, distance: Array, weights: Array) ->
 def _dot(a: Array, b: Array) -> Array:
     product: Array = np.einsum("ri,ri->r", a, b)
     return product
-
-
-def _weights(corners: Array, across: Array, position: Array) -> Array:
-    """Return the weights (R, 3) of corners at positions, from 0 to 1: Embree's own edge may be a rounding away."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    area = _dot(across, across)
-    v = _dot(np.cross(position - a, c - a), across) / area
-    w = _dot(np.cross(b - a, position - a), across) / area
-    weights = np.clip(np.stack([1 - v - w, v, w], axis=1), 0, None)
-    summed: Array = weights / weights.sum(axis=1, keepdims=True)
-    return summed
 
 
 def _embree() -> tuple[Any, Any]:
