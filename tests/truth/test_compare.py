@@ -110,6 +110,19 @@ def test_ssim_of_encoded_numbers_is_of_these_numbers():
     )
 
 
+def test_objects_say_what_their_numbers_are():
+    numbers = [np.round(255 * one).astype(np.uint8) for one in (PICTURE, TRUTH)]
+    similar = {}
+    for encoding in ("linear", "srgb"):
+        pictures = [cc.Image(one, encoding=encoding) for one in numbers]
+        found = compare(*pictures)
+        assert found.encoding == encoding
+        assert compare(numbers[0], pictures[1]).ssim == found.ssim
+        assert compare(*numbers, encoding=encoding).ssim == found.ssim
+        similar[encoding] = found.ssim
+    assert similar["linear"] != similar["srgb"]
+
+
 def test_ssim_with_a_mask_is_the_mean_of_what_counts():
     mask = np.zeros(TRUTH.shape[:2], bool)
     mask[3:15, 4:20] = True
@@ -151,6 +164,19 @@ def test_flip_is_that_of_its_authors():
     other = compare(9 * truth, 9 * picture, flip=True)
     assert other.flip == pytest.approx(found.flip, abs=0.02)
     assert other.flip != found.flip
+
+
+@needs_flip
+def test_flip_with_a_mask_is_the_mean_of_what_counts():
+    mask = np.zeros(TRUTH.shape[:2], bool)
+    mask[3:15, 4:20] = True
+    found = compare(PICTURE, TRUTH, mask, flip=True)
+    whole = compare(np.where(mask[..., None], PICTURE, TRUTH), TRUTH, flip=True)
+    assert found.flip_map is not None
+    assert whole.flip_map is not None
+    np.testing.assert_array_equal(found.flip_map[mask], whole.flip_map[mask])
+    assert np.isnan(found.flip_map[~mask]).all()
+    assert found.flip == pytest.approx(whole.flip_map[mask].mean(), rel=1e-5)
 
 
 @needs_flip

@@ -34,15 +34,15 @@ class Comparison:
     relative_rmse : float or None
         `rmse` over the root of the mean square of the truth; None if the truth is black.
     mean_absolute : float
-        The mean of \\|picture - truth\\|.
+        The mean of abs(picture - truth).
     max : float
-        The largest \\|picture - truth\\|.
+        The largest abs(picture - truth).
     worst : tuple of int
         Where that is: (row, column), or (face, row, column) of a cube.
     picture_value, truth_value : tuple of float
         The colours there.
     error : ndarray float64 (H, W) or (6, N, N)
-        The largest \\|picture - truth\\| of a pixel's channels; NaN where a pixel does not count.
+        The largest abs(picture - truth) of a pixel's channels; NaN where a pixel does not count.
     ssim : float or None
         The mean structural similarity of the screen's values, 1 for equal pictures.
     flip : float or None
