@@ -145,7 +145,9 @@ def test_a_capture(renderer):
 @pytest.mark.parametrize("blend", ["alpha", "alpha_keep", "additive", "multiply", "premultiplied"])
 def test_panes_before_each_other(renderer, blend):
     scene = cc.Scene(background=(0.1, 0.4, 0.2, 0.5))
-    scene.add(cc.Mesh.box((2, 0.5, 0.5)), cc.BasicMaterial(color=(0.9, 0.3, 0.1)), position=(0, 0, -1))
+    scene.add(
+        cc.Mesh.box((2, 0.5, 0.5)), cc.BasicMaterial(color=(0.9, 0.3, 0.1)), position=(0, 0, -1)
+    )
     for i, color in enumerate(((1, 0.5, 0, 0.7), (0, 0.6, 1, 0.4))):
         scene.add(
             cc.Mesh.box((1.0, 1.2, 0.02)),
@@ -206,7 +208,9 @@ def test_a_mirror_and_glass_in_surroundings_alone(renderer):
     )
     mirror = cc.MirrorMaterial(f0=0.2, tint=(1, 0.8, 0.6))
     scene.add(cc.Mesh.sphere(0.5, 64, 32), mirror, in_captures=False)
-    one_way = cc.Mesh.plane(1, 1)  # a surface without a back: light enters the glass and stays in it
+    one_way = cc.Mesh.plane(
+        1, 1
+    )  # a surface without a back: light enters the glass and stays in it
     turned = cc.axis_angle((1, 0, 0), 60)
     glass = cc.GlassMaterial(ior=1.4, tint=(0.9, 1, 0.8), fresnel=False)
     scene.add(one_way, glass, position=(1.2, 0, 0), rotation=turned, in_captures=False)
@@ -220,8 +224,12 @@ def test_a_mirror_and_glass_in_surroundings_alone(renderer):
 
 def test_a_picture_of_another_scene(renderer):
     inner = cc.Scene(background=(0.1, 0.2, 0.3))
-    inner.add(cc.Mesh.box((1, 0.5, 0.5)), cc.BasicMaterial(color=(1, 0.6, 0)), position=(0.4, 0.3, 0))
-    texture = cc.RenderTexture(inner, cc.OrthographicCamera(height=2, position=(0, 0, 3)), size=(32, 32))
+    inner.add(
+        cc.Mesh.box((1, 0.5, 0.5)), cc.BasicMaterial(color=(1, 0.6, 0)), position=(0.4, 0.3, 0)
+    )
+    texture = cc.RenderTexture(
+        inner, cc.OrthographicCamera(height=2, position=(0, 0, 3)), size=(32, 32)
+    )
     scene = cc.Scene()
     scene.add(cc.Mesh.box(1.5), cc.BasicMaterial(map=texture))
     view = cc.PerspectiveCamera(position=(0.5, 0.4, 3), target=(0, 0, 0))
