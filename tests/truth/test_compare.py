@@ -15,7 +15,8 @@ try:
     import flip_evaluator
 except ImportError:
     flip_evaluator = None
-needs_flip = pytest.mark.skipif(flip_evaluator is None, reason="flip-evaluator is not installed")
+HAS_FLIP = flip_evaluator is not None
+needs_flip = pytest.mark.skipif(not HAS_FLIP, reason="flip-evaluator is not installed")
 
 
 def compare(picture, truth, mask=None, **options):
@@ -233,9 +234,7 @@ def test_what_does_not_count_changes_nothing():
     mask[8:12, 8:12] = False
     wild = PICTURE.copy()
     wild[~mask] = (np.nan, 1e9, -np.inf)
-    found, other = (
-        compare(one, TRUTH, mask, flip=flip_evaluator is not None) for one in (PICTURE, wild)
-    )
+    found, other = (compare(one, TRUTH, mask, flip=HAS_FLIP) for one in (PICTURE, wild))
     assert found.numbers() == other.numbers()
     assert other.not_finite == 0
 
@@ -245,7 +244,7 @@ def test_pixels_that_are_not_finite():
     picture[2, 3, 1] = np.nan
     truth[4, 5, 0] = np.inf
     picture[4, 5, 0] = np.inf
-    found = compare(picture, truth, flip=flip_evaluator is not None)
+    found = compare(picture, truth, flip=HAS_FLIP)
     mask = np.ones((24, 32), bool)
     mask[2, 3] = mask[4, 5] = False
     assert found.rmse == compare(PICTURE, TRUTH, mask).rmse
@@ -257,7 +256,7 @@ def test_pixels_that_are_not_finite():
 
 
 def test_great_numbers_stay_finite():
-    found = compare(TRUTH * 2e300, TRUTH * 1e300, flip=flip_evaluator is not None)
+    found = compare(TRUTH * 2e300, TRUTH * 1e300, flip=HAS_FLIP)
     assert found.relative_rmse == pytest.approx(1)
     assert found.rmse == pytest.approx(1e300 * np.sqrt((TRUTH**2).mean()))
     assert np.isfinite(found.ssim)
@@ -301,16 +300,14 @@ def test_cubes():
     truth = np.stack([np.roll(TRUTH[:24, :24], 3 * k, axis=0) for k in range(6)]).astype(np.float32)
     picture = truth * 0.9
     picture[4, 3, 8] += 0.5
-    found = compare(cc.CubeMap(picture), cc.CubeMap(truth), flip=flip_evaluator is not None)
+    found = compare(cc.CubeMap(picture), cc.CubeMap(truth), flip=HAS_FLIP)
     assert found.worst == (4, 3, 8)
     assert found.error.shape == (6, 24, 24)
     assert "at +Z, row 3, column 8" in repr(found)
-    faces = [
-        compare(p, t, flip=flip_evaluator is not None) for p, t in zip(picture, truth, strict=True)
-    ]
+    faces = [compare(p, t, flip=HAS_FLIP) for p, t in zip(picture, truth, strict=True)]
     assert found.ssim == pytest.approx(np.mean([one.ssim for one in faces]), abs=1e-12)
     assert found.rmse == pytest.approx(np.sqrt(np.mean([one.rmse**2 for one in faces])))
-    if flip_evaluator is not None:
+    if HAS_FLIP:
         assert found.flip == pytest.approx(np.mean([one.flip for one in faces]), abs=1e-6)
     assert compare(picture, cc.CubeMap(truth)).rmse == found.rmse
     mask = np.zeros((6, 24, 24), bool)

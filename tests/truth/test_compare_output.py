@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 import cubecam as cc
 from tests.reference.pattern import face_pattern
-from tests.truth.test_compare import PICTURE, TRUTH, compare, flip_evaluator
+from tests.truth.test_compare import HAS_FLIP, PICTURE, TRUTH, compare
 
 
 def labels(figure):
@@ -25,7 +25,7 @@ def test_plot(cube):
     picture[place] += 0.5
     mask = np.ones(truth.shape[:-1], bool)
     mask[..., 0] = False
-    found = compare(picture, truth, mask, flip=flip_evaluator is not None)
+    found = compare(picture, truth, mask, flip=HAS_FLIP)
     figure = found.plot(scale="log")
     spot = "+Y, row 6, column 9" if cube else "row 6, column 9"
     assert labels(figure)[:3] == ["picture", "truth", f"error: max 0.5 at {spot}"]
@@ -35,7 +35,7 @@ def test_plot(cube):
     assert len(marked) == 1
     if not cube:
         assert (marked[0].get_xdata()[0], marked[0].get_ydata()[0]) == (9, 6)
-    assert len(labels(figure)) == (4 if flip_evaluator is not None else 3)
+    assert len(labels(figure)) == (4 if HAS_FLIP else 3)
     plt.close(figure)
     figure = compare(picture, truth).plot(exposure=1)
     assert len(labels(figure)) == 3
