@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     "--fail-above",
     type=NUMBER,
     metavar="RMSE",
-    help="End with exit status 1 if the RMSE is above this number, or is none.",
+    help="End with exit status 1 if the RMSE is above this number.",
     note="never",
 )
 def compare(

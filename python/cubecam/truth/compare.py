@@ -47,8 +47,8 @@ def compare(
         What the numbers of plain arrays are, for SSIM and FLIP; objects know it. None: as the other picture says if
         that is an object; else "srgb" if both are whole numbers, "linear" if one is of floats.
     flip : bool, default True
-        Whether FLIP is measured, which takes most of the time: about 6 s of CPU for 1024 x 1024 pixels, and as much
-        again for each stop of HDR-FLIP.
+        Whether FLIP is measured, which takes most of the time: about 1.5 s of CPU for 1024 x 1024 pixels, and about as
+        much again for each exposure of HDR-FLIP.
 
     Returns
     -------
