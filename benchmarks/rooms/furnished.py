@@ -1,4 +1,4 @@
-"""A furnished room, for pictures by exact rays: a wall mirror, rough metal, glass, and two mirror balls that face each other.
+"""A furnished room for exact rays: a wall mirror, rough metal, glass, and two mirror balls that face each other.
 
 The walls and most of the furniture are `PhongMaterial`, which ends a path, so that the picture soon has little noise.
 """

@@ -64,7 +64,7 @@ class CameraEye:
         place = np.broadcast_to(place, (len(pixel), 2))
         x = (column + place[:, 0]) / self.size[0] * 2 - 1
         y = 1 - (row + place[:, 1]) / self.size[1] * 2
-        to_world: Array = np.linalg.inv(self.to_clip @ self.view)
+        to_world = np.asarray(np.linalg.inv(self.to_clip @ self.view), np.float64)
         ends = []
         for depth in (-1.0, 1.0):
             ends.append(placed(to_world, np.stack([x, y, np.full_like(x, depth)], axis=-1)))

@@ -83,10 +83,10 @@ class StandardLight:
             if coated:
                 coat += lit_coat(p, surface, towards) * irradiance
         if not coated:
-            return base
+            return np.asarray(base)
         cosine = facing(surface.clearcoat_n, surface.v)
-        light: Array = mix(base, coat, p.clearcoat * schlick(0.04, 1.0, cosine))
-        return light
+        both: Array = np.asarray(mix(base, coat, p.clearcoat * schlick(0.04, 1.0, cosine)))
+        return both
 
     def _from_afar(self, group: Group, bsdf: StandardBsdf) -> Array:
         """Give what the surface sends back of the environment, for one direction that is chosen by its brightness."""

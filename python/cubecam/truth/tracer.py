@@ -108,7 +108,8 @@ class Tracer:
         if self.self_hits:
             return np.zeros(len(paths), np.bool_)
         own: Flags = paths.left == points.node
-        return own & (paths.bodies[:, 0] != points.node)
+        outside: Flags = paths.bodies[:, 0] != points.node
+        return own & outside
 
     def _absorbed(self, paths: Paths, distance: Array) -> Paths:
         body = paths.bodies[:, 0]
