@@ -187,7 +187,7 @@ def test_a_cube_has_what_a_cubemap_has(tmp_path):
         ({"target_error": 0.0}, "target_error: expected a number above 0, got 0.0"),
         ({"deadline": -1.0}, "deadline: expected a number above 0, got -1.0"),
         ({"processes": 0}, "processes: expected an int from 1 to 1024, got 0"),
-        ({"outputs": ("depth",)}, "outputs: expected names among .*, got 'depth'"),
+        ({"outputs": ("depth",)}, "outputs: expected .*, got 'depth'"),
     ],
 )
 def test_wrong_numbers(options, message):
@@ -202,9 +202,7 @@ def test_wrong_things():
         TypeError, match="outputs: expected a sequence of names, got the string 'id'"
     ):
         rendered(outputs="id")
-    with pytest.raises(
-        TypeError, match=r"camera: expected a PerspectiveCamera .* got a StereoCamera"
-    ):
+    with pytest.raises(TypeError, match=r"camera: expected a Camera, got StereoCamera"):
         cc.truth.render(noisy(), cc.StereoCamera(camera(), camera()), SIZE)
     with pytest.raises(TypeError, match="camera: expected a Camera, got Scene"):
         cc.truth.render(noisy(), noisy(), SIZE)

@@ -15,9 +15,10 @@ import numpy.typing as npt
 from .. import _core
 from .._calls import checked_call
 from .._checks import pair, real_number, whole_number
+from .arguments import Quality, matrix_of, nodes_of, of_class, output_names, quality_of, vector
 from .eyes import CameraEye, CubeEye, Eye
 from .matrices import luminance
-from .outputs import OUTPUTS, outputs_of
+from .outputs import outputs_of
 from .pictures import TruthCube, TruthFrame, cube_of, frame_of
 from .progress import bar
 from .snapshot import read
@@ -31,20 +32,6 @@ if TYPE_CHECKING:
 _PASS = 16
 #: Paths that one process draws in less time than others take to start.
 _FEW = 8 * PATHS
-
-
-@dataclass(frozen=True)
-class _Quality:
-    """How good a picture shall be, and what it may cost."""
-
-    bounces: int
-    samples: int
-    seed: int
-    target_error: float | None
-    deadline: float | None
-    processes: int | None
-    self_hits: bool
-    progress: bool | None
 
 
 @dataclass
@@ -171,21 +158,17 @@ def render(
     >>> exact.color.dtype.name, int(exact.id[16, 16]), bool(exact.color[20, 16, 0] > .9)
     ('float32', 1, True)
     """
-    if isinstance(camera, _core.StereoCamera):
-        raise TypeError(
-            "camera: expected a PerspectiveCamera or an OrthographicCamera, got a StereoCamera"
-        )
-    if not isinstance(camera, _core.Camera):
-        raise TypeError(f"camera: expected a Camera, got {type(camera).__name__}")
+    of_class(scene, _core.Scene, "scene")
+    of_class(camera, _core.Camera, "camera")
     width, height = pair(size, "size")
     whole_number(width, "size", 1)
     whole_number(height, "size", 1)
-    quality = _quality(
+    quality = quality_of(
         bounces, samples, seed, target_error, deadline, processes, self_hits, progress
     )
-    names = _outputs(outputs)
+    names = output_names(outputs)
     eye = CameraEye.of(camera, (width, height))
-    made = _draw(scene, eye, names, tuple(exclude), quality, of_capture=False)
+    made = _draw(scene, eye, names, nodes_of(exclude), quality, of_capture=False)
     return TruthFrame(frame_of(made.color, made.outputs), **made.rest)
 
 
@@ -245,16 +228,17 @@ def capture(
     >>> exact.sample((0, -1, 0)).tolist(), round(float(exact.distance.min()), 2)
     ([1.0, 0.0, 0.0, 1.0], 1.02)
     """
+    of_class(scene, _core.Scene, "scene")
     texels = whole_number(size, "size", 1)
-    quality = _quality(
+    quality = quality_of(
         bounces, samples, seed, target_error, deadline, processes, self_hits, progress
     )
     near, far = real_number(near, "near"), real_number(far, "far")
     if not 0 < near < far or not math.isfinite(far):
         raise ValueError(f"near, far: expected 0 < near < far, finite, got {near} and {far}")
-    names = _outputs(outputs)
-    eye = CubeEye(_vector(position, 3, "position"), _turn(rotation), near, far, texels)
-    made = _draw(scene, eye, names, tuple(exclude), quality, of_capture=True)
+    names = output_names(outputs)
+    eye = CubeEye(vector(position, 3, "position"), matrix_of(rotation), near, far, texels)
+    made = _draw(scene, eye, names, nodes_of(exclude), quality, of_capture=True)
     return TruthCube(cube_of(made.color, made.outputs), **made.rest)
 
 
@@ -270,7 +254,7 @@ def _draw(
     eye: Eye,
     names: tuple[str, ...],
     exclude: tuple[Node, ...],
-    quality: _Quality,
+    quality: Quality,
     *,
     of_capture: bool,
     shown: tuple[object, ...] = (),
@@ -302,7 +286,7 @@ def _draw(
     return _Made(color.astype(np.float32).reshape(*eye.shape, 4), found, rest)
 
 
-def _fill(job: Job, sums: _Sums, quality: _Quality, started: float) -> bool:
+def _fill(job: Job, sums: _Sums, quality: Quality, started: float) -> bool:
     """Draw pass after pass into the sums; False if it was ended before the end."""
     count = len(sums.samples)
     steps = range(0, quality.samples, _PASS)
@@ -330,7 +314,7 @@ def _fill(job: Job, sums: _Sums, quality: _Quality, started: float) -> bool:
     return quality.target_error is None or sums.noise() <= quality.target_error
 
 
-def _processes(quality: _Quality, pixels: int) -> int:
+def _processes(quality: Quality, pixels: int) -> int:
     if quality.processes is not None:
         return quality.processes
     if pixels * quality.samples <= _FEW:
@@ -339,7 +323,7 @@ def _processes(quality: _Quality, pixels: int) -> int:
 
 
 def _textures(
-    quality: _Quality, shown: tuple[object, ...]
+    quality: Quality, shown: tuple[object, ...]
 ) -> Callable[[RenderTexture], npt.NDArray[np.float32]]:
     """Give what makes the pictures of render textures: exact rays, too, which see other textures in turn."""
     made: dict[int, npt.NDArray[np.float32]] = {}
@@ -365,72 +349,3 @@ def _textures(
         return made[id(source)]
 
     return texture
-
-
-# --- arguments --------------------------------------------------------------------------------------------------------
-
-
-def _quality(
-    bounces: int,
-    samples: int,
-    seed: int,
-    target_error: float | None,
-    deadline: float | None,
-    processes: int | None,
-    self_hits: bool,
-    progress: bool | None,
-) -> _Quality:
-    for value, name in ((target_error, "target_error"), (deadline, "deadline")):
-        if value is not None and not real_number(value, name) > 0:
-            raise ValueError(f"{name}: expected a number above 0, got {value}")
-    return _Quality(
-        whole_number(bounces, "bounces", 0, 1000),
-        whole_number(samples, "samples", 1, 65536),
-        whole_number(seed, "seed", 0, 2**32 - 1),
-        target_error,
-        deadline,
-        None if processes is None else whole_number(processes, "processes", 1, 1024),
-        self_hits,
-        progress,
-    )
-
-
-def _outputs(outputs: Iterable[str]) -> tuple[str, ...]:
-    if isinstance(outputs, str):
-        raise TypeError(f"outputs: expected a sequence of names, got the string {outputs!r}")
-    names = tuple(outputs)
-    for name in names:
-        if name not in OUTPUTS:
-            known = ", ".join(f'"{one}"' for one in OUTPUTS)
-            raise ValueError(f"outputs: expected names among {known}, got {name!r}")
-    return names
-
-
-def _vector(value: npt.ArrayLike, length: int, name: str) -> npt.NDArray[np.float64]:
-    try:
-        found = np.asarray(value, np.float64)
-    except (TypeError, ValueError):
-        raise TypeError(f"{name}: expected {length} numbers, got {value!r}") from None
-    if found.shape != (length,):
-        raise ValueError(f"{name}: expected {length} numbers, got an array of shape {found.shape}")
-    if not np.isfinite(found).all():
-        raise ValueError(f"{name}: expected finite numbers, got {found.tolist()}")
-    return found
-
-
-def _turn(rotation: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
-    """Give the matrix (3, 3) of a quaternion (w, x, y, z) of any length."""
-    if rotation is None:
-        return np.eye(3)
-    quaternion = _vector(rotation, 4, "rotation")
-    length = np.linalg.norm(quaternion)
-    if not length > 0:
-        raise ValueError("rotation: expected a quaternion of a length above 0, got 0, 0, 0, 0")
-    w, x, y, z = quaternion / length
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
