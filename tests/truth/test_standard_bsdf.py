@@ -1,12 +1,15 @@
 """The BSDF of StandardMaterial for paths: values against the sums for lights, densities and samples against values."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from cubecam.truth.shading import dot, normalised
 from cubecam.truth.shading.standard.material import Parameters, Surface
 from cubecam.truth.shading.standard.microfacets import mix, schlick
-from cubecam.truth.shading.standard.shade import facing, lit_base, lit_coat
+from cubecam.truth.shading.standard.shade import Fresnel, facing, lit_base, lit_coat, scattered
+from cubecam.truth.shading.standard.tables import brdf_terms
 from cubecam.truth.standard_bsdf import StandardBsdf, evaluate, extinction, pdf, sample
 
 from .bsdf_cases import ROUGH, UP, all_directions, parameters, random_unit, surface_of, view
@@ -132,6 +135,20 @@ def test_weights_are_values_over_densities():
     assert got.transmitted.mean() > 0.1
 
 
+def test_the_last_number_below_one_draws_a_lobe_that_scatters():
+    """Sums of shares may round to less than 1; the lobe behind the last one would lead through a metal."""
+    rng = np.random.default_rng(12)
+    p = any_parameters(rng, 500, transmission=0.0, sheen_color=(0, 0, 0))
+    surface = any_surface(rng, 500)
+    ends = StandardBsdf(p, surface).shares.cumsum(-1)[:, -1]
+    assert (ends < 1).any()
+    u = numbers(rng, 500)
+    u[:, 2] = np.nextafter(1, 0)
+    got = sample(p, surface, u)
+    assert not got.transmitted.any()
+    assert np.isfinite(got.weight).all()
+
+
 @pytest.mark.parametrize("roughness", [0.3, 0.6, 1.0])
 def test_a_white_metal_loses_no_light(roughness):
     """With the light that facets pass to each other; without it, rough metals darken."""
@@ -147,6 +164,27 @@ def test_a_white_metal_loses_no_light(roughness):
         assert means[0].mean() == pytest.approx(1, abs=0.01)
         if roughness == 1:
             assert means[1].mean() < 0.75
+
+
+def test_what_plastic_facets_pass_to_each_other_does_not_reach_the_base():
+    """Fms / pi more, and max3(Fms) of the base's colour less; A and B of the split sum give Fms."""
+    l = view(0.7, 2.0)[None]  # noqa: E741
+    surface = surface_of(view(0.5), 1)
+    values: dict[str, Any] = {
+        "color": (0.8, 0.5, 0.2),
+        "metallic": 0.0,
+        "roughness": 0.9,
+        "ior": 4.0,
+    }
+    alone, together = (
+        evaluate(Parameters(**values, multiple_scattering=several), surface, l)
+        for several in (False, True)
+    )
+    a, b = brdf_terms(np.array([0.5]), np.array([0.9]))[0]
+    _, several = scattered(Fresnel(np.full(3, 0.36), 1.0), a, b)
+    want = (several - several.max() * np.array(values["color"])) / np.pi * 0.7
+    assert several.max() > 0.01
+    np.testing.assert_allclose(together - alone, want[None], rtol=1e-9)
 
 
 def test_a_white_plastic_gives_no_more_light_than_it_got():

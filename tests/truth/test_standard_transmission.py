@@ -7,7 +7,7 @@ import pytest
 
 from cubecam.truth.shading import dot, normalised
 from cubecam.truth.shading.standard.material import Parameters, Surface
-from cubecam.truth.shading.standard.tables import brdf_terms
+from cubecam.truth.shading.standard.tables import brdf_terms, sheen_albedo
 from cubecam.truth.standard_bsdf import sample, sample_exit
 
 from .bsdf_cases import UP, random_unit, surface_of, view
@@ -41,6 +41,19 @@ def test_a_thin_smooth_wall_does_not_bend_light():
     error = through.std(0) / np.sqrt(count)
     assert (abs(through.mean(0) - color * (1 - f)) < 4 * error).all()
     np.testing.assert_allclose((got.weight - through).mean(0), f, rtol=0.1)
+
+
+def test_sheen_and_coat_take_their_share_before():
+    rng = np.random.default_rng(9)
+    count, cosine = 20_000, 0.5
+    p = Parameters(**CLEAR, clearcoat=0.8, sheen_color=(0.9, 0.5, 0.2), sheen_roughness=0.8)
+    got = sample(p, surface_of(view(cosine), count), numbers(rng, count))
+    through = np.where(got.transmitted[:, None], got.weight, 0)
+    f = schlick(1.5, cosine)
+    sheen = 0.9 * sheen_albedo(np.array([cosine]), np.array([0.8]))[0]
+    want = (1 - f) * (1 - 0.8 * f) * (1 - sheen)
+    assert sheen > 0.1
+    assert (abs(through.mean(0) - want) < 4 * through.std(0) / np.sqrt(count)).all()
 
 
 @pytest.mark.parametrize("roughness", [0.3, 0.8])
@@ -154,6 +167,28 @@ def test_light_stays_inside_beyond_the_critical_angle():
         np.testing.assert_allclose(got.l[~got.transmitted], mirrored[~got.transmitted], atol=1e-12)
         assert got.transmitted.any() == (cosine > critical)
         np.testing.assert_allclose(got.weight, 1, rtol=1e-12)
+
+
+def test_a_path_of_all_channels_leaves_with_the_middle_index():
+    rng = np.random.default_rng(10)
+    p = Parameters(**CLEAR, ior=1.6, thickness=1.0, dispersion=5.0)
+    got = sample_exit(p, surface_of(view(0.9), 100), numbers(rng, 100))
+    sines = np.linalg.norm(got.l[got.transmitted][:, :2], axis=-1)
+    np.testing.assert_allclose(sines, 1.6 * np.sqrt(1 - 0.9**2), rtol=1e-9)
+
+
+def test_a_mapped_normal_sends_nothing_through_the_wrong_side():
+    """A mirrored direction that leaves the body, or a bent one that stays in it, ends its path."""
+    rng = np.random.default_rng(11)
+    count = 4000
+    p = Parameters(**{**CLEAR, "roughness": 0.3}, thickness=1.0)
+    tilted = surface_of(view(0.5, 0.0), count, n=normalised((-0.3, 0, 0.95)))
+    for draw, least in ((sample_exit, 0.1), (sample, 0.01)):
+        got = draw(p, tilted, numbers(rng, count))
+        wrong = np.where(got.transmitted, 1, -1) * (got.l @ UP) > 0
+        assert wrong.mean() > least
+        assert not got.weight[wrong].any()
+        assert got.weight[~wrong].any()
 
 
 def test_rough_exits_make_no_light():
