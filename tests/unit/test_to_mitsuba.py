@@ -182,6 +182,19 @@ class TestMaterials:
         assert made["node-1"]["emitter"]["radiance"] == {"type": "rgb", "value": [1, 2, 3]}
         assert bsdf_of(made)["specular_reflectance"]["value"] == [0, 0, 0]
 
+    def test_a_black_surface_is_no_lamp(self):
+        mesh = cc.Mesh.box()
+        mesh.update(colors=np.zeros((len(mesh.positions), 3)))
+        for material in (
+            cc.BasicMaterial(color="black"),
+            cc.BasicMaterial(map=np.zeros((2, 2, 4), np.float32)),
+            cc.BasicMaterial(vertex_colors=True),
+            cc.BasicMaterial(color="black", double_sided=True),
+        ):
+            made = quietly(with_node(material, mesh), CAMERA)
+            assert "emitter" not in made["node-1"]
+            assert "node-1-back" not in made
+
     def test_opacity_scales_what_is_emitted(self):
         material = cc.BasicMaterial(color=(1, 2, 3, 0.5), opacity=0.5)
         made = quietly(with_node(material), CAMERA)
@@ -308,7 +321,7 @@ class TestMaps:
         assert picture[0, 0] == pytest.approx([128 / 255] * 3)
 
     def test_roughness_and_metallic_are_green_and_blue(self):
-        pixels = np.tile(np.float32([0.1, 0.5, 0.25]), (2, 2, 1))
+        pixels = np.tile(np.array([0.1, 0.5, 0.25], np.float32), (2, 2, 1))
         material = cc.StandardMaterial(roughness=0.5, metallic_roughness_map=pixels)
         bsdf = bsdf_of(quietly(with_node(material), CAMERA))
         assert cc.load_image(bsdf["roughness"]["filename"])[0, 0] == pytest.approx(0.25)
@@ -335,9 +348,9 @@ class TestMaps:
         mesh.update(colors=np.clip(mesh.positions + 0.5, 0, 1))
         made = quietly(with_node(matt((1, 0.5, 1)), mesh), CAMERA)
         assert bsdf_of(made)["reflectance"] == {"type": "mesh_attribute", "name": "vertex_color"}
-        assert cc.load_mesh(made["node-1"]["filename"]).colors[:, :3] == pytest.approx(
-            mesh.colors[:, :3] * (1, 0.5, 1)
-        )
+        wanted = np.clip(mesh.positions + 0.5, 0, 1) * (1, 0.5, 1)
+        colors = np.asarray(cc.load_mesh(made["node-1"]["filename"]).colors)
+        assert colors[:, :3] == pytest.approx(wanted)
 
     def test_vertex_colours_that_are_emitted_become_a_picture(self):
         mesh = cc.Mesh.box()
@@ -347,8 +360,11 @@ class TestMaps:
         image = cc.load_image(made["node-1"]["emitter"]["radiance"]["filename"])
         height, width = image.shape[:2]
         # At each vertex, in the middle of a texel, the picture has its colour.
-        column = np.round(written.uvs[:, 0] * width - 0.5).astype(int)
-        row = np.round((1 - written.uvs[:, 1]) * height - 0.5).astype(int)
+        u, v = np.asarray(written.uvs).T
+        column, row = (
+            np.round(u * width - 0.5).astype(int),
+            np.round((1 - v) * height - 0.5).astype(int),
+        )
         assert image[row, column] == pytest.approx(written.positions + 0.5, abs=1e-6)
 
     def test_masks(self):
@@ -436,6 +452,12 @@ class TestSurroundings:
         assert picture[i, j] == pytest.approx(self.CUBE.sample(into)[:3], abs=1e-5)
         assert np.ptp(picture[0], axis=0).max() < 1e-5  # a pole
 
+    def test_a_black_environment_is_no_picture(self):
+        scene = with_node(cc.MirrorMaterial())
+        scene.environment = cc.CubeMap(np.zeros((6, 2, 2, 3), np.float32))
+        made = quietly(scene, CAMERA)["environment"]
+        assert (made["type"], made["sampling_weight"]) == ("constant", 0)
+
     def test_backgrounds(self):
         mirror = with_node(cc.MirrorMaterial())
         mirror.environment, mirror.background = self.CUBE, "black"
@@ -475,13 +497,16 @@ class TestFiles:
         ]
         assert made["node-1"]["filename"] == str(tmp_path / "room-0.ply")
         root = ElementTree.parse(tmp_path / "room.xml").getroot()
-        assert root.find("integrator/integer[@name='max_depth']").get("value") == "3"
-        assert root.find("shape/string[@name='filename']").get("value") == "room-0.ply"
-        assert root.find("shape/ref").get("id") == root.find("bsdf").get("id")
-        matrix = root.find("sensor/transform/matrix").get("value")
-        assert np.array(matrix.split(), float).reshape(4, 4) == pytest.approx(
-            made["sensor"]["to_world"]
-        )
+
+        def attribute(place, name):
+            (found,) = root.findall(place)
+            return found.attrib[name]
+
+        assert attribute("integrator/integer[@name='max_depth']", "value") == "3"
+        assert attribute("shape/string[@name='filename']", "value") == "room-0.ply"
+        assert attribute("shape/ref", "id") == attribute("bsdf", "id")
+        matrix = np.array(attribute("sensor/transform/matrix", "value").split(), float)
+        assert matrix.reshape(4, 4) == pytest.approx(made["sensor"]["to_world"])
 
     def test_nothing_is_written_where_a_file_may_not_be(self, tmp_path):
         (tmp_path / "room-0.ply").mkdir()

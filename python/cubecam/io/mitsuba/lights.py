@@ -158,12 +158,19 @@ def sky(cube: CubeMap, rotation: Array, intensity: float, added: Array, files: F
     light = np.where(np.isfinite(light), light, 0)
     if added.any():
         light, intensity = light * np.float32(intensity) + added.astype(np.float32), 1.0
+    if not light.any() or intensity == 0:
+        return darkness()  # Mitsuba chooses directions by their light
     return {"type": "envmap", "filename": files.picture(light), "scale": float(intensity)}
 
 
 def even(radiance: Array) -> Json:
     """Return the emitter of light that is the same from all around."""
     return {"type": "constant", "radiance": {"type": "rgb", "value": radiance.tolist()}}
+
+
+def darkness() -> Json:
+    """Return the emitter of no light, at which no path is aimed."""
+    return {**even(np.zeros(3)), "sampling_weight": 0.0}
 
 
 def ambient_of(scene: Scene) -> Array:

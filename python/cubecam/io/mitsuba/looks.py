@@ -104,20 +104,29 @@ class Painter:
 
     def emitted(
         self, factor: Array, image: Image | None, *, decoded: bool, vertices: bool, blended: bool
-    ) -> Json:
-        """Return what is emitted: a colour (3,) times a map times the mesh's colours, times alpha if `blended`."""
+    ) -> Json | None:
+        """Return what is emitted: a colour (3,) times a map times the mesh's colours, times alpha if `blended`.
+
+        None if that is nothing anywhere: a lamp of Mitsuba whose picture is black gives NaN.
+        """
         colors = self.look.surface.colors if vertices else None
         if image is not None:
             if colors is not None:
                 self.tell("vertex colours are left out where there is a map")
             pixels = numbers_of(image, decoded)
+            light = pixels[..., :3] * factor
             if blended and pixels.shape[2] == 4:
-                pixels = pixels[..., :3] * pixels[..., 3:] * factor
-                return {**self._textures.values(image, pixels), "raw": False}
-            return self._textures.color(image, factor, decoded=decoded)
+                light = light * pixels[..., 3:]
+                return (
+                    {**self._textures.values(image, light), "raw": False} if light.any() else None
+                )
+            return self._textures.color(image, factor, decoded=decoded) if light.any() else None
         if colors is not None:
-            return self._patches(colors, factor, blended)
-        return {"type": "rgb", "value": factor.tolist()}
+            light = colors[:, :3] * factor
+            if blended:
+                light = light * colors[:, 3:]
+            return self._patches(light) if light.any() else None
+        return {"type": "rgb", "value": factor.tolist()} if factor.any() else None
 
     def numbers(self, factor: float, image: Image | None, channel: int) -> Json | float:
         """Return a number times one channel of a map."""
@@ -129,8 +138,8 @@ class Painter:
         """Return a map of numbers made from those of an image."""
         return self._textures.values(image, pixels)
 
-    def _patches(self, colors: Array, factor: Array, blended: bool) -> Json:
-        """Return the mesh's colours as a picture with a square patch of texels for each triangle.
+    def _patches(self, light: Array) -> Json:
+        """Return the light of a mesh's vertices, (V, 3), as a picture with a square patch of texels for each triangle.
 
         Mitsuba 3.9 ends the process where a lamp's radiance is a ``mesh_attribute`` that is sampled. The corners of a
         triangle lie in the middles of three corner texels of its patch; the texels of the other half continue its
@@ -138,9 +147,6 @@ class Painter:
         have, more texels make the error small.
         """
         surface = self.look.surface
-        light = colors[:, :3] * factor
-        if blended:
-            light = light * colors[:, 3:]
         a, b, c = (light[surface.triangles[:, k]] for k in range(3))
         count = len(a)
         n = (

@@ -89,7 +89,8 @@ def _unlit(painter: Painter, material: BasicMaterial | StandardMaterial, *, deco
         color, image, decoded=decoded, vertices=material.vertex_colors, blended=alpha.mapped
     )
     painter.look.bsdf = seen_through(BLACK, alpha.opacity)
-    show_back(painter, alpha.is_solid)
+    if painter.look.radiance is not None:
+        show_back(painter, alpha.is_solid)
 
 
 def _mirror(painter: Painter, material: MirrorMaterial) -> None:

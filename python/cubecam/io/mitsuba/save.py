@@ -81,7 +81,7 @@ def to_mitsuba(
 
     Notes
     -----
-    Meshes are in world space, as skins and morph targets bend them now, each node with a file of its own.
+    Tried with Mitsuba 3.9. Meshes are in world space, as skins and morph targets bend them now; equal files are one.
 
     *The same in Mitsuba:* `BasicMaterial`, as an area light on a surface that reflects nothing; `MirrorMaterial`
     without `f0` (``conductor``); smooth `GlassMaterial` (``dielectric``), whose tint counts at each surface that a ray

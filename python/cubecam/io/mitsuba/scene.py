@@ -27,7 +27,7 @@ from ..left_out import LeftOut
 from .cameras import sensor_of
 from .files import Files
 from .geometry import Surface, ply, surface_of
-from .lights import Lamps, ambient_of, even, sky
+from .lights import Lamps, ambient_of, darkness, even, sky
 from .looks import Look
 from .materials import Materials
 
@@ -159,7 +159,7 @@ class _Writer:
             made["environment"] = around
         if around is None and self.has_holes:
             # Mitsuba drops what a ray met before it left an empty scene.
-            made["environment"] = {**even(np.zeros(3)), "sampling_weight": 0.0}
+            made["environment"] = darkness()
         if shown or around is None:
             return made, False
         if self.has_lamps:
