@@ -99,6 +99,7 @@ NEEDED: dict[str, Any] = {
     "Scene.set_positions": lambda: {"nodes": [], "positions": np.zeros((0, 3))},
     "Scene.set_time": lambda: {"seconds": 0.5},
     "Scene.save": lambda: {"path": "a.glb"},
+    "Scene.to_mitsuba": lambda: {"camera": cc.PerspectiveCamera(), "size": (8, 8), "path": "a.xml"},
     "Scene.show": lambda: {"where": "offscreen", "size": (8, 8)},
     "CubeMap": lambda: {"faces": FACES},
     "CubeMap.from_equirect": lambda: {"image": PICTURE, "size": 1},
@@ -382,6 +383,7 @@ def test_the_walk_finds_them():
     }
 
 
+@pytest.mark.filterwarnings("ignore::cubecam.SceneWarning")  # what Mitsuba cannot say of the scene
 @pytest.mark.parametrize("name", [name for name, make in NEEDED.items() if make is not dict])
 def test_the_calls_are_right_without_absurd_values(name, renderer, files):
     """Otherwise an error would say nothing about the value."""

@@ -108,6 +108,7 @@ BY_POSITION = {
     "StereoCamera.toe_in": ["camera"],
     "Scene.remove": ["thing"],
     "Scene.save": ["path"],
+    "Scene.to_mitsuba": ["camera", "size"],
     "Scene.show": ["where"],
     "Scene.set_positions": ["nodes", "positions"],
     "Scene.set_matrices": ["nodes", "matrices"],
