@@ -1,5 +1,7 @@
 """Where the renderer approximates nothing, exact rays give the same picture, off the edges of nodes and shadows."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -127,7 +129,12 @@ def test_a_capture(renderer):
     for light in scene.lights[1:]:
         if hasattr(light, "shadow"):
             light.shadow = None
-    options = {"near": 0.05, "far": 5.0, "rotation": (0.9, 0.1, 0.3, 0.2), "exclude": [left_out]}
+    options: dict[str, Any] = {
+        "near": 0.05,
+        "far": 5.0,
+        "rotation": (0.9, 0.1, 0.3, 0.2),
+        "exclude": [left_out],
+    }
     names = ("id", "distance", "z", "normal")
     exact = cc.truth.capture(scene, (0.2, 0.3, 0.1), 32, samples=1, outputs=names, **options)
     got = renderer.capture(scene, (0.2, 0.3, 0.1), 32, outputs=names, **options)

@@ -38,6 +38,9 @@ def noise_of(picture, rows):
         cc.StandardMaterial(metallic=1, roughness=0.5),
         cc.StandardMaterial(metallic=1, roughness=1),
         cc.StandardMaterial(metallic=0, roughness=1, specular_weight=0),
+        cc.StandardMaterial(metallic=0, roughness=0),
+        cc.StandardMaterial(metallic=0, roughness=0.4),
+        cc.StandardMaterial(metallic=0, roughness=1),
         cc.StandardMaterial(metallic=0, roughness=0, transmission=1, thickness=1),
         cc.StandardMaterial(metallic=0, roughness=0, transmission=1),
     ],
@@ -149,7 +152,8 @@ def test_matt_light_is_the_irradiance_of_the_environment():
 
 def test_rough_metal_gathers_the_sun_without_bias():
     """Two ways to choose directions, by the lobe and by the brightness of the sky, are counted once together."""
-    scene = cc.Scene(environment=sun_and_sky())
+    sky = sun_and_sky()
+    scene = cc.Scene(environment=sky)
     gold = cc.StandardMaterial(color=(1, 0.8, 0.4), metallic=1, roughness=0.6)
     scene.add(cc.Mesh.plane(1, 1), gold, rotation=cc.axis_angle((1, 0, 0), 45))
     both = rendered(scene, eye(3, fov=1), (4, 4), samples=512)
@@ -163,7 +167,7 @@ def test_rough_metal_gathers_the_sun_without_bias():
         np.zeros_like(above), np.tile(v, (len(above), 1)), np.tile(n, (len(above), 1))
     )
     p = Parameters(color=(1, 0.8, 0.4), metallic=1.0, roughness=0.6)
-    value = evaluate(p, surface, above) * scene.environment.sample(above)
+    value = evaluate(p, surface, above) * sky.sample(above)
     expected = 2 * np.pi * value.mean(axis=0)
     assert both.color[..., :3].reshape(-1, 3).mean(axis=0) == pytest.approx(expected, rel=0.05)
 
@@ -242,7 +246,7 @@ def test_light_does_not_leave_glass_beyond_the_critical_angle():
     scene = cc.Scene(environment=cc.CubeMap(faces))
     # The ray enters a prism straight through the face of z, meets the sloping face at 45 degrees, and leaves downwards.
     corners = np.array([[0, 0, 0], [0, 0, -1], [0, 1, 0]], np.float32)
-    aside = np.float32([0.5, 0, 0])
+    aside = np.array([0.5, 0, 0], np.float32)
     points = np.concatenate([corners - aside, corners + aside])
     triangles = [
         (0, 2, 1), (3, 4, 5),  # the two ends

@@ -46,6 +46,7 @@ PYTHON_ORDER = (
     "_late",
     "_warnings",
     "data",  # the packaged files and their list
+    "_nodes",  # which nodes are shown
     "io",
     "pictures",
     "_array_protocol",

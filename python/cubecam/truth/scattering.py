@@ -139,6 +139,12 @@ class StandardBsdf:
         """The share (R, 1) of light that enters the dielectric at facets that see the viewer at a cosine."""
         return np.maximum(1 - max3(self._at(self.dielectric, v_h)) - max3(self.mean[1]), 0)
 
+    @cached_property
+    def entering(self) -> Array:
+        """The share (R, 1) of light that enters the dielectric, as the renderer's environment has it."""
+        fss, fms = self.mean[:2]
+        return np.maximum(1 - max3(fss + fms), 0)
+
     def _at(self, fresnel: Fresnel, cosine: Array) -> Array:
         return np.broadcast_to(fresnel.at(cosine), (self.count, 3))
 
@@ -180,7 +186,7 @@ class StandardBsdf:
         n_l = np.maximum(dot(s.n, l), 0)
         v_h = dot(s.v, half_way(s.v, l))
         layer = self.base.value(self.base.local(l))
-        diffuse = self.color / np.pi * (1 - self.transmission) * self._below_specular(v_h)
+        diffuse = self.color / np.pi * (1 - self.transmission) * self.entering
         several, metal_several = self.mean[1], self.mean[3]
         material = mix(
             diffuse + self._at(self.dielectric, v_h) * layer + several / np.pi,

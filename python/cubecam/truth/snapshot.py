@@ -22,6 +22,7 @@ from .._core import (
     Scene,
     SpotLight,
 )
+from .._nodes import holds, shown_nodes, upwards
 from .material_records import MaterialReader, blends
 from .meshes import DrawnMesh, drawn_mesh
 from .records import (
@@ -126,9 +127,7 @@ def read(
     reader = MaterialReader(textures)
     records: list[NodeRecord] = []
     parts = [_NO_TRIANGLES]
-    for node in scene.nodes:
-        if node.mesh is None or not _holds(node, "visible"):
-            continue
+    for node in shown_nodes(scene):
         kind = kind_of(node)
         drawn = drawn_mesh(node, ids)
         material = node.material
@@ -143,9 +142,9 @@ def read(
             surroundings=around.place_of(node),
             double_sided=material.double_sided,
             receive_shadow=node.receive_shadow,
-            casts_shadow=blend is None and _holds(node, "cast_shadow"),
-            in_captures=_holds(node, "in_captures"),
-            visible=not any(above.id in excluded for above in _upwards(node)),
+            casts_shadow=blend is None and holds(node, "cast_shadow"),
+            in_captures=holds(node, "in_captures"),
+            visible=not any(above.id in excluded for above in upwards(node)),
             blend=blend,
             opacity=reader.opacity(material),
             scale=np.linalg.norm(drawn.matrix[:3, :3], axis=0),
@@ -163,18 +162,6 @@ def read(
         background=background,
         surroundings=around.all,
     )
-
-
-def _upwards(node: Node) -> Iterable[Node]:
-    """Iterate over a node and all nodes above it."""
-    at: Node | None = node
-    while at is not None:
-        yield at
-        at = at.parent
-
-
-def _holds(node: Node, name: str) -> bool:
-    return all(getattr(above, name) for above in _upwards(node))
 
 
 def _blend(node: Node, material: Material, drawn: DrawnMesh) -> BlendRecord | None:

@@ -24,7 +24,9 @@ def evaluate(p: Parameters, surface: Surface, l: Array) -> Array:  # noqa: E741
 
     It is `mix(lit_base, lit_coat, clearcoat * F)` of `cubecam.truth.shading.standard.shade` with the true alphas and,
     where `p.multiple_scattering` holds, Fms / pi for the light that facets pass to each other (Fdez-Aguera 2019,
-    "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting"), which the diffuse base does not get.
+    "A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting"). The diffuse base gets the share
+    1 - max3(Fss + Fms), as in the renderer's environment: with the share of the one facet that reflects a lamp
+    (glTF 2.0, B.3.5), a white surface would send back more light than it gets.
 
     Parameters
     ----------

@@ -22,7 +22,7 @@ from ..._core import (
     Scene,
     StandardMaterial,
 )
-from ...staging.fit import shown_nodes
+from ..._nodes import shown_nodes
 from ..left_out import LeftOut
 from .cameras import sensor_of
 from .files import Files
