@@ -68,6 +68,13 @@ def pytest_collection(session):
         gc.freeze()
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items):
+    """Notebooks and files with slow tests are first, so that no process works on one while the others have ended."""
+    slow = {item.path for item in items if item.get_closest_marker("slow")}
+    items.sort(key=lambda item: (item.path.suffix != ".ipynb", item.path not in slow))
+
+
 def pytest_sessionfinish(session, exitstatus):
     # At its end the interpreter frees everything; libraries with a count of their objects would report them as lost.
     gc.unfreeze()
