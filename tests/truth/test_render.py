@@ -216,7 +216,7 @@ def test_wrong_things():
         cc.truth.capture(noisy(), (0, 1), 2)
     with pytest.raises(ValueError, match="rotation: expected a quaternion of a length above 0"):
         cc.truth.capture(noisy(), size=2, rotation=(0, 0, 0, 0))
-    with pytest.raises(TypeError, match=r"render\(\) has no argument 'sample'"):
+    with pytest.raises(TypeError, match=r"render\(\) has no option 'sample'"):
         rendered(sample=3)
 
 
@@ -229,6 +229,17 @@ def test_what_rays_cannot_follow_is_refused_by_name():
     )
     with pytest.raises(ValueError, match="my box"):
         rendered(scene)
+
+
+@pytest.mark.parametrize("blend", ["multiply", cc.Blend(src="zero", dst="src_color")])
+def test_reflections_that_multiply_what_is_behind_are_refused(blend):
+    scene = noisy()
+    glaze = cc.StandardMaterial(blend=blend, opacity=0.5)
+    scene.add(cc.Mesh.box(1), glaze, name="glaze")
+    with pytest.raises(ValueError, match="'glaze', material.blend: expected a blend in which"):
+        rendered(scene)
+    glaze.unlit = True
+    assert rendered(scene, samples=1).complete
 
 
 def test_a_picture_that_shows_itself():

@@ -16,7 +16,7 @@ from .._core import (
     RenderTexture,
     StandardMaterial,
 )
-from .records import LINEAR_FACTORS, Kind
+from .records import LINEAR_FACTORS, BlendRecord, Kind
 
 KINDS: dict[type[Material], Kind] = {
     BasicMaterial: "basic",
@@ -62,6 +62,18 @@ def check_depth_write(node: Node, opaque: bool) -> None:
     material = node.material
     if opaque and material is not None and material.depth_write is False:
         _refuse(node, "material.depth_write", "True or None on an opaque surface", False)
+
+
+def check_reflections(node: Node, kind: Kind, blend: BlendRecord | None) -> None:
+    """Refuse a surface whose reflections multiply what is behind it: both are random, and known at different times."""
+    material = node.material
+    if blend is None or kind in ("basic", "phong") or getattr(material, "unlit", False):
+        return
+    if blend.depends_on_color:
+        expected = (
+            "a blend in which the reflected light does not multiply what is behind the surface"
+        )
+        _refuse(node, "material.blend", expected, repr(getattr(material, "blend", None)))
 
 
 def check_texture(node: Node, name: str, texture: RenderTexture) -> None:

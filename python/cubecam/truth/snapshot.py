@@ -32,7 +32,7 @@ from .records import (
     NodeRecord,
     Radiance,
 )
-from .refusals import check_depth_write, kind_of
+from .refusals import check_depth_write, check_reflections, kind_of
 from .shading import Directional, Point, Spot
 from .textures import Array
 
@@ -133,6 +133,7 @@ def read(
         material = node.material
         assert material is not None  # nodes with a mesh have one
         blend = _blend(node, material, drawn)
+        check_reflections(node, kind, blend)
         record = NodeRecord(
             id=node.id,
             label=node.label,
