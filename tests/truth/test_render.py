@@ -236,7 +236,7 @@ def test_reflections_that_multiply_what_is_behind_are_refused(blend):
     scene = noisy()
     glaze = cc.StandardMaterial(blend=blend, opacity=0.5)
     scene.add(cc.Mesh.box(1), glaze, name="glaze")
-    with pytest.raises(ValueError, match="'glaze', material.blend: expected a blend in which"):
+    with pytest.raises(ValueError, match=r"'glaze', material\.blend: expected a blend in which"):
         rendered(scene)
     glaze.unlit = True
     assert rendered(scene, samples=1).complete
