@@ -5,9 +5,10 @@ VENV := .venv
 PY := $(VENV)/bin/python
 PACKAGES := $(PY) scripts/packages.py
 PYTEST_ARGS ?=
-# Processes of pytest. All tests of a file run in one process, so that they share its renderers.
+# Processes of pytest. All tests of a file run in one process, so that they share its renderers; tests/conftest.py
+# says which files are first.
 WORKERS ?= auto
-PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile
+PYTEST = $(PY) -m pytest -n $(WORKERS) --dist loadfile --no-loadscope-reorder
 DOCKER ?= docker
 BENCH_ARGS ?=
 CONDA_ARGS ?=
@@ -54,7 +55,7 @@ test-interop: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-browser $(VENV
 	@CUBECAM_BPY_PYTHON=$(abspath $(VENV)/bpy/bin/python) $(PY) -m pytest -m interop tests/interop $(PYTEST_ARGS)
 
 test-lowest: $(VENV)/.deps $(VENV)/.deps-lowest ## build and test with the lowest versions that pyproject.toml declares; needs Python 3.10 or 3.11
-	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile $(PYTEST_ARGS)
+	@$(PY) scripts/lowest.py $(VENV)/lowest -n $(WORKERS) --dist loadfile --no-loadscope-reorder $(PYTEST_ARGS)
 
 dev: $(VENV)/.installed $(VENV)/.deps-test $(VENV)/.deps-dev ## set up for working on cubecam: tests, linters, commit hooks
 	@if git rev-parse --git-dir >/dev/null 2>&1; then $(PY) -m pre_commit install; fi

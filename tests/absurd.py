@@ -21,7 +21,7 @@ import numpy as np
 
 import cubecam as cc
 import cubecam.typing
-from cubecam import demo, explore, navigation, plot
+from cubecam import demo, explore, navigation, plot, truth
 from cubecam._checks import union_parts
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
@@ -309,7 +309,7 @@ def python_functions() -> dict[str, Callable[..., Any]]:
     """Give the public functions that are written in Python; methods that are attached to classes stand in the stubs."""
     found = {name: getattr(cc, name) for name in cc.__all__}
     found = {name: thing for name, thing in found.items() if inspect.isfunction(thing)}
-    for module in (plot, navigation):
+    for module in (plot, navigation, truth):
         short = module.__name__.rpartition(".")[2]
         found |= {
             f"{short}.{n}": thing

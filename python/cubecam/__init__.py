@@ -30,7 +30,7 @@ from ._core import __version__
 from ._late import late_names
 
 if TYPE_CHECKING:
-    from . import doctor, explore, plot
+    from . import doctor, explore, plot, truth
     from ._warnings import ConventionWarning, RendererWarning, SceneWarning
     from .data import sample_data
     from .io.cubemaps import load_cubemap, load_environment
@@ -63,6 +63,7 @@ else:
             "navigation",
             "pictures",
             "plot",
+            "truth",
             "typing",
             "viewer",
         ],
@@ -92,6 +93,7 @@ __all__ = [
     "save_image",
     "schlick",
     "to_screen",
+    "truth",
 ]
 __all__ += _core.__all__
 

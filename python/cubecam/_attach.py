@@ -105,6 +105,7 @@ def attach() -> None:
         _attach(picture, "__dlpack__", LateMethod("_array_protocol", "dlpack"))
         _attach(picture, "__dlpack_device__", LateMethod("_array_protocol", "dlpack_device"))
     _attach(Scene, "save", LateMethod("io.gltf.write.save", "save_scene"))
+    _attach(Scene, "to_mitsuba", LateMethod("io.mitsuba.save", "to_mitsuba"))
     _attach(Scene, "show", LateMethod("viewer.viewer", "show_scene"))
     _attach(CubeMap, "show", LateMethod("viewer.cube_view", "show_cube"))
     for described in _DESCRIBED:

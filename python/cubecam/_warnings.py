@@ -36,7 +36,10 @@ class RendererWarning(UserWarning):
 
 
 class SceneWarning(UserWarning):
-    """A part of a scene's file is left out, since cubecam cannot read it and the rest makes sense without it."""
+    """A part of a scene's file is left out, since cubecam cannot read it and the rest makes sense without it.
+
+    `Scene.to_mitsuba` gives it for what Mitsuba cannot say.
+    """
 
     __module__ = "cubecam"
 

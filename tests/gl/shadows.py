@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.gl.world import World, inner, inner_smooth
-from tests.reference import raycast, shading
-from tests.reference.transforms import normalised
+from tests.reference import raycast
 
 COLORS = {
     "floor": (0.6, 0.6, 0.7),

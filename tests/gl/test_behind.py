@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading.images import sample_image
 from tests.compare import assert_identical
 from tests.helpers import DEVICE, need_equal_pixels
-from tests.reference.sampling import sample_image
 
 SIZE = (48, 36)
 

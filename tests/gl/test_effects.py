@@ -8,7 +8,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.reference import shading
+from tests.reference import tone
 
 IDENTITY = "vec4 effect(vec2 uv) { return frame(uv); }"
 BLUR = """
@@ -120,7 +120,7 @@ def test_they_see_linear_light_before_the_tone_curve(renderer):
     double = cc.ImageEffect("vec3 effect(vec2 uv) { return 2.0 * frame(uv).rgb; }")
     plain = draw(renderer).color[..., :3].astype(float)
     got = draw(renderer, effects=[double], tonemap="reinhard", encode="srgb").color[..., :3]
-    assert_close(got, shading.srgb_encode(shading.reinhard(2 * plain)), "tone")
+    assert_close(got, tone.srgb_encode(tone.reinhard(2 * plain)), "tone")
 
 
 def test_negative_and_bright_values_pass_between_effects_and_out(renderer):

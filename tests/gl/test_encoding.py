@@ -11,7 +11,7 @@ import pytest
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
 from tests.gl.flat import flat_camera, quad
-from tests.reference.shading import TONE_CURVES, srgb_decode, srgb_encode
+from tests.reference.tone import TONE_CURVES, srgb_decode, srgb_encode
 
 LOOK: dict[str, Any] = {"tonemap": "neutral", "encode": "srgb"}
 PHOTO = np.random.default_rng(1).integers(1, 255, (4, 6, 3)).astype(np.uint8)

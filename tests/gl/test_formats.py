@@ -17,7 +17,7 @@ from tests.gl.world import (
     room,
     smooth_environment,
 )
-from tests.reference import shading
+from tests.reference import tone
 from tests.reference import transforms as ref
 from tests.reference.compositing import over
 from tests.reference.raycast import interior
@@ -102,9 +102,9 @@ def raw(renderer, bright):
 @pytest.mark.parametrize("encode", [None, "srgb"])
 def test_tone_curves(renderer, bright, raw, curve, encode):
     view, linear = raw
-    want = shading.TONE_CURVES[curve](linear[..., :3].astype(float))
+    want = tone.TONE_CURVES[curve](linear[..., :3].astype(float))
     if encode:
-        want = shading.srgb_encode(want)
+        want = tone.srgb_encode(want)
     got = renderer.render(
         bright, view.camera, view.size, format="rgba32f", tonemap=curve, encode=encode
     ).color
@@ -117,14 +117,14 @@ def test_srgb_alone(renderer, bright, raw):
     view, linear = raw
     got = renderer.render(bright, view.camera, view.size, format="rgba32f", encode="srgb").color
     low = (linear[..., :3] <= 1).all(-1)
-    assert_close(got[..., :3], shading.srgb_encode(linear[..., :3].astype(float)), "tone", mask=low)
+    assert_close(got[..., :3], tone.srgb_encode(linear[..., :3].astype(float)), "tone", mask=low)
     assert (got[~low][:, :3].max(-1) >= 1).all()
 
 
 def test_eight_bits_of_the_curve(renderer, bright, raw):
     view, linear = raw
     got = renderer.render(bright, view.camera, view.size, tonemap="aces", encode="srgb").color
-    want = shading.srgb_encode(shading.aces(linear[..., :3].astype(float))) * 255
+    want = tone.srgb_encode(tone.aces(linear[..., :3].astype(float))) * 255
     assert np.abs(got[..., :3] - want).max() < 0.51
     assert got.dtype == np.uint8
 
@@ -200,7 +200,7 @@ def test_rgb565_of_an_encoded_frame(renderer, bright, raw):
     got = renderer.render(
         bright, view.camera, view.size, format="rgb565", tonemap="aces", encode="srgb"
     ).color
-    want = shading.srgb_encode(shading.aces(linear[..., :3].astype(float)))
+    want = tone.srgb_encode(tone.aces(linear[..., :3].astype(float)))
     assert_close(got[..., 1] / 255, want[..., 1], "unorm6")
     assert_close(got[..., 2] / 255, want[..., 2], "unorm5")
     assert (got[..., 3] == 255).all()

@@ -7,7 +7,7 @@ from tests.helpers import DEVICE, run_python
 #: For each long call: what prepares it, and the call, which must do its whole work each time.
 LONG_CALLS = {
     "capture": ("s = lit_scene()", "change(s); r.capture(s, size=1400)"),
-    "render": ("s = lit_scene()", "change(s); r.render(s, cam, (4000, 3000))"),
+    "render": ("s = lit_scene()", "change(s); r.render(s, cam, (3200, 2400))"),
     "samples": ("s = lit_scene()", "change(s); r.capture(s, size=700, samples=4)"),
     "large samples": (
         "s = lit_scene()",
@@ -17,25 +17,25 @@ LONG_CALLS = {
     "outputs": ("s = lit_scene()", "change(s); r.capture(s, size=800, outputs=('id', 'position'))"),
     "shader": (
         "s = lit_scene(cc.ShaderMaterial(SLOW, double_sided=True))",
-        "change(s); r.render(s, cam, (1200, 1200))",
+        "change(s); r.render(s, cam, (800, 800))",
     ),
     "many nodes": ("s = crowded_scene()", "change(s); r.capture(s, size=32)"),
     "prefiltering": (
         "s = cc.Scene()",
         "s.environment = noise(300); r.render(s_of(s), cam, (8, 8))",
     ),
-    "to_equirect": ("c = noise(900)", "c.to_equirect(width=9000)"),
-    "from_equirect": ("p = noise(600).to_equirect()", "cc.CubeMap.from_equirect(p, size=2400)"),
-    "resize": ("c = noise(700)", "c.resize(2600)"),
-    "to_layout": ("c = noise(1900)", "c.to_layout('cross', convention='three', dtype='uint8')"),
+    "to_equirect": ("c = noise(900)", "c.to_equirect(width=7000)"),
+    "from_equirect": ("p = noise(600).to_equirect()", "cc.CubeMap.from_equirect(p, size=1900)"),
+    "resize": ("c = noise(700)", "c.resize(2200)"),
+    "to_layout": ("c = noise(1200)", "c.to_layout('cross', convention='three', dtype='uint8')"),
     "sample": (
         "c, d = noise(300, mipmaps=True), random.random((4_000_000, 3), 'f4')",
         "c.sample(d, lod=1.5)",
     ),
     "prefilter": ("c = noise(256)", "c.prefilter(levels=4)"),
     "irradiance": ("c = noise(700)", "c.irradiance(48)"),
-    "sh": ("c = noise(900)", "c.sh(4)"),
-    "from_sh": ("k = np.ones((25, 3))", "cc.CubeMap.from_sh(k, size=1200)"),
+    "sh": ("c = noise(600)", "c.sh(4)"),
+    "from_sh": ("k = np.ones((25, 3))", "cc.CubeMap.from_sh(k, size=700)"),
     "Mesh": (
         "m = cc.Mesh.sphere(1, 2500, 1200); p, i = m.positions, m.indices",
         "cc.Mesh(p, i)",
@@ -45,7 +45,7 @@ LONG_CALLS = {
         "m.update(positions=p[::-1])",
     ),
     "update twice": (
-        "m = cc.Mesh.sphere(1, 2500, 1500); p, n, u = m.positions, m.normals, m.uvs",
+        "m = cc.Mesh.sphere(1, 1500, 900); p, n, u = m.positions, m.normals, m.uvs",
         "m.normals = None; m.update(positions=p, uvs=u[::-1])",
     ),
     "Mesh.with_tangents": (
@@ -57,7 +57,7 @@ LONG_CALLS = {
         "m.update(uvs=u + np.float32(random.random())); r.render(s, cam, (8, 8))",
     ),
     "flat faces of a scene": (
-        "m = cc.Mesh.sphere(1, 600, 400); p = m.positions; s = bumpy_scene(m, flat_shading=True)",
+        "m = cc.Mesh.sphere(1, 400, 250); p = m.positions; s = bumpy_scene(m, flat_shading=True)",
         "m.update(positions=p * np.float32(1 + random.random())); r.render(s, cam, (8, 8))",
     ),
     "sphere": ("pass", "cc.Mesh.sphere(1, 2500, 1500)"),
@@ -371,7 +371,7 @@ def test_a_handler_may_update_the_mesh_that_an_update_works_on():
         PREPARE.format(device=DEVICE)
         + """
 cc._core._interrupt_pause(0)
-m = cc.Mesh.sphere(1, 900, 500)
+m = cc.Mesh.sphere(1, 500, 300)
 n = len(m.positions)
 positions, uvs, normals = m.positions * 2, random_f4((n, 2)), m.normals[::-1].copy()
 s = s_of(cc.Scene(background=(1, 1, 1)))

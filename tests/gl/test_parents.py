@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import World, inner, perspective
-from tests.reference import shading
 
 SIZE = (40, 30)
 SHADOW = cc.Shadow(size=32)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.gl.world import (
     World,
@@ -14,7 +15,6 @@ from tests.gl.world import (
     perspective,
     phong_lights,
 )
-from tests.reference import shading
 
 COLORS = {1: (0.4, 0.4, 1), 2: (1, 0.4, 0.4), 3: (0.4, 1, 0.4)}
 OURS, THEIRS = phong_lights()

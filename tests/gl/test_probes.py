@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import smooth_environment
-from tests.reference import shading
-from tests.reference.transforms import normalised
 
 CAMERA: dict[str, Any] = {"fov": 50, "position": (0, 1, 5), "target": (0, 0, 0)}
 

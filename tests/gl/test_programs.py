@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close
 from tests.gl.world import (
     World,
@@ -13,7 +15,6 @@ from tests.gl.world import (
     perspective,
     smooth_environment,
 )
-from tests.reference import shading
 from tests.reference import transforms as ref
 from tests.reference.cube_faces import texel_directions
 from tests.reference.raycast import interior
@@ -201,7 +202,7 @@ class TestP12:
         rng = np.random.default_rng(12)
         for _ in range(8):
             place = ref.rotation(ref.axis_angle((0, 1, 0), 10 * step))[:3, :3] @ (
-                ref.normalised(rng.normal(size=3)) * 6
+                normalised(rng.normal(size=3)) * 6
             )
             world.box(
                 2, rng.random(3), position=place, axis=rng.normal(size=3), degrees=20 * step + 10

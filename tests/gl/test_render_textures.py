@@ -8,6 +8,7 @@ import psutil
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading.images import sample_image
 from cubecam.typing import Format
 from tests.compare import assert_close, assert_identical
 from tests.gl.flat import (
@@ -23,7 +24,6 @@ from tests.gl.flat import (
 )
 from tests.gl.world import World, inner, perspective, triangles_of
 from tests.helpers import DEVICE, need_own_memory, run_python
-from tests.reference.sampling import sample_image
 
 PICTURE = random_picture(1)
 OTHER = random_picture(2)

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import World, inner_smooth, perspective, smooth_environment
-from tests.reference import shading
-from tests.reference import transforms as ref
 from tests.reference.cube_faces import texel_directions
 from tests.reference.sampling import sample_faces
 
@@ -50,7 +50,7 @@ def ball_world():
     [
         ("position", lambda hits, eye: hits.position),
         ("normal", lambda hits, eye: hits.normal),
-        ("incident", lambda hits, eye: ref.normalised(hits.position - eye)),
+        ("incident", lambda hits, eye: normalised(hits.position - eye)),
         ("position_object", lambda hits, eye: hits.local),
     ],
 )
@@ -111,7 +111,7 @@ def test_environment_is_the_nodes_own(any_path):
     hits = view.hits(world.shapes)
     mask = inner_smooth(hits) & hits.hit
     got = any_path.render(world.scene, view.camera, view.size, format="rgba32f").color[..., :3]
-    incident = ref.normalised(hits.position[mask] - [1, 2, 3])
+    incident = normalised(hits.position[mask] - [1, 2, 3])
     want = np.zeros_like(got)
     want[mask] = sample_faces(cube.faces, shading.reflect(incident, hits.normal[mask]))[..., :3]
     assert_close(np.where(mask[..., None], got, 0), want, "mirror", mask, least=0.1)

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close
 from tests.gl.shadows import Lamp, around, lamps, lit, stage, with_shapes
 from tests.gl.world import World, capture_hits, inner, orthographic, perspective
-from tests.reference import shading
 from tests.reference import transforms as ref
 
 kinds = pytest.mark.parametrize("kind", ["directional", "spot", "point"])
@@ -298,8 +299,8 @@ def cage(shared_renderers):
 @pytest.mark.parametrize("edge", EDGES, ids=str)
 def test_no_seam_at_an_edge_of_a_point_lights_cube(cage, edge):
     hits, want, good, share, got = cage
-    way = ref.normalised(hits.position - PLACE)
-    here = (way @ ref.normalised(edge) > np.cos(np.radians(20))) & (hits.id == 1)
+    way = normalised(hits.position - PLACE)
+    here = (way @ normalised(edge) > np.cos(np.radians(20))) & (hits.id == 1)
     assert (share[here] == 0).any()
     assert (share[here] == 1).any()
     first, second = (np.abs(way[..., axis]) for axis in range(3) if edge[axis])

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.gl.world import World, capture_hits, inner, inner_smooth, perspective
-from tests.reference import shading
 from tests.reference.raycast import interior
 
 MIRRORED = {

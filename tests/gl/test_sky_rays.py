@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import smooth_environment
 from tests.reference import transforms as ref
@@ -40,8 +41,8 @@ def sky():
 
 def axes(position, target, up):
     """The camera's right, upper and forward direction in the world."""
-    forward = ref.normalised(np.subtract(target, position))
-    right = ref.normalised(np.cross(forward, up))
+    forward = normalised(np.subtract(target, position))
+    right = normalised(np.cross(forward, up))
     return right, np.cross(right, forward), forward
 
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close
 from tests.gl.world import World, capture_hits, inner, perspective
-from tests.reference import shading
-from tests.reference.transforms import normalised
 
 CONES = {
     "sharp": {"angle": 30},

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading.images import sample_image
 from tests.compare import assert_close, assert_identical
 from tests.gl.flat import CORNERS, flat_camera, quad
 from tests.helpers import DEVICE
-from tests.reference.sampling import sample_image
 
 PICTURE = np.random.default_rng(3).integers(0, 256, (6, 9, 4), dtype=np.uint8)
 

@@ -10,12 +10,8 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.compare import assert_close, assert_identical
-from tests.gl.flat import flat_camera, quad
-from tests.gl.world import World, inner_smooth, perspective, smooth_environment
-from tests.reference.shading import Ambient, Directional, Point, Spot
-from tests.reference.standard.lookups import environment_of
-from tests.reference.standard.material import (
+from cubecam.truth.shading import Ambient, Directional, Point, Spot
+from cubecam.truth.shading.standard.material import (
     Environment,
     Parameters,
     Surface,
@@ -23,7 +19,11 @@ from tests.reference.standard.material import (
     mapped_normal,
     occluded,
 )
-from tests.reference.standard.shade import shade
+from cubecam.truth.shading.standard.shade import shade
+from tests.compare import assert_close, assert_identical
+from tests.gl.flat import flat_camera, quad
+from tests.gl.world import World, inner_smooth, perspective, smooth_environment
+from tests.reference.lookups import environment_of
 
 GREY = (0.25, 0.5, 0.4)
 

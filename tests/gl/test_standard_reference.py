@@ -10,20 +10,20 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.compare import assert_close
-from tests.gl.world import World, inner_smooth, orthographic, perspective, smooth_environment
-from tests.reference import shading
-from tests.reference.sampling import sample_image
-from tests.reference.standard.lookups import environment_of
-from tests.reference.standard.material import (
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
+from cubecam.truth.shading.images import sample_image
+from cubecam.truth.shading.standard.material import (
     Parameters,
     Surface,
     anisotropy_direction,
     mapped_normal,
     occluded,
 )
-from tests.reference.standard.shade import shade
-from tests.reference.transforms import normalised
+from cubecam.truth.shading.standard.shade import shade
+from tests.compare import assert_close
+from tests.gl.world import World, inner_smooth, orthographic, perspective, smooth_environment
+from tests.reference.lookups import environment_of
 
 VIEWS = {
     "near": perspective((0.6, 0.8, 2.4), (0, 0, 0), fov=50),

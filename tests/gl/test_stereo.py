@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close, assert_identical
 from tests.gl.crowd import crowd
 from tests.gl.world import OUTPUTS, everything, perspective, room
@@ -288,7 +289,7 @@ def test_parallax_is_that_of_sheared_frusta(make, aspect, rng):
 def test_eyes_stand_beside_the_camera(make):
     camera = make()
     world = np.linalg.inv(np.asarray(camera.view))
-    right = ref.normalised(world[:3, 0])
+    right = normalised(world[:3, 0])
     for convergence in (None, 2.0):
         eyes = cc.StereoCamera.off_axis(camera, separation=0.5, convergence=convergence)
         for eye, side in ((eyes.left, -0.25), (eyes.right, 0.25)):

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading.images import sample_image
 from tests.compare import assert_close
 from tests.gl.world import World, inner, perspective
 from tests.reference.raycast import Triangles
-from tests.reference.sampling import sample_image
 
 PICTURE = np.random.default_rng(8).integers(0, 256, (6, 9, 3), dtype=np.uint8)
 

@@ -5,7 +5,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 import cubecam as cc
-from tests.reference import raycast, shading
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
+from tests.reference import raycast
 from tests.reference import transforms as ref
 from tests.reference.cube_faces import FORWARD
 from tests.reference.pattern import face_pattern
@@ -136,7 +138,7 @@ class View:
 
     def directions(self):
         """Unit view directions of the pixels."""
-        return ref.normalised(ref.pixel_rays(self.view, self.projection, self.size)[1])
+        return normalised(ref.pixel_rays(self.view, self.projection, self.size)[1])
 
 
 def perspective(position, target, fov=60.0, size=(48, 36), near=0.1, far=100.0, up=(0, 1, 0)):

@@ -3,8 +3,10 @@
 import numpy as np
 
 import cubecam as cc
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.gl.world import inner_smooth, triangles_of
-from tests.reference import raycast, shading
+from tests.reference import raycast
 from tests.reference import transforms as ref
 from tests.reference.raycast import Box, Quad
 from tests.reference.sampling import sample_faces
@@ -71,7 +73,7 @@ class Look:
         )
 
     def directions(self):
-        return ref.normalised(ref.pixel_rays(self.view, self.projection, self.size)[1])
+        return normalised(ref.pixel_rays(self.view, self.projection, self.size)[1])
 
 
 def lit(hits, colors, eye, background=GREY, **weights):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tests.reference import shading
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.reference.cube_faces import direction_to_face_uv
-from tests.reference.transforms import normalised
 
 
 def held(renderer, program, node, probe, size=(256, 256), eta=None):

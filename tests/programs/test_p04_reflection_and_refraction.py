@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from cubecam.examples import reflection_and_refraction as example
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.gl.world import inner_smooth
 from tests.programs.oracle import Look, looked_up, mesh, moved, near_enough, photographs, ry, scaled
-from tests.reference import shading
 
 SIZE = (64, 64)
 

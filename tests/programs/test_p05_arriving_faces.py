@@ -5,10 +5,10 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import arriving_faces as example
+from cubecam.truth import shading
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import inner
 from tests.programs.oracle import Look, box, looked_up, photographs, rx, ry
-from tests.reference import shading
 
 SIZE = (64, 64)
 ORDER = (4, 1, 0, 5, 3, 2)

@@ -5,6 +5,8 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import model_space_reflection as example
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 from tests.compare import assert_close, assert_identical
 from tests.gl.world import inner_smooth
 from tests.programs.oracle import (
@@ -17,9 +19,7 @@ from tests.programs.oracle import (
     ry,
     scaled,
 )
-from tests.reference import shading
 from tests.reference.cube_faces import unit_texel_directions
-from tests.reference.transforms import normalised
 
 SIZE = (96, 48)
 EYE = (0, 0.8, 4)

@@ -5,9 +5,9 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import render_to_texture as example
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.programs.oracle import LAMP, Look, moved, turned
-from tests.reference import shading
 from tests.reference.compositing import composite
 from tests.reference.raycast import Box, interior
 

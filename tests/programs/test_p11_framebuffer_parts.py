@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from cubecam.examples import framebuffer_parts as example
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.programs.oracle import LAMP, Look, box, mesh, moved, quad, ry, unbroken
-from tests.reference import raycast, shading
+from tests.reference import raycast
 from tests.reference.raycast import interior
 
 SIZE = (64, 56)
@@ -134,9 +135,9 @@ def test_the_shadow_against_ray_casting(drawn, frame):
     lit, unlit = lit.copy(), unlit.copy()
     for shape, color in zip(shapes, COLORS, strict=True):
         rows = hits.id == shape.id
-        weights = {"ks": 0} if shape.id == 1 else {}
+        shine = 0.0 if shape.id == 1 else 1.0
         lit[rows] = shading.phong(
-            hits.position[rows], hits.normal[rows], EYE, color, [LAMP], **weights
+            hits.position[rows], hits.normal[rows], EYE, color, [LAMP], ks=shine
         )
         unlit[rows] = 0.2 * np.array(color)
     want = np.where(blocked[..., None] == 1, unlit, lit)

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 
 from cubecam.examples import cube_camera as example
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.gl.world import inner_smooth
 from tests.programs.oracle import Look, box, lit, looked_up, mesh, near_enough, photographs
-from tests.reference import raycast, shading
+from tests.reference import raycast
 from tests.reference.cube_faces import texel_directions
 from tests.reference.raycast import interior
 

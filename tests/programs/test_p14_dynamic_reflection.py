@@ -5,6 +5,7 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import dynamic_reflection as example
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.programs.oracle import (
     GOLD,
@@ -20,7 +21,7 @@ from tests.programs.oracle import (
     unbroken,
 )
 from tests.programs.staged import gaze, held, like_the_background, shares
-from tests.reference import raycast, shading
+from tests.reference import raycast
 
 SIZE, FACE = (72, 72), 40
 

@@ -5,6 +5,7 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import dynamic_refraction as example
+from cubecam.truth import shading
 from tests.compare import assert_close
 from tests.programs.oracle import (
     GOLD,
@@ -19,7 +20,7 @@ from tests.programs.oracle import (
     unbroken,
 )
 from tests.programs.staged import held, like_the_background, shares
-from tests.reference import raycast, shading
+from tests.reference import raycast
 
 SIZE, FACE = (96, 96), 40
 

@@ -5,10 +5,10 @@ import pytest
 
 import cubecam as cc
 from cubecam.examples import rough_metal as example
+from cubecam.truth.shading.standard.material import Parameters, Surface
+from cubecam.truth.shading.standard.shade import shade
 from tests.programs.oracle import near_enough
-from tests.reference.standard.lookups import environment_of
-from tests.reference.standard.material import Parameters, Surface
-from tests.reference.standard.shade import shade
+from tests.reference.lookups import environment_of
 
 SIZE = (144, 72)
 #: The size of the photograph, which the test makes itself, with edges and a lamp.

@@ -5,8 +5,10 @@ Looking along the centre with +Y up, the picture's right is the world's right: r
 
 import numpy as np
 
+from cubecam.truth.shading.images import to_float
+
 from .cube_faces import texel_directions
-from .sampling import sample_faces, to_float
+from .sampling import sample_faces
 
 UP = np.array([0.0, 1.0, 0.0])
 CENTERS = {

@@ -5,8 +5,14 @@ Written from the papers that each function names; nothing here knows the quadtre
 
 import numpy as np
 
+from cubecam.truth.shading.standard.microfacets import (
+    charlie,
+    charlie_visibility,
+    smith_half,
+    trowbridge_reitz,
+)
+
 from .cube_faces import unit_texel_directions
-from .standard.microfacets import charlie, charlie_visibility, smith_half, trowbridge_reitz
 
 
 def solid_angles(size):

@@ -6,13 +6,9 @@ missing fourth texel is the average of the other three.
 
 import numpy as np
 
+from cubecam.truth.shading.images import to_float
+
 from .cube_faces import direction_to_face_uv, face_uv_to_direction
-
-
-def to_float(faces):
-    """Texels as the numbers a shader sees: uint8 as value / 255."""
-    faces = np.asarray(faces)
-    return faces / 255.0 if faces.dtype == np.uint8 else faces.astype(float)
 
 
 def pad_faces(faces):
@@ -83,36 +79,3 @@ def sample_trilinear(faces, directions, lod):
     a = sample_faces(levels[lower], directions)
     b = sample_faces(levels[upper], directions)
     return a + (b - a) * (lod - lower)
-
-
-def wrapped(index, count, wrap):
-    """The texel that stands for one outside of 0..count - 1."""
-    if wrap == "repeat":
-        return index % count
-    if wrap == "mirror":
-        index = index % (2 * count)
-        return np.where(index < count, index, 2 * count - 1 - index)
-    return np.clip(index, 0, count - 1)
-
-
-def sample_image(image, uv, wrap="repeat", *, nearest=False):
-    """Lookup in a (H, W, C) picture whose row 0 is on top; uv (0, 0) is its bottom-left corner.
-
-    Bilinear, or of the nearest texel. `wrap` is a name, or one for u and one for v.
-    """
-    image = to_float(image)
-    height, width = image.shape[:2]
-    wrap_u, wrap_v = (wrap, wrap) if isinstance(wrap, str) else wrap
-    x = np.asarray(uv)[..., 0] * width - 0.5
-    y = (1 - np.asarray(uv)[..., 1]) * height - 0.5
-
-    def texel(r, c):
-        return image[wrapped(r, height, wrap_v), wrapped(c, width, wrap_u)]
-
-    if nearest:
-        return texel(np.floor(y + 0.5).astype(int), np.floor(x + 0.5).astype(int))
-    column, row = np.floor(x).astype(int), np.floor(y).astype(int)
-    fx, fy = (x - column)[..., None], (y - row)[..., None]
-    top = texel(row, column) * (1 - fx) + texel(row, column + 1) * fx
-    bottom = texel(row + 1, column) * (1 - fx) + texel(row + 1, column + 1) * fx
-    return top * (1 - fy) + bottom * fy

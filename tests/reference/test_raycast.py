@@ -1,6 +1,8 @@
 import numpy as np
 import pytest
 
+from cubecam.truth.shading import normalised
+
 from .cube_faces import texel_directions
 from .raycast import (
     Box,
@@ -17,7 +19,6 @@ from .transforms import (
     apply,
     axis_angle,
     look_at,
-    normalised,
     orthographic,
     perspective,
     pixel_rays,

@@ -1,6 +1,8 @@
 import numpy as np
 import pytest
 
+from cubecam.truth.shading.images import sample_image
+
 from .cube_faces import face_uv_to_direction, texel_directions
 from .equirect import (
     CENTERS,
@@ -11,7 +13,7 @@ from .equirect import (
     pixel_directions,
 )
 from .pattern import direction_pattern, random_faces
-from .sampling import sample_faces, sample_image, sample_trilinear
+from .sampling import sample_faces, sample_trilinear
 
 
 def test_texel_centers_give_the_texels(rng):

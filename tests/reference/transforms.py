@@ -2,10 +2,7 @@
 
 import numpy as np
 
-
-def normalised(v):
-    v = np.asarray(v, float)
-    return v / np.linalg.norm(v, axis=-1, keepdims=True)
+from cubecam.truth.shading import normalised
 
 
 def translation(offset):

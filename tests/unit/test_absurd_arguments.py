@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot
+from cubecam import demo, explore, navigation, plot, truth
 from cubecam.viewer.cube_view import CubeView
 from cubecam.viewer.viewer import Viewer
 from tests import absurd
@@ -99,6 +99,7 @@ NEEDED: dict[str, Any] = {
     "Scene.set_positions": lambda: {"nodes": [], "positions": np.zeros((0, 3))},
     "Scene.set_time": lambda: {"seconds": 0.5},
     "Scene.save": lambda: {"path": "a.glb"},
+    "Scene.to_mitsuba": lambda: {"camera": cc.PerspectiveCamera(), "size": (8, 8), "path": "a.xml"},
     "Scene.show": lambda: {"where": "offscreen", "size": (8, 8)},
     "CubeMap": lambda: {"faces": FACES},
     "CubeMap.from_equirect": lambda: {"image": PICTURE, "size": 1},
@@ -209,6 +210,14 @@ NEEDED: dict[str, Any] = {
     "plot.seam_steps": lambda: {"cube": FACES},
     "plot.seams": lambda: {"cube": FACES},
     "plot.vectors": lambda: {"field": FACES},
+    "truth.capture": lambda: {"scene": cc.Scene(), "size": 2, "samples": 1},
+    "truth.compare": lambda: {"picture": PICTURE, "truth": PICTURE},
+    "truth.render": lambda: {
+        "scene": cc.Scene(),
+        "camera": cc.PerspectiveCamera(),
+        "size": (2, 2),
+        "samples": 1,
+    },
     "explore.reflection": lambda: {"environment": cube(), "where": "offscreen", "size": (8, 8)},
     "explore.layout": lambda: {"where": "offscreen", "size": (8, 8)},
     "demo.run": lambda: {"out": "out", "frames": 1, "size": 1},
@@ -258,7 +267,13 @@ def function_of(name, renderer):
     if not owner:
         kinds = {"LayoutView": explore.LayoutView, "ReflectionView": explore.ReflectionView}
         return {**kinds, "CubeView": CubeView}.get(name) or getattr(cc, name)
-    modules = {"plot": plot, "navigation": navigation, "explore": explore, "demo": demo}
+    modules = {
+        "plot": plot,
+        "navigation": navigation,
+        "explore": explore,
+        "demo": demo,
+        "truth": truth,
+    }
     if owner in modules:
         return getattr(modules[owner], member)
     kind = getattr(cc, owner, None)
@@ -375,6 +390,7 @@ def test_the_walk_finds_them():
     }
 
 
+@pytest.mark.filterwarnings("ignore::cubecam.SceneWarning")  # what Mitsuba cannot say of the scene
 @pytest.mark.parametrize("name", [name for name, make in NEEDED.items() if make is not dict])
 def test_the_calls_are_right_without_absurd_values(name, renderer, files):
     """Otherwise an error would say nothing about the value."""

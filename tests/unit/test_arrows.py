@@ -46,6 +46,7 @@ PYTHON_ORDER = (
     "_late",
     "_warnings",
     "data",  # the packaged files and their list
+    "_nodes",  # which nodes are shown
     "io",
     "pictures",
     "_array_protocol",
@@ -53,6 +54,7 @@ PYTHON_ORDER = (
     "navigation",
     "optics",
     "projections",
+    "truth",  # the same scene by exact rays, and comparisons with it
     "staging",  # light, ground and camera for a model
     "viewer",
     "explore",
@@ -62,6 +64,7 @@ PYTHON_ORDER = (
     "_arguments",
     "_attach",
     "cubecam",  # the package itself: __init__.py
+    "truth",  # the same scene by exact rays
     "examples",
     "demo",
     "cli",
@@ -185,6 +188,16 @@ def test_python_imports_go_down():
         f"{file} of {part} imports {other}"
         for file, part, other in arrows
         if other not in allowed(part, PYTHON_ORDER, PYTHON_KNOWS)
+    ]
+    assert wrong == []
+
+
+def test_shading_is_plain_numpy():
+    """It judges the renderer, so nothing of it may come from there."""
+    wrong = [
+        f"{file} imports {other}"
+        for file, part, other in python_arrows()
+        if file.parts[:2] == ("truth", "shading") and other != "truth"
     ]
     assert wrong == []
 

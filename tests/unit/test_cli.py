@@ -63,6 +63,7 @@ COMMANDS = [
     "bake",
     "convert",
     "capture",
+    "compare",
     "example",
     "view",
     "conventions",
@@ -108,6 +109,8 @@ def test_help_says_what_to_write_and_not_types(command):
         "--no-preview",
         "--ground",
         "--document",
+        "--cube",
+        "--no-flip",
     }
     for line in text.splitlines():
         found = re.match(r"^  (?:-\w, )?(--[\w-]+)(.*)", line)
@@ -523,7 +526,7 @@ shells = pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 COMPLETED = {
     "commands": (
         ["cubecam", "c"],
-        {("plain", "convert"), ("plain", "capture"), ("plain", "conventions")},
+        {("plain", word) for word in ("convert", "capture", "compare", "conventions")},
     ),
     "options": (["cubecam", "info", "--j"], {("plain", "--json")}),
     "choices": (

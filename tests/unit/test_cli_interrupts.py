@@ -32,11 +32,14 @@ finally:
         print("looks", looks, file=sys.stderr)
 """
 
+#: A small picture of light; the command's own photograph takes seconds.
+SKY = ("-e", "sky.hdr")
+
 COMMANDS = {
-    "render": ("render", "ball.obj", "-o", "out/ball.png", "--size", "300x200", "--no-preview"),
+    "render": ("render", "ball.obj", "-o", "out/ball.png", "--size", "300x200", "--no-preview", *SKY),
     "film": (
         *("render", "ball.obj", "-o", "out/ball.gif", "--size", "64", "--no-preview"),
-        *("--seconds", ".4", "--fps", "10"),
+        *("--seconds", ".4", "--fps", "10", *SKY),
     ),
     "bake a photograph": ("bake", "sky.hdr", "--for", "babylon", "-o", "out", "-s", "32", "--no-preview"),
     "bake a scene": ("bake", "ball.obj", "--for", "three", "-o", "out", "-s", "64", "--no-preview"),

@@ -9,7 +9,7 @@ from tests.helpers import conventions, layouts
 from tests.reference.cube_faces import FACE_NAMES, convert, face_uv_to_direction, to_layout
 from tests.reference.equirect import faces_to_equirect, pixel_directions
 from tests.reference.pattern import direction_pattern, face_pattern, random_faces
-from tests.reference.shading import srgb_decode
+from tests.reference.tone import srgb_decode
 
 
 def six(folder, ending="png"):

@@ -11,7 +11,7 @@ import pytest
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
 from tests.reference.cube_faces import convert
-from tests.reference.shading import srgb_decode
+from tests.reference.tone import srgb_decode
 
 SIZE = 8
 ALPHA, FOUR_CC, RGB, LUMINANCE = 1, 4, 0x40, 0x20000

@@ -5,6 +5,7 @@ import pytest
 import trimesh
 
 import cubecam as cc
+from cubecam.truth.shading import normalised
 from tests.reference import transforms as ref
 
 
@@ -24,7 +25,7 @@ def test_vertices_faces_and_normals():
 
 
 def test_normals_that_were_given(rng):
-    normals = ref.normalised(rng.normal(size=torus().vertices.shape))
+    normals = normalised(rng.normal(size=torus().vertices.shape))
     mesh = cc.Mesh.from_trimesh(torus(vertex_normals=normals))
     np.testing.assert_allclose(mesh.normals, normals, atol=1e-6)
 
@@ -89,7 +90,7 @@ def test_a_scene_becomes_one_mesh():
     np.testing.assert_array_equal(mesh.indices[: len(one.faces)], one.faces)
     np.testing.assert_array_equal(mesh.indices[len(one.faces) :], one.faces[:, ::-1] + count)
     turned = [one.vertex_normals @ np.linalg.inv(m[:3, :3]) for m in matrices]
-    np.testing.assert_allclose(mesh.normals, ref.normalised(np.concatenate(turned)), atol=1e-6)
+    np.testing.assert_allclose(mesh.normals, normalised(np.concatenate(turned)), atol=1e-6)
 
 
 @pytest.mark.parametrize("thing", [None, "bunny.obj", 3, trimesh.PointCloud([[0, 0, 0]])])

@@ -5,7 +5,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_close, assert_identical
-from tests.reference.shading import srgb_decode, srgb_encode
+from tests.reference.tone import srgb_decode, srgb_encode
 
 
 @pytest.fixture

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.shading import normalised
 from tests.reference import transforms as ref
 
 
 def unit(vector):
-    return ref.normalised(vector)
+    return normalised(vector)
 
 
 def check_front(node, target, up=(0, 1, 0)):

@@ -9,7 +9,8 @@ import pytest
 
 import cubecam as cc
 from cubecam import navigation
-from tests.reference.transforms import look_at, normalised
+from cubecam.truth.shading import normalised
+from tests.reference.transforms import look_at
 
 EYE, TARGET, UP = (1.0, 2.0, 5.0), (0.5, 0.2, -1.0), (0.1, 1.0, 0.2)
 CAMERAS: dict[str, Callable[..., Any]] = {

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.reference import shading
-from tests.reference.transforms import normalised
+from cubecam.truth import shading
+from cubecam.truth.shading import normalised
 
 UP = (0.0, 1.0, 0.0)
 ETAS = (1 / 1.52, 1 / 1.33, 1.0, 1.33, 2.4)

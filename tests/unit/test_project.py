@@ -1,6 +1,7 @@
 """The project's own files: tests that assert, versions that agree, workflows that call targets which exist."""
 
 import ast
+import functools
 import importlib.metadata
 import json
 import re
@@ -17,23 +18,39 @@ ROOT = Path(__file__).resolve().parents[2]
 ASSERTING = {"raises", "fail"}
 
 
-def asserts(function):
-    """Whether a function checks a result: with assert, or with a helper that is known to check."""
+@functools.cache
+def trees():
+    """The tests, read once: the syntax tree of each file."""
+    return {path: ast.parse(path.read_text()) for path in sorted((ROOT / "tests").rglob("*.py"))}
+
+
+@functools.cache
+def checks(function):
+    """Whether a function has an assert or what fails a test, and the names of all that it calls."""
+    called = set()
     for node in ast.walk(function):
         if isinstance(node, ast.Assert):
-            return True
+            return True, frozenset()
         if isinstance(node, ast.Call):
             name: str = getattr(node.func, "attr", "") or getattr(node.func, "id", "")
-            if name in ASSERTING or name in LOCAL or name.startswith("assert_"):
-                return True
-    return False
+            if name in ASSERTING or name.startswith("assert_"):
+                return True, frozenset()
+            called.add(name)
+    return False, frozenset(called)
 
 
+def asserts(function):
+    """Whether a function checks a result: with assert, or with a helper that is known to check."""
+    directly, called = checks(function)
+    return directly or not LOCAL.isdisjoint(called)
+
+
+@functools.cache
 def functions(tree):
     return [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
 
 
-def asserting_helpers(trees):
+def asserting_helpers(all_trees):
     """Names of the helpers (not tests) that check a result, directly or through each other."""
     found: set[str] = set()
     while True:
@@ -41,7 +58,7 @@ def asserting_helpers(trees):
         LOCAL.update(found)
         more = {
             function.name
-            for tree in trees
+            for tree in all_trees
             for function in functions(tree)
             if not function.name.startswith("test_") and asserts(function)
         }
@@ -54,11 +71,10 @@ LOCAL: set[str] = set()
 
 
 def test_every_test_asserts():
-    trees = {path: ast.parse(path.read_text()) for path in sorted((ROOT / "tests").rglob("*.py"))}
-    LOCAL.update(asserting_helpers(trees.values()))
+    LOCAL.update(asserting_helpers(trees().values()))
     without = [
         f"{path.relative_to(ROOT)}: {function.name}"
-        for path, tree in trees.items()
+        for path, tree in trees().items()
         for function in functions(tree)
         if function.name.startswith("test_") and not asserts(function)
     ]
@@ -72,8 +88,8 @@ def test_a_test_without_an_assertion_is_found():
 
 
 def test_helpers_are_not_imported_from_test_modules():
-    for path in sorted((ROOT / "tests").rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text())):
+    for path, tree in trees().items():
+        for node in ast.walk(tree):
             if isinstance(node, ast.ImportFrom) and node.module:
                 names = [*node.module.split("."), *(name.name for name in node.names)]
                 assert not (names[0] == "tests" and any(n.startswith("test_") for n in names)), path

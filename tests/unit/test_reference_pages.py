@@ -24,6 +24,7 @@ MODULES = [
     "demo",
     "pictures",
     "doctor",
+    "truth",
 ]
 
 

@@ -18,6 +18,25 @@ from tests.helpers import need_terminals
 SUZANNE = cc.sample_data("suzanne.glb")
 
 
+@pytest.fixture(scope="module", autouse=True)
+def photographs_are_blurred_once():
+    """Each command blurs the photograph behind its model, for most of a second; here it is done once for each."""
+    from cubecam.staging import shoot, stage
+
+    done: list[tuple[cc.CubeMap, cc.CubeMap]] = []
+
+    def once(cube):
+        for before, made in done:
+            if before == cube:
+                return made
+        done.append((cube.copy(), stage.blurred(cube)))
+        return done[-1][1]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(shoot, "blurred", once)
+        yield
+
+
 def cubecam(*arguments):
     from cubecam.cli import app
 

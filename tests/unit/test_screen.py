@@ -8,7 +8,7 @@ import pytest
 
 import cubecam as cc
 from tests.compare import assert_identical
-from tests.reference.shading import TONE_CURVES, srgb_decode, srgb_encode
+from tests.reference.tone import TONE_CURVES, srgb_decode, srgb_encode
 
 FLOATS = (10.0 ** np.random.default_rng(3).uniform(-3, 2, (6, 8, 8, 3))).astype(np.float32)
 BYTES = np.random.default_rng(4).integers(0, 256, (6, 8, 8, 3)).astype(np.uint8)

@@ -15,7 +15,7 @@ import re
 import pytest
 
 import cubecam as cc
-from cubecam import demo, explore, navigation, plot
+from cubecam import demo, explore, navigation, plot, truth
 from cubecam._calls import checked_call
 from cubecam.io import cubemap_save, cubemaps, images, meshes
 from cubecam.pictures import results
@@ -108,6 +108,7 @@ BY_POSITION = {
     "StereoCamera.toe_in": ["camera"],
     "Scene.remove": ["thing"],
     "Scene.save": ["path"],
+    "Scene.to_mitsuba": ["camera", "size"],
     "Scene.show": ["where"],
     "Scene.set_positions": ["nodes", "positions"],
     "Scene.set_matrices": ["nodes", "matrices"],
@@ -146,6 +147,9 @@ BY_POSITION = {
     "results.cube_png": ["cube"],
     "results.frame_png": ["frame"],
     "results.image_png": ["image"],
+    "truth.capture": ["scene", "position", "size"],
+    "truth.compare": ["picture", "truth", "mask"],
+    "truth.render": ["scene", "camera", "size"],
     "plot.cross": ["cube", "labels"],
     "plot.faces": ["cube"],
     "plot.layout": ["cube"],
@@ -208,6 +212,9 @@ def of_python():
             if inspect.isfunction(thing) and thing.__module__ == module.__name__ and not exported:
                 functions[f"{short}.{name}"] = thing
     functions |= {f"plot.{n}": vars(plot)[n] for n in plot.__all__ if callable(vars(plot)[n])}
+    functions |= {
+        f"truth.{n}": thing for n in truth.__all__ if inspect.isfunction(thing := vars(truth)[n])
+    }
     functions["explore.reflection"] = explore.reflection
     functions["explore.layout"] = explore.layout
     functions["DemoScene.turn"] = demo.DemoScene.turn
@@ -236,7 +243,9 @@ def by_name(name):
 def callable_of(name):
     """A callable by the name that FOUND gives; a method of a class is called with an object that is not made yet."""
     owner, _, member = name.rpartition(".")
-    modules = {module.__name__.rpartition(".")[2]: module for module in (*MODULES, explore, plot)}
+    modules = {
+        module.__name__.rpartition(".")[2]: module for module in (*MODULES, explore, plot, truth)
+    }
     if not owner:
         return getattr(cc, name)
     if owner in modules:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.staging.fit import axes_towards, fit_camera, fit_turntable, shown_nodes
+from cubecam._nodes import shown_nodes
+from cubecam.staging.fit import axes_towards, fit_camera, fit_turntable
 from cubecam.staging.ground import Ground
 from cubecam.staging.lamp import directions_of_light, sky_irradiance, split_lamp, texels
 from cubecam.staging.stage import exposure_for

@@ -1,4 +1,4 @@
-"""The command `cubecam`: info, doctor, demo, render, bake, convert, capture, example, view, conventions.
+"""The command `cubecam`: info, doctor, demo, render, bake, convert, capture, compare, example, view, conventions.
 
 Exit codes: 0 for success; 1 for an error, with a message; 2 for a command that is not valid; 130 for Ctrl-C, which
 leaves no unfinished file; 141 if the program that reads the output has ended, as in `cubecam info | head -1`.
@@ -18,6 +18,7 @@ from ..io.outside import calls_run
 from .bake import bake
 from .capture import capture
 from .common import FILE, WholeNumber, device_option, failures_reported, parse_device
+from .compare import compare
 from .completion import completion_options
 from .conventions import conventions
 from .convert import convert
@@ -66,7 +67,7 @@ def demo(out: str, frames: int, size: int, device: str | None) -> None:
 
 
 for _command in (
-    info, doctor, demo, render, bake, convert, capture, example, view, conventions,
+    info, doctor, demo, render, bake, convert, capture, compare, example, view, conventions,
 ):  # fmt: skip
     app.add_command(_command)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import shutil
+import sys
 
 from .findings import Finding
 
@@ -32,7 +33,10 @@ EXTRAS: dict[str, tuple[str, tuple[str, ...]]] = {
     "gltf": ("compressed glTF", ("DracoPy", "opengl_basisu", "zstd", "meshopt")),
     "ktx2": ("compressed KTX2", ("opengl_basisu", "zstd")),
     "video": ("MP4 without ffmpeg on PATH", ("imageio_ffmpeg",)),
-    "truth": ("ray casts that examples are compared with", ("embreex", "trimesh")),
+    "truth": (
+        "pictures by exact rays, and comparisons with them",
+        ("embreex", "flip_evaluator", "skimage", "trimesh"),
+    ),
 }
 
 
@@ -61,6 +65,11 @@ def _missing(extra: str) -> list[str]:
 def _is_there(module: str) -> bool:
     if module == "zstd":  # in the standard library from Python 3.14 on
         return any(map(_is_there, ("compression.zstd", "backports.zstd")))
+    if module == "flip_evaluator" and sys.version_info >= (
+        3,
+        14,
+    ):  # no wheel, and cubecam does without
+        return True
     try:
         return importlib.util.find_spec(module) is not None
     except (

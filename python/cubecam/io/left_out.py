@@ -25,7 +25,7 @@ class LeftOut:
         if place and place not in places[:_NAMED]:
             places.append(place)
 
-    def warn(self, path: Path) -> None:
+    def warn(self, path: Path | str) -> None:
         """Give one `SceneWarning` for each reason."""
         for reason, places in self._places.items():
             named = ", ".join(places[:_NAMED])

@@ -8,28 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from .._core import Node, PerspectiveCamera, Scene
+from .._core import Node, PerspectiveCamera
 
-__all__ = ["Extent", "axes_towards", "fit_camera", "fit_turntable", "is_shown", "shown_nodes"]
+__all__ = ["Extent", "axes_towards", "fit_camera", "fit_turntable"]
 
 Vectors = npt.NDArray[np.float64]
 
 _CHUNK = 1 << 16  # vertices of one product, so that a mesh of millions takes little memory
-
-
-def is_shown(node: Node) -> bool:
-    """Say whether a node and all above it are visible."""
-    one: Node | None = node
-    while one is not None:
-        if not one.visible:
-            return False
-        one = one.parent
-    return True
-
-
-def shown_nodes(scene: Scene) -> list[Node]:
-    """List the nodes with a mesh that pictures show."""
-    return [node for node in scene.nodes if node.mesh is not None and is_shown(node)]
 
 
 class Extent:

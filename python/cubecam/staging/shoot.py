@@ -19,7 +19,8 @@ from .._core import (
     Scene,
     StandardMaterial,
 )
-from .fit import Extent, fit_camera, fit_turntable, shown_nodes
+from .._nodes import shown_nodes
+from .fit import Extent, fit_camera, fit_turntable
 from .ground import Ground
 from .lamp import directions_of_light
 from .stage import blurred, exposure_for, light_by

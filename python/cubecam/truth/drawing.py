@@ -1,0 +1,351 @@
+"""`render` and `capture`: a scene by exact rays, piece by piece, until it is good enough."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .. import _core
+from .._calls import checked_call
+from .._checks import pair, real_number, whole_number
+from .arguments import Quality, matrix_of, nodes_of, of_class, output_names, quality_of, vector
+from .eyes import CameraEye, CubeEye, Eye
+from .matrices import luminance
+from .outputs import outputs_of
+from .pictures import TruthCube, TruthFrame, cube_of, frame_of
+from .progress import bar
+from .snapshot import read
+from .work import PATHS, Job, pieces
+from .workers import Workers
+
+if TYPE_CHECKING:
+    from .._core import Camera, Node, RenderTexture, Scene
+
+#: Samples of a pixel that are drawn before the picture is judged again.
+_PASS = 16
+#: Paths that one process draws in less time than others take to start.
+_FEW = 8 * PATHS
+
+
+@dataclass
+class _Sums:
+    """The sums of a picture's pixels, flat."""
+
+    color: npt.NDArray[np.float64]
+    squares: npt.NDArray[np.float64]
+    samples: npt.NDArray[np.int64]
+
+    def deviation(self) -> npt.NDArray[np.float64]:
+        """Give the standard error of each pixel's luminance."""
+        n = self.samples
+        with np.errstate(divide="ignore", invalid="ignore"):
+            mean = self.luminance()
+            variance = np.maximum(self.squares / n - mean**2, 0) / (n - 1)
+        # Rounding makes a variance of numbers that are all equal.
+        variance = np.where(variance * (n - 1) < 1e-12 * mean**2, 0.0, variance)
+        return np.where(n > 1, np.sqrt(variance), np.inf)
+
+    def luminance(self) -> npt.NDArray[np.float64]:
+        with np.errstate(divide="ignore", invalid="ignore"):
+            mean = luminance(self.color) / self.samples
+        return np.asarray(np.where(self.samples > 0, mean, 0.0))
+
+    def noise(self) -> float:
+        """Give the error of the whole picture, relative to its light."""
+        error = float(np.sqrt(np.mean(self.deviation() ** 2)))
+        light = float(np.sqrt(np.mean(self.luminance() ** 2)))
+        if error == 0:
+            return 0.0
+        return error / light if light > 0 else math.inf
+
+
+@checked_call
+def render(
+    scene: Scene,
+    camera: Camera,
+    size: tuple[int, int],
+    *,
+    bounces: int = 4,
+    samples: int = 64,
+    seed: int = 0,
+    target_error: float | None = None,
+    deadline: float | None = None,
+    processes: int | None = None,
+    outputs: Iterable[str] = (),
+    exclude: Iterable[Node] = (),
+    self_hits: bool = True,
+    progress: bool | None = None,
+) -> TruthFrame:
+    """Render a scene by exact rays instead of cubemaps and shadow maps.
+
+    Materials and lights are those of the renderer, and so are their formulas. What the renderer approximates is exact:
+    mirrors and glass show what their rays meet, other mirrors included; light passes through both sides of a glass
+    body; rough surfaces gather light from all around, by random samples; shadows have sharp edges.
+
+    Parameters
+    ----------
+    scene : Scene
+    camera : PerspectiveCamera or OrthographicCamera
+    size : (int, int)
+        (width, height), pixels.
+    bounces : int
+        How often a path may leave a mirror, a surface of glass or a `StandardMaterial`, at least 0. A glass ball takes
+        two. After that, a surface sees its environment as if nothing stood in the way, or black without one.
+    samples : int
+        Paths of each pixel, from 1 to 65536. 1: through the middle of the pixel. More are spread over the pixel, so
+        edges are smooth.
+    seed : int
+        Of the random numbers, from 0 to 2**32 - 1. A picture is the same for the same seed, whatever `processes` is.
+    target_error : float, optional
+        Stop as soon as the noise of the picture (`TruthFrame.noise`) is at most this, judged every 16 samples: 0.01 is
+        1 %. `samples` is then the most that is drawn. None: draw all samples.
+    deadline : float, optional
+        Seconds of wall time, above 0, after which the picture is given as it is.
+    processes : int, optional
+        Processes that draw, at least 1. None: one for each processor that this process may use, but 1 for a small
+        picture.
+    outputs : sequence of str
+        Any of "distance", "z", "normal", "position", "id" and "label": what the first opaque surface along the ray
+        through the middle of each pixel is, as `Renderer.render` gives it.
+    exclude : sequence of Node
+        Nodes of the scene that the picture leaves out, with all nodes below them; mirrors still show them.
+    self_hits : bool
+        Whether a node's reflection shows the node itself, as that of a teapot shows its spout. A probe leaves its own
+        node out: False compares with that.
+    progress : bool, optional
+        Whether a bar shows the progress. None: if the standard error stream is a terminal.
+
+    Returns
+    -------
+    TruthFrame
+        Float32 colour, linear, with the outputs and with the noise of each pixel. Ctrl-C gives what is done; `complete`
+        is then False.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range, an unknown output, or what rays cannot follow: a `ShaderMaterial`, effects of a
+        render texture, a probe as `BasicMaterial.cubemap`, a stencil, ``depth_test=False``, channels that are not
+        written, an opaque surface that writes no depth, or a `Blend` that is not a sum. The message names the node.
+    TypeError
+        For an argument of another type, such as a `StereoCamera`.
+    ImportError
+        Without embreex, the extra `truth`.
+
+    Notes
+    -----
+    A path is followed from the eye (J. Kajiya, "The Rendering Equation", SIGGRAPH 1986); `StandardMaterial` chooses the
+    next direction by its own lobes and by the brightness of its environment, weighted by the balance heuristic
+    (E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997). A `PhongMaterial` ends a path: the
+    model has no light from other surfaces. Textures are looked up without mipmaps, and occlusion maps are left out,
+    since rays find what they stand for.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(.2, .3, .4))
+    >>> ball = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial())
+    >>> floor = scene.add(cc.Mesh.plane(4, 4), cc.BasicMaterial(color=(1, 0, 0)), position=(0, -.6, 0))
+    >>> camera = cc.PerspectiveCamera(position=(0, 0, 3))
+    >>> exact = cc.truth.render(scene, camera, (32, 32), samples=4, outputs=("id",))
+    >>> exact.color.dtype.name, int(exact.id[16, 16]), bool(exact.color[20, 16, 0] > .9)
+    ('float32', 1, True)
+    """
+    of_class(scene, _core.Scene, "scene")
+    of_class(camera, _core.Camera, "camera")
+    width, height = pair(size, "size")
+    whole_number(width, "size", 1)
+    whole_number(height, "size", 1)
+    quality = quality_of(
+        bounces, samples, seed, target_error, deadline, processes, self_hits, progress
+    )
+    names = output_names(outputs)
+    eye = CameraEye.of(camera, (width, height))
+    made = _draw(scene, eye, names, nodes_of(exclude), quality, of_capture=False)
+    return TruthFrame(frame_of(made.color, made.outputs), **made.rest)
+
+
+@checked_call
+def capture(
+    scene: Scene,
+    position: npt.ArrayLike = (0.0, 0.0, 0.0),
+    size: int = 256,
+    *,
+    bounces: int = 4,
+    samples: int = 64,
+    seed: int = 0,
+    target_error: float | None = None,
+    deadline: float | None = None,
+    processes: int | None = None,
+    outputs: Iterable[str] = (),
+    exclude: Iterable[Node] = (),
+    near: float = 0.05,
+    far: float = 1000.0,
+    rotation: npt.ArrayLike | None = None,
+    self_hits: bool = True,
+    progress: bool | None = None,
+) -> TruthCube:
+    """Capture the surroundings of a point into a cubemap, by exact rays.
+
+    Parameters
+    ----------
+    scene : Scene
+    position : array_like (3,)
+        World position.
+    size : int
+        Texels along an edge of a face, at least 1.
+    bounces, samples, seed, target_error, deadline, processes, outputs, exclude, self_hits, progress
+        As for `render`.
+    near, far : float
+        Clip distances along each face's axis, world units, 0 < near < far.
+    rotation : array_like (4,), optional
+        Quaternion (w, x, y, z) that turns the cube's axes, as for `Renderer.capture`. None: the axes are the world's.
+
+    Returns
+    -------
+    TruthCube
+        Float32 faces in the layout of docs/conventions.md, with the outputs and with the noise of each texel.
+
+    Raises
+    ------
+    ValueError, TypeError, ImportError
+        As `render`; ValueError, too, for a position, distances or a rotation that are not finite, or a rotation of
+        length 0.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene(background=(1, 1, 1))
+    >>> floor = scene.add(cc.Mesh.plane(4, 4), cc.BasicMaterial(color=(1, 0, 0)), position=(0, -1, 0))
+    >>> exact = cc.truth.capture(scene, (0, 0, 0), 8, samples=1, outputs=("distance",))
+    >>> exact.sample((0, -1, 0)).tolist(), round(float(exact.distance.min()), 2)
+    ([1.0, 0.0, 0.0, 1.0], 1.02)
+    """
+    of_class(scene, _core.Scene, "scene")
+    texels = whole_number(size, "size", 1)
+    quality = quality_of(
+        bounces, samples, seed, target_error, deadline, processes, self_hits, progress
+    )
+    near, far = real_number(near, "near"), real_number(far, "far")
+    if not 0 < near < far or not math.isfinite(far):
+        raise ValueError(f"near, far: expected 0 < near < far, finite, got {near} and {far}")
+    names = output_names(outputs)
+    eye = CubeEye(vector(position, 3, "position"), matrix_of(rotation), near, far, texels)
+    made = _draw(scene, eye, names, nodes_of(exclude), quality, of_capture=True)
+    return TruthCube(cube_of(made.color, made.outputs), **made.rest)
+
+
+@dataclass
+class _Made:
+    color: npt.NDArray[np.float32]
+    outputs: dict[str, npt.NDArray[Any]]
+    rest: dict[str, Any]
+
+
+def _draw(
+    scene: Scene,
+    eye: Eye,
+    names: tuple[str, ...],
+    exclude: tuple[Node, ...],
+    quality: Quality,
+    *,
+    of_capture: bool,
+    shown: tuple[object, ...] = (),
+) -> _Made:
+    started = time.monotonic()
+    snapshot = read(scene, exclude=exclude, textures=_textures(quality, shown))
+    job = Job(
+        snapshot,
+        eye,
+        quality.bounces,
+        quality.samples,
+        quality.seed,
+        quality.self_hits,
+        of_capture,
+    )
+    found = outputs_of(job.tracer(), eye, names)
+    count = int(np.prod(eye.shape))
+    sums = _Sums(np.zeros((count, 4)), np.zeros(count), np.zeros(count, np.int64))
+    complete = _fill(job, sums, quality, started)
+    with np.errstate(invalid="ignore"):
+        color = np.where(sums.samples[:, None] > 0, sums.color / sums.samples[:, None], 0.0)
+    rest = {
+        "samples": sums.samples.reshape(eye.shape),
+        "deviation": sums.deviation().astype(np.float32).reshape(eye.shape),
+        "noise": sums.noise(),
+        "seconds": time.monotonic() - started,
+        "complete": complete,
+    }
+    return _Made(color.astype(np.float32).reshape(*eye.shape, 4), found, rest)
+
+
+def _fill(job: Job, sums: _Sums, quality: Quality, started: float) -> bool:
+    """Draw pass after pass into the sums; False if it was ended before the end."""
+    count = len(sums.samples)
+    steps = range(0, quality.samples, _PASS)
+    passes = [(a, min(a + _PASS, quality.samples)) for a in steps]
+    parts = [pieces(count, each) for each in passes]
+    end = math.inf if quality.deadline is None else started + quality.deadline
+    try:
+        with (
+            bar(sum(map(len, parts)), quality.progress) as advance,
+            Workers(job, _processes(quality, count)) as workers,
+        ):
+            for part in parts:
+                for piece, (color, squares) in workers.draw(part):
+                    rows = slice(*piece.pixels)
+                    sums.color[rows] += color
+                    sums.squares[rows] += squares
+                    sums.samples[rows] += piece.samples[1] - piece.samples[0]
+                    advance()
+                    if time.monotonic() > end:
+                        return bool((sums.samples == quality.samples).all())
+                if quality.target_error is not None and sums.noise() <= quality.target_error:
+                    return True
+    except KeyboardInterrupt:
+        return False
+    return quality.target_error is None or sums.noise() <= quality.target_error
+
+
+def _processes(quality: Quality, pixels: int) -> int:
+    if quality.processes is not None:
+        return quality.processes
+    if pixels * quality.samples <= _FEW:
+        return 1
+    return max(len(os.sched_getaffinity(0)), 1)
+
+
+def _textures(
+    quality: Quality, shown: tuple[object, ...]
+) -> Callable[[RenderTexture], npt.NDArray[np.float32]]:
+    """Give what makes the pictures of render textures: exact rays, too, which see other textures in turn."""
+    made: dict[int, npt.NDArray[np.float32]] = {}
+
+    def texture(source: RenderTexture) -> npt.NDArray[np.float32]:
+        if any(source is other for other in shown):
+            raise ValueError(
+                f"render texture {source.name!r}: expected a picture that does not show itself"
+            )
+        if id(source) not in made:
+            eye = CameraEye.of(source.camera, source.size)
+            picture = _draw(
+                source.scene,
+                eye,
+                (),
+                source.exclude,
+                quality,
+                of_capture=False,
+                shown=(*shown, source),
+            )
+            clipped = source.format in ("rgba8", "rgb565")
+            made[id(source)] = np.clip(picture.color, 0, 1) if clipped else picture.color
+        return made[id(source)]
+
+    return texture

@@ -1,0 +1,42 @@
+"""The holes of alpha masks: where the alpha of a surface is below the material's cutoff (glTF 2.0, section 3.9.4)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .interpolation import interpolated
+from .records import Bools, Ints, StandardRecord
+from .snapshot import Snapshot
+from .textures import Array
+
+
+def nodes_with_holes(snapshot: Snapshot) -> Bools:
+    """Return (nodes,) which nodes have a material with an alpha mask."""
+    return np.array(
+        [
+            isinstance(material, StandardRecord) and material.holes
+            for material in (snapshot.materials[node.material] for node in snapshot.nodes)
+        ],
+        bool,
+    )
+
+
+def in_holes(snapshot: Snapshot, triangles: Ints, weights: Array, masked: Bools) -> Bools:
+    """Return (R,) whether points on triangles (R,), of the weights (R, 3) of their corners, lie in holes.
+
+    `masked` is what `nodes_with_holes` returned.
+    """
+    found = np.zeros(len(triangles), bool)
+    nodes = snapshot.node[triangles]
+    for place in np.unique(nodes[masked[nodes]]):
+        material = snapshot.materials[snapshot.nodes[place].material]
+        assert isinstance(material, StandardRecord)  # no other material has holes
+        rows = np.flatnonzero(nodes == place)
+        at, share = triangles[rows], weights[rows]
+        alpha = interpolated(share, snapshot.colors[at])[:, 3]
+        if "map" in material.maps:
+            uv = interpolated(share, snapshot.uvs[at])
+            uv1 = interpolated(share, snapshot.uvs1[at])
+            alpha = alpha * material.maps["map"].at(uv, uv1)[:, 3]
+        found[rows] = alpha * material.color[3] < material.numbers["alpha_cutoff"]
+    return found
