@@ -6,7 +6,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <cxxabi.h>
 #include <pthread.h>
 #include <sys/syscall.h>
 #include <thread>
@@ -60,12 +59,9 @@ bool interpreter_ends() noexcept {
 
 void take_lock(PyThreadState* state) noexcept {
     --running;  // first, since Python 3.14 itself lets the thread sleep for ever
-    try {
-        PyEval_RestoreThread(state);
-    } catch (abi::__forced_unwind&) {
-        // The interpreter ends, and Python (3.10 to 3.13) called pthread_exit().
-        sleep_for_ever();
-    }
+    // At the interpreter's end Python 3.10 to 3.13 call pthread_exit() here: see the end of this
+    // file.
+    PyEval_RestoreThread(state);
 }
 
 /// Whether Python handles signals in this thread: the thread that Python names, and after a fork

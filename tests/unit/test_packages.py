@@ -105,6 +105,17 @@ def test_notices_are_complete(scripts, tmp_path):
             check_wheel.check_notices(archive)
 
 
+def test_a_wheel_that_is_too_large_is_found(scripts, tmp_path, monkeypatch):
+    check_wheel = scripts("check_wheel")
+    wheel = wheel_with(tmp_path)
+    monkeypatch.setattr(check_wheel, "LARGEST", wheel.stat().st_size)
+    with pytest.raises(check_wheel.WheelError, match="expected less than"):
+        check_wheel.check(wheel)
+    monkeypatch.setattr(check_wheel, "LARGEST", wheel.stat().st_size + 1)
+    with pytest.raises(check_wheel.WheelError, match=r"expected cubecam/_core\.pyi"):
+        check_wheel.check(wheel)
+
+
 def test_a_bill_of_materials_without_a_version_is_found(scripts, tmp_path):
     check_wheel = scripts("check_wheel")
 
