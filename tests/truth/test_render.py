@@ -216,7 +216,7 @@ def test_wrong_things():
         cc.truth.capture(noisy(), (0, 1), 2)
     with pytest.raises(ValueError, match="rotation: expected a quaternion of a length above 0"):
         cc.truth.capture(noisy(), size=2, rotation=(0, 0, 0, 0))
-    with pytest.raises(TypeError, match=r"render\(\) has no argument 'sample'"):
+    with pytest.raises(TypeError, match=r"render\(\) has no option 'sample'"):
         rendered(sample=3)
 
 

@@ -28,10 +28,13 @@ def in_holes(snapshot: Snapshot, triangles: Ints, weights: Array, masked: Bools)
     """
     found = np.zeros(len(triangles), bool)
     nodes = snapshot.node[triangles]
-    for place in np.unique(nodes[masked[nodes]]):
-        material = snapshot.materials[snapshot.nodes[place].material]
+    places, which = np.unique(nodes, return_inverse=True)
+    of_place = np.array([snapshot.nodes[i].material if masked[i] else -1 for i in places], np.int64)
+    materials = of_place[which.reshape(-1)]
+    for index in np.unique(materials[materials >= 0]):
+        material = snapshot.materials[index]
         assert isinstance(material, StandardRecord)  # no other material has holes
-        rows = np.flatnonzero(nodes == place)
+        rows = np.flatnonzero(materials == index)
         at, share = triangles[rows], weights[rows]
         alpha = interpolated(share, snapshot.colors[at])[:, 3]
         if "map" in material.maps:
