@@ -21,7 +21,7 @@ def build() -> cc.Scene:
     scene = cc.Scene(background=(0.55, 0.68, 0.85))
     scene.add(
         cc.PerspectiveCamera(
-            fov=58, position=(2.1, 1.5, 1.95), target=(-0.75, 0.85, -0.9), near=0.05, far=50
+            fov=52, position=(1.35, 1.42, 1.75), target=(-0.72, 0.86, -0.55), near=0.05, far=50
         )
     )
     _shell(scene)
@@ -171,12 +171,12 @@ def _table(scene: cc.Scene) -> None:
         )
     ball = cc.Mesh.sphere(0.17, 128, 64)
     mirror = cc.MirrorMaterial(tint=(0.97, 0.96, 0.94))
-    for name, dx in (("left mirror ball", -0.52), ("right mirror ball", -0.12)):
-        scene.add(ball, mirror, position=(x + dx, top + 0.17, z - 0.12), name=name)
+    for name, dx, dz in (("left mirror ball", -0.5, 0.2), ("right mirror ball", -0.12, -0.16)):
+        scene.add(ball, mirror, position=(x + dx, top + 0.17, z + dz), name=name)
     scene.add(
         cc.Mesh.sphere(0.13, 128, 64),
         cc.GlassMaterial(ior=1.5, tint=(0.97, 1.0, 0.98)),
-        position=(x + 0.24, top + 0.13, z + 0.2),
+        position=(x + 0.22, top + 0.13, z + 0.3),
         name="glass ball",
     )
     teapot = cc.load_mesh(cc.sample_data("teapot.obj")).resized(0.52)
@@ -184,7 +184,7 @@ def _table(scene: cc.Scene) -> None:
     scene.add(
         teapot,
         cc.StandardMaterial(color=(1.0, 0.77, 0.34), metallic=1, roughness=0.28, double_sided=True),
-        position=(x + 0.5, top - low, z - 0.12),
+        position=(x + 0.48, top - low, z - 0.18),
         rotation=cc.axis_angle((0, 1, 0), -35),
         name="teapot",
     )

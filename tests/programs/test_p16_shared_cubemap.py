@@ -75,14 +75,14 @@ def test_the_truth_of_the_package_is_that_of_the_reference():
     program = example.build(probe_size=8, document=True)
     for distance in (0.65, 1.7):
         example.place(program, distance)
-        picture, ids = example.truth(program, SIZE)
+        found = example.truth(program, SIZE)
         want, hits = exact(program, distance)
         mask = interior(hits.id)
-        np.testing.assert_array_equal(ids[mask], hits.id[mask])
-        difference = np.abs(picture[..., :3] - want)[mask]
+        np.testing.assert_array_equal(found.id[mask], hits.id[mask])
+        difference = np.abs(found.color[..., :3] - want)[mask]
         assert difference.mean() < 1e-4
         assert np.quantile(difference, 0.99) < 1e-4
-        assert (picture[..., 3] == 1).all()
+        assert (found.color[..., 3] == 1).all()
 
 
 def test_errors_over_distance(renderer):
@@ -191,7 +191,17 @@ def test_labels_are_two_lines_of_text(renderer):
         assert ((rows < 30) | (rows > 225)).all()
 
 
-def test_rays_know_the_document_s_scene_alone():
-    program = example.build(probe_size=8)
-    with pytest.raises(ValueError, match=r"expected the scene of build\(document=True\)"):
-        example.truth(program, (8, 4))
+def test_the_error_of_the_staged_scene(renderer):
+    """Photographs, tiles and shadows are those of the renderer: where no ball is, there is no error but at edges."""
+    program = example.build(probe_size=256)
+    size, half = (192, 192), (192, 96)
+    got = example.draw(program, renderer, example.STILL, size=size, show="error", labels=False)
+    example.place(program, example.distance(program, example.STILL))
+    exact = example.truth(program, half)
+    balls = np.isin(exact.id, [ball.id for ball in program.balls])
+    inside = interior(exact.id, radius=2)
+    neighbours = inside & np.isin(exact.id, [program.balls[0].id, program.balls[2].id])
+    shared, own = (part[..., :3].max(axis=-1) for part in (got[:96], got[96:]))
+    assert np.median(shared[inside & ~balls]) <= 4
+    assert own[neighbours].mean() < 0.9 * shared[neighbours].mean()
+    assert neighbours.mean() > 0.1

@@ -11,13 +11,12 @@ tiles of the floor lie in wrong places, and the lower picture is bright there. T
 since both pictures show it with its own probe; so is the sky in the balls, since it is infinitely far.
 ``draw(..., show="both")`` shows the picture with a probe for each below.
 
-How large is the error? `truth` casts rays from the real surfaces of the balls, and
+How large is the error? `truth` follows rays from the real surfaces of the balls, and
 `error_over_distance` compares: the error of the shared cubemap grows with the distance of the balls. A
 ball's own probe is wrong, too, because rays start on the ball and not in its middle; but its error is
 smaller, and does not depend on the distance. Document 004 says: the approximation looks right as long
-as other objects are not too close. Both functions need embreex, ``pip install "cubecam[truth]"``, and
-the scene of ``build(document=True)``, since the rays know one lamp of document 000, no shadows and no
-photographs.
+as other objects are not too close. Both functions need the extra `truth`,
+``pip install "cubecam[truth]"``.
 
 Worth trying: ``build(document=True)`` has the ground, the actors and the grey background of P14's
 document. Or hide floor and figures, ``node.visible = False``: only the sky is left, and there is no
@@ -42,7 +41,6 @@ from ._common import GREY, LIGHT, Photographs, Picture, bunny, picture, teapot
 from ._labels import label
 from ._live import Clock, live_view, visitor
 from ._script import Script
-from ._truth import Truth, mirror_image
 from .cubemap_on_a_cube import (
     BUNNY,
     DEPTH,
@@ -60,6 +58,7 @@ from .dynamic_reflection import BALL, gold
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
+    from cubecam.truth import TruthFrame
     from cubecam.typing import RenderOptions
     from cubecam.viewer import Viewer
 
@@ -255,7 +254,7 @@ def draw(
 
     show : "both": with the shared probe, and below with a probe for each. "difference": the first of these, and
     below how far it is from the second, twice as bright in the staged scene. "error": how far each is from `truth`,
-    which needs embreex and the document's scene. None: "difference" for the staged scene, "both" for the document's.
+    which needs embreex. None: "difference" for the staged scene, "both" for the document's.
     labels : whether each picture has its name in a corner; None: for the staged scene.
     """
     show = program.show if show is None else show
@@ -270,8 +269,8 @@ def draw(
         times = f", times {program.gain:g}" if program.gain != 1 else ""
         names = names[0], f"difference from a cubemap for each{times}"
     if show == "error":
-        exact, _ = truth(program, half)
-        shared, own = _apart(shared, exact), _apart(own, exact)
+        exact = truth(program, half).color
+        shared, own = (_apart(picture, exact, program.gain) for picture in (shared, own))
         names = "error of one cubemap for all three", "error of a cubemap for each"
     pair = np.concatenate([shared, own])
     if program.labels if labels is None else labels:
@@ -309,18 +308,12 @@ def live(
     )
 
 
-def truth(program: Program, size: tuple[int, int]) -> Truth:
-    """Cast the exact picture: one bounce off the balls' actual surface, Phong-shaded where it ends.
+def truth(program: Program, size: tuple[int, int]) -> TruthFrame:
+    """Render the exact picture, with the output "id": rays leave the balls where these really are.
 
-    Returns colours (H, W, 4) float32 and node ids (H, W). Raises ImportError without embreex, and ValueError for the
-    staged scene, whose photographs, shadows and tiles the rays do not know.
+    There is one ray for each pixel, since no surface is rough. Raises ImportError without embreex.
     """
-    if program.scene.background is None:
-        raise ValueError(
-            "program: expected the scene of build(document=True), got the staged one, whose photographs, shadows and "
-            "tiles the rays do not know"
-        )
-    return mirror_image(program.scene, program.camera, size)
+    return cc.truth.render(program.scene, program.camera, size, samples=1, outputs=("id",))
 
 
 def error_over_distance(
@@ -337,11 +330,11 @@ def error_over_distance(
     neighbours = [program.balls[0].id, program.balls[2].id]
     for apart in distances:
         place(program, apart)
-        exact, ids = truth(program, size)
-        inside = np.isin(_eroded(ids), neighbours)
+        exact = truth(program, size)
+        inside = np.isin(_eroded(exact.outputs["id"]), neighbours)
         for whose, found in errors.items():
             got = _draw(program, renderer, whose, size, {"format": "rgba32f"})
-            off = got[inside, :3].astype(np.float64) - exact[inside, :3]
+            off = got[inside, :3].astype(np.float64) - exact.color[inside, :3]
             found.append(float(np.abs(off).mean()))
     return Errors(np.array(distances, float), np.array(errors["shared"]), np.array(errors["own"]))
 
