@@ -120,6 +120,7 @@ def test_ctrl_c_gives_what_is_done(monkeypatch):
             yield piece
 
     monkeypatch.setattr(workers.Workers, "draw", draw)
+    monkeypatch.setattr(drawing, "_PASS_PATHS", 0)  # passes of 16 samples
     picture = rendered(samples=160)
     assert not picture.complete
     assert (picture.samples == 32).all()  # the third pass was not yet added

@@ -22,25 +22,47 @@ from .outputs import outputs_of
 from .pictures import TruthCube, TruthFrame, cube_of, frame_of
 from .progress import bar
 from .snapshot import read
-from .work import PATHS, Job, pieces
-from .workers import Workers
+from .work import PATHS, Job, Piece, pieces
+from .workers import Workers, interpreter
 
 if TYPE_CHECKING:
     from .._core import Camera, Node, RenderTexture, Scene
 
 #: Samples of a pixel that are drawn before the picture is judged again.
 _PASS = 16
+#: Paths of a pass of a small picture, which takes more samples at once.
+_PASS_PATHS = PATHS
+#: Paths below which a piece costs more for each path.
+_FEWEST = PATHS // 16
 #: Paths that one process draws in less time than others take to start.
 _FEW = 8 * PATHS
 
 
 @dataclass
 class _Sums:
-    """The sums of a picture's pixels, flat."""
+    """The sums of a picture's pixels, flat: colour and alpha, squared luminance, and the number of samples (P, 6).
 
-    color: npt.NDArray[np.float64]
-    squares: npt.NDArray[np.float64]
-    samples: npt.NDArray[np.int64]
+    They stand in one array, so that Ctrl-C never comes between colours and their number.
+    """
+
+    table: npt.NDArray[np.float64]
+
+    @property
+    def color(self) -> npt.NDArray[np.float64]:
+        return self.table[:, :4]
+
+    @property
+    def squares(self) -> npt.NDArray[np.float64]:
+        return self.table[:, 4]
+
+    @property
+    def samples(self) -> npt.NDArray[np.int64]:
+        return self.table[:, 5].astype(np.int64)
+
+    def add(self, piece: Piece, color: npt.NDArray[Any], squares: npt.NDArray[Any]) -> None:
+        """Add the samples of some pixels."""
+        number = np.full(len(squares), piece.samples[1] - piece.samples[0])
+        self.table[slice(*piece.pixels)] += np.column_stack([color, squares, number])
 
     def deviation(self) -> npt.NDArray[np.float64]:
         """Give the standard error of each pixel's luminance."""
@@ -272,7 +294,7 @@ def _draw(
     )
     found = outputs_of(job.tracer(), eye, names)
     count = int(np.prod(eye.shape))
-    sums = _Sums(np.zeros((count, 4)), np.zeros(count), np.zeros(count, np.int64))
+    sums = _Sums(np.zeros((count, 6)))
     complete = _fill(job, sums, quality, started)
     with np.errstate(invalid="ignore"):
         color = np.where(sums.samples[:, None] > 0, sums.color / sums.samples[:, None], 0.0)
@@ -288,22 +310,25 @@ def _draw(
 
 def _fill(job: Job, sums: _Sums, quality: Quality, started: float) -> bool:
     """Draw pass after pass into the sums; False if it was ended before the end."""
-    count = len(sums.samples)
-    steps = range(0, quality.samples, _PASS)
-    passes = [(a, min(a + _PASS, quality.samples)) for a in steps]
-    parts = [pieces(count, each) for each in passes]
+    count = len(sums.table)
+    # Passes of few pixels are longer, unless the picture may end after each of them.
+    length = _PASS if quality.target_error is not None else max(_PASS, _PASS_PATHS // count)
+    passes = [
+        (first, min(first + length, quality.samples)) for first in range(0, quality.samples, length)
+    ]
+    processes = _processes(quality, count)
+    # All processes have something to do in each pass, and a part is large enough for numpy.
+    paths = max(count * length // (2 * processes), _FEWEST) if processes > 1 else PATHS
+    parts = [pieces(count, each, paths) for each in passes]
     end = math.inf if quality.deadline is None else started + quality.deadline
     try:
         with (
             bar(sum(map(len, parts)), quality.progress) as advance,
-            Workers(job, _processes(quality, count)) as workers,
+            Workers(job, processes) as workers,
         ):
             for part in parts:
                 for piece, (color, squares) in workers.draw(part):
-                    rows = slice(*piece.pixels)
-                    sums.color[rows] += color
-                    sums.squares[rows] += squares
-                    sums.samples[rows] += piece.samples[1] - piece.samples[0]
+                    sums.add(piece, color, squares)
                     advance()
                     if time.monotonic() > end:
                         return bool((sums.samples == quality.samples).all())
@@ -317,7 +342,7 @@ def _fill(job: Job, sums: _Sums, quality: Quality, started: float) -> bool:
 def _processes(quality: Quality, pixels: int) -> int:
     if quality.processes is not None:
         return quality.processes
-    if pixels * quality.samples <= _FEW:
+    if pixels * quality.samples <= _FEW or interpreter() is None:
         return 1
     return max(len(os.sched_getaffinity(0)), 1)
 
