@@ -33,6 +33,30 @@ def test_a_floor_in_a_body_of_glass_gets_all_light(bounces, open_body):
     assert picture.color[..., :3].mean() == pytest.approx(1, abs=5 * error + 1e-3)
 
 
+def test_a_floor_below_a_pane_gets_all_light():
+    """What the pane lets through was not counted by the direction to the sky, which the pane blocks."""
+    scene = cc.Scene(environment=WHITE)
+    scene.add(cc.Mesh.plane(2, 2), MATT)
+    pane = cc.BasicMaterial(opacity=0.5, double_sided=True)
+    scene.add(cc.Mesh.plane(9, 9), pane, position=(0, 0.5, 0))
+    picture = rendered(scene, down(1), (8, 8), samples=64)
+    assert picture.color[..., :3].mean() == pytest.approx(1, abs=0.02)
+
+
+def test_the_far_plane_also_ends_rays_behind_panes():
+    scene = cc.Scene(background=(0, 0, 0))
+    scene.add(cc.Mesh.plane(9, 9), cc.BasicMaterial(color=(1, 1, 1)), position=(0, -1, 0))
+    view = down(1)
+    for pane in (False, True):
+        if pane:
+            glow = cc.BasicMaterial(color=(0, 0, 0), opacity=0.5)
+            scene.add(cc.Mesh.plane(9, 9), glow, position=(0, 1, 0))
+        for far, light in ((2.9, 0), (3.1, 0.5 if pane else 1)):
+            view.far = far
+            color = rendered(scene, view, samples=1).color
+            assert color[..., :3] == pytest.approx(light)
+
+
 def test_infinite_light_is_much_light_for_surfaces_and_infinite_in_mirrors():
     faces = np.full((6, 8, 8, 3), 0.5, np.float32)
     faces[2, 3, 3] = np.inf
@@ -118,3 +142,73 @@ def test_pieces_and_processes_change_no_byte_of_any_material(monkeypatch):
         assert other.color.tobytes() == alone.color.tobytes()
         assert other.deviation.tobytes() == alone.deviation.tobytes()
     assert np.isfinite(alone.color).all()
+
+
+# --- textures that are pictures ---------------------------------------------------------------------------------------
+
+
+def monitor():
+    """A scene that shows a picture of another one."""
+    inner = cc.Scene(environment=WHITE)
+    inner.add(cc.Mesh.box(1), MATT)
+    view = cc.PerspectiveCamera(position=(0, 0, 3), target=(0, 0, 0))
+    scene = cc.Scene()
+    scene.add(cc.Mesh.box(1), cc.BasicMaterial(map=cc.RenderTexture(inner, view, size=(8, 8))))
+    return scene
+
+
+def test_a_deadline_counts_for_textures_too():
+    picture = rendered(monitor(), samples=60000, deadline=0.3)
+    assert not picture.complete
+    assert picture.seconds < 20
+    assert rendered(monitor(), samples=4).complete
+
+
+def test_a_texture_that_is_not_complete_shows_in_the_picture():
+    """The inner picture is noisy, the outer one is not."""
+    assert rendered(monitor(), samples=16, target_error=0.5).complete
+    assert not rendered(monitor(), samples=16, target_error=1e-6).complete
+
+
+def test_ctrl_c_in_a_texture_ends_the_whole_picture(monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    scene = monitor()
+    monkeypatch.setattr(work, "drawn", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        rendered(scene)
+    plain = cc.Scene()
+    assert not rendered(plain).complete
+
+
+# --- refusals ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("blend", ["multiply", cc.Blend("one", "src_color")])
+def test_products_of_two_lights_are_refused(blend):
+    scene = cc.Scene()
+    node = scene.add(cc.Mesh.box(1), cc.MirrorMaterial(blend=blend), name="filter")
+    for material in (cc.MirrorMaterial, cc.GlassMaterial, cc.StandardMaterial):
+        node.material = material(blend=blend)
+        message = f"'filter', material.blend: expected a sum on a {material.__name__}"
+        with pytest.raises(ValueError, match=message):
+            rendered(scene)
+    node.material = cc.StandardMaterial(blend=blend, unlit=True)
+    assert rendered(scene, samples=1).complete
+
+
+def test_nodes_of_another_scene_cannot_be_left_out():
+    other = cc.Scene()
+    node = other.add(cc.Mesh.box(1))
+    scene = cc.Scene()
+    scene.add(cc.Mesh.box(1))
+    with pytest.raises(ValueError, match=r"exclude: expected nodes of this scene, got Node\(id=1"):
+        rendered(scene, exclude=[node])
+
+
+def test_pictures_that_no_memory_holds():
+    with pytest.raises(ValueError, match=r"expected what fits into .* memory .*shape \(1000000, "):
+        rendered(cc.Scene(), size=(10**6, 10**6))
+    with pytest.raises(ValueError, match=r"shape \(6, 1000000, 1000000\)"):
+        cc.truth.capture(cc.Scene(), size=10**6)

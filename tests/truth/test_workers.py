@@ -1,16 +1,16 @@
 """The processes that draw: how they begin, what their failures leave behind, and in which programs they work."""
 
-import os
 import signal
 import subprocess
 import sys
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth import drawing, work, workers
+from cubecam.truth import drawing, sums, work, workers
 from cubecam.truth.progress import bar
 from tests.helpers import run_python
 
@@ -23,13 +23,12 @@ def rendered(**options):
 
 def pipes():
     """The open file descriptors of this process."""
-    return len(os.listdir("/proc/self/fd"))
+    return len(list(Path("/proc/self/fd").iterdir()))
 
 
 def children():
     task = f"/proc/self/task/{threading.get_native_id()}/children"
-    with open(task) as file:
-        return file.read().split()
+    return Path(task).read_text().split()
 
 
 def test_processes_that_cannot_all_begin_leave_none(monkeypatch):
@@ -54,7 +53,7 @@ def test_processes_that_cannot_all_begin_leave_none(monkeypatch):
 def test_nothing_is_left_after_a_deadline_and_after_an_error(monkeypatch):
     before = pipes(), children()
     rendered(processes=2, samples=64, deadline=1e-9)
-    monkeypatch.setattr(drawing._Sums, "add", lambda *_: 1 / 0)
+    monkeypatch.setattr(sums.Sums, "add", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         rendered(processes=2)
     for thread in threading.enumerate():

@@ -26,6 +26,9 @@ KINDS: dict[type[Material], Kind] = {
     StandardMaterial: "standard",
 }
 
+#: Ways to blend that multiply by the surface's colour.
+_PRODUCTS = ("multiply", "src_color", "one_minus_src_color")
+
 
 def kind_of(node: Node) -> Kind:
     """Return the kind of a node's material.
@@ -62,6 +65,25 @@ def check_depth_write(node: Node, opaque: bool) -> None:
     material = node.material
     if opaque and material is not None and material.depth_write is False:
         _refuse(node, "material.depth_write", "True or None on an opaque surface", False)
+
+
+def check_gathering(node: Node, *names: str) -> None:
+    """Refuse a product of two lights that rays must follow: that of the surface, and that behind it.
+
+    `names` are a mode of blending, or the factors of a `Blend` for colours.
+    """
+    material = node.material
+    gathers = isinstance(material, (MirrorMaterial, GlassMaterial)) or (
+        isinstance(material, StandardMaterial) and not material.unlit
+    )
+    for name in names:
+        if gathers and name in _PRODUCTS:
+            _refuse(
+                node,
+                "material.blend",
+                f"a sum on a {type(material).__name__}, whose colour comes from other rays",
+                repr(name),
+            )
 
 
 def check_texture(node: Node, name: str, texture: RenderTexture) -> None:
