@@ -43,6 +43,26 @@ def test_a_floor_below_a_pane_gets_all_light():
     assert picture.color[..., :3].mean() == pytest.approx(1, abs=0.02)
 
 
+@pytest.mark.parametrize("gap", [0.0, 1e-8])
+@pytest.mark.parametrize("kind", ["glass", "standard", "pane"])
+def test_no_light_comes_through_a_floor_that_touches_glass(kind, gap):
+    """The lower side of the box and the floor lie in one plane, or nearly: rays left the box and missed the floor."""
+    scene = cc.Scene(background=(0, 0, 1))
+    scene.add(cc.Mesh.plane(40, 40), cc.BasicMaterial(color=(1, 0, 0)), position=(0, -gap, 0))
+    material = {
+        "glass": cc.GlassMaterial(ior=1.5, fresnel=False),
+        "standard": cc.StandardMaterial(
+            metallic=0, roughness=0, transmission=1, thickness=1, specular_weight=0
+        ),
+        "pane": cc.BasicMaterial(color=(1, 0, 0), opacity=0.5),
+    }[kind]
+    mesh, height = (cc.Mesh.plane(0.8, 0.8), 0) if kind == "pane" else (cc.Mesh.box(1), 0.5)
+    scene.add(mesh, material, position=(0.13, height, 0.07))
+    view = cc.PerspectiveCamera(fov=12, position=(0.8, 3, 0.9), target=(0.13, 0.3, 0.07))
+    color = rendered(scene, view, (40, 40), samples=1, bounces=6).color
+    assert color[..., 2].max() < 1e-6
+
+
 def test_the_far_plane_also_ends_rays_behind_panes():
     scene = cc.Scene(background=(0, 0, 0))
     scene.add(cc.Mesh.plane(9, 9), cc.BasicMaterial(color=(1, 1, 1)), position=(0, -1, 0))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .interpolation import interpolated
-from .records import Bools, Ints, StandardRecord
+from .records import Bools, GlassRecord, Ints, StandardRecord
 from .snapshot import Snapshot
 from .textures import Array
 
@@ -19,6 +19,18 @@ def nodes_with_holes(snapshot: Snapshot) -> Bools:
         ],
         bool,
     )
+
+
+def solid_nodes(snapshot: Snapshot) -> Bools:
+    """Return (nodes,) which nodes are neither blended nor glass, so that a ray never goes through their surface."""
+    solid = []
+    for node in snapshot.nodes:
+        material = snapshot.materials[node.material]
+        passes = isinstance(material, GlassRecord) or (
+            isinstance(material, StandardRecord) and material.numbers["transmission"] > 0
+        )
+        solid.append(node.blend is None and not passes)
+    return np.array(solid, bool)
 
 
 def in_holes(snapshot: Snapshot, triangles: Ints, weights: Array, masked: Bools) -> Bools:

@@ -84,11 +84,22 @@ class Tracer:
                 continue
             p = paths.rows(rows)
             hits = geometry.cast(p.origin, p.direction, inside=p.bodies[:, 0], start=p.start)
+            self._touch(hits, p, geometry)
             near = hits.distance <= p.reach
             found[0][rows] = np.where(near, hits.triangle, -1)
             found[1][rows] = np.where(near, hits.distance, np.inf)
             found[2][rows] = hits.weights
         return Hits(*found)
+
+    def _touch(self, hits: Hits, paths: Paths, geometry: Geometry) -> None:
+        """Let rays that went through a surface meet what touches it from behind, as a floor touches glass."""
+        rows = np.flatnonzero(paths.crossed)
+        if len(rows):
+            p = paths.rows(rows)
+            found, touched = geometry.touching(p.origin, p.direction, p.start)
+            at = rows[found]
+            hits.triangle[at], hits.weights[at] = touched.triangle, touched.weights
+            hits.distance[at] = touched.distance
 
     def _step(self, paths: Paths, sums: Array) -> Paths:
         hits = self.hits(paths)
@@ -132,7 +143,7 @@ class Tracer:
         """Let rays go on behind what they met."""
         gone = paths.copy()
         gone.origin, gone.start = points.position, hits.triangle
-        gone.reach = paths.reach - hits.distance
+        gone.reach, gone.crossed = paths.reach - hits.distance, np.ones(len(paths), np.bool_)
         gone.step = paths.step + 1
         # Light that was chosen by its brightness comes from where nothing stands in the way.
         gone.density = np.zeros(len(paths))
@@ -186,6 +197,7 @@ class Tracer:
         gone.bounces = paths.bounces + 1
         gone.unblocked = gone.bounces > self.bounces
         gone.start, gone.left = hits.triangle[rows], points.node
+        gone.crossed = (gone.direction * points.face_normal).sum(axis=-1) < 0
         gone.reflected = np.ones(len(rows), np.bool_)
         gone.surroundings = self._far.seen_from(points.node, gone.unblocked)
         gone.ambient = np.full(len(rows), way.ambient)
