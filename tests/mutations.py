@@ -97,6 +97,9 @@ RASTER = "raster_state.cpp"
 
 SKYBOX = ("tests/gl/test_skybox.py",)
 
+TRUTH_LIGHT = ("tests/truth/test_light.py",)
+TRUTH_SCENES = ("tests/truth/test_odd_scenes.py",)
+TRUTH_WORKERS = ("tests/truth/test_workers.py",)
 SHADER_TRIAL = ("tests/gl/test_shader_trial.py",)
 
 MUTATIONS = [
@@ -2655,5 +2658,82 @@ MUTATIONS = [
         "(known && found->second.survived.contains(conditions.key))",
         "known",
         SHADER_TRIAL,
+    ),
+    Mutation(
+        "truth: light is absorbed without regard to the way",
+        "truth/tracer.py",
+        "share = np.exp(-self._bodies.extinction[body[rows]] * distance[rows, None])",
+        "share = np.exp(-self._bodies.extinction[body[rows]])",
+        TRUTH_LIGHT,
+    ),
+    Mutation(
+        "truth: rays behind a pane see beyond the far plane",
+        "truth/tracer.py",
+        "gone.reach, gone.crossed = paths.reach - hits.distance,",
+        "gone.reach, gone.crossed = paths.reach,",
+        TRUTH_SCENES,
+    ),
+    Mutation(
+        "truth: what a pane lets through counts as chosen by brightness",
+        "truth/tracer.py",
+        "gone.density = np.zeros(len(paths))",
+        "pass",
+        TRUTH_SCENES,
+    ),
+    Mutation(
+        "truth: both sides of glass take the same random number",
+        "truth/tracer.py",
+        "gone.step = paths.step + 1\n        gone.bounces = paths.bounces + 1",
+        "gone.step = paths.step\n        gone.bounces = paths.bounces + 1",
+        TRUTH_LIGHT,
+    ),
+    Mutation(
+        "truth: rays that leave glass miss what touches it",
+        "truth/tracer.py",
+        "self._touch(hits, p, geometry)",
+        "pass",
+        TRUTH_SCENES,
+    ),
+    Mutation(
+        "truth: a floor in glass loses its light",
+        "truth/standard_light.py",
+        "found.pdf[part.paths.bodies[:, 0] >= 0] = 0",
+        "pass",
+        TRUTH_SCENES,
+    ),
+    Mutation(
+        "truth: light chosen by brightness is counted twice",
+        "truth/standard_light.py",
+        "answer *= balance(own, bsdf.pdf(direction)[rows]) / own",
+        "answer *= 1 / own",
+        TRUTH_LIGHT,
+    ),
+    Mutation(
+        "truth: nothing stands before the light of the sky",
+        "truth/standard_light.py",
+        "free[seen] = hits.triangle < 0",
+        "free[seen] = True",
+        TRUTH_LIGHT,
+    ),
+    Mutation(
+        "truth: an environment turned the wrong way is chosen",
+        "truth/light_directions.py",
+        "directions = turned(self._turn.T, towards",
+        "directions = turned(self._turn, towards",
+        TRUTH_LIGHT,
+    ),
+    Mutation(
+        "truth: infinite light is not cut",
+        "truth/far_light.py",
+        "np.nan_to_num(light, nan=0.0, posinf=LARGEST, neginf=-LARGEST)",
+        "light",
+        TRUTH_SCENES,
+    ),
+    Mutation(
+        "truth: processes that begin are left behind",
+        "truth/workers.py",
+        "self._end()\n                raise",
+        "raise",
+        TRUTH_WORKERS,
     ),
 ]

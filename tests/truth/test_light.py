@@ -373,3 +373,22 @@ def test_reflect_is_that_of_the_mirror():
     expected = cube.sample(reflect(direction, picture.normal.reshape(-1, 3))[rows])
     assert rows.sum() > 50
     assert picture.color.reshape(-1, 4)[rows, :3] == pytest.approx(expected, abs=1e-4)
+
+
+def test_each_surface_chooses_anew():
+    """A glass plate lets (1 - R) / (1 + R) through: with the same number at both sides it would be 1 - R."""
+    faces = np.zeros((6, 4, 4, 3), np.float32)
+    faces[5] = 1  # -z, behind the plate
+    scene = cc.Scene(environment=cc.CubeMap(faces))
+    scene.add(cc.Mesh.box((4, 4, 0.1)), cc.GlassMaterial(ior=2))
+    picture = rendered(scene, eye(fov=4), (4, 4), samples=1024, bounces=8)
+    share = 1 / 9
+    assert picture.color[..., 0].mean() == pytest.approx((1 - share) / (1 + share), abs=0.02)
+
+
+def test_light_leaves_a_body_of_glass_without_self_hits_too():
+    rng = np.random.default_rng(2)
+    scene = cc.Scene(environment=cc.CubeMap(rng.random((6, 4, 4, 3), np.float32)))
+    scene.add(cc.Mesh.icosphere(0.8, 3), cc.GlassMaterial(fresnel=False))
+    both = [rendered(scene, samples=1, self_hits=hits).color for hits in (True, False)]
+    assert np.array_equal(both[0], both[1])

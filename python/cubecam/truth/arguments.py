@@ -14,7 +14,7 @@ from .._checks import one_of, real_number, text_of, whole_number
 from .outputs import OUTPUTS
 
 if TYPE_CHECKING:
-    from .._core import Node
+    from .._core import Node, Scene
 
 
 @dataclass(frozen=True)
@@ -64,13 +64,15 @@ def output_names(outputs: Iterable[str]) -> tuple[str, ...]:
     return tuple(one_of(name, "outputs", OUTPUTS) for name in outputs)
 
 
-def nodes_of(nodes: Iterable[Node]) -> tuple[Node, ...]:
-    """Give the nodes that a picture leaves out."""
+def nodes_of(nodes: Iterable[Node], scene: Scene) -> tuple[Node, ...]:
+    """Give the nodes that a picture leaves out, all of which are in the scene."""
     if not isinstance(nodes, Iterable):
         raise TypeError(f"exclude: expected a sequence of nodes, got {text_of(nodes)}")
     found = tuple(nodes)
     for node in found:
         of_class(node, _core.Node, "exclude")
+        if node not in scene:
+            raise ValueError(f"exclude: expected nodes of this scene, got {node!r}")
     return found
 
 

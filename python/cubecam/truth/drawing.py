@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,53 +17,25 @@ from .._calls import checked_call
 from .._checks import pair, real_number, whole_number
 from .arguments import Quality, matrix_of, nodes_of, of_class, output_names, quality_of, vector
 from .eyes import CameraEye, CubeEye, Eye
-from .matrices import luminance
 from .outputs import outputs_of
 from .pictures import TruthCube, TruthFrame, cube_of, frame_of
 from .progress import bar
 from .snapshot import read
+from .sums import Sums
 from .work import PATHS, Job, pieces
-from .workers import Workers
+from .workers import Workers, interpreter
 
 if TYPE_CHECKING:
     from .._core import Camera, Node, RenderTexture, Scene
 
 #: Samples of a pixel that are drawn before the picture is judged again.
 _PASS = 16
+#: Paths of a pass of a small picture, which takes more samples at once.
+_PASS_PATHS = PATHS
+#: Paths below which a piece costs more for each path.
+_FEWEST = PATHS // 16
 #: Paths that one process draws in less time than others take to start.
 _FEW = 8 * PATHS
-
-
-@dataclass
-class _Sums:
-    """The sums of a picture's pixels, flat."""
-
-    color: npt.NDArray[np.float64]
-    squares: npt.NDArray[np.float64]
-    samples: npt.NDArray[np.int64]
-
-    def deviation(self) -> npt.NDArray[np.float64]:
-        """Give the standard error of each pixel's luminance."""
-        n = self.samples
-        with np.errstate(divide="ignore", invalid="ignore"):
-            mean = self.luminance()
-            variance = np.maximum(self.squares / n - mean**2, 0) / (n - 1)
-        # Rounding makes a variance of numbers that are all equal.
-        variance = np.where(variance * (n - 1) < 1e-12 * mean**2, 0.0, variance)
-        return np.where(n > 1, np.sqrt(variance), np.inf)
-
-    def luminance(self) -> npt.NDArray[np.float64]:
-        with np.errstate(divide="ignore", invalid="ignore"):
-            mean = luminance(self.color) / self.samples
-        return np.asarray(np.where(self.samples > 0, mean, 0.0))
-
-    def noise(self) -> float:
-        """Give the error of the whole picture, relative to its light."""
-        error = float(np.sqrt(np.mean(self.deviation() ** 2)))
-        light = float(np.sqrt(np.mean(self.luminance() ** 2)))
-        if error == 0:
-            return 0.0
-        return error / light if light > 0 else math.inf
 
 
 @checked_call
@@ -168,7 +140,7 @@ def render(
     )
     names = output_names(outputs)
     eye = CameraEye.of(camera, (width, height))
-    made = _draw(scene, eye, names, nodes_of(exclude), quality, of_capture=False)
+    made = _draw(scene, eye, names, nodes_of(exclude, scene), quality, of_capture=False)
     return TruthFrame(frame_of(made.color, made.outputs), **made.rest)
 
 
@@ -238,7 +210,7 @@ def capture(
         raise ValueError(f"near, far: expected 0 < near < far, finite, got {near} and {far}")
     names = output_names(outputs)
     eye = CubeEye(vector(position, 3, "position"), matrix_of(rotation), near, far, texels)
-    made = _draw(scene, eye, names, nodes_of(exclude), quality, of_capture=True)
+    made = _draw(scene, eye, names, nodes_of(exclude, scene), quality, of_capture=True)
     return TruthCube(cube_of(made.color, made.outputs), **made.rest)
 
 
@@ -258,9 +230,13 @@ def _draw(
     *,
     of_capture: bool,
     shown: tuple[object, ...] = (),
+    started: float | None = None,
 ) -> _Made:
-    started = time.monotonic()
-    snapshot = read(scene, exclude=exclude, textures=_textures(quality, shown))
+    started = time.monotonic() if started is None else started
+    count = int(np.prod(eye.shape))
+    _core._check_memory(100.0 * count, f"pixels of shape {eye.shape}")
+    textures = _Textures(quality, shown, started)
+    snapshot = read(scene, exclude=exclude, textures=textures)
     job = Job(
         snapshot,
         eye,
@@ -271,9 +247,8 @@ def _draw(
         of_capture,
     )
     found = outputs_of(job.tracer(), eye, names)
-    count = int(np.prod(eye.shape))
-    sums = _Sums(np.zeros((count, 4)), np.zeros(count), np.zeros(count, np.int64))
-    complete = _fill(job, sums, quality, started)
+    sums = Sums(np.zeros((count, 6)))
+    complete = _fill(job, sums, quality, started, inner=bool(shown)) and textures.complete
     with np.errstate(invalid="ignore"):
         color = np.where(sums.samples[:, None] > 0, sums.color / sums.samples[:, None], 0.0)
     rest = {
@@ -286,30 +261,38 @@ def _draw(
     return _Made(color.astype(np.float32).reshape(*eye.shape, 4), found, rest)
 
 
-def _fill(job: Job, sums: _Sums, quality: Quality, started: float) -> bool:
-    """Draw pass after pass into the sums; False if it was ended before the end."""
-    count = len(sums.samples)
-    steps = range(0, quality.samples, _PASS)
-    passes = [(a, min(a + _PASS, quality.samples)) for a in steps]
-    parts = [pieces(count, each) for each in passes]
+def _fill(job: Job, sums: Sums, quality: Quality, started: float, *, inner: bool) -> bool:
+    """Draw pass after pass into the sums; False if it was ended before the end.
+
+    Ctrl-C in the picture of a texture, an `inner` one, is passed on, since nothing of the outer picture is done.
+    """
+    count = len(sums.table)
+    # Passes of few pixels are longer, unless the picture may end after each of them.
+    length = _PASS if quality.target_error is not None else max(_PASS, _PASS_PATHS // count)
+    passes = [
+        (first, min(first + length, quality.samples)) for first in range(0, quality.samples, length)
+    ]
+    processes = _processes(quality, count)
+    # All processes have something to do in each pass, and a part is large enough for numpy.
+    paths = max(count * length // (2 * processes), _FEWEST) if processes > 1 else PATHS
+    parts = [pieces(count, each, paths) for each in passes]
     end = math.inf if quality.deadline is None else started + quality.deadline
     try:
         with (
             bar(sum(map(len, parts)), quality.progress) as advance,
-            Workers(job, _processes(quality, count)) as workers,
+            Workers(job, processes) as workers,
         ):
             for part in parts:
                 for piece, (color, squares) in workers.draw(part):
-                    rows = slice(*piece.pixels)
-                    sums.color[rows] += color
-                    sums.squares[rows] += squares
-                    sums.samples[rows] += piece.samples[1] - piece.samples[0]
+                    sums.add(piece, color, squares)
                     advance()
                     if time.monotonic() > end:
                         return bool((sums.samples == quality.samples).all())
                 if quality.target_error is not None and sums.noise() <= quality.target_error:
                     return True
     except KeyboardInterrupt:
+        if inner:
+            raise
         return False
     return quality.target_error is None or sums.noise() <= quality.target_error
 
@@ -317,35 +300,36 @@ def _fill(job: Job, sums: _Sums, quality: Quality, started: float) -> bool:
 def _processes(quality: Quality, pixels: int) -> int:
     if quality.processes is not None:
         return quality.processes
-    if pixels * quality.samples <= _FEW:
+    if pixels * quality.samples <= _FEW or interpreter() is None:
         return 1
     return max(len(os.sched_getaffinity(0)), 1)
 
 
-def _textures(
-    quality: Quality, shown: tuple[object, ...]
-) -> Callable[[RenderTexture], npt.NDArray[np.float32]]:
-    """Give what makes the pictures of render textures: exact rays, too, which see other textures in turn."""
-    made: dict[int, npt.NDArray[np.float32]] = {}
+class _Textures:
+    """Makes the pictures of render textures: by exact rays, too, which see other textures in turn."""
 
-    def texture(source: RenderTexture) -> npt.NDArray[np.float32]:
-        if any(source is other for other in shown):
+    def __init__(self, quality: Quality, shown: tuple[object, ...], started: float) -> None:
+        self._quality, self._shown, self._started = quality, shown, started
+        self._made: dict[int, npt.NDArray[np.float32]] = {}
+        self.complete = True
+
+    def __call__(self, source: RenderTexture) -> npt.NDArray[np.float32]:
+        if any(source is other for other in self._shown):
             raise ValueError(
                 f"render texture {source.name!r}: expected a picture that does not show itself"
             )
-        if id(source) not in made:
-            eye = CameraEye.of(source.camera, source.size)
+        if id(source) not in self._made:
             picture = _draw(
                 source.scene,
-                eye,
+                CameraEye.of(source.camera, source.size),
                 (),
                 source.exclude,
-                quality,
+                self._quality,
                 of_capture=False,
-                shown=(*shown, source),
+                shown=(*self._shown, source),
+                started=self._started,
             )
+            self.complete &= bool(picture.rest["complete"])
             clipped = source.format in ("rgba8", "rgb565")
-            made[id(source)] = np.clip(picture.color, 0, 1) if clipped else picture.color
-        return made[id(source)]
-
-    return texture
+            self._made[id(source)] = np.clip(picture.color, 0, 1) if clipped else picture.color
+        return self._made[id(source)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .light_directions import LightDirections
+from .light_directions import LARGEST, LightDirections
 from .paths import Flags, Paths, Whole
 from .records import Radiance
 from .sampler import Array
@@ -41,6 +41,7 @@ class FarLight:
         for index in np.unique(around):
             rows = np.flatnonzero(around == index)
             seen = self._all[index].at(paths.direction[rows])
+            seen[:, :3] = np.where(paths.ambient[rows, None], finite(seen[:, :3]), seen[:, :3])
             directions = self._directions[index]
             if directions is not None:
                 own = paths.density[rows, None]
@@ -65,8 +66,13 @@ class FarLight:
             rows = np.flatnonzero(around == index)
             direction[rows], dense = chosen.sample(numbers[rows])
             density[rows] = dense[:, 0]
-            light[rows] = self._all[index].at(direction[rows])[:, :3]
+            light[rows] = finite(self._all[index].at(direction[rows])[:, :3])
         return direction, density, light
+
+
+def finite(light: Array) -> Array:
+    """Count infinite light as the largest number of a photograph (docs/conventions.md, "Light of whole cubes")."""
+    return np.nan_to_num(light, nan=0.0, posinf=LARGEST, neginf=-LARGEST)
 
 
 def balance(own: Array, other: Array) -> Array:

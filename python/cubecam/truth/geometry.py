@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
-from .holes import in_holes, nodes_with_holes
+from .holes import in_holes, nodes_with_holes, solid_nodes
 from .records import Bools, Ints
 from .snapshot import Snapshot
 from .textures import Array
+from .trees import Tree, embree
 
 #: The rounding of a float32, relative.
 _ROUNDING = 2.0**-24
@@ -81,7 +81,7 @@ class Geometry:
     """
 
     def __init__(self, snapshot: Snapshot, triangles: Bools | None = None) -> None:
-        self._embree = _embree()
+        self._embree = embree()
         self._snapshot = snapshot
         corners = snapshot.corners
         across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -101,7 +101,8 @@ class Geometry:
         self._any_masked = bool(np.any(self._masked[snapshot.node[self._rows]]))
         self._double = np.array([node.double_sided for node in snapshot.nodes], bool)
         self._whole = self._tree(self._rows)
-        self._halves: list[_Tree] | None = None
+        self._halves: list[Tree] | None = None
+        self._solid: Tree | None = None
 
     def cast(
         self,
@@ -158,6 +159,35 @@ class Geometry:
             found[rows] = hits.distance < np.broadcast_to(reach, found.shape)[rows]
         return found
 
+    def touching(self, origins: Array, directions: Array, start: Ints) -> tuple[Ints, Hits]:
+        """Find what touches, from behind, the triangles `start` (R,) through which rays go.
+
+        `cast` begins beyond these triangles, so that it may miss a surface in the same plane, or behind it by less than
+        the rounding of a float32. Only surfaces count that let no light through. Returns the rows of the rays that meet
+        one, and these hits.
+        """
+        if self._solid is None:
+            self._solid = self._tree(
+                self._rows[solid_nodes(self._snapshot)[self._snapshot.node[self._rows]]]
+            )
+        rays = _Rays(self, origins, directions, start)
+        back = 2 * (rays.moved - (origins - self._middle))
+        rows, met = self._solid.nearest(rays.moved - back, rays.aimed)
+        normal = self._normal[met]
+        away = _dot(self._snapshot.corners[met, 0] - origins[rows], normal)
+        towards = _dot(directions[rows], normal)
+        near = np.abs(away) <= np.linalg.norm(back[rows], axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            distance = away / towards
+        near &= (distance >= 0) | (np.abs(away) <= _ON_PLANE * (self._size[met] + rays.reach[rows]))
+        near &= (met != start[rows]) & ((towards < 0) | self._double[self._snapshot.node[met]])
+        rows, met, distance = rows[near], met[near], np.maximum(distance[near], 0)
+        weights = self._weights(met, origins[rows] + distance[:, None] * directions[rows])
+        if self._any_masked:
+            kept = ~in_holes(self._snapshot, met, weights, self._masked)
+            rows, met, distance, weights = rows[kept], met[kept], distance[kept], weights[kept]
+        return rows, Hits(met, distance, weights)
+
     def _first(self, rays: _Rays, counts: _Counts) -> Hits:
         """Find the first hits that count."""
         count = len(rays.origins)
@@ -175,7 +205,7 @@ class Geometry:
         return hits
 
     def _search(
-        self, tree: _Tree, rays: _Rays, rows: Ints, begin: Array, counts: _Counts, hits: Hits
+        self, tree: Tree, rays: _Rays, rows: Ints, begin: Array, counts: _Counts, hits: Hits
     ) -> None:
         """Follow rays through a part of the triangles from just before a distance until a hit counts."""
         size = rays.size[rows] / rays.length[rows]
@@ -234,15 +264,15 @@ class Geometry:
         summed: Array = weights / weights.sum(axis=1, keepdims=True)
         return summed
 
-    def _both_halves(self) -> list[_Tree]:
+    def _both_halves(self) -> list[Tree]:
         """Return the triangles in two parts, so that the two sides of one plane are never in the same part."""
         if self._halves is None:
             side = self._normal[self._rows] @ (0.5377, 0.8339, 0.1243) > 0
             self._halves = [self._tree(self._rows[side]), self._tree(self._rows[~side])]
         return self._halves
 
-    def _tree(self, rows: Ints) -> _Tree:
-        return _Tree(self._embree, self._snapshot.corners[rows] - self._middle, rows)
+    def _tree(self, rows: Ints) -> Tree:
+        return Tree(self._embree, self._snapshot.corners[rows] - self._middle, rows)
 
     @property
     def middle(self) -> Array:
@@ -285,39 +315,6 @@ class _Rays:
         return taken
 
 
-class _Tree:
-    """A tree of Embree over triangles, which `places` (N,) names in the snapshot."""
-
-    def __init__(self, embree: tuple[Any, Any], corners: Array, places: Ints) -> None:
-        meshes, scenes = embree
-        self._places = places
-        self._scene: Any = None
-        if len(places):
-            self._scene = scenes.EmbreeScene()
-            self._mesh = meshes.TriangleMesh(self._scene, corners.astype(np.float32))
-
-    def nearest(self, origins: Array, directions: Array) -> tuple[Ints, Ints]:
-        """Return the rays that meet something, and the triangles, by their places in the snapshot."""
-        if self._scene is None or not len(origins):
-            return np.zeros(0, np.int64), np.zeros(0, np.int64)
-        met = np.asarray(self._scene.run(_float32(origins), _float32(directions)))
-        rows = np.flatnonzero(met >= 0)
-        return rows, self._places[met[rows]]
-
-    def occluded(self, origins: Array, directions: Array, reach: Array) -> Bools:
-        """Return whether rays meet anything before `reach` (R,)."""
-        if self._scene is None or not len(origins):
-            return np.zeros(len(origins), bool)
-        ends = _float32(np.minimum(reach, 1e37))  # Embree's own infinity
-        met = self._scene.run(_float32(origins), _float32(directions), dists=ends, query="OCCLUDED")
-        found: Bools = np.asarray(met) >= 0
-        return found
-
-
-def _float32(numbers: Array) -> Any:
-    return np.ascontiguousarray(numbers, np.float32)
-
-
 def _note(hits: Hits, rows: Ints, met: Ints, distance: Array, weights: Array) -> None:
     hits.triangle[rows], hits.distance[rows], hits.weights[rows] = met, distance, weights
 
@@ -325,16 +322,3 @@ def _note(hits: Hits, rows: Ints, met: Ints, distance: Array, weights: Array) ->
 def _dot(a: Array, b: Array) -> Array:
     product: Array = np.einsum("ri,ri->r", a, b)
     return product
-
-
-def _embree() -> tuple[Any, Any]:
-    try:
-        return (
-            importlib.import_module("embreex.mesh_construction"),
-            importlib.import_module("embreex.rtcore_scene"),
-        )
-    except ImportError as error:
-        raise ImportError(
-            "ray casting: expected the package embreex, found none; install it by "
-            'pip install "cubecam[truth]"'
-        ) from error

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .interpolation import interpolated
-from .records import Bools, Ints, StandardRecord
+from .records import Bools, GlassRecord, Ints, StandardRecord
 from .snapshot import Snapshot
 from .textures import Array
 
@@ -21,6 +21,18 @@ def nodes_with_holes(snapshot: Snapshot) -> Bools:
     )
 
 
+def solid_nodes(snapshot: Snapshot) -> Bools:
+    """Return (nodes,) which nodes are neither blended nor glass, so that a ray never goes through their surface."""
+    solid = []
+    for node in snapshot.nodes:
+        material = snapshot.materials[node.material]
+        passes = isinstance(material, GlassRecord) or (
+            isinstance(material, StandardRecord) and material.numbers["transmission"] > 0
+        )
+        solid.append(node.blend is None and not passes)
+    return np.array(solid, bool)
+
+
 def in_holes(snapshot: Snapshot, triangles: Ints, weights: Array, masked: Bools) -> Bools:
     """Return (R,) whether points on triangles (R,), of the weights (R, 3) of their corners, lie in holes.
 
@@ -28,10 +40,13 @@ def in_holes(snapshot: Snapshot, triangles: Ints, weights: Array, masked: Bools)
     """
     found = np.zeros(len(triangles), bool)
     nodes = snapshot.node[triangles]
-    for place in np.unique(nodes[masked[nodes]]):
-        material = snapshot.materials[snapshot.nodes[place].material]
+    places, which = np.unique(nodes, return_inverse=True)
+    of_place = np.array([snapshot.nodes[i].material if masked[i] else -1 for i in places], np.int64)
+    materials = of_place[which.reshape(-1)]
+    for index in np.unique(materials[materials >= 0]):
+        material = snapshot.materials[index]
         assert isinstance(material, StandardRecord)  # no other material has holes
-        rows = np.flatnonzero(nodes == place)
+        rows = np.flatnonzero(materials == index)
         at, share = triangles[rows], weights[rows]
         alpha = interpolated(share, snapshot.colors[at])[:, 3]
         if "map" in material.maps:

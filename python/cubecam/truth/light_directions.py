@@ -7,8 +7,10 @@ import numpy as np
 from .matrices import luminance, turned
 from .sampler import Array
 
+#: What stands for infinite light: the largest number of half floats, as in docs/conventions.md.
+LARGEST = 65504.0
 #: Faces with more texels than this along an edge are averaged, which only makes the choice of directions coarser.
-_LARGEST = 512
+_TEXELS = 512
 
 #: For each face of docs/conventions.md: the direction of the face, of growing s and of growing t.
 FORWARD = np.array(
@@ -38,9 +40,9 @@ class LightDirections:
 
     def __init__(self, faces: Array, turn: Array) -> None:
         # Only the proportions matter: 8 bits need no division.
-        light = np.nan_to_num(np.asarray(faces, np.float64)[..., :3], posinf=65504.0)
+        light = np.nan_to_num(np.asarray(faces, np.float64)[..., :3], posinf=LARGEST)
         light = np.broadcast_to(light, (*light.shape[:3], 3))  # grey has one channel
-        light = _halved(np.maximum(light, 0), _LARGEST)
+        light = _halved(np.maximum(light, 0), _TEXELS)
         n = light.shape[1]
         middles = (2 * np.arange(n) + 1) / n - 1
         a, b = np.meshgrid(middles, middles)

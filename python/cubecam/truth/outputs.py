@@ -38,6 +38,9 @@ def outputs_of(tracer: Tracer, eye: Eye, names: tuple[str, ...]) -> dict[str, np
 
 def _fill(tracer: Tracer, eye: Eye, pixel: Whole, found: dict[str, npt.NDArray[Any]]) -> None:
     nodes = tracer.snapshot.nodes
+    blended = np.array([n.blend is not None for n in nodes], np.bool_)
+    ids = np.array([n.id for n in nodes], np.int64)
+    labels = np.array([n.label for n in nodes], np.int64)
     rays = eye.rays(pixel, (0.5, 0.5))
     paths = first_paths(rays.origin, rays.direction, rays.reach, pixel, pixel * 0, pixel)
     while len(paths):
@@ -45,7 +48,7 @@ def _fill(tracer: Tracer, eye: Eye, pixel: Whole, found: dict[str, npt.NDArray[A
         met = np.flatnonzero(hits.triangle >= 0)
         paths, hits = paths.rows(met), taken(hits, met)
         points = surface_points(tracer.snapshot, hits, paths.direction)
-        translucent = np.array([nodes[i].blend is not None for i in points.node], np.bool_)
+        translucent = blended[points.node]
         solid, at = points.take(~translucent), paths.slot[~translucent]
         distance, z = eye.depth(at, solid.position)
         values = {
@@ -53,8 +56,8 @@ def _fill(tracer: Tracer, eye: Eye, pixel: Whole, found: dict[str, npt.NDArray[A
             "z": z,
             "normal": solid.normal,
             "position": solid.position,
-            "id": np.array([nodes[i].id for i in solid.node]),
-            "label": np.array([nodes[i].label for i in solid.node]),
+            "id": ids[solid.node],
+            "label": labels[solid.node],
         }
         for name, array in found.items():
             if len(at):

@@ -33,6 +33,7 @@ class Paths:
     bounces: Whole  # (R,): of these, mirrors, glass and rough surfaces that the path left
     start: Whole  # (R,): the triangle that the ray left, -1 for none
     left: Whole  # (R,): its node, -1 for none
+    crossed: Flags  # (R,): whether it went through this triangle
     reflected: Flags  # (R,): whether the ray left a surface, so that it sees what captures see
     surroundings: Whole  # (R,): what it sees where it meets nothing, -1 for the background
     ambient: Flags  # (R,): whether it sees ambient light, too
@@ -77,6 +78,7 @@ def first_paths(
         bounces=np.zeros(count, np.int64),
         start=np.full(count, -1),
         left=np.full(count, -1),
+        crossed=np.zeros(count, np.bool_),
         reflected=np.zeros(count, np.bool_),
         surroundings=np.full(count, -1),
         ambient=np.zeros(count, np.bool_),

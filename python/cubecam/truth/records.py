@@ -56,11 +56,6 @@ class BlendRecord:
     src_alpha: str = "one"
     dst_alpha: str = "zero"
 
-    @property
-    def depends_on_color(self) -> bool:
-        """Whether the colour of the surface is squared, or multiplies the colour behind it."""
-        return self.mode == "multiply" or any("color" in name for name in (self.src, self.dst))
-
     def terms(self, s: Array, a: Array, o: float | Array) -> tuple[Array, Array]:
         """Return A and B, each (R, 4): the picture becomes A + B * D in each of its four channels.
 

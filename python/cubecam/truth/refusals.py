@@ -16,7 +16,7 @@ from .._core import (
     RenderTexture,
     StandardMaterial,
 )
-from .records import LINEAR_FACTORS, BlendRecord, Kind
+from .records import LINEAR_FACTORS, Kind
 
 KINDS: dict[type[Material], Kind] = {
     BasicMaterial: "basic",
@@ -25,6 +25,9 @@ KINDS: dict[type[Material], Kind] = {
     GlassMaterial: "glass",
     StandardMaterial: "standard",
 }
+
+#: Ways to blend that multiply by the surface's colour.
+_PRODUCTS = ("multiply", "src_color", "one_minus_src_color")
 
 
 def kind_of(node: Node) -> Kind:
@@ -64,16 +67,23 @@ def check_depth_write(node: Node, opaque: bool) -> None:
         _refuse(node, "material.depth_write", "True or None on an opaque surface", False)
 
 
-def check_reflections(node: Node, kind: Kind, blend: BlendRecord | None) -> None:
-    """Refuse a surface whose reflections multiply what is behind it: both are random, and known at different times."""
+def check_gathering(node: Node, *names: str) -> None:
+    """Refuse a product of two lights that rays must follow: that of the surface, and that behind it.
+
+    `names` are a mode of blending, or the factors of a `Blend` for colours.
+    """
     material = node.material
-    if blend is None or kind in ("basic", "phong") or getattr(material, "unlit", False):
-        return
-    if blend.depends_on_color:
-        expected = (
-            "a blend in which the reflected light does not multiply what is behind the surface"
-        )
-        _refuse(node, "material.blend", expected, repr(getattr(material, "blend", None)))
+    gathers = isinstance(material, (MirrorMaterial, GlassMaterial)) or (
+        isinstance(material, StandardMaterial) and not material.unlit
+    )
+    for name in names:
+        if gathers and name in _PRODUCTS:
+            _refuse(
+                node,
+                "material.blend",
+                f"a sum on a {type(material).__name__}, whose colour comes from other rays",
+                repr(name),
+            )
 
 
 def check_texture(node: Node, name: str, texture: RenderTexture) -> None:

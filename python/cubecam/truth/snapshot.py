@@ -32,7 +32,7 @@ from .records import (
     NodeRecord,
     Radiance,
 )
-from .refusals import check_depth_write, check_reflections, kind_of
+from .refusals import check_depth_write, check_gathering, kind_of
 from .shading import Directional, Point, Spot
 from .textures import Array
 
@@ -120,7 +120,7 @@ def read(
     >>> found.corners.shape, found.nodes[0].name
     ((48, 3, 3), 'ball')
     """
-    excluded = {node.id for node in exclude}
+    excluded = {node.id for node in exclude if node in scene}
     ids = frozenset(node.id for node in scene.nodes)
     background = _background(scene)
     around = _Surroundings(scene, background)
@@ -133,7 +133,6 @@ def read(
         material = node.material
         assert material is not None  # nodes with a mesh have one
         blend = _blend(node, material, drawn)
-        check_reflections(node, kind, blend)
         record = NodeRecord(
             id=node.id,
             label=node.label,
@@ -171,7 +170,9 @@ def _blend(node: Node, material: Material, drawn: DrawnMesh) -> BlendRecord | No
         mode = "alpha" if blends(material, drawn.mesh) else "opaque"
     check_depth_write(node, mode == "opaque")
     if isinstance(mode, Blend):
+        check_gathering(node, mode.src, mode.dst)
         return BlendRecord("factors", mode.src, mode.dst, mode.src_alpha, mode.dst_alpha)
+    check_gathering(node, mode)
     return None if mode == "opaque" else BlendRecord(mode)
 
 

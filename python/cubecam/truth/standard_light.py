@@ -64,6 +64,8 @@ class StandardLight:
             else:
                 light[rows] = self._of_lamps(part, bsdf) + self._from_afar(part, bsdf)
                 found = bsdf.sample(numbers[rows], channel)
+                # In a body, no direction is chosen by the brightness of the environment.
+                found.pdf[part.paths.bodies[:, 0] >= 0] = 0
                 thick = np.broadcast_to(bsdf.p.thickness, (len(rows), 1))[:, 0] > 0
                 ways.append(_way(rows, found, entered=found.transmitted & thick))
         return Shaded(light, alpha, ways)

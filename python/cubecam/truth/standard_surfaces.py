@@ -115,7 +115,8 @@ def _anisotropy(
 def _surface(
     snapshot: Snapshot, record: StandardRecord, texels: dict[str, Array], points: Points
 ) -> Surface:
-    scales = np.array([node.scale for node in snapshot.nodes]).reshape(-1, 3)
+    nodes, which = np.unique(points.node, return_inverse=True)
+    scales = np.array([snapshot.nodes[node].scale for node in nodes]).reshape(-1, 3)
     mapped = {
         name: _mapped_normal(points, texels[f"{name}_map"], record.numbers[f"{name}_scale"])
         for name in ("normal", "clearcoat_normal")
@@ -128,7 +129,7 @@ def _surface(
         n=mapped.get("normal"),
         clearcoat_n=mapped.get("clearcoat_normal"),
         tangent=points.tangent,
-        scale=scales[points.node],
+        scale=scales[which.reshape(-1)],
     )
 
 

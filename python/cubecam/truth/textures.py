@@ -57,7 +57,8 @@ class Lookup:
         """
         place = uv if self.uv_set == 0 or uv1 is None else uv1
         if self.matrix is not None:
-            place = place @ self.matrix[:, :2].T + self.matrix[:, 2]
+            m = self.matrix  # without BLAS, whose rounding may change with the number of rows
+            place = place[:, :1] * m[:, 0] + place[:, 1:2] * m[:, 1] + m[:, 2]
         height, width = self.pixels.shape[:2]
         x = place[:, 0] * width
         y = (1 - place[:, 1]) * height

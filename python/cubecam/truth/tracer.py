@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import astuple
+
 import numpy as np
 
 from .bodies import Bodies
@@ -50,6 +52,13 @@ class Tracer:
         same = bool((seen == captured).all())
         self._captured = self._seen if same else Geometry(snapshot, captured[snapshot.node])
         self._material = np.array([n.material for n in nodes], np.int64)
+        # Nodes are few or many thousands; the ways in which they are blended are few.
+        known: dict[tuple[object, ...], int] = {}
+        self._blends = [(n.blend, n.opacity) for n in nodes]
+        keys = [(b and astuple(b), 1.0 if b is None else opacity) for b, opacity in self._blends]
+        self._blending = np.array(
+            [known.setdefault(key, i) for i, key in enumerate(keys)], np.int64
+        )
         self._far = FarLight(snapshot)
         self._bodies = Bodies(snapshot)
         lamps = Lamps(snapshot, Geometry(snapshot, casting[snapshot.node]))
@@ -75,11 +84,22 @@ class Tracer:
                 continue
             p = paths.rows(rows)
             hits = geometry.cast(p.origin, p.direction, inside=p.bodies[:, 0], start=p.start)
+            self._touch(hits, p, geometry)
             near = hits.distance <= p.reach
             found[0][rows] = np.where(near, hits.triangle, -1)
             found[1][rows] = np.where(near, hits.distance, np.inf)
             found[2][rows] = hits.weights
         return Hits(*found)
+
+    def _touch(self, hits: Hits, paths: Paths, geometry: Geometry) -> None:
+        """Let rays that went through a surface meet what touches it from behind, as a floor touches glass."""
+        rows = np.flatnonzero(paths.crossed)
+        if len(rows):
+            p = paths.rows(rows)
+            found, touched = geometry.touching(p.origin, p.direction, p.start)
+            at = rows[found]
+            hits.triangle[at], hits.weights[at] = touched.triangle, touched.weights
+            hits.distance[at] = touched.distance
 
     def _step(self, paths: Paths, sums: Array) -> Paths:
         hits = self.hits(paths)
@@ -123,7 +143,7 @@ class Tracer:
         """Let rays go on behind what they met."""
         gone = paths.copy()
         gone.origin, gone.start = points.position, hits.triangle
-        gone.reach = paths.reach - hits.distance
+        gone.reach, gone.crossed = paths.reach - hits.distance, np.ones(len(paths), np.bool_)
         gone.step = paths.step + 1
         # Light that was chosen by its brightness comes from where nothing stands in the way.
         gone.density = np.zeros(len(paths))
@@ -134,24 +154,25 @@ class Tracer:
         paths, points = group.paths, group.points
         shaded = self._materials.shade(group)
         going: list[Paths] = []
-        for index in np.unique(points.node):
-            node = self.snapshot.nodes[int(index)]
-            rows = np.flatnonzero(points.node == index)
+        blending = self._blending[points.node]
+        for index in np.unique(blending):
+            blend, opacity = self._blends[int(index)]
+            rows = np.flatnonzero(blending == index)
             factor = paths.factor[rows]
             light = shaded.light[rows]
-            if node.blend is None:
+            if blend is None:
                 one = np.ones((len(rows), 1))
                 add(sums, paths.slot[rows], factor * np.concatenate([light, one], axis=1))
                 onward = np.ones((len(rows), 3))
             else:
-                alpha = shaded.alpha[rows] * node.opacity
-                own, behind = node.blend.terms(light, alpha, node.opacity)
+                alpha = shaded.alpha[rows] * opacity
+                own, behind = blend.terms(light, alpha, opacity)
                 add(sums, paths.slot[rows], factor * own)
                 past = self.past(paths.rows(rows), points.take(rows), taken(hits, rows))
                 past.factor = factor * behind
                 going.append(past)
-                white, _ = node.blend.terms(np.ones_like(light), alpha, node.opacity)
-                black, _ = node.blend.terms(np.zeros_like(light), alpha, node.opacity)
+                white, _ = blend.terms(np.ones_like(light), alpha, opacity)
+                black, _ = blend.terms(np.zeros_like(light), alpha, opacity)
                 onward = (white - black)[:, :3]
             place = np.full(len(paths), -1)
             place[rows] = np.arange(len(rows))
@@ -176,6 +197,7 @@ class Tracer:
         gone.bounces = paths.bounces + 1
         gone.unblocked = gone.bounces > self.bounces
         gone.start, gone.left = hits.triangle[rows], points.node
+        gone.crossed = (gone.direction * points.face_normal).sum(axis=-1) < 0
         gone.reflected = np.ones(len(rows), np.bool_)
         gone.surroundings = self._far.seen_from(points.node, gone.unblocked)
         gone.ambient = np.full(len(rows), way.ambient)

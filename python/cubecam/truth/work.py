@@ -48,9 +48,9 @@ class Piece:
     samples: tuple[int, int]
 
 
-def pieces(pixels: int, samples: tuple[int, int]) -> list[Piece]:
-    """Cut some samples of all pixels into pieces."""
-    step = max(PATHS // (samples[1] - samples[0]), 1)
+def pieces(pixels: int, samples: tuple[int, int], paths: int) -> list[Piece]:
+    """Cut some samples of all pixels into pieces of at most `paths` paths, but at least a pixel."""
+    step = max(min(paths, PATHS) // (samples[1] - samples[0]), 1)
     return [Piece((a, min(a + step, pixels)), samples) for a in range(0, pixels, step)]
 
 

@@ -28,6 +28,11 @@ _SIZE = struct.Struct("<Q")
 _START = "import sys; sys.path[:] = {path!r}; from cubecam.truth.workers import serve; serve()"
 
 
+def interpreter() -> str | None:
+    """Find the program that runs Python: None in a frozen program or where `sys.executable` is empty."""
+    return None if getattr(sys, "frozen", False) else sys.executable or None
+
+
 class Workers:
     """A number of processes that draw pieces of one picture; 1: this process.
 
@@ -41,18 +46,34 @@ class Workers:
 
     def __enter__(self) -> Self:
         if self._own is None:
-            job = pickle.dumps(self._job, protocol=5)
-            for _ in range(self._count):
-                process = subprocess.Popen(
-                    [sys.executable, "-c", _START.format(path=sys.path)],
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    start_new_session=True,  # Ctrl-C is for this process alone
-                    env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
-                )
-                self._processes.append(process)
-                _send(process, job)
+            try:
+                self._start()
+            except BaseException:  # `with` does not end what could not begin
+                self._end()
+                raise
         return self
+
+    def _start(self) -> None:
+        program = interpreter()
+        if program is None:
+            raise RuntimeError(
+                f"truth: expected sys.executable to name the Python of {self._count} processes, got "
+                f"{sys.executable!r} in {'a frozen' if hasattr(sys, 'frozen') else 'this'} program; "
+                "processes=1 draws without others"
+            )
+        path = [each for each in sys.path if isinstance(each, str)]  # Python ignores all else
+        job = pickle.dumps(self._job, protocol=5)
+        for _ in range(self._count):
+            process = subprocess.Popen(
+                [program, "-c", _START.format(path=path)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                start_new_session=True,  # Ctrl-C is for this process alone
+                env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+            )
+            self._processes.append(process)
+        for process in self._processes:  # only now, so that all of them start at the same time
+            _send(process, job)
 
     def __exit__(
         self,
@@ -60,6 +81,9 @@ class Workers:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        self._end()
+
+    def _end(self) -> None:
         for process in self._processes:
             process.kill()
         for process in self._processes:
@@ -135,8 +159,11 @@ def serve() -> None:
         except Exception as error:
             answer = error
         data = pickle.dumps(answer, protocol=5)
-        target.write(_SIZE.pack(len(data)) + data)
-        target.flush()
+        try:
+            target.write(_SIZE.pack(len(data)) + data)
+            target.flush()
+        except BrokenPipeError:  # the caller was killed: nobody wants the picture
+            os._exit(1)
 
 
 def _send(process: subprocess.Popen[bytes], data: bytes) -> None:

@@ -19,6 +19,7 @@ def fresnel_dielectric(cos_i: Numbers, eta: Numbers) -> Array:
     cos_i = np.clip(cos_i, 0, 1)
     sin_t2 = eta**2 * (1 - cos_i**2)
     cos_t = np.sqrt(np.maximum(1 - sin_t2, 0))
-    parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
-    perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
+    with np.errstate(invalid="ignore"):  # 0 / 0 beyond the critical angle
+        parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
+        perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
     return np.where(sin_t2 >= 1, 1.0, (parallel**2 + perpendicular**2) / 2)
