@@ -237,7 +237,11 @@ def _draw(
     started: float | None = None,
 ) -> _Made:
     started = time.monotonic() if started is None else started
-    count = int(np.prod(eye.shape))
+    count = math.prod(eye.shape)
+    if count > 1 << 60:  # a float need not hold it
+        raise ValueError(
+            "size: expected a picture that fits into memory, got more than 2**60 pixels"
+        )
     _core._check_memory(100.0 * count, f"pixels of shape {eye.shape}")
     textures = _Textures(quality, shown, started)
     snapshot = read(scene, exclude=exclude, textures=textures)
