@@ -5,6 +5,7 @@ import pytest
 
 import cubecam as cc
 from cubecam.truth import tracer, work
+from cubecam.truth.geometry import Geometry
 
 WHITE = cc.CubeMap(np.ones((6, 4, 4, 3), np.float32))
 MATT = cc.StandardMaterial(metallic=0, roughness=1, specular_weight=0)
@@ -110,6 +111,25 @@ def test_the_work_does_not_grow_with_the_number_of_nodes(monkeypatch):
         assert len(np.unique(picture.id)) > count / 4
         counts.append(len(calls))
     assert counts[1] <= counts[0] + 6  # some more steps, since there are panes before panes
+
+
+def test_one_tree_of_triangles_is_enough(monkeypatch):
+    made = []
+
+    class Counted(Geometry):
+        def __init__(self, *args):
+            made.append(args)
+            super().__init__(*args)
+
+    monkeypatch.setattr(tracer, "Geometry", Counted)
+    scene = cc.Scene()
+    node = scene.add(cc.Mesh.box(1), MATT)
+    scene.add(cc.PointLight(position=(0, 3, 0), shadow=cc.Shadow()))
+    rendered(scene, samples=1)
+    assert len(made) == 1
+    node.cast_shadow = False
+    rendered(scene, samples=1)
+    assert len(made) == 3
 
 
 def all_materials():

@@ -22,6 +22,7 @@ from .pictures import TruthCube, TruthFrame, cube_of, frame_of
 from .progress import bar
 from .snapshot import read
 from .sums import Sums
+from .trees import embree
 from .work import PATHS, Job, pieces
 from .workers import Workers, interpreter
 
@@ -105,7 +106,9 @@ def render(
     ValueError
         For a number out of its range, an unknown output, or what rays cannot follow: a `ShaderMaterial`, effects of a
         render texture, a probe as `BasicMaterial.cubemap`, a stencil, ``depth_test=False``, channels that are not
-        written, an opaque surface that writes no depth, or a `Blend` that is not a sum. The message names the node.
+        written, an opaque surface that writes no depth, a `Blend` that is not a sum, or a product with the colour
+        behind ("multiply") on a mirror, glass or a `StandardMaterial`. The message names the node. Also for a picture
+        that no memory holds, and for a node of another scene in `exclude`.
     TypeError
         For an argument of another type, such as a `StereoCamera`.
     ImportError
@@ -117,7 +120,8 @@ def render(
     next direction by its own lobes and by the brightness of its environment, weighted by the balance heuristic
     (E. Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997). A `PhongMaterial` ends a path: the
     model has no light from other surfaces. Textures are looked up without mipmaps, and occlusion maps are left out,
-    since rays find what they stand for.
+    since rays find what they stand for. A camera inside a body of glass sees as if the body were not there, since its
+    surfaces show no backs; rays from a surface in the body meet its sides.
 
     Examples
     --------
@@ -233,7 +237,11 @@ def _draw(
     started: float | None = None,
 ) -> _Made:
     started = time.monotonic() if started is None else started
-    count = int(np.prod(eye.shape))
+    count = math.prod(eye.shape)
+    if count > 1 << 60:  # a float need not hold it
+        raise ValueError(
+            "size: expected a picture that fits into memory, got more than 2**60 pixels"
+        )
     _core._check_memory(100.0 * count, f"pixels of shape {eye.shape}")
     textures = _Textures(quality, shown, started)
     snapshot = read(scene, exclude=exclude, textures=textures)
@@ -246,7 +254,8 @@ def _draw(
         quality.self_hits,
         of_capture,
     )
-    found = outputs_of(job.tracer(), eye, names)
+    embree()  # an error here says more than one in another process
+    found = outputs_of(job.tracer(), eye, names) if names else {}
     sums = Sums(np.zeros((count, 6)))
     complete = _fill(job, sums, quality, started, inner=bool(shown)) and textures.complete
     with np.errstate(invalid="ignore"):

@@ -48,9 +48,12 @@ class Tracer:
         seen = np.array([n.visible and (n.in_captures or not of_capture) for n in nodes], np.bool_)
         captured = np.array([n.in_captures for n in nodes], np.bool_)
         casting = np.array([n.casts_shadow for n in nodes], np.bool_)
-        self._seen = Geometry(snapshot, seen[snapshot.node])
-        same = bool((seen == captured).all())
-        self._captured = self._seen if same else Geometry(snapshot, captured[snapshot.node])
+        # Most often all three are the same triangles, and a tree of many takes time and memory.
+        made: dict[bytes, Geometry] = {}
+        for chosen in (seen, captured, casting):
+            if chosen.tobytes() not in made:
+                made[chosen.tobytes()] = Geometry(snapshot, chosen[snapshot.node])
+        self._seen, self._captured = made[seen.tobytes()], made[captured.tobytes()]
         self._material = np.array([n.material for n in nodes], np.int64)
         # Nodes are few or many thousands; the ways in which they are blended are few.
         known: dict[tuple[object, ...], int] = {}
@@ -61,7 +64,7 @@ class Tracer:
         )
         self._far = FarLight(snapshot)
         self._bodies = Bodies(snapshot)
-        lamps = Lamps(snapshot, Geometry(snapshot, casting[snapshot.node]))
+        lamps = Lamps(snapshot, made[casting.tobytes()])
         self._materials = Materials(
             snapshot, lamps, self._far, self._bodies, self._captured, bounces=bounces, seed=seed
         )
