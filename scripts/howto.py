@@ -44,6 +44,7 @@ PICTURES = {
         f"{name}.jpg": f"howto-projection-{name}.jpg" for name in _PROJECTIONS
     },
     "howto/orientation.md": {"orientation.png": "howto-orientation.png"},
+    "howto/truth.md": {"error.png": "howto-truth.jpg"},
     "howto/own_materials.md": {"first.png": "howto-own-materials.jpg"},
     "explanation/views.md": {"views.png": "why-views.jpg"},
     "explanation/keys.md": {"keys.png": "why-keys.jpg"},
