@@ -1,6 +1,5 @@
 """pytest runs each notebook, and compares what it prints and draws with the outputs that are committed."""
 
-import nbformat
 import pytest
 
 from tests.helpers import load_script, on_llvmpipe
@@ -21,6 +20,8 @@ class NotebookTest(pytest.Item):
     """One notebook, from the first cell to the last, in a kernel of its own."""
 
     def runtest(self):
+        import nbformat  # late, since a controller of several processes runs no tests
+
         script = load_script("notebooks")
         found = script.differences(
             script.execute(self.path),
