@@ -2,7 +2,6 @@
 
 from importlib.util import find_spec
 
-import nbformat
 import pytest
 
 from tests.helpers import load_script, on_llvmpipe
@@ -29,6 +28,8 @@ class NotebookTest(pytest.Item):
         for package in NEEDS.get(self.path.stem, ()):
             if find_spec(package) is None:
                 pytest.skip(f"{package} has no wheel here")
+        import nbformat  # late, since a controller of several processes runs no tests
+
         script = load_script("notebooks")
         found = script.differences(
             script.execute(self.path),

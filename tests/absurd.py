@@ -71,6 +71,10 @@ def numpy_scalars() -> dict[str, Any]:
     return made
 
 
+#: Nothing changes it, and making it takes longer than making all other values.
+_DEEP = deep(20_000)
+
+
 def values() -> dict[str, Any]:
     """Give the values by name, new ones at every call."""
     made: dict[str, Any] = {
@@ -132,7 +136,7 @@ def values() -> dict[str, Any]:
         "Ellipsis": ...,
         "NotImplemented": NotImplemented,
         "object": object(),
-        "a deep list": deep(20_000),
+        "a deep list": _DEEP,
         "an endless list": own(),
         "a long list": [0.5] * 10_000,
         "masked": np.ma.masked,

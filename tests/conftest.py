@@ -17,6 +17,10 @@ from tests.helpers import DEVICE, device, need_layers, on_llvmpipe, only_on_llvm
 #: Only `make test-browser` installs what these tests need.
 collect_ignore = [] if importlib.util.find_spec("playwright") else ["browser"]
 
+# nbformat imports jsonschema, which then compiles 38 grammars of addresses of the web: two seconds in each process of
+# pytest. No format that these check is in a notebook. jsonschema does without this package where it is not installed.
+sys.modules.setdefault("rfc3987_syntax", None)  # type: ignore[arg-type]
+
 # Plots are drawn without a window, whatever the machine has.
 os.environ.setdefault("MPLBACKEND", "agg")
 

@@ -13,24 +13,33 @@ TEXT = text_of("README.md")
 BLOCKS = python_blocks("README.md")
 
 
-def run(code, folder, monkeypatch):
-    return run_block(code, "README.md", folder, monkeypatch)
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    """Run a block alone, once; give the names after its run and the folder in which it ran."""
+    runs = {}
+
+    def get(index):
+        if index not in runs:
+            folder = tmp_path_factory.mktemp("block")
+            with pytest.MonkeyPatch.context() as patch:
+                runs[index] = run_block(BLOCKS[index], "README.md", folder, patch), folder
+        return runs[index]
+
+    return get
 
 
 @pytest.mark.parametrize("index", range(len(BLOCKS)))
-def test_every_block_runs_alone(index, tmp_path, monkeypatch):
-    run(BLOCKS[index], tmp_path, monkeypatch)
+def test_every_block_runs_alone(index, done):
+    _, folder = done(index)
     saved = set(re.findall(r'save\w*\("([^"]+)"', BLOCKS[index]))
     assert saved
-    assert {path.name for path in tmp_path.iterdir()} == saved
+    assert {path.name for path in folder.iterdir()} == saved
 
 
-@pytest.fixture(scope="module")
-def first(tmp_path_factory):
+@pytest.fixture
+def first(done):
     """The names of the first program after its run, and the frame that it wrote."""
-    folder = tmp_path_factory.mktemp("first")
-    with pytest.MonkeyPatch.context() as patch:
-        scope = run(BLOCKS[0], folder, patch)
+    scope, folder = done(0)
     return scope, cc.load_image(folder / "frame.png")
 
 
@@ -88,9 +97,9 @@ def test_its_first_picture_is_what_the_first_program_writes(first):
     assert np.abs(shown - drawn).mean() < 2  # JPEG, and another driver's roundings
 
 
-def test_the_material_of_ones_own_is_the_mirror_it_says(tmp_path, monkeypatch):
-    (code,) = [block for block in BLOCKS if "ShaderMaterial" in block]
-    scope = run(code, tmp_path, monkeypatch)
+def test_the_material_of_ones_own_is_the_mirror_it_says(done):
+    (index,) = [i for i, block in enumerate(BLOCKS) if "ShaderMaterial" in block]
+    scope, folder = done(index)
     own, head, scene, camera = (scope[name] for name in ("gold", "head", "scene", "camera"))
     own.uniforms["share"] = 1
     with cc.Renderer(device="software") as renderer:
@@ -99,7 +108,7 @@ def test_the_material_of_ones_own_is_the_mirror_it_says(tmp_path, monkeypatch):
         want = renderer.render(scene, camera, (64, 64), format="rgba32f")
     assert (got.id == head.id).mean() > 0.2
     assert_close(got.color, want.color, "lookup")
-    picture = cc.load_image(tmp_path / "gold.png")
+    picture = cc.load_image(folder / "gold.png")
     assert picture.shape == (512, 512, 4)
     red, _, blue = picture[192:256, 192:320, :3].astype(int).T
     assert (red > blue).mean() > 0.95  # gold

@@ -14,7 +14,7 @@ from tests.fuzz.targets import NAMES, target
 from tests.fuzz.world import World
 
 #: Cases of a target that the test suite tries.
-SOME = {"api": 120, "pickles": 60, "glsl": 60}
+SOME = {"api": 60, "pickles": 30, "glsl": 30}
 
 
 @pytest.mark.slow

@@ -32,7 +32,8 @@ def panel_widgets(view: LiveView) -> PanelWidgets:
     Returns
     -------
     PanelWidgets
-        Its `box` is an ipywidgets.VBox, with one Accordion for each section.
+        Its `box` is an ipywidgets.VBox, with one Accordion for each section. The widgets of a folded section are made
+        when someone unfolds it.
 
     Raises
     ------
@@ -82,8 +83,9 @@ class PanelWidgets:
             self._shape = described
             self._build()
         for rows, numbers in zip(self._rows, values, strict=True):
-            for row, value in zip(rows, numbers, strict=True):
-                row.show(value)
+            if rows:  # none in a section that was never unfolded
+                for row, value in zip(rows, numbers, strict=True):
+                    row.show(value)
 
     def close(self) -> None:
         """Close all widgets and stop listening to the view; closing again does nothing."""
@@ -106,20 +108,35 @@ class PanelWidgets:
         unfolded = {one.titles[0]: one.selected_index == 0 for one in self.box.children}
         old = list(self.box.children)
         self._close_rows()
-        self._rows = [
-            [self._row(s, c, control) for c, control in enumerate(section.controls)]
-            for s, section in enumerate(self._sections)
-        ]
-        self.box.children = [
-            widgets.Accordion(
-                [widgets.VBox([row.box for row in rows])],
-                titles=(section.title,),
-                selected_index=0 if unfolded.get(section.title, section.open) else None,
-            )
-            for section, rows in zip(self._sections, self._rows, strict=True)
-        ]
+        self._rows = [[] for _ in self._sections]
+        accordions = []
+        for number, section in enumerate(self._sections):
+            one = widgets.Accordion([widgets.VBox([])], titles=(section.title,))
+            one.observe(lambda change, n=number: self._unfolded(n, change["new"]), "selected_index")
+            accordions.append(one)
+        self.box.children = accordions
+        for one, section in zip(accordions, self._sections, strict=True):
+            if unfolded.get(section.title, section.open):
+                one.selected_index = 0
         for one in old:
             close_widget(one)
+
+    def _unfolded(self, section: int, selected: int | None) -> None:
+        """Make the rows of a section when it is unfolded for the first time.
+
+        A panel can have hundreds of controls, and each takes a dozen widgets.
+        """
+        if selected is None or self._rows[section]:
+            return
+        rows = [
+            self._row(section, c, control)
+            for c, control in enumerate(self._sections[section].controls)
+        ]
+        self._rows[section] = rows
+        [inside] = self.box.children[section].children
+        inside.children = [row.box for row in rows]
+        for row, control in zip(rows, self._sections[section].controls, strict=True):
+            row.show(control.get())
 
     def _row(self, section: int, index: int, control: Control) -> _Row:
         return _Row(control, lambda value: self._set(section, index, value))
@@ -141,6 +158,7 @@ class PanelWidgets:
             for row in rows:
                 row.close()
         for one in self.box.children:
+            one.unobserve_all()
             close_widget(one)
         self._rows = []
         self.box.children = []

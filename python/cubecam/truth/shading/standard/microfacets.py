@@ -114,9 +114,10 @@ def _charlie_fit(x: Any, alpha: Any) -> Array:
 
 def charlie_lambda(cosine: Any, alpha: Any) -> Array:
     """The fit of lambda in the same paper, mirrored at a cosine of a half."""
-    low = np.exp(_charlie_fit(np.minimum(cosine, 0.5), alpha))
-    high = np.exp(2 * _charlie_fit(0.5, alpha) - _charlie_fit(1 - np.clip(cosine, 0.5, 1), alpha))
-    return np.where(cosine < 0.5, low, high)
+    low = cosine < 0.5
+    fit = _charlie_fit(np.where(low, cosine, 1 - np.clip(cosine, 0.5, 1)), alpha)
+    result: Array = np.exp(np.where(low, fit, 2 * _charlie_fit(0.5, alpha) - fit))
+    return result
 
 
 def charlie_visibility(n_v: Any, n_l: Any, sheen_roughness: Any) -> Array:

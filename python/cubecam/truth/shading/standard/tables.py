@@ -49,7 +49,7 @@ def _scale_and_bias(n_v: Any, roughness: float, turns: int = 24, steps: int = 25
     return np.stack([(weight * (1 - grazing)) @ share, (weight * grazing) @ share], -1)
 
 
-def _sheen_albedo(n_v: Any, roughness: float, turns: int = 64, steps: int = 256) -> Array:
+def _sheen_albedo(n_v: Any, roughness: float, turns: int = 32, steps: int = 256) -> Array:
     """The integral of D V n.l over the hemisphere of l, for one sheen roughness.
 
     In the angle between h and n the distribution has no peak that midpoints miss, except at the horizon, where
@@ -60,7 +60,7 @@ def _sheen_albedo(n_v: Any, roughness: float, turns: int = 64, steps: int = 256)
     # The density of the sine s is proportional to s^(power + 1), whose integral is inverted.
     sine = _midpoints(steps) ** (1 / (power + 2))
     cosine_h = np.sqrt(1 - sine**2)
-    phi = 2 * np.pi * _midpoints(turns)[:, None]
+    phi = np.pi * _midpoints(turns)[:, None]  # the other half is its mirror image
     x, z = (sine * np.cos(phi)).ravel(), np.broadcast_to(cosine_h, (turns, steps)).ravel()
     s = np.broadcast_to(sine, (turns, steps)).ravel()
     # In s and phi the solid angle is s / cosine_h ds dphi.
