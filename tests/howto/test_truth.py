@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 import cubecam as cc
 from cubecam.cli import app
-from cubecam.truth.refusals import KINDS
+from cubecam.truth.scene.refusals import KINDS
 from tests.documents import fenced, text_of
 from tests.howto.pages import printed
 

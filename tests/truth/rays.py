@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 import cubecam as cc
-from cubecam.truth.geometry import Geometry
-from cubecam.truth.snapshot import read
+from cubecam.truth.scene.snapshot import read
+from cubecam.truth.surfaces.geometry import Geometry
 from tests.gl.world import World
 from tests.reference import transforms as ref
 

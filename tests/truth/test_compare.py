@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth import Comparison, _measures
+from cubecam.truth import Comparison
+from cubecam.truth.measures import scores as _measures
 
 TRUTH = np.random.default_rng(7).random((24, 32, 3))
 PICTURE = np.clip(TRUTH + np.random.default_rng(8).normal(0, 0.1, TRUTH.shape), 0, 1)

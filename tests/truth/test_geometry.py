@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth.geometry import Geometry
-from cubecam.truth.points import surface_points
+from cubecam.truth.scene.snapshot import read
 from cubecam.truth.shading import normalised
-from cubecam.truth.snapshot import read
+from cubecam.truth.surfaces.geometry import Geometry
+from cubecam.truth.surfaces.points import surface_points
 from tests.compare import assert_close
 from tests.reference import raycast
 from tests.reference import transforms as ref

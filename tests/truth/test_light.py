@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.bsdf.standard import evaluate
 from cubecam.truth.shading import fresnel_dielectric, normalised, reflect, refract
 from cubecam.truth.shading.standard.material import Parameters, Surface
-from cubecam.truth.standard_bsdf import evaluate
 from tests.reference.transforms import pixel_rays
 
 SIZE = (24, 24)

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth import tracer, work
-from cubecam.truth.geometry import Geometry
+from cubecam.truth import work
+from cubecam.truth.paths import tracer
+from cubecam.truth.surfaces.geometry import Geometry
 
 WHITE = cc.CubeMap(np.ones((6, 4, 4, 3), np.float32))
 MATT = cc.StandardMaterial(metallic=0, roughness=1, specular_weight=0)

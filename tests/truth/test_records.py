@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth.snapshot import read
+from cubecam.truth.scene.snapshot import read
 from tests.compare import assert_close
 from tests.gl.world import smooth_environment
 from tests.reference import transforms as ref

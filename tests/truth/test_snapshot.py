@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth.records import BlendRecord
+from cubecam.truth.scene.records import BlendRecord
+from cubecam.truth.scene.snapshot import read
 from cubecam.truth.shading import Directional, Point, Spot, normalised
-from cubecam.truth.snapshot import read
 from tests.gl.bent import Bent
 from tests.gl.world import smooth_environment
 from tests.reference import transforms as ref

@@ -5,12 +5,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from cubecam.truth.bsdf.standard import StandardBsdf, evaluate, extinction, pdf, sample
 from cubecam.truth.shading import dot, normalised
 from cubecam.truth.shading.standard.material import Parameters, Surface
 from cubecam.truth.shading.standard.microfacets import mix, schlick
 from cubecam.truth.shading.standard.shade import Fresnel, facing, lit_base, lit_coat, scattered
 from cubecam.truth.shading.standard.tables import brdf_terms
-from cubecam.truth.standard_bsdf import StandardBsdf, evaluate, extinction, pdf, sample
 
 from .bsdf_cases import ROUGH, UP, all_directions, parameters, random_unit, surface_of, view
 

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from cubecam.truth.bsdf.standard import sample, sample_exit
 from cubecam.truth.shading import dot, normalised
 from cubecam.truth.shading.standard.material import Parameters, Surface
 from cubecam.truth.shading.standard.tables import brdf_terms, sheen_albedo
-from cubecam.truth.standard_bsdf import sample, sample_exit
 
 from .bsdf_cases import UP, random_unit, surface_of, view
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from cubecam.truth.geometry import Geometry
+from cubecam.truth.scene.snapshot import read
 from cubecam.truth.shading import normalised, phong, reflect
 from cubecam.truth.shading.standard.material import anisotropy_direction, mapped_normal
-from cubecam.truth.snapshot import read
-from cubecam.truth.surfaces import phong_parameters, standard_point, surface_points
+from cubecam.truth.surfaces.colors import phong_parameters, standard_point, surface_points
+from cubecam.truth.surfaces.geometry import Geometry
 from tests.compare import assert_close
 from tests.gl.world import smooth_environment
 from tests.reference.raycast import interior

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import cubecam as cc
+from cubecam.truth.scene.textures import Lookup
 from cubecam.truth.shading import sample_image
-from cubecam.truth.surfaces import basic_color, standard_point, surface_points
-from cubecam.truth.textures import Lookup
+from cubecam.truth.surfaces.colors import basic_color, standard_point, surface_points
 from tests.compare import assert_close
 from tests.reference.raycast import interior
 from tests.truth.rays import seen

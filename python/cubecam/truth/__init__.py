@@ -14,8 +14,8 @@ True
 
 from __future__ import annotations
 
-from .compare import Comparison, compare
 from .drawing import capture, render
+from .measures.compare import Comparison, compare
 from .pictures import TruthCube, TruthFrame
 
 __all__ = ["Comparison", "TruthCube", "TruthFrame", "capture", "compare", "render"]

@@ -20,9 +20,9 @@ from .eyes import CameraEye, CubeEye, Eye
 from .outputs import outputs_of
 from .pictures import TruthCube, TruthFrame, cube_of, frame_of
 from .progress import bar
-from .snapshot import read
+from .scene.snapshot import read
 from .sums import Sums
-from .trees import embree
+from .surfaces.trees import embree
 from .work import PATHS, Job, pieces
 from .workers import Workers, interpreter
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from .light_directions import DOWN, FORWARD, RIGHT
 from .matrices import placed, turned
-from .paths import Whole
-from .sampler import Array
+from .paths.light_directions import DOWN, FORWARD, RIGHT
+from .paths.sampler import Array
+from .paths.state import Whole
 
 if TYPE_CHECKING:
     from .._core import Camera

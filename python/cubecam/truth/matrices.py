@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .sampler import Array
+from .paths.sampler import Array
 
 _LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear sRGB: ITU-R BT.709
 

@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .eyes import Eye
-from .paths import Whole, first_paths
-from .surfaces import surface_points
-from .tracer import Tracer, taken
+from .paths.state import Whole, first_paths
+from .paths.tracer import Tracer, taken
+from .surfaces.colors import surface_points
 from .work import PATHS
 
 #: The outputs that exist, with their types and their numbers where nothing is met.

@@ -9,10 +9,10 @@ import numpy.typing as npt
 
 from .eyes import Eye
 from .matrices import luminance
-from .paths import first_paths
-from .sampler import Array, pairs
-from .snapshot import Snapshot
-from .tracer import Tracer
+from .paths.sampler import Array, pairs
+from .paths.state import first_paths
+from .paths.tracer import Tracer
+from .scene.snapshot import Snapshot
 
 #: Paths of a piece: enough that numpy's own cost for each call does not matter, few enough for the processor's caches.
 PATHS = 1 << 16

@@ -21,7 +21,7 @@ from typing import IO, TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-    from .sampler import Array
+    from .paths.sampler import Array
     from .work import Job, Piece
 
 _SIZE = struct.Struct("<Q")

@@ -1,0 +1,1 @@
+"""How `StandardMaterial` scatters light: values, densities, and directions drawn from them."""

@@ -1,0 +1,1 @@
+"""How far a picture is from another one: numbers, and a figure of them."""

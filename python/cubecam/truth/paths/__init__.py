@@ -1,0 +1,1 @@
+"""Paths of light: what they meet, where they go on, and what they bring back."""

@@ -1,0 +1,114 @@
+"""What each kind of material sends back along a ray, and the ways on which the light came there."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scene.records import BasicRecord, GlassRecord, MirrorRecord, PhongRecord
+from ..scene.snapshot import Snapshot
+from ..shading.fresnel import schlick
+from ..shading.lights import Ambient
+from ..shading.phong_model import phong
+from ..shading.vectors import dot, reflect
+from ..surfaces.colors import basic_color, phong_parameters
+from ..surfaces.geometry import Geometry
+from .bodies import Bodies
+from .far_light import FarLight
+from .glass import glass_way
+from .groups import CHOICE, FACET, Group, Shaded, Way
+from .lamps import Lamps
+from .standard import StandardLight
+
+
+class Materials:
+    """The materials of a snapshot, with what `Lamps` and `FarLight` shine on them."""
+
+    def __init__(
+        self,
+        snapshot: Snapshot,
+        lamps: Lamps,
+        far: FarLight,
+        bodies: Bodies,
+        captured: Geometry,
+        *,
+        bounces: int,
+        seed: int,
+    ) -> None:
+        self._snapshot, self._lamps, self._bodies, self._seed = snapshot, lamps, bodies, seed
+        self._standard = StandardLight(snapshot, lamps, far, captured, bounces=bounces, seed=seed)
+
+    def shade(self, group: Group) -> Shaded:
+        """Shade the points that a group of paths meets."""
+        material = self._snapshot.materials[group.material]
+        if isinstance(material, BasicRecord):
+            return self._basic(group)
+        if isinstance(material, PhongRecord):
+            return self._phong(group)
+        if isinstance(material, MirrorRecord):
+            return self._mirror(group, material)
+        if isinstance(material, GlassRecord):
+            return self._glass(group, material)
+        return self._standard.shade(group, material)
+
+    def _basic(self, group: Group) -> Shaded:
+        return Shaded(*basic_color(self._snapshot, group.material, group.points))
+
+    def _phong(self, group: Group) -> Shaded:
+        found = phong_parameters(self._snapshot, group.material, group.points)
+        lights = [*self._snapshot.lights, Ambient(tuple(self._snapshot.ambient))]
+        visibility = [self._lamps.visibility(group, index) for index in range(len(lights) - 1)]
+        light = phong(
+            group.points.position,
+            group.points.normal,
+            # The eye lies somewhere back along the ray.
+            group.points.position - group.paths.direction,
+            found.color,
+            lights,
+            found.ka,
+            found.kd,
+            found.ks,
+            found.shininess,
+            [*visibility, None],
+        )
+        return Shaded(light, found.alpha)
+
+    def _mirror(self, group: Group, material: MirrorRecord) -> Shaded:
+        points, paths = group.points, group.paths
+        direction = reflect(paths.direction, points.normal)
+        weight = np.broadcast_to(material.env_weight * material.tint[:3], direction.shape)
+        if material.f0 is not None:
+            weight = weight * schlick(material.f0, -dot(paths.direction, points.normal))
+        light = np.broadcast_to(material.color_weight * material.color[:3], direction.shape)
+        one = np.ones((len(paths), 1))
+        return Shaded(light, one, [Way(np.arange(len(paths)), direction, weight)])
+
+    def _glass(self, group: Group, material: GlassRecord) -> Shaded:
+        paths, points, inside = group.paths, group.points, group.inside
+        own = np.full((len(paths), 1), material.ior)
+        # What lies on the other side of the surface: the next body for a ray that leaves, the present one else.
+        other = self._bodies.ior_around(paths, np.where(inside, 1, 0))[:, None]
+        eta = np.where(inside[:, None], own / other, other / own)
+        numbers = np.concatenate(
+            [group.numbers(self._seed, FACET), group.numbers(self._seed, CHOICE)], axis=1
+        )[:, :3]
+        way = glass_way(
+            points.normal,
+            -paths.direction,
+            eta,
+            float(material.roughness) ** 2,
+            material.fresnel,
+            numbers,
+        )
+        # The tint colours the light once, where it enters.
+        goes_in = way.through & ~inside
+        weight = way.weight * np.where(goes_in[:, None], material.tint[:3], 1.0)
+        ways = [
+            Way(
+                np.arange(len(paths)),
+                way.direction,
+                weight,
+                entered=goes_in,
+                left=way.through & inside,
+            )
+        ]
+        return Shaded(np.zeros((len(paths), 3)), np.ones((len(paths), 1)), ways)
