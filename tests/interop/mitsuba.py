@@ -11,6 +11,8 @@ import sys
 
 import numpy as np
 
+import cubecam as cc
+
 PYTHON = os.environ.get("CUBECAM_MITSUBA_PYTHON", sys.executable)
 #: Renders each scene of a pickled list, which are dicts or names of XML files.
 PROGRAM = """
@@ -39,3 +41,14 @@ def rendered(folder, scenes):
     assert done.returncode == 0, (done.returncode, done.stderr[-2000:])
     with np.load(result) as pictures:
         return [pictures[name] for name in pictures.files]
+
+
+def cube_of_place(size=64):
+    """A smooth environment whose colour is another one in each direction."""
+    at = (np.arange(size) + 0.5) / size * 2 - 1
+    t, s = np.meshgrid(at, at, indexing="ij")
+    one = np.ones_like(s)
+    faces = [(one, -t, -s), (-one, -t, s), (s, one, t), (s, -one, -t), (s, -t, one), (-s, -t, -one)]
+    way = np.array(faces).transpose(0, 2, 3, 1)
+    way /= np.linalg.norm(way, axis=-1, keepdims=True)
+    return cc.CubeMap((0.6 + 0.5 * way + 0.3 * way[..., [1, 2, 0]] ** 3).astype(np.float32))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.interop.mitsuba import rendered
+from tests.interop.mitsuba import cube_of_place, rendered
 
 pytestmark = pytest.mark.interop
 
@@ -53,17 +53,6 @@ def picture_of_place(size=16):
     pixels[..., 1] = 1 - at[:, None]  # row 0 is v = 1
     pixels[: size // 3, : size // 3, 2] = 1
     return pixels
-
-
-def cube_of_place(size=64):
-    """A smooth environment whose colour is another one in each direction."""
-    at = (np.arange(size) + 0.5) / size * 2 - 1
-    t, s = np.meshgrid(at, at, indexing="ij")
-    one = np.ones_like(s)
-    faces = [(one, -t, -s), (-one, -t, s), (s, one, t), (s, -one, -t), (s, -t, one), (-s, -t, -one)]
-    way = np.array(faces).transpose(0, 2, 3, 1)
-    way /= np.linalg.norm(way, axis=-1, keepdims=True)
-    return cc.CubeMap((0.6 + 0.5 * way + 0.3 * way[..., [1, 2, 0]] ** 3).astype(np.float32))
 
 
 def basic_scene():

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import cubecam as cc
-from tests.interop.mitsuba import rendered
-from tests.interop.test_mitsuba import cube_of_place
+from tests.interop.mitsuba import cube_of_place, rendered
 
 pytestmark = pytest.mark.interop
 SIZE = (48, 32)

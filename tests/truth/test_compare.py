@@ -8,20 +8,7 @@ import pytest
 import cubecam as cc
 from cubecam.truth import Comparison
 from cubecam.truth.measures import scores as _measures
-
-TRUTH = np.random.default_rng(7).random((24, 32, 3))
-PICTURE = np.clip(TRUTH + np.random.default_rng(8).normal(0, 0.1, TRUTH.shape), 0, 1)
-
-try:
-    import flip_evaluator
-except ImportError:
-    flip_evaluator = None
-HAS_FLIP = flip_evaluator is not None
-needs_flip = pytest.mark.skipif(not HAS_FLIP, reason="flip-evaluator is not installed")
-
-
-def compare(picture, truth, mask=None, **options):
-    return cc.truth.compare(picture, truth, mask, **{"flip": False} | options)
+from tests.truth.two_pictures import HAS_FLIP, PICTURE, TRUTH, compare, needs_flip
 
 
 def srgb(linear):
@@ -147,7 +134,9 @@ def test_flip_is_that_of_its_authors():
     picture, truth = PICTURE.astype(np.float32), TRUTH.astype(np.float32)
 
     def their(p, t, kind, **options):
-        return flip_evaluator.evaluate(t, p, kind, applyMagma=False, **options)[0][..., 0]
+        return pytest.importorskip("flip_evaluator").evaluate(
+            t, p, kind, applyMagma=False, **options
+        )[0][..., 0]
 
     found = compare(picture, truth, flip=True)
     np.testing.assert_allclose(found.flip_map, their(picture, truth, "LDR", inputsRGB=False))

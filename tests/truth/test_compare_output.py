@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 import cubecam as cc
 from tests.reference.pattern import face_pattern
-from tests.truth.test_compare import HAS_FLIP, PICTURE, TRUTH, compare
+from tests.truth.two_pictures import HAS_FLIP, PICTURE, TRUTH, compare
 
 
 def labels(figure):

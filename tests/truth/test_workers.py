@@ -104,7 +104,7 @@ def test_programs_without_an_error_stream(stream):
 def test_the_bar_without_a_terminal(monkeypatch):
     monkeypatch.setattr(sys, "stderr", None)
     with bar(3, None) as advance:
-        advance()
+        assert advance() is None
 
 
 def test_two_pictures_at_once_in_threads():
