@@ -163,8 +163,8 @@ class Geometry:
         """Find what touches, from behind, the triangles `start` (R,) through which rays go.
 
         `cast` begins beyond these triangles, so that it may miss a surface in the same plane, or behind it by less than
-        the rounding of a float32. Only surfaces count that let no light through. Returns the rows of the rays that meet
-        one, and these hits.
+        the rounding of a float32. Only surfaces of other nodes count, and of these only such that let no light through.
+        Returns the rows of the rays that meet one, and these hits.
         """
         if self._solid is None:
             self._solid = self._tree(
@@ -180,7 +180,8 @@ class Geometry:
         with np.errstate(divide="ignore", invalid="ignore"):
             distance = away / towards
         near &= (distance >= 0) | (np.abs(away) <= _ON_PLANE * (self._size[met] + rays.reach[rows]))
-        near &= (met != start[rows]) & ((towards < 0) | self._double[self._snapshot.node[met]])
+        nodes = self._snapshot.node
+        near &= (nodes[met] != nodes[start[rows]]) & ((towards < 0) | self._double[nodes[met]])
         rows, met, distance = rows[near], met[near], np.maximum(distance[near], 0)
         weights = self._weights(met, origins[rows] + distance[:, None] * directions[rows])
         if self._any_masked:
