@@ -35,7 +35,7 @@ def test_balls_differ_and_the_floor_and_the_sky_do_not(pages):
     _, scope = pages(NAME)
     with cc.Renderer() as renderer:
         seen = renderer.render(
-            scope["scene"], scope["camera"], (240, 160), format="rgba32f", outputs=("id",)
+            scope["scene"], scope["camera"], (180, 120), format="rgba32f", outputs=("id",)
         ).id
     error = scope["found"].error
     on_balls = seen > 1
