@@ -37,6 +37,7 @@ _PLAIN_TYPES = (
 #: What the names mean that modules give to types for themselves.
 _PRIVATE_TYPES = {
     "AnyCamera": "PerspectiveCamera | OrthographicCamera",
+    "Array": "NDArray[float64]",
     "Floats": "NDArray[float32 | float64]",
     "Mode": "Literal['reflection', 'refraction']",
     "Part": "int | str",

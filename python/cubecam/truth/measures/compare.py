@@ -69,7 +69,7 @@ def compare(
 
     - RMSE is sqrt(mean((p - t)^2)), and the relative RMSE is RMSE / sqrt(mean(t^2)), which does not change with the
       exposure. Where the truth is black there is none.
-    - The error of a pixel is the largest |p - t| of its channels; `max` is the largest of all.
+    - The error of a pixel is the largest abs(p - t) of its channels; `max` is the largest of all.
     - SSIM (Wang, Bovik, Sheikh, Simoncelli 2004) is scikit-image's with their parameters: a Gaussian window of 11 x 11
       with sigma 1.5, K1 = .01, K2 = .03, L = 1, covariances of the population, for each channel, then the mean over the
       channels. Its constants are shares of a screen's range, and light has none; therefore linear pictures get the
