@@ -108,6 +108,19 @@ def python_of(wheel: Path) -> tuple[int, ...]:
     return int(found[1]), int(found[2])
 
 
+def check_name(wheel: Path, name: str) -> None:
+    """Check that the Python of the wheel's tag looks for the extension under its name.
+
+    A build for another processor may give it the name of the machine that built it.
+    """
+    version = "".join(map(str, python_of(wheel)))
+    # Platforms are parted by dots and begin with the system, as in manylinux_2_28_aarch64.
+    machine = re.sub(r".*(linux(_\d+_\d+)?|linux20\d\d)_", "", wheel.stem.rpartition("-")[2])
+    expected = f"_core.cpython-{version}-{machine}-linux-gnu.so"
+    if Path(name).name != expected:
+        raise WheelError(f"{wheel.name}: expected {expected} in it, got {name}")
+
+
 def check_symbols(wheel: Path, name: str, binary: Path) -> None:
     needed, defined = symbols(binary)
     if Path(name).name.startswith("_core"):
@@ -200,6 +213,7 @@ def check(wheel: Path, tag: str | None = None) -> None:
         libraries = [name for name in names if re.search(r"\.so(\.\d+)*$", name)]
         if len(libraries) != 1:
             raise WheelError(f"{wheel.name}: expected one extension module, got {libraries}")
+        check_name(wheel, libraries[0])
         check_notices(archive)
         if (archive.getinfo(HELPER).external_attr >> 16) & 0o111 == 0:
             raise WheelError(f"{wheel.name}: expected {HELPER} to be executable")

@@ -105,6 +105,19 @@ def test_notices_are_complete(scripts, tmp_path):
             check_wheel.check_notices(archive)
 
 
+@pytest.mark.parametrize(
+    "platform", ["linux_{0}", "manylinux_2_27_{0}.manylinux_2_28_{0}", "manylinux2014_{0}"]
+)
+def test_the_extension_is_for_the_processor_of_the_wheel(scripts, platform):
+    check_wheel = scripts("check_wheel")
+    for machine, other in (("x86_64", "aarch64"), ("aarch64", "x86_64")):
+        wheel = Path(f"cubecam-1-cp312-cp312-{platform.format(machine)}.whl")
+        check_wheel.check_name(wheel, f"cubecam/_core.cpython-312-{machine}-linux-gnu.so")
+        for wrong in (f"312-{other}", f"311-{machine}"):
+            with pytest.raises(check_wheel.WheelError, match=f"cpython-312-{machine}"):
+                check_wheel.check_name(wheel, f"cubecam/_core.cpython-{wrong}-linux-gnu.so")
+
+
 def test_a_wheel_that_is_too_large_is_found(scripts, tmp_path, monkeypatch):
     check_wheel = scripts("check_wheel")
     wheel = wheel_with(tmp_path)
