@@ -63,7 +63,9 @@ def check_files(sdist: Path) -> None:
 def without_network() -> list[str]:
     if subprocess.run([*NO_NETWORK, "true"], stderr=subprocess.DEVNULL).returncode == 0:
         return list(NO_NETWORK)
-    print("this user may not cut a process off the network; pip and CMake are told to stay offline")
+    print(
+        "this user may not make a process without a network, so options tell pip and CMake to stay offline"
+    )
     return []
 
 

@@ -47,6 +47,8 @@ PYTHON_ORDER = (
     "_warnings",
     "data",  # the packaged files and their list
     "_nodes",  # which nodes are shown
+    "_rotations",  # matrices of quaternions
+    "_drawn_meshes",  # meshes with their morph targets and skins
     "io",
     "pictures",
     "_array_protocol",

@@ -13,6 +13,10 @@ Array: TypeAlias = npt.NDArray[Any]
 FloatArray: TypeAlias = npt.NDArray[np.float32]
 
 
+#: The shares of red, green and blue in the luminance of linear sRGB (ITU-R BT.709).
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+
+
 def srgb_decode(values: Array) -> FloatArray:
     """Turn sRGB-encoded 0..1 into linear 0..1 (IEC 61966-2-1, section 5.2)."""
     encoded = np.asarray(values, dtype=np.float32)

@@ -8,12 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 from .._core import CubeMap, DirectionalLight, Shadow
+from ..io.pixels import LUMINANCE
 
 __all__ = ["Split", "directions_of_light", "sky_irradiance", "split_lamp", "texels"]
 
 Vectors = npt.NDArray[np.float64]
 
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])  # of linear sRGB
 _WIDTH = 14.0  # degrees from the middle of a lamp to its rim
 _LEAST = 0.1  # a lamp with a smaller share of the light is left where it is
 _SIZE = 64  # texels along a face of the copy in which lamps are found
@@ -50,7 +50,7 @@ def split_lamp(cube: CubeMap) -> Split:
     """
     small = cube.resize(min(cube.size, _SIZE))
     directions, solid = texels(small.size)
-    energy = _radiance(small) @ _LUMINANCE * solid
+    energy = _radiance(small) @ LUMINANCE * solid
     peak = _peak(directions, energy)
     light = _radiance(cube)
     directions, solid = texels(cube.size)
@@ -61,9 +61,9 @@ def split_lamp(cube: CubeMap) -> Split:
     excess = np.where(near[..., None], np.maximum(light - level, 0), 0)
     lamp = (excess * solid[..., None]).sum(axis=(0, 1, 2))
     total = sky_irradiance(cube, peak)
-    if not total > 0 or lamp @ _LUMINANCE < _LEAST * total:
+    if not total > 0 or lamp @ LUMINANCE < _LEAST * total:
         return Split(cube, None)
-    weight = (excess @ _LUMINANCE * solid)[..., None]
+    weight = (excess @ LUMINANCE * solid)[..., None]
     towards = (directions * weight).sum(axis=(0, 1, 2))
     faces = cube.faces.astype(np.float32)
     faces[..., :3] = light - excess
@@ -94,7 +94,7 @@ def sky_irradiance(cube: CubeMap, normals: npt.ArrayLike) -> Vectors:
     """Give the luminance of the irradiance on planes: (...) for normals (..., 3)."""
     small = cube.resize(min(cube.size, _SIZE))
     directions, solid = texels(small.size)
-    energy = (_radiance(small) @ _LUMINANCE * solid).ravel()
+    energy = (_radiance(small) @ LUMINANCE * solid).ravel()
     cosine = np.maximum(np.asarray(normals, np.float64) @ directions.reshape(-1, 3).T, 0)
     return np.asarray(cosine @ energy)
 
@@ -113,7 +113,7 @@ def directions_of_light(cube: CubeMap, count: int) -> Vectors:
     small = cube.resize(min(cube.size, 32))
     directions, solid = texels(small.size)
     up = directions[..., 1]
-    weights = (_radiance(small) @ _LUMINANCE * solid * np.where(up > 0.05, up, 0)).ravel()
+    weights = (_radiance(small) @ LUMINANCE * solid * np.where(up > 0.05, up, 0)).ravel()
     if not weights.sum() > 0:  # a black sky: a dome of equal light
         weights = (solid * np.where(up > 0.05, up, 0)).ravel()
     # Columns of azimuth, every second one upside down.

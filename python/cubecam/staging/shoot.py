@@ -20,6 +20,7 @@ from .._core import (
     StandardMaterial,
 )
 from .._nodes import shown_nodes
+from ..io.pixels import LUMINANCE
 from .fit import Extent, fit_camera, fit_turntable
 from .ground import Ground
 from .lamp import directions_of_light
@@ -140,7 +141,7 @@ class Shoot:
             for node, material in kept:
                 node.material = material
         ids = [node.id for node in self.nodes]
-        light = frame.color[np.isin(frame.id, ids)][:, :3] @ (0.2126, 0.7152, 0.0722)
+        light = frame.color[np.isin(frame.id, ids)][:, :3] @ LUMINANCE
         mean = float(np.exp(np.log(np.maximum(light, 1e-9)).mean())) if len(light) else 0.0
         return float(np.clip(np.log2(_KEY / mean), -20, 20)) if mean > 1e-8 else 0.0
 
@@ -275,9 +276,7 @@ def _towards(light: Light, point: npt.NDArray[np.float64], radius: float) -> Any
 
 def _arriving(light: Light, point: npt.NDArray[np.float64], radius: float) -> float:
     """Give the mean radiance of white matt surfaces of six directions that a light brings to a point."""
-    strength = float(light.intensity) * float(
-        np.asarray(light.color)[:3] @ (0.2126, 0.7152, 0.0722)
-    )
+    strength = float(light.intensity) * float(np.asarray(light.color)[:3] @ LUMINANCE)
     towards = _towards(light, point, radius)
     if towards is None:
         return strength

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from .. import _core
 from .._checks import one_of, real_number, text_of, whole_number
+from .._rotations import rotation_matrix
 from .outputs import OUTPUTS
 
 if TYPE_CHECKING:
@@ -103,11 +104,4 @@ def matrix_of(rotation: npt.ArrayLike | None) -> npt.NDArray[np.float64]:
     length = np.linalg.norm(quaternion)
     if not length > 0:
         raise ValueError("rotation: expected a quaternion of a length above 0, got 0, 0, 0, 0")
-    w, x, y, z = quaternion / length
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    return rotation_matrix(quaternion / length)

@@ -28,6 +28,7 @@ from .workers import Workers, interpreter
 
 if TYPE_CHECKING:
     from .._core import Camera, Node, RenderTexture, Scene
+    from .paths.tracer import Tracer
 
 #: Samples of a pixel that are drawn before the picture is judged again.
 _PASS = 16
@@ -255,9 +256,10 @@ def _draw(
         of_capture,
     )
     embree()  # an error here says more than one in another process
-    found = outputs_of(job.tracer(), eye, names) if names else {}
+    tracer = job.tracer() if names else None
+    found = {} if tracer is None else outputs_of(tracer, eye, names)
     sums = Sums(np.zeros((count, 6)))
-    complete = _fill(job, sums, quality, started, inner=bool(shown)) and textures.complete
+    done = _fill(job, tracer, sums, quality, started, inner=bool(shown))
     with np.errstate(invalid="ignore"):
         color = np.where(sums.samples[:, None] > 0, sums.color / sums.samples[:, None], 0.0)
     rest = {
@@ -265,12 +267,14 @@ def _draw(
         "deviation": sums.deviation().astype(np.float32).reshape(eye.shape),
         "noise": sums.noise(),
         "seconds": time.monotonic() - started,
-        "complete": complete,
+        "complete": done and textures.complete,
     }
     return _Made(color.astype(np.float32).reshape(*eye.shape, 4), found, rest)
 
 
-def _fill(job: Job, sums: Sums, quality: Quality, started: float, *, inner: bool) -> bool:
+def _fill(
+    job: Job, tracer: Tracer | None, sums: Sums, quality: Quality, started: float, *, inner: bool
+) -> bool:
     """Draw pass after pass into the sums; False if it was ended before the end.
 
     Ctrl-C in the picture of a texture, an `inner` one, is passed on, since nothing of the outer picture is done.
@@ -289,7 +293,7 @@ def _fill(job: Job, sums: Sums, quality: Quality, started: float, *, inner: bool
     try:
         with (
             bar(sum(map(len, parts)), quality.progress) as advance,
-            Workers(job, processes) as workers,
+            Workers(job, processes, tracer) as workers,
         ):
             for part in parts:
                 for piece, (color, squares) in workers.draw(part):

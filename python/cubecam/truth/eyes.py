@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import Array, Ints
 from .matrices import placed, turned
 from .paths.light_directions import DOWN, FORWARD, RIGHT
-from .paths.sampler import Array
-from .paths.state import Whole
 
 if TYPE_CHECKING:
     from .._core import Camera
@@ -33,10 +32,10 @@ class Eye(Protocol):
     def shape(self) -> tuple[int, ...]:
         """Give the shape of the picture: (H, W) or (6, N, N)."""
 
-    def rays(self, pixel: Whole, place: npt.ArrayLike) -> Rays:
+    def rays(self, pixel: Ints, place: npt.ArrayLike) -> Rays:
         """Give the rays through places in pixels: (R, 2) from 0 to 1, to the right and down."""
 
-    def depth(self, pixel: Whole, position: Array) -> tuple[Array, Array]:
+    def depth(self, pixel: Ints, position: Array) -> tuple[Array, Array]:
         """Give distance and z (R,) of world positions (R, 3), as docs/conventions.md defines them."""
 
 
@@ -59,7 +58,7 @@ class CameraEye:
     def shape(self) -> tuple[int, ...]:
         return self.size[1], self.size[0]
 
-    def rays(self, pixel: Whole, place: npt.ArrayLike) -> Rays:
+    def rays(self, pixel: Ints, place: npt.ArrayLike) -> Rays:
         row, column = np.divmod(pixel, self.size[0])
         place = np.broadcast_to(place, (len(pixel), 2))
         x = (column + place[:, 0]) / self.size[0] * 2 - 1
@@ -72,7 +71,7 @@ class CameraEye:
         length = np.linalg.norm(way, axis=-1)
         return Rays(ends[0], way / length[:, None], length)
 
-    def depth(self, pixel: Whole, position: Array) -> tuple[Array, Array]:
+    def depth(self, pixel: Ints, position: Array) -> tuple[Array, Array]:
         in_view = placed(self.view, position)
         z = -in_view[:, 2]
         parallel = self.to_clip[3, 2] == 0
@@ -93,7 +92,7 @@ class CubeEye:
     def shape(self) -> tuple[int, ...]:
         return 6, self.texels, self.texels
 
-    def rays(self, pixel: Whole, place: npt.ArrayLike) -> Rays:
+    def rays(self, pixel: Ints, place: npt.ArrayLike) -> Rays:
         face, rest = np.divmod(pixel, self.texels**2)
         row, column = np.divmod(rest, self.texels)
         place = np.broadcast_to(place, (len(pixel), 2))
@@ -108,7 +107,7 @@ class CubeEye:
             (self.far - self.near) * length,
         )
 
-    def depth(self, pixel: Whole, position: Array) -> tuple[Array, Array]:
+    def depth(self, pixel: Ints, position: Array) -> tuple[Array, Array]:
         away = position - self.position
         forward = turned(self.turn, FORWARD[pixel // self.texels**2])
         return np.linalg.norm(away, axis=-1), (away * forward).sum(-1)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .paths.sampler import Array
-
-_LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear sRGB: ITU-R BT.709
+from ..io.pixels import LUMINANCE
+from .arrays import Array
 
 
 def turned(matrix: Array, vectors: Array) -> Array:
@@ -24,5 +23,5 @@ def placed(matrix: Array, points: Array) -> Array:
 
 def luminance(color: Array) -> Array:
     """Give the luminance (...) of linear colours (..., 3)."""
-    r, g, b = _LUMINANCE
+    r, g, b = LUMINANCE
     return np.asarray(r * color[..., 0] + g * color[..., 1] + b * color[..., 2])

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import Ints
 from .eyes import Eye
-from .paths.state import Whole, first_paths
+from .paths.state import first_paths
 from .paths.tracer import Tracer, taken
 from .surfaces.colors import surface_points
 from .work import PATHS
@@ -36,7 +37,7 @@ def outputs_of(tracer: Tracer, eye: Eye, names: tuple[str, ...]) -> dict[str, np
     return {name: values.reshape(*eye.shape, *values.shape[1:]) for name, values in found.items()}
 
 
-def _fill(tracer: Tracer, eye: Eye, pixel: Whole, found: dict[str, npt.NDArray[Any]]) -> None:
+def _fill(tracer: Tracer, eye: Eye, pixel: Ints, found: dict[str, npt.NDArray[Any]]) -> None:
     nodes = tracer.snapshot.nodes
     blended = np.array([n.blend is not None for n in nodes], np.bool_)
     ids = np.array([n.id for n in nodes], np.int64)

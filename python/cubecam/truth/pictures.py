@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -19,14 +20,56 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float32]
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Measured(ABC):
+    """What both results have: how exact they are, and all that their frame or cubemap can do."""
+
+    samples: npt.NDArray[np.int64]
+    deviation: Floats
+    noise: float
+    seconds: float
+    complete: bool
+
+    @property
+    @abstractmethod
+    def _shown(self) -> Any:
+        """Give the frame or the cubemap."""
+
+    @property
+    def outputs(self) -> Mapping[str, npt.NDArray[Any]]:
+        """dict of str to ndarray: the requested outputs, as those of a `Frame` or a `CubeMap`."""
+        outputs: Mapping[str, npt.NDArray[Any]] = self._shown.outputs
+        return outputs
+
+    def __getattr__(self, name: str) -> Any:
+        # The outputs (distance, normal, ...) have the names that they have in a frame and a cubemap.
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return getattr(self._shown, name)
+
+    def __array__(
+        self, dtype: np.dtype[Any] | None = None, copy: bool | None = None
+    ) -> npt.NDArray[Any]:
+        array: npt.NDArray[Any] = self._shown.__array__(dtype, copy)
+        return array
+
+    def save(self, path: str | os.PathLike[str], **options: Any) -> None:
+        """Write the picture to a file, with the options of `Frame.save` or `CubeMap.save`."""
+        self._shown.save(path, **options)
+
+    def _repr_png_(self) -> bytes | None:
+        png: bytes | None = self._shown._repr_png_()
+        return png
+
+
 @dataclass(frozen=True)
-class TruthFrame:
+class TruthFrame(_Measured):
     """A picture by exact rays. It has the arrays of a `Frame`, and says how far they can be trusted.
 
     Attributes
     ----------
     frame : Frame
-        The picture, of format "rgba32f" and linear, with the outputs that were asked for.
+        The picture, of format "rgba32f" and linear, with the requested outputs.
     samples : ndarray (H, W) int64
         Paths of each pixel; 0 where the picture was ended before one.
     deviation : ndarray (H, W) float32
@@ -49,11 +92,10 @@ class TruthFrame:
     """
 
     frame: Frame
-    samples: npt.NDArray[np.int64]
-    deviation: Floats
-    noise: float
-    seconds: float
-    complete: bool
+
+    @property
+    def _shown(self) -> Frame:
+        return self.frame
 
     @property
     def color(self) -> Floats:
@@ -70,38 +112,15 @@ class TruthFrame:
         """str: what the numbers are, "linear"."""
         return self.frame.encoding
 
-    @property
-    def outputs(self) -> Mapping[str, npt.NDArray[Any]]:
-        """dict of str to ndarray: the outputs that were asked for, as those of a `Frame`."""
-        return self.frame.outputs
-
-    def __getattr__(self, name: str) -> Any:
-        # The outputs (distance, normal, ...) have the names that they have in a frame.
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self.frame, name)
-
-    def __array__(
-        self, dtype: np.dtype[Any] | None = None, copy: bool | None = None
-    ) -> npt.NDArray[Any]:
-        return self.frame.__array__(dtype, copy)
-
-    def save(self, path: str | os.PathLike[str], **options: Any) -> None:
-        """Write the picture to a file, with the options of `Frame.save`."""
-        self.frame.save(path, **options)
-
-    def _repr_png_(self) -> bytes | None:
-        return self.frame._repr_png_()
-
 
 @dataclass(frozen=True)
-class TruthCube:
+class TruthCube(_Measured):
     """A cubemap by exact rays. It has the arrays and methods of a `CubeMap`, and says how far they can be trusted.
 
     Attributes
     ----------
     cube : CubeMap
-        The faces, float32 and linear, with the outputs that were asked for.
+        The faces, float32 and linear, with the requested outputs.
     samples : ndarray (6, N, N) int64
         Paths of each texel.
     deviation, noise, seconds, complete
@@ -117,11 +136,10 @@ class TruthCube:
     """
 
     cube: CubeMap
-    samples: npt.NDArray[np.int64]
-    deviation: Floats
-    noise: float
-    seconds: float
-    complete: bool
+
+    @property
+    def _shown(self) -> CubeMap:
+        return self.cube
 
     @property
     def faces(self) -> Floats:
@@ -132,28 +150,6 @@ class TruthCube:
     def size(self) -> int:
         """int: texels along an edge."""
         return self.cube.size
-
-    @property
-    def outputs(self) -> Mapping[str, npt.NDArray[Any]]:
-        """dict of str to ndarray: the outputs that were asked for, as those of a `CubeMap`."""
-        return self.cube.outputs
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return getattr(self.cube, name)
-
-    def __array__(
-        self, dtype: np.dtype[Any] | None = None, copy: bool | None = None
-    ) -> npt.NDArray[Any]:
-        return self.cube.__array__(dtype, copy)
-
-    def save(self, path: str | os.PathLike[str], **options: Any) -> None:
-        """Write the faces to a file, with the options of `CubeMap.save`."""
-        self.cube.save(path, **options)
-
-    def _repr_png_(self) -> bytes:
-        return self.cube._repr_png_()
 
 
 def frame_of(color: Floats, outputs: dict[str, npt.NDArray[Any]]) -> Frame:

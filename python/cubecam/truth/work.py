@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from .arrays import Array
 from .eyes import Eye
 from .matrices import luminance
-from .paths.sampler import Array, pairs
+from .paths.sampler import pairs
 from .paths.state import first_paths
 from .paths.tracer import Tracer
 from .scene.snapshot import Snapshot

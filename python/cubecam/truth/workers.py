@@ -21,7 +21,8 @@ from typing import IO, TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from typing_extensions import Self
 
-    from .paths.sampler import Array
+    from .arrays import Array
+    from .paths.tracer import Tracer
     from .work import Job, Piece
 
 _SIZE = struct.Struct("<Q")
@@ -34,14 +35,14 @@ def interpreter() -> str | None:
 
 
 class Workers:
-    """A number of processes that draw pieces of one picture; 1: this process.
+    """A number of processes that draw pieces of one picture; 1: this process, by the job's `tracer` if it was made.
 
     Use it in ``with``: at its end, also at that by an exception, the processes are ended.
     """
 
-    def __init__(self, job: Job, processes: int) -> None:
+    def __init__(self, job: Job, processes: int, tracer: Tracer | None = None) -> None:
         self._job, self._count = job, processes
-        self._own = job.tracer() if processes == 1 else None
+        self._own = (tracer or job.tracer()) if processes == 1 else None
         self._processes: list[subprocess.Popen[bytes]] = []
 
     def __enter__(self) -> Self:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..._core import Mesh, Node, Skin
+from ..._core import Node
+from ..._drawn_meshes import cofactors, deformed_mesh, unit
 
 Array = npt.NDArray[Any]
 
@@ -52,83 +53,27 @@ class Surface:
         )
 
 
-def surface_of(node: Node, mesh: Mesh) -> Surface:
-    """Return the mesh of a node as it is drawn: with its morph targets and its skin, in world space."""
-    parts = _morphed(node, mesh)
-    positions, normals = parts["positions"].astype(float), parts["normals"].astype(float)
-    triangles = np.asarray(mesh.indices, np.int32)
-    if node.skin is not None and mesh.joints is not None:
-        matrices = _vertex_matrices(node.skin, mesh)
-        sides = np.linalg.det(matrices[:, :3, :3]) < 0
-        turned = sides[triangles].sum(axis=1) >= 2
-    else:
-        matrices = np.asarray(node.world_matrix, float)[None]
-        turned = np.full(len(triangles), np.linalg.det(matrices[0, :3, :3]) < 0)
-    triangles = np.where(turned[:, None], triangles[:, ::-1], triangles)
-    positions = np.einsum("vij,vj->vi", *_both(matrices[:, :3, :3], positions)) + matrices[:, :3, 3]
-    normals = np.einsum("vij,vj->vi", *_both(_cofactors(matrices[:, :3, :3]), normals))
+def surface_of(node: Node, nodes: frozenset[int]) -> Surface:
+    """Return the mesh of a node with its morph targets and its skin, in world space.
+
+    `nodes` are the ids of all nodes of the scene.
+    """
+    drawn = deformed_mesh(node, nodes)
+    mesh, linear = drawn.mesh, drawn.matrix[:3, :3]
+    triangles = mesh.indices.astype(np.int32)
+    mirrors = np.linalg.det(linear) < 0
+    if mirrors:  # counter-clockwise becomes clockwise
+        triangles = triangles[:, ::-1]
+    # The cofactors turn normals as the inverse of the transposed matrix does, also if that has no inverse.
+    normals = mesh.normals.astype(float) @ cofactors(linear).T * (-1 if mirrors else 1)
     return Surface(
-        positions.astype(np.float32),
-        _unit(normals).astype(np.float32),
+        (mesh.positions.astype(float) @ linear.T + drawn.matrix[:3, 3]).astype(np.float32),
+        unit(normals).astype(np.float32),
         triangles,
-        parts.get("uvs"),
-        parts.get("uvs1"),
-        parts.get("colors"),
+        mesh.uvs,
+        mesh.uvs1,
+        mesh.colors,
     )
-
-
-def _both(matrices: Array, vectors: Array) -> tuple[Array, Array]:
-    return np.broadcast_to(matrices, (len(vectors), 3, 3)), vectors
-
-
-def _morphed(node: Node, mesh: Mesh) -> dict[str, Array]:
-    """Return the arrays of a mesh with the node's morph targets (glTF 2.0, section 3.7.2.2)."""
-    parts: dict[str, Array] = {}
-    for name in ("positions", "normals", "uvs", "uvs1", "colors"):
-        array = getattr(mesh, name)
-        if array is not None:
-            parts[name] = np.array(array, np.float32)
-    targets = [(t, w) for t, w in zip(mesh.morph_targets, node.weights, strict=False) if w]
-    for target, weight in targets:
-        for name in parts:
-            change = getattr(target, name)
-            if change is not None:
-                parts[name] = parts[name] + np.float32(weight) * change
-    if any(target.positions is not None for target, _ in targets):
-        smooth = Mesh(np.asarray(mesh.positions), np.asarray(mesh.indices))
-        if np.array_equal(smooth.normals, mesh.normals):  # the mesh computed them from its shape
-            parts["normals"] = np.array(
-                Mesh(parts["positions"], np.asarray(mesh.indices)).normals, np.float32
-            )
-    if "colors" in parts:
-        parts["colors"] = np.clip(parts["colors"], 0, 1)
-    parts["normals"] = _unit(parts["normals"])
-    return parts
-
-
-def _vertex_matrices(skin: Skin, mesh: Mesh) -> Array:
-    """Return (V, 4, 4): the mean of the joints' matrices of each vertex (glTF 2.0, section 3.7.3)."""
-    worlds = np.stack([np.eye(4) if j is None else np.asarray(j.world_matrix) for j in skin.joints])
-    matrices = worlds @ np.asarray(skin.inverse_bind_matrices, float)
-    weights = np.asarray(mesh.joint_weights, float)
-    total = weights.sum(axis=1, keepdims=True)
-    joints = np.where(total > 0, np.asarray(mesh.joints), 0)
-    shares = np.where(
-        total > 0, weights / np.where(total > 0, total, 1), [1.0] + [0.0] * (weights.shape[1] - 1)
-    )
-    return np.asarray((shares[:, :, None, None] * matrices[joints]).sum(axis=1))
-
-
-def _cofactors(linear: Array) -> Array:
-    """Return matrices that turn normals: the inverse transposes, up to a positive factor, also of singular ones."""
-    a, b, c = linear[..., 0, :], linear[..., 1, :], linear[..., 2, :]
-    rows = np.stack([np.cross(b, c), np.cross(c, a), np.cross(a, b)], axis=-2)
-    return np.asarray(rows * np.where(np.linalg.det(linear) < 0, -1, 1)[..., None, None])
-
-
-def _unit(vectors: Array) -> Array:
-    length = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.where(length > 0, length, 1))
 
 
 def ply(surface: Surface, uvs: Array | None, colors: Array | None, normals: bool) -> bytes:

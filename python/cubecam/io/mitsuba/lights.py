@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..._core import AmbientLight, CubeMap, DirectionalLight, Light, PointLight, Scene, SpotLight
+from ..._rotations import rotation_matrix
 from ..left_out import LeftOut
 from .files import Files
 
@@ -152,7 +153,7 @@ def sky(cube: CubeMap, rotation: Array, intensity: float, added: Array, files: F
         axis=-1,
     )
     # A row vector times the matrix is the inverse rotation: from the world to the cube.
-    light = cube.sample((directions @ _rotation(rotation)).reshape(-1, 3))
+    light = cube.sample((directions @ rotation_matrix(rotation)).reshape(-1, 3))
     light = np.asarray(light, np.float32).reshape(height, width, -1)
     light = light[..., :3] if light.shape[2] >= 3 else np.repeat(light[..., :1], 3, axis=2)
     light = np.where(np.isfinite(light), light, 0)
@@ -177,14 +178,3 @@ def ambient_of(scene: Scene) -> Array:
     """Return the sum (3,) of the ambient lights of a scene."""
     lights = [light for light in scene.lights if isinstance(light, AmbientLight)]
     return sum((np.asarray(x.color, float)[:3] * x.intensity for x in lights), np.zeros(3))
-
-
-def _rotation(quaternion: Array) -> Array:
-    w, x, y, z = (float(q) for q in quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )

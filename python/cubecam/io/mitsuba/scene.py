@@ -22,7 +22,7 @@ from ..._core import (
     Scene,
     StandardMaterial,
 )
-from ..._nodes import shown_nodes
+from ..._nodes import holds, shown_nodes
 from ..left_out import LeftOut
 from .cameras import sensor_of
 from .files import Files
@@ -63,6 +63,7 @@ class _Writer:
         self.scene = scene
         self.left_out = left_out
         self.files = Files(target)
+        self.ids = frozenset(node.id for node in scene.nodes)
         self.nodes = [n for n in shown_nodes(scene) if n.material is not None]
         kinds = [_lit(node.material) for node in self.nodes]
         self.is_lit = any(kind is not None for kind in kinds)
@@ -100,11 +101,10 @@ class _Writer:
         return Document(made, self.files.contents)
 
     def _add_node(self, node: Node) -> None:
-        mesh, material = node.mesh, node.material
-        assert mesh is not None
+        material = node.material
         assert material is not None
         name = _name(node)
-        surface = surface_of(node, mesh)
+        surface = surface_of(node, self.ids)
         if not len(surface.triangles):
             return
         self._tell_node(node, material, surface, name)
@@ -211,7 +211,11 @@ class _Writer:
             tell("a Mitsuba scene has one environment: that of a node is left out", name)
         if not node.in_captures:
             tell("in_captures=False is left out: rays meet every node", name)
-        if self.is_lit and self.scene.lights and not (_casts(node) and node.receive_shadow):
+        if (
+            self.is_lit
+            and self.scene.lights
+            and not (holds(node, "cast_shadow") and node.receive_shadow)
+        ):
             tell("cast_shadow=False and receive_shadow=False are left out", name)
         passes = isinstance(material, GlassMaterial) or (
             isinstance(material, StandardMaterial) and material.transmission > 0
@@ -230,11 +234,6 @@ class _Writer:
 
 def _name(node: Node) -> str:
     return repr(node.name) if node.name else f"node {node.id}"
-
-
-def _casts(node: Node | None) -> bool:
-    """Say whether a node and all above it cast shadows."""
-    return node is None or (node.cast_shadow and _casts(node.parent))
 
 
 def _lit(material: Material | None) -> type[Material] | None:

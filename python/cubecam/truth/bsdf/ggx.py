@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays import Array
 from ..shading.standard.microfacets import (
     half_way,
     smith_half_anisotropic,
     trowbridge_reitz_anisotropic,
 )
 from ..shading.standard.samples import visible_normal
-from ..shading.vectors import Array, dot
+from ..shading.vectors import dot
 
 __all__ = ["SMOOTH", "GgxLobe"]
 

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import Array, Bools
 from ..shading.standard.material import Parameters, Surface, anisotropy_frame
 from ..shading.standard.microfacets import half_way, max3, mix, schlick, sheen_brdf
 from ..shading.standard.samples import frame_around
 from ..shading.standard.shade import Fresnel, facing, fresnels, scattered
 from ..shading.standard.tables import brdf_terms, sheen_albedo
-from ..shading.vectors import Array, dot, refract
+from ..shading.vectors import dot, refract
 from .ggx import GgxLobe
 
 __all__ = ["Sampled", "StandardBsdf"]
 
-Flags = npt.NDArray[np.bool_]
 
 #: The lobes from which a direction is drawn.
 SPECULAR, COAT, COSINE, UNIFORM, THROUGH = range(5)
@@ -51,8 +51,8 @@ class Sampled:
     l: Array  # noqa: E741
     weight: Array
     pdf: Array
-    delta: Flags
-    transmitted: Flags
+    delta: Bools
+    transmitted: Bools
     channel: npt.NDArray[np.intp]
 
 

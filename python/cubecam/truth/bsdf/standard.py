@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import Array
 from ..shading.standard.material import Parameters, Surface
-from ..shading.vectors import Array
 from .scattering import Sampled, StandardBsdf
 
 __all__ = ["Sampled", "StandardBsdf", "evaluate", "extinction", "pdf", "sample", "sample_exit"]

@@ -59,7 +59,7 @@ def comparison_figure(
 def _on_screen(found: Comparison, pixels: Array, exposure: float) -> npt.NDArray[np.uint8]:
     curve: Tonemap | None = "neutral" if found.curve and found.encoding == "linear" else None
     light = np.clip(pixels, -1e18, 1e18).astype(np.float32)
-    with Clipping().gathered():  # the figure shows what is there; nobody asked for a file
+    with Clipping().gathered():  # a figure needs no warning about what files of 8 bits clip
         return screen_pixels(light, found.encoding, exposure, curve, True)
 
 

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from ...io.pixels import srgb_encode
+from ...io.pixels import LUMINANCE, srgb_encode
 from ...io.screen import CURVES, exposed
 
 Array = npt.NDArray[Any]
@@ -112,7 +112,7 @@ def exposures(light: Array) -> tuple[float, float]:
     interpreter where it finds none, and six faces of a cube must share them.
     """
     shown = np.clip(light, 0, _BRIGHTEST)
-    weights = np.array([0.2126, 0.7152, 0.0722]) if shown.shape[-1] == 3 else np.ones(1)
+    weights = np.array(LUMINANCE) if shown.shape[-1] == 3 else np.ones(1)
     luminance = np.sort((shown @ weights).ravel())
     if not luminance[luminance.size // 2] > 0:
         luminance = luminance[luminance > 0]

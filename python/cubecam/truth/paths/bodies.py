@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import Array, Ints
 from ..scene.records import GlassRecord, StandardRecord
 from ..scene.snapshot import Snapshot
-from .sampler import Array
-from .state import Paths, Whole
+from .state import Paths
 
 #: What stands for an index of refraction of 0, which is infinity (KHR_materials_ior).
 _INFINITE = 1e6
@@ -29,7 +29,7 @@ class Bodies:
                     material.attenuation_color, material.numbers["attenuation_distance"]
                 )
 
-    def ior_around(self, paths: Paths, level: Whole) -> Array:
+    def ior_around(self, paths: Paths, level: Ints) -> Array:
         """Give the index of refraction (R,) of the body at a level, 0 for the innermost; 1 outside of all bodies."""
         body = np.take_along_axis(paths.bodies, level[:, None], axis=1)[:, 0]
         channel = np.where(paths.channel < 0, 1, paths.channel)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene.records import Radiance
+from ..arrays import Array, Bools, Ints
 from ..scene.snapshot import Snapshot
 from .light_directions import LARGEST, LightDirections
-from .sampler import Array
-from .state import Flags, Paths, Whole
+from .state import Paths
 
 #: Places in `Snapshot.surroundings`.
 _ENVIRONMENT, _BACKGROUND = 0, 1
@@ -28,9 +27,9 @@ class FarLight:
         dark = self._all[_ENVIRONMENT].kind == "none"
         self._missed = np.where((own == _ENVIRONMENT) & dark, _BACKGROUND, own)
         self._ended = np.where(own == _BACKGROUND, _ENVIRONMENT, own)
-        self._directions = [_directions(radiance) for radiance in self._all]
+        self._known: dict[int, LightDirections | None] = {}
 
-    def seen_from(self, node: Whole, unblocked: Flags) -> Whole:
+    def seen_from(self, node: Ints, unblocked: Bools) -> Ints:
         """Give what rays (R,) that leave nodes see: at the end of a path, the environment instead of the background."""
         return np.where(unblocked, self._ended[node], self._missed[node])
 
@@ -42,16 +41,16 @@ class FarLight:
             rows = np.flatnonzero(around == index)
             seen = self._all[index].at(paths.direction[rows])
             seen[:, :3] = np.where(paths.ambient[rows, None], finite(seen[:, :3]), seen[:, :3])
-            directions = self._directions[index]
+            own = paths.density[rows, None]
+            directions = self._directions(index) if own.any() else None
             if directions is not None:
-                own = paths.density[rows, None]
                 other = directions.density(paths.direction[rows])
                 seen[:, :3] *= np.where(own > 0, balance(own, other), 1.0)
             light[rows] = seen
         light[:, :3] += np.where(paths.ambient[:, None], self._ambient, 0.0)
         return light
 
-    def toward(self, around: Whole, numbers: Array) -> tuple[Array, Array, Array]:
+    def toward(self, around: Ints, numbers: Array) -> tuple[Array, Array, Array]:
         """Choose directions by their brightness.
 
         Give unit directions (R, 3), their densities (R,), and the light from there (R, 3), for numbers (R, 3); a
@@ -60,7 +59,7 @@ class FarLight:
         direction = np.zeros((len(around), 3))
         density, light = np.zeros(len(around)), np.zeros((len(around), 3))
         for index in np.unique(around):
-            chosen = self._directions[index]
+            chosen = self._directions(index)
             if chosen is None:
                 continue
             rows = np.flatnonzero(around == index)
@@ -68,6 +67,16 @@ class FarLight:
             density[rows] = dense[:, 0]
             light[rows] = finite(self._all[index].at(direction[rows])[:, :3])
         return direction, density, light
+
+    def _directions(self, index: int) -> LightDirections | None:
+        """Give the directions of a cubemap's light, which rough surfaces alone need; None if it has none."""
+        if index not in self._known:
+            radiance = self._all[index]
+            made = None
+            if radiance.cube is not None:
+                made = LightDirections(np.asarray(radiance.cube.faces), radiance.turn)
+            self._known[index] = None if made is None or made.dark else made
+        return self._known[index]
 
 
 def finite(light: Array) -> Array:
@@ -78,10 +87,3 @@ def finite(light: Array) -> Array:
 def balance(own: Array, other: Array) -> Array:
     """Give the weight of one of two ways to choose a direction: E. Veach, "Robust Monte Carlo Methods", 1997, 9.2.2."""
     return np.asarray(own / np.maximum(own + other, 1e-300))
-
-
-def _directions(radiance: Radiance) -> LightDirections | None:
-    if radiance.cube is None:
-        return None
-    directions = LightDirections(np.asarray(radiance.cube.faces), radiance.turn)
-    return None if directions.dark else directions

@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Array, Bools
 from ..shading.fresnel import fresnel_dielectric
 from ..shading.standard.microfacets import smith_half
 from ..shading.standard.samples import frame_around, visible_normal
 from ..shading.vectors import dot, reflect, refract
-from .sampler import Array
-from .state import Flags
 
 #: Below this alpha a surface is a perfect mirror; a facet then differs from the surface by less than a thousandth.
 SMOOTH = 1e-4
@@ -23,7 +22,7 @@ class Way:
 
     direction: Array
     weight: Array
-    through: Flags
+    through: Bools
 
 
 def glass_way(

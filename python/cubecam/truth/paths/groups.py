@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from ..arrays import Array, Bools, Ints
 from ..surfaces.colors import Points
-from .sampler import Array, pairs
-from .state import Flags, Paths, Whole
+from .sampler import pairs
+from .state import Paths
 
 #: Pairs of random numbers that a path uses at each surface; pair 0 is the place in the pixel.
 _PAIRS = 4
@@ -21,13 +24,13 @@ class Way:
     go into the body of the surface or out of it.
     """
 
-    rows: Whole
+    rows: Ints
     direction: Array
     weight: Array
     density: Array | None = None
-    entered: Flags | None = None
-    left: Flags | None = None
-    channel: Whole | None = None
+    entered: Bools | None = None
+    left: Bools | None = None
+    channel: Ints | None = None
     ambient: bool = False
 
 
@@ -49,14 +52,18 @@ class Group:
     material: int  # its place in the snapshot
 
     @property
-    def inside(self) -> Flags:
+    def inside(self) -> Bools:
         """Whether each ray meets the body that it runs in from within."""
-        own: Flags = self.paths.bodies[:, 0] == self.points.node
+        own: Bools = self.paths.bodies[:, 0] == self.points.node
         return self.points.back & own
 
-    def take(self, rows: Whole) -> Group:
+    def take(self, rows: Ints) -> Group:
         """Give some of the paths with their points."""
         return Group(self.paths.rows(rows), self.points.take(rows), self.material)
+
+    def three(self, seed: int, pair: int, other: int) -> Array:
+        """Give (R, 3) random numbers: a pair, and the first of another pair."""
+        return np.concatenate([self.numbers(seed, pair), self.numbers(seed, other)[:, :1]], axis=1)
 
     def numbers(self, seed: int, pair: int) -> Array:
         """Give (R, 2) random numbers for one of the pairs of this surface."""

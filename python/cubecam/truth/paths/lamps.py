@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays import Array
 from ..scene.snapshot import Snapshot
 from ..shading.lights import way_to
 from ..shading.vectors import dot
 from ..surfaces.geometry import Geometry
 from .groups import Group
-from .sampler import Array
 
 
 class Lamps:

@@ -4,24 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...plot._faces import TABLE, texels_of
+from ..arrays import Array
 from ..matrices import luminance, turned
-from .sampler import Array
 
 #: What stands for infinite light: the largest number of half floats, as in docs/conventions.md.
 LARGEST = 65504.0
 #: Faces with more texels than this along an edge are averaged, which only makes the choice of directions coarser.
 _TEXELS = 512
 
-#: For each face of docs/conventions.md: the direction of the face, of growing s and of growing t.
-FORWARD = np.array(
-    [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=np.float64
-)
-RIGHT = np.array(
-    [[0, 0, -1], [0, 0, 1], [1, 0, 0], [1, 0, 0], [1, 0, 0], [-1, 0, 0]], dtype=np.float64
-)
-DOWN = np.array(
-    [[0, -1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1], [0, -1, 0], [0, -1, 0]], dtype=np.float64
-)
+#: For each face of docs/conventions.md: the direction of growing s, of growing t, and of the face.
+RIGHT, DOWN, FORWARD = np.moveaxis(TABLE, 1, 0)
 
 
 class LightDirections:
@@ -76,18 +69,10 @@ class LightDirections:
     def density(self, directions: Array) -> Array:
         """Give the density per solid angle (R, 1) with which `sample` draws unit directions (R, 3)."""
         d = turned(self._turn, directions)
-        size = np.abs(d)
-        x = (size[:, 0] >= size[:, 1]) & (size[:, 0] >= size[:, 2])
-        axis = np.where(x, 0, np.where(size[:, 1] >= size[:, 2], 1, 2))
-        along = np.take_along_axis(d, axis[:, None], axis=1)[:, 0]
-        face = 2 * axis + (along < 0)
-        largest = np.abs(along)
-        s = (d * RIGHT[face]).sum(-1) / largest
-        t = (d * DOWN[face]).sum(-1) / largest
-        column = np.clip(((s + 1) / 2 * self._n).astype(np.int64), 0, self._n - 1)
-        row = np.clip(((t + 1) / 2 * self._n).astype(np.int64), 0, self._n - 1)
+        face, row, column = texels_of(d, self._n)
         texel = (face * self._n + row) * self._n + column
-        return np.asarray((self._density[texel] * (1 + s * s + t * t) ** 1.5)[:, None])
+        # The largest component of a unit vector is 1 / sqrt(1 + s^2 + t^2).
+        return np.asarray((self._density[texel] / np.abs(d).max(axis=1) ** 3)[:, None])
 
 
 def _halved(light: Array, largest: int) -> Array:

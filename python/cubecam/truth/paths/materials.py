@@ -55,7 +55,7 @@ class Materials:
 
     def _phong(self, group: Group) -> Shaded:
         found = phong_parameters(self._snapshot, group.material, group.points)
-        lights = [*self._snapshot.lights, Ambient(tuple(self._snapshot.ambient))]
+        lights = [*self._lamps.all, Ambient(tuple(self._lamps.ambient))]
         visibility = [self._lamps.visibility(group, index) for index in range(len(lights) - 1)]
         light = phong(
             group.points.position,
@@ -88,9 +88,7 @@ class Materials:
         # What lies on the other side of the surface: the next body for a ray that leaves, the present one else.
         other = self._bodies.ior_around(paths, np.where(inside, 1, 0))[:, None]
         eta = np.where(inside[:, None], own / other, other / own)
-        numbers = np.concatenate(
-            [group.numbers(self._seed, FACET), group.numbers(self._seed, CHOICE)], axis=1
-        )[:, :3]
+        numbers = group.three(self._seed, FACET, CHOICE)
         way = glass_way(
             points.normal,
             -paths.direction,

@@ -9,8 +9,9 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ..arrays import Array
+
 Words = npt.NDArray[np.uint32]
-Array = npt.NDArray[np.float64]
 
 _HALVES = (
     (1, 0x55555555),

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from ..arrays import Array, Bools, Ints
 from ..bsdf.standard import Sampled, StandardBsdf
 from ..scene.records import StandardRecord
 from ..scene.snapshot import Snapshot
@@ -18,8 +19,6 @@ from ..surfaces.geometry import Geometry
 from .far_light import FarLight, balance
 from .groups import CHOICE, FACET, LIGHT, LIGHT_TEXEL, Group, Shaded, Way
 from .lamps import Lamps
-from .sampler import Array
-from .state import Flags, Whole
 
 _Rows = TypeVar("_Rows", Parameters, Surface)
 
@@ -46,9 +45,7 @@ class StandardLight:
         p, surface, alpha = standard_point(self._snapshot, group.material, group.points)
         if material.unlit:
             return Shaded(np.broadcast_to(p.color, (count, 3)), alpha)
-        numbers = np.concatenate(
-            [group.numbers(self._seed, FACET), group.numbers(self._seed, CHOICE)], axis=1
-        )[:, :3]
+        numbers = group.three(self._seed, FACET, CHOICE)
         light, ways = np.zeros((count, 3)), []
         inside = group.inside
         for within in (False, True):
@@ -96,9 +93,7 @@ class StandardLight:
         light = np.zeros((len(paths), 3))
         ends = paths.bounces >= self._bounces
         around = self._far.seen_from(points.node, ends)
-        numbers = np.concatenate(
-            [group.numbers(self._seed, LIGHT), group.numbers(self._seed, LIGHT_TEXEL)], axis=1
-        )[:, :3]
+        numbers = group.three(self._seed, LIGHT, LIGHT_TEXEL)
         direction, density, sky = self._far.toward(around, numbers)
         # A ray in a body of glass meets its surface first.
         rows = np.flatnonzero((density > 0) & (paths.bodies[:, 0] < 0))
@@ -121,7 +116,7 @@ class StandardLight:
 
 
 def _way(
-    rows: Whole, found: Sampled, entered: Flags | None = None, left: Flags | None = None
+    rows: Ints, found: Sampled, entered: Bools | None = None, left: Bools | None = None
 ) -> Way:
     return Way(
         rows,
@@ -135,7 +130,7 @@ def _way(
     )
 
 
-def _taken(values: _Rows, rows: Whole, count: int) -> _Rows:
+def _taken(values: _Rows, rows: Ints, count: int) -> _Rows:
     """Give some rows of parameters or of surfaces; numbers that are the same for all rows stay as they are."""
     taken: dict[str, Any] = {}
     for each in fields(values):

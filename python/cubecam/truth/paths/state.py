@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
-from .sampler import Array
-
-Whole: TypeAlias = npt.NDArray[np.int64]
-Flags: TypeAlias = npt.NDArray[np.bool_]
+from ..arrays import Array, Bools, Ints
 
 #: Bodies of glass that may lie in each other.
 NESTED = 4
@@ -26,26 +21,26 @@ class Paths:
     direction: Array  # (R, 3), unit length
     reach: Array  # (R,), where the ray ends; infinite but for a camera's far plane
     factor: Array  # (R, 4): how much of the light, and of alpha, counts for the picture
-    slot: Whole  # (R,): the row of the sums to which the light is added
-    pixel: Whole  # (R,): for random numbers, as `sample` and `step`
-    sample: Whole
-    step: Whole  # (R,): surfaces met so far
-    bounces: Whole  # (R,): of these, mirrors, glass and rough surfaces that the path left
-    start: Whole  # (R,): the triangle that the ray left, -1 for none
-    left: Whole  # (R,): its node, -1 for none
-    crossed: Flags  # (R,): whether it went through this triangle
-    reflected: Flags  # (R,): whether the ray left a surface, so that it sees what captures see
-    surroundings: Whole  # (R,): what it sees where it meets nothing, -1 for the background
-    ambient: Flags  # (R,): whether it sees ambient light, too
+    slot: Ints  # (R,): the row of the sums to which the light is added
+    pixel: Ints  # (R,): for random numbers, as `sample` and `step`
+    sample: Ints
+    step: Ints  # (R,): surfaces met so far
+    bounces: Ints  # (R,): of these, mirrors, glass and rough surfaces that the path left
+    start: Ints  # (R,): the triangle that the ray left, -1 for none
+    left: Ints  # (R,): its node, -1 for none
+    crossed: Bools  # (R,): whether it went through this triangle
+    reflected: Bools  # (R,): whether the ray left a surface, so that it sees what captures see
+    surroundings: Ints  # (R,): what it sees where it meets nothing, -1 for the background
+    ambient: Bools  # (R,): whether it sees ambient light, too
     density: Array  # (R,): with which a rough surface chose the direction; 0 if it had no choice
-    unblocked: Flags  # (R,): whether nothing stands in the way, at the end of the path
-    bodies: Whole  # (R, NESTED): nodes of the bodies that the ray is in, the innermost first, -1 for none
-    channel: Whole  # (R,): the one colour that counts after dispersion, -1 for all
+    unblocked: Bools  # (R,): whether nothing stands in the way, at the end of the path
+    bodies: Ints  # (R, NESTED): nodes of the bodies that the ray is in, the innermost first, -1 for none
+    channel: Ints  # (R,): the one colour that counts after dispersion, -1 for all
 
     def __len__(self) -> int:
         return len(self.slot)
 
-    def rows(self, chosen: Whole | Flags) -> Paths:
+    def rows(self, chosen: Ints | Bools) -> Paths:
         """Give some of the paths."""
         return Paths(**{f.name: getattr(self, f.name)[chosen] for f in fields(Paths)})
 
@@ -62,7 +57,7 @@ def joined(parts: Sequence[Paths]) -> Paths:
 
 
 def first_paths(
-    origin: Array, direction: Array, reach: Array, pixel: Whole, sample: Whole, slot: Whole
+    origin: Array, direction: Array, reach: Array, pixel: Ints, sample: Ints, slot: Ints
 ) -> Paths:
     """Give paths that start at an eye, which is in no body, and see the background."""
     count = len(slot)
@@ -89,11 +84,11 @@ def first_paths(
     )
 
 
-def entered(bodies: Whole, node: Whole) -> Whole:
+def entered(bodies: Ints, node: Ints) -> Ints:
     """Give the bodies of rays that enter a node, too."""
     return np.concatenate([node[:, None], bodies[:, :-1]], axis=1)
 
 
-def left_body(bodies: Whole) -> Whole:
+def left_body(bodies: Ints) -> Ints:
     """Give the bodies of rays that leave the innermost one."""
     return np.concatenate([bodies[:, 1:], np.full((len(bodies), 1), -1)], axis=1)

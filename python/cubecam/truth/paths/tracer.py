@@ -6,6 +6,7 @@ from dataclasses import astuple
 
 import numpy as np
 
+from ..arrays import Array, Bools, Ints
 from ..scene.snapshot import Snapshot
 from ..surfaces.colors import Points, surface_points
 from ..surfaces.geometry import Geometry, Hits
@@ -14,8 +15,7 @@ from .far_light import FarLight
 from .groups import Group, Way
 from .lamps import Lamps
 from .materials import Materials
-from .sampler import Array
-from .state import Flags, Paths, Whole, entered, joined, left_body
+from .state import Paths, entered, joined, left_body
 
 
 class Tracer:
@@ -126,12 +126,12 @@ class Tracer:
             going += self._met(group, taken(hits, rows), sums)
         return joined(going)
 
-    def _own(self, paths: Paths, points: Points) -> Flags:
+    def _own(self, paths: Paths, points: Points) -> Bools:
         """Find rays that meet the node that they left, if such hits do not count."""
         if self.self_hits:
             return np.zeros(len(paths), np.bool_)
-        own: Flags = paths.left == points.node
-        outside: Flags = paths.bodies[:, 0] != points.node
+        own: Bools = paths.left == points.node
+        outside: Bools = paths.bodies[:, 0] != points.node
         return own & outside
 
     def _absorbed(self, paths: Paths, distance: Array) -> Paths:
@@ -187,7 +187,7 @@ class Tracer:
                     )
         return [p for p in going if len(p)]
 
-    def _onward(self, group: Group, hits: Hits, way: Way, mine: Flags, share: Array) -> Paths:
+    def _onward(self, group: Group, hits: Hits, way: Way, mine: Bools, share: Array) -> Paths:
         """Give the paths that leave a surface along a way."""
         rows = way.rows[mine]
         paths, points = group.paths.rows(rows), group.points.take(rows)
@@ -216,12 +216,12 @@ class Tracer:
         return gone.rows(np.flatnonzero(gone.factor[:, :3].any(axis=1)))
 
 
-def taken(hits: Hits, rows: Whole | Flags) -> Hits:
+def taken(hits: Hits, rows: Ints | Bools) -> Hits:
     """Give some of the hits."""
     return Hits(hits.triangle[rows], hits.distance[rows], hits.weights[rows])
 
 
-def add(sums: Array, slot: Whole, light: Array) -> None:
+def add(sums: Array, slot: Ints, light: Array) -> None:
     """Add light (R, 4) to the sums of slots (R,), which may repeat."""
     for channel in range(sums.shape[1]):
         sums[:, channel] += np.bincount(slot, light[:, channel], minlength=len(sums))

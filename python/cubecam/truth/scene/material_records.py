@@ -22,7 +22,8 @@ from ..._core import (
     StandardMaterial,
     Texture,
 )
-from .meshes import tangent_uv_set
+from ..._drawn_meshes import tangent_uv_set
+from ..arrays import Array
 from .records import (
     BasicRecord,
     GlassRecord,
@@ -32,7 +33,7 @@ from .records import (
     StandardRecord,
 )
 from .refusals import check_texture, no_textures
-from .textures import Array, Lookup
+from .textures import Lookup
 
 Textures: TypeAlias = Callable[[RenderTexture], npt.NDArray[np.generic]]
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from ..._core import CubeMap
+from ..arrays import Array
 from ..matrices import turned
-from .textures import Array, Lookup
+from .textures import Lookup
 
 Kind: TypeAlias = Literal["basic", "phong", "mirror", "glass", "standard"]
 
@@ -209,7 +209,3 @@ class NodeRecord:
     blend: BlendRecord | None
     opacity: float
     scale: Array
-
-
-Bools: TypeAlias = npt.NDArray[np.bool_]
-Ints: TypeAlias = npt.NDArray[np.int64]

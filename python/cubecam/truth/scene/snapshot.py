@@ -22,19 +22,14 @@ from ..._core import (
     Scene,
     SpotLight,
 )
+from ..._drawn_meshes import DrawnMesh, drawn_mesh
 from ..._nodes import holds, shown_nodes, upwards
+from ..._rotations import rotation_matrix
+from ..arrays import Array, Ints
 from ..shading import Directional, Point, Spot
 from .material_records import MaterialReader, blends
-from .meshes import DrawnMesh, drawn_mesh
-from .records import (
-    BlendRecord,
-    Ints,
-    MaterialRecord,
-    NodeRecord,
-    Radiance,
-)
+from .records import BlendRecord, MaterialRecord, NodeRecord, Radiance
 from .refusals import check_depth_write, check_gathering, kind_of
-from .textures import Array
 
 __all__ = ["BlendRecord", "NodeRecord", "Radiance", "Snapshot", "read"]
 
@@ -122,8 +117,9 @@ def read(
     """
     excluded = {node.id for node in exclude if node in scene}
     ids = frozenset(node.id for node in scene.nodes)
-    background = _background(scene)
-    around = _Surroundings(scene, background)
+    environment = _environment(scene)
+    background = _background(scene, environment)
+    around = _Surroundings(environment, background)
     reader = MaterialReader(textures)
     records: list[NodeRecord] = []
     parts = [_NO_TRIANGLES]
@@ -225,8 +221,8 @@ def _triangles(drawn: DrawnMesh, shows_colors: bool, place: int) -> _Part:
 class _Surroundings:
     """What nodes see where a ray meets nothing, each cubemap once; the scene's own environment comes first."""
 
-    def __init__(self, scene: Scene, background: Radiance) -> None:
-        self.all = [_environment(scene), background]
+    def __init__(self, environment: Radiance, background: Radiance) -> None:
+        self.all = [environment, background]
         self._known: dict[int, tuple[CubeMap, int]] = {}
 
     def place_of(self, node: Node) -> int:
@@ -246,21 +242,14 @@ def _environment(scene: Scene) -> Radiance:
     cube = scene.environment
     if cube is None:
         return Radiance()
-    w, x, y, z = (float(number) for number in scene.environment_rotation)
-    to_world = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
+    to_world = rotation_matrix(np.asarray(scene.environment_rotation))
     return Radiance("cube", cube=cube, turn=to_world.T, scale=scene.environment_intensity)
 
 
-def _background(scene: Scene) -> Radiance:
+def _background(scene: Scene, environment: Radiance) -> Radiance:
     shown = scene.background
     if shown is None:
-        return _environment(scene)
+        return environment
     if isinstance(shown, CubeMap):
         return Radiance("cube", cube=shown)
     return Radiance("color", color=np.asarray(shown, np.float64))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-Array: TypeAlias = npt.NDArray[np.float64]
+from ..arrays import Array
+from ..shading.images import wrapped
 
 
 def _identity() -> Array:
@@ -74,8 +75,8 @@ class Lookup:
 
     def _texels(self, row: Array, column: Array) -> Array:
         height, width, channels = self.pixels.shape
-        rows = _wrapped(row, height, self.wrap[1])
-        columns = _wrapped(column, width, self.wrap[0])
+        rows = wrapped(row.astype(np.int64), height, self.wrap[1])
+        columns = wrapped(column.astype(np.int64), width, self.wrap[0])
         texels = self.pixels[rows, columns]
         found = np.ones((len(texels), 4))
         colors = min(channels, 3)
@@ -89,18 +90,6 @@ class Lookup:
             if channels == 4:
                 found[:, 3] = texels[:, 3]
         return found
-
-
-def _wrapped(index: Array, count: int, wrap: str) -> npt.NDArray[np.int64]:
-    """Return the texel that stands for one outside of 0 to count - 1."""
-    if wrap == "repeat":
-        wrapped = np.mod(index, count)
-    elif wrap == "mirror":
-        wrapped = np.mod(index, 2 * count)
-        wrapped = np.where(wrapped < count, wrapped, 2 * count - 1 - wrapped)
-    else:
-        wrapped = np.clip(index, 0, count - 1)
-    return wrapped.astype(np.int64)
 
 
 _FRACTIONS: Array = np.arange(256) / 255.0

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays import Array
 from ..scene.records import BasicRecord, PhongRecord
 from ..scene.snapshot import Snapshot
-from ..scene.textures import Array
 from .points import Points, surface_points
 from .standard import standard_point
 

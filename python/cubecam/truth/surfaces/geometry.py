@@ -8,9 +8,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..scene.records import Bools, Ints
+from ..arrays import Array, Bools, Ints
 from ..scene.snapshot import Snapshot
-from ..scene.textures import Array
 from .holes import in_holes, nodes_with_holes, solid_nodes
 from .trees import Tree, embree
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene.records import Bools, GlassRecord, Ints, StandardRecord
+from ..arrays import Array, Bools, Ints
+from ..scene.records import GlassRecord, StandardRecord
 from ..scene.snapshot import Snapshot
-from ..scene.textures import Array
 from .interpolation import interpolated
 
 

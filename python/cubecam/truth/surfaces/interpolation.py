@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..scene.textures import Array
+from ..arrays import Array
 
 
 def interpolated(weights: Array, values: npt.NDArray[Any]) -> Array:

@@ -6,10 +6,9 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..scene.meshes import unit
-from ..scene.records import Bools, Ints
+from ..._drawn_meshes import unit
+from ..arrays import Array, Bools, Ints
 from ..scene.snapshot import Snapshot
-from ..scene.textures import Array
 from .geometry import Hits
 from .interpolation import interpolated
 

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..scene.meshes import unit
+from ..arrays import Array
 from ..scene.records import StandardRecord
 from ..scene.snapshot import Snapshot
-from ..scene.textures import Array
-from ..shading.standard.material import Parameters, Surface
+from ..shading.standard.material import (
+    Parameters,
+    Surface,
+    anisotropy_direction,
+    mapped_normal,
+)
 from .points import Points
 
 __all__ = ["standard_point"]
@@ -93,23 +97,11 @@ def _anisotropy(
     """Return strength and direction (KHR_materials_anisotropy); a mesh without tangents stretches no highlight."""
     if not record.tangents:
         return 0.0, (1.0, 0.0)
-    angle = np.radians(record.numbers["anisotropy_rotation"])
-    turn = np.array([np.cos(angle), np.sin(angle)])
-    strength = record.numbers["anisotropy"]
+    rotation, strength = record.numbers["anisotropy_rotation"], record.numbers["anisotropy"]
     texel = texels.get("anisotropy_map")
     if texel is None:
-        return strength, turn[None]
-    along = 2 * texel[:, :2] - 1
-    along = np.where(np.any(along, axis=1, keepdims=True), along, (1.0, 0.0))
-    along = along / np.linalg.norm(along, axis=1, keepdims=True)
-    direction = np.stack(
-        [
-            turn[0] * along[:, 0] - turn[1] * along[:, 1],
-            turn[1] * along[:, 0] + turn[0] * along[:, 1],
-        ],
-        axis=1,
-    )
-    return strength * texel[:, 2:3], direction
+        return strength, anisotropy_direction(rotation)[None]
+    return strength * texel[:, 2:3], anisotropy_direction(rotation, texel)
 
 
 def _surface(
@@ -118,7 +110,9 @@ def _surface(
     nodes, which = np.unique(points.node, return_inverse=True)
     scales = np.array([snapshot.nodes[node].scale for node in nodes]).reshape(-1, 3)
     mapped = {
-        name: _mapped_normal(points, texels[f"{name}_map"], record.numbers[f"{name}_scale"])
+        name: mapped_normal(
+            points.normal, points.tangent, texels[f"{name}_map"], record.numbers[f"{name}_scale"]
+        )
         for name in ("normal", "clearcoat_normal")
         if f"{name}_map" in texels
     }
@@ -131,12 +125,3 @@ def _surface(
         tangent=points.tangent,
         scale=scales[which.reshape(-1)],
     )
-
-
-def _mapped_normal(points: Points, texel: Array, scale: float) -> Array:
-    """Return normals of a normal map (glTF 2.0, section 3.9.3); a texel without a length gives the mesh's normal."""
-    x, y, z = np.split(2 * texel[:, :3] - 1, 3, axis=1)
-    tangent = points.tangent[:, :3]
-    bitangent = points.tangent[:, 3:] * np.cross(points.normal, tangent)
-    turned = unit(scale * x * tangent + scale * y * bitangent + z * points.normal)
-    return np.where(np.any(turned, axis=1, keepdims=True), turned, points.normal)

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..scene.records import Bools, Ints
-from ..scene.textures import Array
+from ..arrays import Array, Bools, Ints
 
 
 class Tree:

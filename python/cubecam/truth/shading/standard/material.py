@@ -112,16 +112,24 @@ def bitangent(n: Array, tangent: Array) -> Array:
 
 
 def mapped_normal(n: Array, tangent: Array, texel: Any, scale: Any = 1.0) -> Array:
-    """Section 3.9.3: the texel (..., 3) from 0..1 to -1..1, x and y times the scale, in the tangent frame."""
+    """Section 3.9.3: the texel (..., 3) from 0..1 to -1..1, x and y times the scale, in the tangent frame.
+
+    A texel without a length gives the normal n.
+    """
     x, y, z = np.moveaxis(2 * np.asarray(texel, float)[..., :3] - 1, -1, 0)
     x, y, z = x[..., None] * scale, y[..., None] * scale, z[..., None]
-    return normalised(x * tangent[..., :3] + y * bitangent(n, tangent) + z * n)
+    turned = x * tangent[..., :3] + y * bitangent(n, tangent) + z * n
+    some = np.any(turned, axis=-1, keepdims=True)
+    return np.where(some, normalised(np.where(some, turned, n)), n)
 
 
 def anisotropy_direction(rotation: Any, texel: Any = (1.0, 0.5)) -> Array:
-    """KHR_materials_anisotropy: red and green from 0..1 to -1..1, normalised, turned by a rotation in degrees."""
-    texel = np.asarray(texel, float)
-    direction = normalised(2 * texel[..., :2] - 1)
+    """KHR_materials_anisotropy: red and green from 0..1 to -1..1, normalised, turned by a rotation in degrees.
+
+    A texel without a length stands for (1, 0).
+    """
+    along = 2 * np.asarray(texel, float)[..., :2] - 1
+    direction = normalised(np.where(np.any(along, axis=-1, keepdims=True), along, (1.0, 0.0)))
     x, y = direction[..., 0], direction[..., 1]
     c, s = np.cos(np.radians(rotation)), np.sin(np.radians(rotation))
     return np.stack([c * x - s * y, s * x + c * y], -1)

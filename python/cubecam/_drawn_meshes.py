@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ..._core import Material, Mesh, MorphTarget, Node, StandardMaterial
-from .records import Ints
-from .textures import Array
+from ._core import Material, Mesh, MorphTarget, Node, StandardMaterial
 
+Array = npt.NDArray[np.float64]
 Floats = npt.NDArray[np.float32]
 
 
@@ -24,22 +24,38 @@ class DrawnMesh:
 
 
 def drawn_mesh(node: Node, nodes: frozenset[int]) -> DrawnMesh:
-    """Return the mesh of a node in the form in which it is drawn.
+    """Return the mesh of a node in the form in which it is drawn, as `deformed_mesh` and with what its material needs.
 
-    `nodes` are the ids of all nodes of the scene: a skin counts only while all of its joints are among them.
+    This is flat shading, and tangents for bumps and stretched highlights.
     """
-    mesh, material = node.mesh, node.material
+    material = node.material
+    assert material is not None  # nodes with a mesh have one
+
+    def shaped(mesh: Mesh) -> Mesh:
+        uv_set = tangent_uv_set(material)
+        makes = uv_set is not None and mesh.tangents is None and _uvs(mesh, uv_set) is not None
+        if material.flat_shading:
+            mesh = mesh.flat_shaded()
+        return mesh.with_tangents(uv_set=uv_set) if makes and uv_set is not None else mesh
+
+    return deformed_mesh(node, nodes, shaped)
+
+
+def deformed_mesh(
+    node: Node, nodes: frozenset[int], shaped: Callable[[Mesh], Mesh] | None = None
+) -> DrawnMesh:
+    """Return the mesh of a node with its morph targets and its skin.
+
+    `nodes` are the ids of all nodes of the scene: a skin counts only while all of its joints are among them. `shaped`
+    changes the mesh before the joints move it.
+    """
+    mesh = node.mesh
     assert mesh is not None  # nodes without a mesh are not drawn
-    assert material is not None
     matrix = np.asarray(node.world_matrix, np.float64)
     if np.any(node.weights):
         mesh = _morphed(mesh, np.asarray(node.weights, np.float64))
-    uv_set = tangent_uv_set(material)
-    makes = uv_set is not None and mesh.tangents is None and _uvs(mesh, uv_set) is not None
-    if material.flat_shading:
-        mesh = mesh.flat_shaded()
-    if makes and uv_set is not None:
-        mesh = mesh.with_tangents(uv_set=uv_set)
+    if shaped is not None:
+        mesh = shaped(mesh)
     skin = node.skin
     if skin is None or mesh.joints is None or mesh.joint_weights is None:
         return DrawnMesh(mesh, matrix)
@@ -132,7 +148,7 @@ def _skinned(mesh: Mesh, matrices: Array) -> Mesh:
         tangents = np.asarray(arrays["tangents"], np.float64)
         along = unit(np.einsum("vij,vj->vi", linear, tangents[:, :3]))
         arrays["tangents"] = np.concatenate([along, tangents[:, 3:] * sides[:, None]], axis=1)
-    indices: Ints = np.asarray(arrays["indices"], np.int64)
+    indices = np.asarray(arrays["indices"], np.int64)
     mirrored = sides[indices].sum(axis=1) < 0
     arrays["indices"] = np.where(mirrored[:, None], indices[:, ::-1], indices).astype(np.uint32)
     return Mesh(**arrays)
