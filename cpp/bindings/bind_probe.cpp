@@ -1,4 +1,5 @@
 // cubecam.Probe
+#include "bounds.hpp"
 #include "docs/probe.hpp"
 #include "formats.hpp"
 #include "node_list.hpp"
@@ -29,6 +30,8 @@ constexpr NameTable<ProbeUpdate, 3> update_names{{{"on_change", ProbeUpdate::on_
                                                   {"once", ProbeUpdate::once},
                                                   {"manual", ProbeUpdate::manual}}};
 
+using ParallaxName = Choice<parallax_names>;
+
 using UpdateLike = OneOf<Choice<update_names>, WholeNumber>;
 using UpdateNow = OneOf<Choice<update_names>, int>;
 
@@ -56,12 +59,28 @@ py::object update_of(const ProbeValue& value) {
     return py::str(name.data(), name.size());
 }
 
+Parallax to_parallax(const ParallaxName& name) {
+    return parse_name("parallax", name, parallax_names);
+}
+
+std::optional<Bounds> to_box(const OrNone<ArrayLike>& box) {
+    if (box.is_none()) return std::nullopt;
+    return to_bounds(box, "box");
+}
+
+std::optional<glm::dmat4> to_proxy_matrix(const OrNone<ArrayLike>& matrix) {
+    if (matrix.is_none()) return std::nullopt;
+    return to_mat4(matrix, "proxy_matrix");
+}
+
 std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near, Real far,
                                   const FormatName& format, Flag mipmaps, Int samples,
                                   const UpdateLike& update, const Nodes& exclude,
                                   const OrNone<Node>& parent, Int faces_per_frame,
                                   const DepthFormatName& depth_format,
-                                  Argument<std::optional<bool>> prefilter) {
+                                  Argument<std::optional<bool>> prefilter,
+                                  const ParallaxName& parallax, const OrNone<ArrayLike>& box,
+                                  const OrNone<ArrayLike>& proxy_matrix, Int fetches) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -76,6 +95,10 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near
     value.exclude = to_nodes(exclude, "exclude");
     value.depth_format = to_depth_format(depth_format);
     value.prefilter = value_of(prefilter);
+    value.parallax.method = to_parallax(parallax);
+    value.parallax.box = to_box(box);
+    value.parallax.proxy_matrix = to_proxy_matrix(proxy_matrix);
+    value.parallax.fetches = fetches;
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -87,6 +110,50 @@ void field(Class<Probe>& probe, const char* name, Field ProbeValue::* member, co
             self.edit([&](ProbeValue& next) { next.*member = value_of(value); });
         },
         doc);
+}
+
+using DoublesOrNone = OneOf<py::array_t<double>, py::none>;
+
+void bind_parallax(Class<Probe>& probe) {
+    probe.def_property(
+        "parallax",
+        [](const Probe& self) -> ParallaxName {
+            return to_string(self.value().parallax.method);
+        },
+        [](Probe& self, const ParallaxName& value) {
+            const Parallax method = to_parallax(value);
+            self.edit([&](ProbeValue& next) { next.parallax.method = method; });
+        },
+        "str: \"none\", \"box\", \"sphere\", \"distance\" or \"layers\".");
+    probe.def_property(
+        "box",
+        [](const Probe& self) -> DoublesOrNone {
+            const auto box = self.value().parallax.box;
+            return box ? py::object(bounds_array(*box)) : py::none();
+        },
+        [](Probe& self, const OrNone<ArrayLike>& value) {
+            const auto box = to_box(value);
+            self.edit([&](ProbeValue& next) { next.parallax.box = box; });
+        },
+        "ndarray (2, 3) float64 or None: the low and the high corner of the proxy, in the world or "
+        "in the space of `proxy_matrix`; read-only.");
+    probe.def_property(
+        "proxy_matrix",
+        [](const Probe& self) -> DoublesOrNone {
+            const auto matrix = self.value().parallax.proxy_matrix;
+            return matrix ? py::object(matrix_array(*matrix)) : py::none();
+        },
+        [](Probe& self, const OrNone<ArrayLike>& value) {
+            const auto matrix = to_proxy_matrix(value);
+            self.edit([&](ProbeValue& next) { next.parallax.proxy_matrix = matrix; });
+        },
+        "ndarray (4, 4) float64 or None: from the space of `box` to the world; read-only.");
+    probe.def_property(
+        "fetches", [](const Probe& self) { return self.value().parallax.fetches; },
+        [](Probe& self, Int value) {
+            self.edit([&](ProbeValue& next) { next.parallax.fetches = value; });
+        },
+        "int: 6, 14 or 35 lookups of distance for a ray, at most.");
 }
 
 void bind_links(Class<Probe>& probe) {
@@ -127,7 +194,9 @@ void bind_probe(pybind11::module_& module) {
               py::arg("format") = "rgba16f", py::arg("mipmaps") = false, py::arg("samples") = 1,
               py::arg("update") = "on_change", py::arg("exclude") = py::tuple(),
               py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6,
-              py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none());
+              py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none(),
+              py::arg("parallax") = "none", py::arg("box") = py::none(),
+              py::arg("proxy_matrix") = py::none(), py::arg("fetches") = 14);
 
     probe.def_property(
         "position", [](const Probe& self) { return point_array(self.value().position); },
@@ -173,6 +242,7 @@ void bind_probe(pybind11::module_& module) {
         probe, "prefilter", &ProbeValue::prefilter,
         "bool or None: whether the probe is filtered by roughness; None: if a drawn surface needs "
         "it.");
+    bind_parallax(probe);
     bind_links(probe);
 
     probe.def("__repr__", [](const Probe& self) {
@@ -182,14 +252,18 @@ void bind_probe(pybind11::module_& module) {
                (parent ? ", parent=node " + std::to_string(parent->id()) : std::string()) +
                ", size=" + std::to_string(value.size) + ", format='" +
                std::string(to_string(value.format)) + "'" +
-               ", update=" + py::repr(update_of(value)).cast<std::string>() + ")";
+               ", update=" + py::repr(update_of(value)).cast<std::string>() +
+               (value.parallax.method == Parallax::none
+                    ? std::string()
+                    : ", parallax='" + std::string(to_string(value.parallax.method)) + "'") +
+               ")";
     });
     // Nodes go into the state, which is pickled later, since a node may use the probe itself.
     probe.def("__reduce__", [](const py::object& self) {
         return reduced(self,
                        attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",
                                      "samples", "update", "faces_per_frame", "depth_format",
-                                     "prefilter"),
+                                     "prefilter", "parallax", "box", "proxy_matrix", "fetches"),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

@@ -7,6 +7,8 @@ layout(std140, binding = 5) uniform Environment {
     ivec4 u_environment_levels;   // x: how many levels; 0: there is no environment
     vec4 u_environment_turn[3];   // xyz: rows of the matrix from the world to the cube; [0].w: intensity
     vec4 u_environment_texel;     // xy: width and height of a texel of u_filtered
+    vec4 u_environment_proxy[3];  // rows of the matrix to the proxy, whose box is from -1 to 1, from relative to u_origin
+    vec4 u_environment_distances;  // xy: width and height of a texel of u_distances, z: texels along an edge of a face
     vec4 u_environment_places[16];  // of the levels in u_filtered, [0]: of the irradiance; see environment_place()
 };
 #elif defined(USER_SOURCE)
@@ -26,18 +28,64 @@ vec3 environment_scaled(vec3 light) { return u_environment_turn[0].w * light; }
 #define environment_scaled(light) light
 #endif
 
-// The light from a world direction (from the surface outwards, of any length). It needs no sign flip, since faces are
-// in GL's layout.
-vec3 environment(vec3 direction_world) {
-    return environment_scaled(texture(u_cube, environment_in_cube(direction_world)).rgb);
+#if defined(ENVIRONMENT_BOX) || defined(ENVIRONMENT_SPHERE) || defined(ENVIRONMENT_FETCHES)
+#define ENVIRONMENT_NEAR
+#endif
+
+// The face that a direction meets: xy: its column and row among the faces of a level (x, y, z; positive, negative);
+// zw: the place on the face, from 0 to 1.
+vec4 environment_face(vec3 direction) {
+    vec3 size = abs(direction);
+    bool x = size.x >= size.y && size.x >= size.z;
+    bool y = !x && size.y >= size.z;
+    float along = x ? direction.x : y ? direction.y : direction.z;
+    float s = along >= 0.0 ? 1.0 : -1.0;
+    vec2 place = x ? vec2(-s * direction.z, -direction.y)
+                   : y ? vec2(direction.x, s * direction.z) : vec2(s * direction.x, -direction.y);
+    return vec4(x ? 0.0 : y ? 1.0 : 2.0, 0.5 - 0.5 * s, 0.5 + 0.5 * place / max(abs(along), 1e-30));
 }
+
+// What a ray from a point of the scene meets, as the place of the capture sees it.
+struct EnvironmentHit {
+    vec3 direction;  // in which it is seen from there, of any length
+    float spread;    // how many times as far it is from the point as from there
+    bool farthest;   // it is in the layer of the farthest surfaces
+};
+#ifdef ENVIRONMENT_NEAR
+#include "include/parallax.glsl"
+#else
+// The environment is infinitely far away, or as good as that.
+EnvironmentHit environment_met(vec3 from_origin, vec3 direction_world) {
+    return EnvironmentHit(environment_in_cube(direction_world), 1.0, false);
+}
+#endif
+
+// The light from a world direction (from the surface outwards, of any length) at a point. It needs no sign flip, since
+// faces are in GL's layout.
+vec3 environment_from(vec3 from_origin, vec3 direction_world) {
+    EnvironmentHit hit = environment_met(from_origin, direction_world);
+    vec3 light = texture(u_cube, hit.direction).rgb;
+#ifdef ENVIRONMENT_LAYERS
+    if (hit.farthest) light = textureLod(u_farthest, hit.direction, 0.0).rgb;
+#endif
+    return environment_scaled(light);
+}
+
+// The same at the surface.
+vec3 environment(vec3 direction_world) { return environment_from(v_position, direction_world); }
 
 #ifdef USES_ENVIRONMENT_MIPS
 // The same environment with levels that are averages of boxes of texels.
 layout(binding = 4) uniform samplerCube u_box_mipmaps;
 
 vec3 environment_mip(vec3 direction_world, float lod) {
-    return environment_scaled(textureLod(u_box_mipmaps, environment_in_cube(direction_world), lod).rgb);
+    EnvironmentHit hit = environment_met(v_position, direction_world);
+    float level = lod + log2(max(hit.spread, 1e-30));
+    vec3 light = textureLod(u_box_mipmaps, hit.direction, level).rgb;
+#ifdef ENVIRONMENT_LAYERS
+    if (hit.farthest) light = textureLod(u_farthest, hit.direction, level).rgb;
+#endif
+    return environment_scaled(light);
 }
 
 // Texels along an edge of level 0.
@@ -56,19 +104,6 @@ vec3 brdf_terms(float n_dot_v, float roughness) {
 
 #ifdef ENVIRONMENT_FILTERED
 layout(binding = 2) uniform sampler2D u_filtered;
-
-// The face that a direction meets: xy: its column and row among the faces of a level (x, y, z; positive, negative);
-// zw: the place on the face, from 0 to 1.
-vec4 environment_face(vec3 direction) {
-    vec3 size = abs(direction);
-    bool x = size.x >= size.y && size.x >= size.z;
-    bool y = !x && size.y >= size.z;
-    float along = x ? direction.x : y ? direction.y : direction.z;
-    float s = along >= 0.0 ? 1.0 : -1.0;
-    vec2 place = x ? vec2(-s * direction.z, -direction.y)
-                   : y ? vec2(direction.x, s * direction.z) : vec2(s * direction.x, -direction.y);
-    return vec4(x ? 0.0 : y ? 1.0 : 2.0, 0.5 - 0.5 * s, 0.5 + 0.5 * place / max(abs(along), 1e-30));
-}
 
 // A bilinear lookup in one level. `place` is the level's element of u_environment_places: xy: the first texel of its
 // first face, z: texels along an edge; faces have a border of one texel.
@@ -91,21 +126,16 @@ float environment_level_of(float roughness) {
 #endif
 }
 
-// The filtered radiance round a direction at a level, between two levels linearly; level 0 is the cube itself.
-vec3 environment_level(vec3 direction_world, float level) {
-    vec3 direction = environment_in_cube(direction_world);
+// The filtered radiance round a direction of the cube at a level, between two levels linearly; level 0 is the cube
+// itself.
+vec3 environment_seen(vec3 direction, float level) {
     int lower = clamp(int(level), 0, max(u_environment_levels.x - 2, 0));
     vec4 on = environment_face(direction);
     // Every fragment makes all lookups: the level of a mipmapped lookup depends on the neighbour fragments.
     vec3 sharp = texture(u_cube, direction).rgb;
     vec3 low = environment_place(u_environment_places[lower], on);
     vec3 high = environment_place(u_environment_places[lower + 1], on);
-    return environment_scaled(mix(lower == 0 ? sharp : low, high, clamp(level - float(lower), 0.0, 1.0)));
-}
-
-// The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
-vec3 environment_filtered(vec3 direction_world, float roughness) {
-    return environment_level(direction_world, environment_level_of(roughness));
+    return mix(lower == 0 ? sharp : low, high, clamp(level - float(lower), 0.0, 1.0));
 }
 
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.
@@ -115,11 +145,27 @@ vec3 environment_irradiance(vec3 normal_world) {
 }
 #else
 // Without filtered levels the mipmaps replace them, or the cube itself if it has none.
-vec3 environment_filtered(vec3 direction_world, float roughness) {
-    float level = clamp(roughness, 0.0, 1.0) * float(max(u_environment_levels.x - 1, 0));
-    return environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
+float environment_level_of(float roughness) {
+    return clamp(roughness, 0.0, 1.0) * float(max(u_environment_levels.x - 1, 0));
 }
 
-vec3 environment_irradiance(vec3 normal_world) { return environment_filtered(normal_world, 1.0); }
+vec3 environment_seen(vec3 direction, float level) { return textureLod(u_cube, direction, level).rgb; }
+
+vec3 environment_irradiance(vec3 normal_world) {
+    return environment_scaled(environment_seen(environment_in_cube(normal_world), environment_level_of(1.0)));
+}
 #endif
+
+// The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
+vec3 environment_filtered(vec3 direction_world, float roughness) {
+    EnvironmentHit hit = environment_met(v_position, direction_world);
+#ifdef ENVIRONMENT_NEAR
+    roughness = roughness_from_there(roughness, hit.spread);
+#endif
+    vec3 light = environment_seen(hit.direction, environment_level_of(roughness));
+#ifdef ENVIRONMENT_LAYERS
+    if (hit.farthest) light = textureLod(u_farthest, hit.direction, farthest_level(roughness)).rgb;
+#endif
+    return environment_scaled(light);
+}
 #endif

@@ -27,11 +27,17 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // The environment at a chosen level of detail; 0 is the finest. The levels of a filtered environment are those of its
 // roughnesses.
 vec3 environment_lod(vec3 direction_world, float level) {
+    EnvironmentHit hit = environment_met(v_position, direction_world);
 #ifdef ENVIRONMENT_FILTERED
-    return environment_level(direction_world, level);
+    return environment_scaled(environment_seen(hit.direction, level));
 #else
-    return environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
+    return environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
 #endif
+}
+
+// The light that reaches a world position from a direction: `environment` for another place than the surface.
+vec3 environment_at(vec3 position_world, vec3 direction_world) {
+    return environment_from(position_world - u_origin.xyz, direction_world);
 }
 
 #ifdef USES_FILTERED_ENVIRONMENT

@@ -1,3 +1,4 @@
+const vec3 v_position = vec3(0.0);  // the sky is seen alike from everywhere
 #include "include/environment.glsl"
 
 flat in mat3 v_rays;    // the direction at v_centre, and its steps from pixel to pixel along x and y

@@ -46,7 +46,7 @@ struct Shader {
     std::array<Switch, 0> switches() const { return {}; }
     bool uses_environment() const {
         for (const char* word :
-             {"environment", "environment_lod", "environment_levels", "environment_position",
+             {"environment", "environment_at", "environment_lod", "environment_levels", "environment_position",
               "environment_is_local", "environment_filtered", "environment_irradiance",
               "environment_mip", "environment_size"}) {
             if (mentions(fragment.text, word)) return true;

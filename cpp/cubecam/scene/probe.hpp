@@ -3,6 +3,7 @@
 #include "cubecam/core/versioned.hpp"
 #include "cubecam/image/depth_format.hpp"
 #include "cubecam/image/format.hpp"
+#include "cubecam/scene/parallax.hpp"
 #include "cubecam/scene/weak_nodes.hpp"
 
 #include <glm/glm.hpp>
@@ -39,12 +40,13 @@ struct ProbeValue {
     DepthFormat depth_format = DepthFormat::depth_component32f;
     /// Whether it is filtered by roughness; none: if a drawn surface needs that.
     std::optional<bool> prefilter;
+    ParallaxValue parallax;
 
     bool operator==(const ProbeValue& other) const;
 };
 
-/// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, or faces
-/// outside 1..6.
+/// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, faces
+/// outside 1..6, a wrong parallax, or a march through distances without depths of 32 bits.
 void check(const ProbeValue& value);
 
 /// A cubemap that follows the scene. A Probe is only a description: each renderer holds contents of

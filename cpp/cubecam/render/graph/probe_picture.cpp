@@ -22,12 +22,36 @@ Environment ProbePicture::environment(const EnvironmentParts& parts) {
         made.level_count = gl::mip_levels(description.width, description.height);
     }
     made.position = state_.position;
+    made.local = local_lookup(parts.filtered || parts.filtered_if_made);
     const std::optional<bool> wanted = probe_.value.prefilter;
     if (parts.filtered ? wanted.value_or(true) : parts.filtered_if_made && wanted.value_or(false)) {
         made.filter(filter());
     }
     if (parts.mipmaps) made.box_mipmaps = {box_mipmaps(), state_.revision};
     return made;
+}
+
+LocalLookup ProbePicture::local_lookup(bool rough) {
+    const ParallaxValue& parallax = probe_.value.parallax;
+    LocalLookup local;
+    if (parallax.by_proxy()) {
+        local.method = parallax.method;
+        local.to_proxy = parallax.to_proxy();
+    } else if (parallax.by_distance()) {
+        const bool layers = has_layers() && state_.distances.has_layers();
+        local.method = layers ? Parallax::layers : Parallax::distance;
+        local.fetches = parallax.fetches;
+        local.distances = {state_.distances.id(), state_.distances.revision()};
+        local.size = state_.target->description().width;
+        if (layers) {
+            if (rough && state_.farthest_mipmaps != state_.revision) {
+                context_.gpu.context.gl().GenerateTextureMipmap(state_.farthest->color().id());
+                state_.farthest_mipmaps = state_.revision;
+            }
+            local.farthest = {state_.farthest->color().id(), state_.distances.revision()};
+        }
+    }
+    return local;
 }
 
 const FilteredTexture& ProbePicture::filter() {
@@ -78,7 +102,7 @@ bool ProbePicture::count_and_decide() {
     if (forced_ || state_.last.lost) return true;
     switch (probe_.value.update) {
         case ProbeUpdate::on_change: return true;
-        case ProbeUpdate::once: return !drawn;
+        case ProbeUpdate::once: return !drawn || (has_layers() && state_.farthest == nullptr);
         case ProbeUpdate::manual: return false;
         case ProbeUpdate::every_n_frames: return due_by_count() || !drawn;
     }
@@ -108,11 +132,29 @@ TargetDescription ProbePicture::describe() const {
                                                .format = value.format,
                                                .depth_format = value.depth_format});
     description.mipmaps = value.mipmaps;
+    // With several samples only the pass of the outputs leaves a depth for each texel.
+    if (value.parallax.by_distance() && value.samples > 1) description.outputs.add(output_row("z"));
+    return description;
+}
+
+TargetDescription ProbePicture::describe_farthest() const {
+    TargetDescription description = describe();
+    description.samples = 1;
+    description.outputs = {};
+    description.mipmaps = true;
+    description.depth_order = DepthOrder::farthest;
     return description;
 }
 
 void ProbePicture::update() {
     if (due_) draw();
+    if (!has_layers()) state_.farthest = nullptr;
+    if (!probe_.value.parallax.by_distance()) state_.distances = {};
+    if (drawn() && probe_.value.parallax.by_distance()) {
+        context_.gpu.distances.update(state_.distances, *state_.target,
+                                      has_layers() ? state_.farthest.get() : nullptr, state_.range,
+                                      state_.revision, context_.stats);
+    }
     if (drawn() && probe_.value.prefilter.value_or(false)) filter();
 }
 
@@ -129,14 +171,17 @@ void ProbePicture::draw() {
     std::size_t drawn = 0;
     try {
         drawn = draw_changed(*state_.target, {}, budget);
+        if (has_layers()) drawn = std::max(drawn, draw_farthest(budget));
     } catch (...) {
         state_.target = nullptr;
+        state_.farthest = nullptr;
         context_.gpu.contents = next_revision();
         throw;
     }
     // A face that is left for a later call was drawn from elsewhere.
     if (state_.position != probe_.position) context_.gpu.contents = next_revision();
     state_.position = probe_.position;
+    state_.range = {probe_.value.near, probe_.value.far};
     state_.last = {false, context_.scenes.origin};
     state_.encoding =
         scene_encoding(context_.scenes, number_, [this](const NodeSnapshot& n) { return sees(n); });
@@ -147,6 +192,16 @@ void ProbePicture::draw() {
     }
     state_.revision = context_.gpu.contents = next_revision();
     ++context_.stats.probes_updated;
+}
+
+std::size_t ProbePicture::draw_farthest(std::optional<Budget> budget) {
+    const TargetDescription description = describe_farthest();
+    if (state_.farthest == nullptr || state_.farthest->description() != description) {
+        state_.farthest = nullptr;  // frees the old memory first
+        state_.farthest = std::make_unique<Target>(context_.gpu.context, description);
+        budget.reset();
+    }
+    return draw_changed(*state_.farthest, {}, budget);
 }
 
 std::string ProbePicture::label(std::size_t /*place*/) const {

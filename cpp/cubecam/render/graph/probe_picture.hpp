@@ -36,6 +36,12 @@ private:
     bool count_and_decide();
     bool due_by_count();
     void draw();
+    /// Whether the farthest surfaces have to be drawn, too.
+    bool has_layers() const { return probe_.value.parallax.method == Parallax::layers; }
+    TargetDescription describe_farthest() const;
+    std::size_t draw_farthest(std::optional<Budget> budget);
+    /// How surfaces find what they reflect; `rough`: some look the probe up by roughness.
+    LocalLookup local_lookup(bool rough);
     /// Filters the faces that were drawn since the last time.
     const FilteredTexture& filter();
     std::vector<glm::vec4> read_face(Face face) const;

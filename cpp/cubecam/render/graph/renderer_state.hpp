@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/gl/context.hpp"
+#include "cubecam/render/passes/distance_pass.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/passes/shadow_pass.hpp"
 #include "cubecam/render/passes/surface_pass.hpp"
@@ -41,6 +42,10 @@ struct ProbeState {
     FilteredFaces filtered;                  ///< empty until a surface needs it
     gl::Texture box_mipmaps;                 ///< a copy with levels; null until a surface needs it
     std::uint64_t box_mipmaps_revision = 0;  ///< `revision` when it was made
+    std::unique_ptr<Target> farthest;        ///< null: not drawn, since no parallax needs it
+    std::uint64_t farthest_mipmaps = 0;      ///< `revision` of which it has levels
+    DistanceRange range;                     ///< of the last drawing
+    DistanceMap distances;                   ///< empty until a parallax needs it
     LostPicture last;
 
     /// The state in a new context, after this one's context was lost.
@@ -108,7 +113,8 @@ struct RendererState {
     RendererState(gl::Context& its_context, Layering layering, std::size_t cache_bytes)
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
           post_process(its_context.gl(), cache, surface.programs()),
-          shadows(its_context, cache, surface.programs()), targets(cache_bytes),
+          shadows(its_context, cache, surface.programs()),
+          distances(its_context, cache, surface.programs()), targets(cache_bytes),
           results(std::make_shared<ResultPool>(cache_bytes)) {}
 
     /// Takes over what was not on the GPU from the state of a lost context. All else is drawn again
@@ -124,6 +130,7 @@ struct RendererState {
     SurfacePass surface;
     PostProcessPass post_process;
     ShadowPass shadows;
+    DistancePass distances;
     TargetStore targets;
     std::shared_ptr<ResultPool> results;  ///< shared: results may outlive the renderer
     ReadBuffer read_buffer;

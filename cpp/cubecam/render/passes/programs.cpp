@@ -93,6 +93,12 @@ void add_environment(gl::ShaderOptions& options, const EnvironmentVariant& varia
     define(variant.filtered, "ENVIRONMENT_FILTERED");
     define(variant.uneven, "ENVIRONMENT_UNEVEN");
     define(variant.box_mipmaps, "USES_ENVIRONMENT_MIPS");
+    define(variant.parallax == Parallax::box, "ENVIRONMENT_BOX");
+    define(variant.parallax == Parallax::sphere, "ENVIRONMENT_SPHERE");
+    define(variant.parallax == Parallax::layers, "ENVIRONMENT_LAYERS");
+    if (variant.fetches > 0) {
+        options.defines.emplace_back("ENVIRONMENT_FETCHES", std::to_string(variant.fetches));
+    }
 }
 
 void add_defines(gl::ShaderOptions& options,
@@ -112,11 +118,14 @@ EnvironmentVariant EnvironmentVariant::of(const Environment& environment,
     variant.filtered = environment.filtered != nullptr;
     variant.uneven = variant.filtered && !environment.filtered->is_even();
     variant.box_mipmaps = environment.parts.mipmaps;
+    variant.parallax = environment.local.method;
+    variant.fetches = environment.local.fetches;
     return variant;
 }
 
 std::size_t EnvironmentVariant::texture_count() const {
-    return (by_roughness ? 1U : 0U) + (filtered ? 1U : 0U) + (box_mipmaps ? 1U : 0U);
+    return (by_roughness ? 1U : 0U) + (filtered ? 1U : 0U) + (box_mipmaps ? 1U : 0U) +
+           (fetches > 0 ? 1U : 0U) + (parallax == Parallax::layers ? 1U : 0U);
 }
 
 Programs::Programs(const GladGLContext& gl, bool layered) : gl_(&gl), layered_(layered) {
@@ -280,6 +289,17 @@ const gl::Program& Programs::shadow(const ShadowVariant& variant) {
     return shadows_
         .emplace(variant, gl::Program(*gl_, {"passes/shadow.vert", "passes/shadow.frag"}, options))
         .first->second;
+}
+
+const gl::Program& Programs::distances(bool layers) {
+    gl::Program& program = layers ? layered_distances_ : distances_;
+    if (!program) {
+        gl::ShaderOptions options;
+        if (layers) options.defines.emplace_back("LAYERS", "1");
+        program =
+            gl::Program(*gl_, {"passes/full_screen.vert", "passes/distances.frag"}, options);
+    }
+    return program;
 }
 
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) {

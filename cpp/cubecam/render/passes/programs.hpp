@@ -27,6 +27,8 @@ struct EnvironmentVariant {
     bool filtered = false;      ///< the environment has filtered levels
     bool uneven = false;        ///< not FilteredTexture::is_even
     bool box_mipmaps = false;   ///< EnvironmentParts::mipmaps
+    Parallax parallax = Parallax::none;  ///< LocalLookup::method
+    int fetches = 0;                     ///< LocalLookup::fetches
 
     static EnvironmentVariant of(const Environment& environment, const MaterialTraits& material);
     /// How many textures the surface looks up for it.
@@ -99,6 +101,9 @@ public:
     const gl::Program& shadow(const ShadowVariant& variant);
     UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors,
                              DrawConditions& conditions);
+    /// Makes the texture of distances from depth buffers; `layers`: also from that of the farthest
+    /// surfaces.
+    const gl::Program& distances(bool layers);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
 
 private:
@@ -114,7 +119,7 @@ private:
     std::map<std::tuple<Tonemap, Encode, bool>, gl::Program> grades_;
     UserPrograms users_;
     std::map<ShadowVariant, gl::Program> shadows_;
-    gl::Program skybox_, turned_skybox_;
+    gl::Program skybox_, turned_skybox_, distances_, layered_distances_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

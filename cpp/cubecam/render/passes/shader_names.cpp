@@ -10,13 +10,14 @@ namespace cubecam {
 namespace {
 
 /// The interface in the docstrings of cubecam.ShaderMaterial and cubecam.ImageEffect.
-constexpr std::array<std::string_view, 24> documented = {"Surface",
+constexpr std::array<std::string_view, 25> documented = {"Surface",
                                                          "Vertex",
                                                          "LightSample",
                                                          "model_matrix",
                                                          "normal_matrix",
                                                          "eye_position",
                                                          "environment",
+                                                         "environment_at",
                                                          "environment_lod",
                                                          "environment_levels",
                                                          "environment_filtered",

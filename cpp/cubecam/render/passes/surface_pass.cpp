@@ -300,6 +300,8 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
     add(texture_unit::box_mipmaps, environment.box_mipmaps.texture,
         environment.box_mipmaps.revision);
     add(texture_unit::behind, item.textures->behind.texture, item.textures->behind.revision);
+    add(texture_unit::distances, environment.local.distances.texture, 0);
+    add(texture_unit::farthest, environment.local.farthest.texture, 0);
     if (environment.parts.filtered || environment.filtered != nullptr) {
         add(texture_unit::brdf_table, brdf_table(), 0);
     }
@@ -352,6 +354,12 @@ void SurfacePass::bind_environment(const Environment& environment) {
     }
     if (environment.parts.mipmaps) {
         gl_->BindTextureUnit(texture_unit::box_mipmaps, or_black(environment.box_mipmaps.texture));
+    }
+    if (environment.local.by_distance()) {
+        gl_->BindTextureUnit(texture_unit::distances, environment.local.distances.texture);
+    }
+    if (environment.local.has_layers()) {
+        gl_->BindTextureUnit(texture_unit::farthest, environment.local.farthest.texture);
     }
 }
 

@@ -15,8 +15,10 @@ inline constexpr GLuint filtered = 2;     ///< its filtered levels and irradianc
 inline constexpr GLuint brdf_table = 3;   ///< integrals of reflection models
 inline constexpr GLuint box_mipmaps = 4;  ///< the environment with box-filtered levels
 inline constexpr GLuint behind = 5;       ///< the scene behind transmissive surfaces
+inline constexpr GLuint distances = 6;    ///< of the surfaces that a probe captured
+inline constexpr GLuint farthest = 7;     ///< the farthest surfaces that a probe captured
 /// The first texture of a material, or of a user's source; those that are set follow each other.
-inline constexpr GLuint first_of_material = 6;
+inline constexpr GLuint first_of_material = 9;
 /// The shadow map of the first light; the others follow.
 inline constexpr GLuint first_shadow = 48;
 

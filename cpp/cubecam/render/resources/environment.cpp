@@ -1,5 +1,8 @@
 #include "cubecam/render/resources/environment.hpp"
 
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <bit>
 
 namespace cubecam {
@@ -20,6 +23,16 @@ void Environment::add_to(std::vector<std::uint64_t>& key) const {
     key.push_back(position.has_value() ? 1 : 0);
     if (!position) return;
     for (int axis = 0; axis < 3; ++axis) add_number((*position)[axis]);
+    key.push_back(static_cast<std::uint64_t>(local.method));
+    if (local.by_proxy()) {
+        for (int column = 0; column < 4; ++column) {
+            for (int row = 0; row < 3; ++row) add_number(local.to_proxy[column][row]);
+        }
+    }
+    if (local.by_distance()) {
+        key.push_back(local.distances.revision);
+        key.push_back(static_cast<std::uint64_t>(local.fetches));
+    }
 }
 
 EnvironmentBlock make_environment_block(const Environment& environment, const glm::dvec3& origin) {
@@ -32,6 +45,14 @@ EnvironmentBlock make_environment_block(const Environment& environment, const gl
     if (environment.filtered != nullptr) {
         block.texel = glm::vec4(environment.filtered->texel(), 0.0F, 0.0F);
         block.places = environment.filtered->places();
+    }
+    const LocalLookup& local = environment.local;
+    const glm::dmat4 to_proxy = glm::translate(local.to_proxy, origin);
+    for (int row = 0; row < 3; ++row) block.proxy[row] = glm::vec4(glm::row(to_proxy, row));
+    if (local.by_distance()) {
+        block.distances = {1.0F / static_cast<float>(distances_width(local.size)),
+                           1.0F / static_cast<float>(distances_height(local.size)),
+                           static_cast<float>(local.size), 0.0F};
     }
     return block;
 }

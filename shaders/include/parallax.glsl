@@ -1,0 +1,169 @@
+// Where the ray of a reflection meets what a probe captured: the parallax of an environment that is not infinitely far
+// away. python/cubecam/truth/shading/parallax.py is the same in numpy.
+
+// The roughness whose lobe covers, from the place of the capture, what the lobe of `roughness` covers on a surface that is
+// `spread` times as far from the reflecting point. Half of the light of a lobe of GGX lies within the angle 2 atan(alpha)
+// from the middle: B. Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, equation 35,
+// with half of the random numbers. The tangent of that angle is 2 alpha / (1 - alpha^2).
+float roughness_from_there(float roughness, float spread) {
+    float alpha = roughness * roughness;
+    float tangent = 2.0 * alpha * spread;
+    float one = max(1.0 - alpha * alpha, 0.0);
+    return sqrt(clamp(tangent / max(one + sqrt(one * one + tangent * tangent), 1e-30), 0.0, 1.0));
+}
+
+#if defined(ENVIRONMENT_BOX) || defined(ENVIRONMENT_SPHERE)
+// S. Lagarde and A. Zanuttini, "Local Image-based Lighting with Parallax-corrected Cubemaps", SIGGRAPH 2012: the scene
+// lies on the inside of a box, or of an ellipsoid. A ray that misses it, or has it behind, sees the cube as if it were
+// infinitely far away.
+EnvironmentHit environment_met(vec3 from_origin, vec3 direction_world) {
+    vec4 from = vec4(from_origin, 1.0);
+    vec3 p = vec3(dot(u_environment_proxy[0], from), dot(u_environment_proxy[1], from), dot(u_environment_proxy[2], from));
+    vec3 r = vec3(dot(u_environment_proxy[0].xyz, direction_world), dot(u_environment_proxy[1].xyz, direction_world),
+                  dot(u_environment_proxy[2].xyz, direction_world));
+#ifdef ENVIRONMENT_BOX
+    r = mix(r, vec3(1e-20), lessThan(abs(r), vec3(1e-20)));  // a number over 0 may be NaN
+    vec3 a = (-1.0 - p) / r;
+    vec3 b = (1.0 - p) / r;
+    vec3 first = min(a, b);
+    vec3 last = max(a, b);
+    float exit = min(min(last.x, last.y), last.z);
+    bool meets = exit > max(max(max(first.x, first.y), first.z), 0.0);
+#else
+    float rr = max(dot(r, r), 1e-36);
+    float pr = dot(p, r);
+    float root = pr * pr - rr * (dot(p, p) - 1.0);
+    float exit = (sqrt(max(root, 0.0)) - pr) / rr;
+    bool meets = root >= 0.0 && exit > 0.0;
+#endif
+    vec3 way = exit * direction_world;
+    vec3 seen = from_origin + way - u_environment_position.xyz;
+    float spread = length(way) * inversesqrt(max(dot(seen, seen), 1e-36));
+    return meets ? EnvironmentHit(seen, spread, false) : EnvironmentHit(direction_world, 1.0, false);
+}
+#else
+// A march through the distances that were captured with the cube. L. Szirmay-Kalos et al., "Approximate Ray-Tracing on the
+// GPU with Distance Impostors", Eurographics 2005, has the idea; the search for a sign is safer than their secant. The
+// layer of the farthest surfaces has what the nearest ones hide.
+layout(binding = 6) uniform sampler2D u_distances;
+#ifdef ENVIRONMENT_LAYERS
+layout(binding = 7) uniform samplerCube u_farthest;
+#endif
+
+// How many places of the ray are looked up, and how often the place of a hit is improved.
+#if ENVIRONMENT_FETCHES == 6
+const int MARCH_STEPS = 4;
+const int MARCH_ROOTS = 1;
+#elif ENVIRONMENT_FETCHES == 14
+const int MARCH_STEPS = 10;
+const int MARCH_ROOTS = 2;
+#else
+const int MARCH_STEPS = 28;
+const int MARCH_ROOTS = 4;
+#endif
+
+// xy: where u_distances has a direction; z: its greatest component.
+vec3 distances_place(vec3 direction) {
+    vec4 on = environment_face(direction);
+    vec3 size = abs(direction);
+    float texels = u_environment_distances.z;
+    vec2 at = on.xy * (texels + 2.0) + 1.0 + on.zw * texels;
+    return vec3(at * u_environment_distances.xy, max(max(size.x, size.y), size.z));
+}
+
+// How far a place of the ray is behind the nearest and the farthest surface in its direction: below 0 before it. A place is
+// the point X + t R from the capture, with t = |X| s / (1 - s), times 1 - s, so that s = 1 is infinitely far away.
+vec2 behind_surfaces(vec3 place, float s) {
+    vec3 at = distances_place(place);
+    return at.z * textureLod(u_distances, at.xy, 0.0).xy - (1.0 - s);
+}
+
+// Whether one of the four texels round a place is a surface that goes through the place. Between the texels of two
+// surfaces a lookup is the mean of both, where there is none.
+bool on_surface(vec3 place, float s, bool farthest) {
+    vec3 at = distances_place(place);
+    vec4 nearness = farthest ? textureGather(u_distances, at.xy, 1) : textureGather(u_distances, at.xy, 0);
+    vec4 off = abs(at.z * nearness - (1.0 - s));
+    return min(min(off.x, off.y), min(off.z, off.w)) < (0.02 + 3.0 / u_environment_distances.z) * max(1.0 - s, 1e-4);
+}
+
+// The place between two, one before and one behind a surface, where the ray meets it: regula falsi by the Illinois rule
+// (M. Dowell and P. Jarratt, BIT 11, 1971).
+float root_between(vec3 start, vec3 end, float a, float b, float at_a, float at_b, bool farthest) {
+    float s = b;
+    for (int i = 0; i < MARCH_ROOTS; ++i) {
+        s = a + (b - a) * clamp(at_a / (at_a - at_b), 0.0, 1.0);
+        vec2 behind = behind_surfaces(mix(start, end, s), s);
+        float now = farthest ? behind.y : behind.x;
+        if ((now < 0.0) == (at_b < 0.0)) {
+            at_a *= 0.5;
+        } else {
+            a = b;
+            at_a = at_b;
+        }
+        b = s;
+        at_b = now;
+    }
+    return at_a == at_b ? b : a + (b - a) * clamp(at_a / (at_a - at_b), 0.0, 1.0);
+}
+
+EnvironmentHit hit_at(vec3 place, float s, float size, bool farthest) {
+    return EnvironmentHit(place, size * s * inversesqrt(max(dot(place, place), 1e-36)), farthest);
+}
+
+EnvironmentHit environment_met(vec3 from_origin, vec3 direction_world) {
+    vec3 start = from_origin - u_environment_position.xyz;
+    float size = max(length(start), 1e-6);
+    vec3 end = direction_world * (size * inversesqrt(max(dot(direction_world, direction_world), 1e-36)));
+    EnvironmentHit hit = EnvironmentHit(end, 1.0, false);
+    vec2 before = behind_surfaces(start, 0.0);
+    float last = 0.0;
+    bool found = false;
+    int step = 0;
+    while (!found && step < MARCH_STEPS) {
+        bool near_one = false;
+        bool far_one = false;
+        float first = last;
+        vec2 at_first = before;
+        // The lanes of a processor search together, and find what they hit together.
+        while (!near_one && !far_one && step < MARCH_STEPS) {
+            first = last;
+            at_first = before;
+            ++step;
+            last = float(step) / float(MARCH_STEPS);
+            before = behind_surfaces(mix(start, end, last), last);
+            near_one = at_first.x < 0.0 && before.x >= 0.0;
+#ifdef ENVIRONMENT_LAYERS
+            far_one = (at_first.y < 0.0) != (before.y < 0.0);
+#endif
+        }
+        if (near_one) {
+            float s = root_between(start, end, first, last, at_first.x, before.x, false);
+            vec3 place = mix(start, end, s);
+            // What no test accepts is better than nothing.
+            hit = hit_at(place, s, size, false);
+            found = on_surface(place, s, false);
+        }
+#ifdef ENVIRONMENT_LAYERS
+        if (far_one) {
+            float s = root_between(start, end, first, last, at_first.y, before.y, true);
+            vec3 place = mix(start, end, s);
+            if (!found && on_surface(place, s, true)) {
+                hit = hit_at(place, s, size, true);
+                found = true;
+            }
+        }
+#endif
+    }
+    return hit;
+}
+#endif
+
+#ifdef ENVIRONMENT_LAYERS
+// The level of the farthest surfaces, whose levels are averages of boxes of texels, for a lobe: a box as wide as the angle
+// that half of the light is within, 4 atan(alpha). At 2 / pi texels for a radian, seen at the middle of a face.
+float farthest_level(float roughness) {
+    float texels = float(textureSize(u_farthest, 0).x);
+    return max(log2(max(4.0 * atan(roughness * roughness) * texels * 0.6366, 1e-30)), 0.0);
+}
+#endif
