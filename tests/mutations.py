@@ -100,6 +100,7 @@ SKYBOX = ("tests/gl/test_skybox.py",)
 TRUTH_LIGHT = ("tests/truth/test_light.py",)
 TRUTH_SCENES = ("tests/truth/test_odd_scenes.py",)
 TRUTH_WORKERS = ("tests/truth/test_workers.py",)
+PARALLAX_REFERENCE = ("tests/unit/test_parallax.py",)
 SHADER_TRIAL = ("tests/gl/test_shader_trial.py",)
 
 MUTATIONS = [
@@ -2735,5 +2736,75 @@ MUTATIONS = [
         "self._end()\n                raise",
         "raise",
         TRUTH_WORKERS,
+    ),
+    Mutation(
+        "parallax, reference: a ray leaves the farthest slab of a box first",
+        "parallax.py",
+        "exit_ = leaves.min(axis=-1)",
+        "exit_ = leaves.max(axis=-1)",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: a box behind the ray is met",
+        "parallax.py",
+        "(enters.max(axis=-1) <= exit_) & (exit_ > 0)",
+        "(enters.max(axis=-1) <= exit_)",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: a ray meets the ellipsoid where it enters",
+        "parallax.py",
+        "exit_ = (-b + np.sqrt(",
+        "exit_ = (-b - np.sqrt(",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: a proxy's matrix goes the wrong way",
+        "parallax.py",
+        "inverse = np.linalg.inv(np.asarray(matrix, float))",
+        "inverse = np.asarray(matrix, float)",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: marched distances are mixed, not their inverses",
+        "parallax.py",
+        "np.divide(1.0, z, out=",
+        "np.divide(1.0, z * z, out=",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: the near layer is met from behind",
+        "parallax.py",
+        "into | out if number == FAR else into",
+        "into | out",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: the far layer is met from the front only",
+        "parallax.py",
+        "into | out if number == FAR else into",
+        "into",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: bridges between surfaces are accepted",
+        "parallax.py",
+        "good = _on_a_surface(w, x[ray] + t[:, None] * r[ray], limit)",
+        "good = t > 0",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: a rough lobe's cone starts in the probe",
+        "parallax.py",
+        "np.sqrt(ratio)",
+        "np.sqrt(1 / ratio)",
+        PARALLAX_REFERENCE,
+    ),
+    Mutation(
+        "parallax, reference: texels beyond an edge are those of the same face",
+        "shading/cubes.py",
+        "place_on_faces(place @ _TABLE[face])",
+        "place_on_faces(np.clip(place, -1, 1) @ _TABLE[face])",
+        PARALLAX_REFERENCE,
     ),
 ]
