@@ -212,6 +212,9 @@ class World:
                 samples=self.one(1, 1, 4),
                 update=self.one("on_change", "on_change", "once", 2),
                 faces_per_frame=self.one(6, 6, 2),
+                parallax=self.one("none", "box", "sphere", "distance", "layers"),
+                box=((-2, -1.5, -3), (3, 2, 1)),
+                fetches=self.one(6, 14, 35),
                 depth_format=self.one(
                     "depth_component32f", "depth_component24", "depth24_stencil8"
                 ),

@@ -58,6 +58,7 @@ SHADOW_MAPS = ("tests/gl/test_shadow_maps.py",)
 CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
 FILTERED = ("tests/gl/test_filtered_environments.py",)
+PARALLAX = ("tests/gl/test_parallax.py",)
 LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
@@ -602,6 +603,90 @@ MUTATIONS = [
         FILTERED,
     ),
     Mutation(
+        "parallax: a ray ends where it enters the box",
+        "include/parallax.glsl",
+        "float exit = min(min(last.x, last.y), last.z);",
+        "float exit = max(max(first.x, first.y), first.z);",
+        PARALLAX,
+    ),
+    Mutation(
+        "parallax: the lesser root of a sphere",
+        "include/parallax.glsl",
+        "(sqrt(max(root, 0.0)) - pr) / rr",
+        "(-sqrt(max(root, 0.0)) - pr) / rr",
+        PARALLAX,
+    ),
+    Mutation(
+        "parallax: a proxy is not turned",
+        "resources/environment.cpp",
+        "glm::vec4(glm::row(to_proxy, row))",
+        "glm::vec4(glm::row(glm::inverse(to_proxy), row))",
+        PARALLAX,
+    ),
+    Mutation(
+        "parallax: rays meet nearest surfaces from behind",
+        "include/parallax.glsl",
+        "near_one = at_first.x < 0.0 && before.x >= 0.0;",
+        "near_one = at_first.x >= 0.0 && before.x < 0.0;",
+        PARALLAX,
+    ),
+    Mutation(
+        "parallax: the layer of the farthest surfaces is looked up in the nearest one",
+        "include/parallax.glsl",
+        "hit = hit_at(place, s, size, true);",
+        "hit = hit_at(place, s, size, false);",
+        PARALLAX,
+    ),
+    Mutation(
+        "parallax: every place counts as on a surface",
+        "include/parallax.glsl",
+        "found = on_surface(place, s, false);",
+        "found = true;",
+        PARALLAX,
+    ),
+    Mutation(
+        "parallax: a lobe is as wide from the probe as from the surface",
+        "include/parallax.glsl",
+        "float tangent = 2.0 * alpha * spread;",
+        "float tangent = 2.0 * alpha;",
+        PARALLAX,
+    ),
+    Mutation(
+        "distances: a face upside down",
+        "passes/distances.frag",
+        "return vec3(place.x, s, s * place.y);",
+        "return vec3(place.x, s, -s * place.y);",
+        PARALLAX,
+    ),
+    Mutation(
+        "distances: near and far exchanged",
+        "passes/distances.frag",
+        "depth * (u_range.x - u_range.y) + u_range.y",
+        "depth * (u_range.y - u_range.x) + u_range.x",
+        PARALLAX,
+    ),
+    Mutation(
+        "distances: kept although the probe was drawn again",
+        "distance_pass.cpp",
+        "if (map.made_of_ == contents) return;",
+        "if (map.made_of_ != 0) return;",
+        PARALLAX,
+    ),
+    Mutation(
+        "key: the proxy forgotten",
+        "resources/environment.cpp",
+        "if (local.by_proxy()) {",
+        "if (false) {",
+        PARALLAX,
+    ),
+    Mutation(
+        "key: the number of lookups forgotten",
+        "resources/environment.cpp",
+        "key.push_back(static_cast<std::uint64_t>(local.fetches));",
+        "",
+        PARALLAX,
+    ),
+    Mutation(
         "glass: what is refracted is as rough as what is reflected",
         "glass.hpp",
         "glm::vec4(roughness, bend * roughness, 0.0F, 0.0F)",
@@ -1128,8 +1213,8 @@ MUTATIONS = [
     Mutation(
         "GLSL: levels of the environment from behind",
         "scene.glsl",
-        "textureLod(u_cube, environment_in_cube(direction_world), level).rgb);\n#endif",
-        "textureLod(u_cube, environment_in_cube(-direction_world), level).rgb);\n#endif",
+        "textureLod(u_cube, hit.direction, level).rgb);\n#endif",
+        "textureLod(u_cube, -hit.direction, level).rgb);\n#endif",
         ("tests/gl/test_shader_material.py",),
     ),
     Mutation(

@@ -73,14 +73,12 @@ std::optional<glm::dmat4> to_proxy_matrix(const OrNone<ArrayLike>& matrix) {
     return to_mat4(matrix, "proxy_matrix");
 }
 
-std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near, Real far,
-                                  const FormatName& format, Flag mipmaps, Int samples,
-                                  const UpdateLike& update, const Nodes& exclude,
-                                  const OrNone<Node>& parent, Int faces_per_frame,
-                                  const DepthFormatName& depth_format,
-                                  Argument<std::optional<bool>> prefilter,
-                                  const ParallaxName& parallax, const OrNone<ArrayLike>& box,
-                                  const OrNone<ArrayLike>& proxy_matrix, Int fetches) {
+std::shared_ptr<Probe>
+make_probe(const ArrayLike& position, Int size, Real near, Real far, const FormatName& format,
+           Flag mipmaps, Int samples, const UpdateLike& update, const Nodes& exclude,
+           const OrNone<Node>& parent, Int faces_per_frame, const DepthFormatName& depth_format,
+           Argument<std::optional<bool>> prefilter, const ParallaxName& parallax,
+           const OrNone<ArrayLike>& box, const OrNone<ArrayLike>& proxy_matrix, Int fetches) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -117,9 +115,7 @@ using DoublesOrNone = OneOf<py::array_t<double>, py::none>;
 void bind_parallax(Class<Probe>& probe) {
     probe.def_property(
         "parallax",
-        [](const Probe& self) -> ParallaxName {
-            return to_string(self.value().parallax.method);
-        },
+        [](const Probe& self) -> ParallaxName { return to_string(self.value().parallax.method); },
         [](Probe& self, const ParallaxName& value) {
             const Parallax method = to_parallax(value);
             self.edit([&](ProbeValue& next) { next.parallax.method = method; });

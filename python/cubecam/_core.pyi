@@ -41,6 +41,7 @@ from cubecam.typing import (
     MagFilter,
     MinFilter,
     Output,
+    Parallax,
     Pixels,
     Place,
     ProbeUpdate,
@@ -530,11 +531,37 @@ class Probe:
         face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
         ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
         the probe's mipmaps, or the probe as it is.
+    parallax : {"none", "box", "sphere", "distance", "layers"}
+        How a surface finds what its reflected ray meets, in a cube that was captured elsewhere. "none": as if
+        the scene were infinitely far away. "box": the scene lies on the inside of `box`. "sphere": on the inside
+        of the ellipsoid that `box` encloses, a sphere if its edges are equal. A ray from outside that misses the proxy sees
+        the cube as with "none". "distance": the ray is followed through the distances of what the probe captured. "layers":
+        the probe captures the farthest surfaces, too, and the ray finds what the nearest ones hide; such a probe
+        costs twice as much to draw.
+    box : array_like (2, 3), optional
+        The low and the high corner of the proxy, world units; in the space of `proxy_matrix` if there is one. It does not
+        move with the parent.
+    proxy_matrix : array_like (4, 4), optional
+        From the space of `box` to the world, for a room that is turned; its last row is (0, 0, 0, 1). None: the world.
+    fetches : {14, 6, 35}
+        About how many lookups of distance a ray makes with "distance" and "layers". More find thinner things; the cost of
+        a pixel grows with them.
+
+    Notes
+    -----
+    With a parallax, rough surfaces look the cube up by the roughness whose lobe, seen from the probe, is as wide as the
+    surface's own lobe where it meets the scene. Irradiance is that of the probe's place. Surfaces that are blended are in the
+    colours, but not in the distances, as in other outputs.
+
+    "box": S. Lagarde and A. Zanuttini, "Local Image-based Lighting with Parallax-corrected Cubemaps", SIGGRAPH 2012. "distance" and
+    "layers": after L. Szirmay-Kalos et al., "Approximate Ray-Tracing on the GPU with Distance Impostors", Eurographics 2005; 1 / z is
+    interpolated, which is exact on planes.
 
     Raises
     ------
     ValueError
-        For a number out of its range, near >= far, or another format or update.
+        For a number out of its range, near >= far, another format, update or parallax, a proxy without a box, a box whose low
+        corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
     TypeError
         For a parent or an excluded object that is not a node.
 
@@ -546,6 +573,11 @@ class Probe:
     >>> ball.environment = cc.Probe(parent=ball, size=128)
     >>> ball.environment.update
     'on_change'
+
+    The walls of a room that reaches from (-5, 0, -4) to (5, 3, 4) are then in their places:
+
+    >>> ball.environment.box = (-5, 0, -4), (5, 3, 4)
+    >>> ball.environment.parallax = "box"
     """
 
     def __init__(
@@ -564,6 +596,10 @@ class Probe:
         faces_per_frame: typing.SupportsIndex = 6,
         depth_format: DepthFormat | None = "depth_component32f",
         prefilter: bool | None = None,
+        parallax: Parallax = "none",
+        box: np.typing.ArrayLike | None = None,
+        proxy_matrix: np.typing.ArrayLike | None = None,
+        fetches: typing.SupportsIndex = 14,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -582,6 +618,14 @@ class Probe:
         Give the HTML that Jupyter shows.
         """
 
+    @property
+    def box(self) -> np.typing.NDArray[np.float64] | None:
+        """
+        ndarray (2, 3) float64 or None: the low and the high corner of the proxy, in the world or in the space of `proxy_matrix`; read-only.
+        """
+
+    @box.setter
+    def box(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def depth_format(self) -> DepthFormat | None:
         """
@@ -615,6 +659,14 @@ class Probe:
     @far.setter
     def far(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def fetches(self) -> int:
+        """
+        int: 6, 14 or 35 lookups of distance for a ray, at most.
+        """
+
+    @fetches.setter
+    def fetches(self, value: typing.SupportsIndex) -> None: ...
+    @property
     def format(self) -> Format:
         """
         str: "rgba8", "rgba16f", "rgba32f" or "rgb565".
@@ -639,6 +691,14 @@ class Probe:
     @near.setter
     def near(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
+    def parallax(self) -> Parallax:
+        """
+        str: "none", "box", "sphere", "distance" or "layers".
+        """
+
+    @parallax.setter
+    def parallax(self, value: Parallax) -> None: ...
+    @property
     def parent(self) -> Node | None:
         """
         Node or None: the node that the probe moves with.
@@ -662,6 +722,14 @@ class Probe:
 
     @prefilter.setter
     def prefilter(self, value: bool | None) -> None: ...
+    @property
+    def proxy_matrix(self) -> np.typing.NDArray[np.float64] | None:
+        """
+        ndarray (4, 4) float64 or None: from the space of `box` to the world; read-only.
+        """
+
+    @proxy_matrix.setter
+    def proxy_matrix(self, value: np.typing.ArrayLike | None) -> None: ...
     @property
     def samples(self) -> int:
         """
@@ -5446,6 +5514,8 @@ class ShaderMaterial(Material):
     ``vec3 environment_mip(vec3 direction, float level)``: the light at a level of mipmaps that are averages of
     boxes of texels, whether the environment has mipmaps or not; ``float environment_size()``: the texels along an edge of
     level 0.
+    ``vec3 environment_at(vec3 position, vec3 direction)``: ``environment`` for another world position than the
+    surface's own. The position matters for a probe with a `Probe.parallax`; the other functions take the surface's.
     ``bool environment_is_local()``: whether a probe captured it; ``vec3 environment_position()``: where in the world the probe
     did.
     ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to

@@ -59,6 +59,7 @@ __all__ = [
     "MinFilter",
     "Output",
     "Outputs",
+    "Parallax",
     "Pixels",
     "Place",
     "ProbeUpdate",
@@ -146,6 +147,7 @@ MinFilter: TypeAlias = Literal[
 ]
 Output: TypeAlias = Literal["color", "distance", "normal", "id"]
 Place: TypeAlias = Literal["notebook", "page", "window", "terminal", "offscreen"]
+Parallax: TypeAlias = Literal["none", "box", "sphere", "distance", "layers"]
 ProbeUpdate: TypeAlias = Literal["on_change", "once", "manual"]
 Sampling: TypeAlias = Literal["centers", "borders"]
 SpecularMode: TypeAlias = Literal["levels", "sampled"]

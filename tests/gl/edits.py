@@ -228,6 +228,20 @@ def view(world, rng, thing):
     return random_camera(rng).view
 
 
+#: The formats of depth through which a probe's parallax can march.
+EXACT_DEPTHS = ("depth_component32f", "depth32f_stencil8")
+
+
+def probe_depth(world, rng, thing):
+    return one(rng, *(EXACT_DEPTHS if thing.parallax in ("distance", "layers") else DEPTHS))
+
+
+def probe_parallax(world, rng, thing):
+    proxies = ("box", "sphere") if thing.box is not None else ()
+    marches = ("distance", "layers") if thing.depth_format in EXACT_DEPTHS else ()
+    return one(rng, "none", *proxies, *marches)
+
+
 VALUES = {
     "Node.cast_shadow": flag,
     "Node.environment": cube_of,
@@ -247,16 +261,20 @@ VALUES = {
     "Node.variants": variants,
     "Node.visible": flag,
     "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
-    "Probe.depth_format": choice(*DEPTHS),
+    "Probe.box": choice(((-1, -1, -2), (2, 1, 1)), ((-0.5, -1, -1), (1, 2, 1))),
+    "Probe.depth_format": probe_depth,
     "Probe.exclude": excluded,
     "Probe.faces_per_frame": choice(1, 2, 5),
     "Probe.far": number(1, 20),
+    "Probe.fetches": choice(6, 14, 35),
     "Probe.format": choice(*FORMATS),
     "Probe.mipmaps": flag,
     "Probe.near": number(0.01, 0.6),
+    "Probe.parallax": probe_parallax,
     "Probe.parent": some_node,
     "Probe.position": vector(-1, 1),
     "Probe.prefilter": choice(None, True, False),
+    "Probe.proxy_matrix": choice(None, np.diag([2.0, 1, 1, 1])),
     "Probe.samples": choice(1, 4),
     "Probe.size": choice(6, 9, 14),
     "Probe.update": choice("once", "manual", 2),

@@ -162,8 +162,10 @@ def full_world(rng):
     ]
     ball, box = meshes[1], meshes[2]
     world.probes = [
-        cc.Probe(position=(0.3, 0.2, 0.1), size=12, format="rgba32f"),
-        cc.Probe(position=(-1, 0.3, 0.5), size=10),
+        cc.Probe(
+            position=(0.3, 0.2, 0.1), size=12, format="rgba32f", box=((-2, -2, -3), (2, 1, 2))
+        ),
+        cc.Probe(position=(-1, 0.3, 0.5), size=10, box=((-4, -1, -2), (1, 2, 2))),
         cc.Probe(size=8, format="rgba8"),
     ]
     mirror, glass, shown = world.probes

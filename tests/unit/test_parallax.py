@@ -301,8 +301,9 @@ class TestRoughness:
         rough = parallax.roughness_at(0.3, found)
         kept = rough < 1
         from_center = np.linalg.norm(found.direction, axis=-1)
+        from_there, here = (np.tan(2 * np.arctan(r**2)) for r in (rough, 0.3))
         np.testing.assert_allclose(
-            (rough**2 * from_center)[kept], (0.3**2 * found.distance)[kept], rtol=1e-12
+            (from_there * from_center)[kept], (here * found.distance)[kept], rtol=1e-12
         )
         assert rough.min() < 0.28
         assert rough.max() > 0.32
@@ -312,6 +313,7 @@ class TestRoughness:
             found = parallax.box_direction(position, (1, 0, 0), center, (-1,) * 3, (1,) * 3)
             return parallax.roughness_at(0.5, found)
 
-        assert seen_from((0.99, 0, 0), (0, 0, 0)) == pytest.approx(0.05)  # a hundredth of the way
-        assert seen_from((-9, 0, 0), (0.9, 0, 0)) == 1
+        # A hundredth of the way: the tangent of 2 atan(.25) is 8 / 15.
+        assert seen_from((0.99, 0, 0), (0, 0, 0)) == pytest.approx((0.08 / 30) ** 0.5, rel=1e-5)
+        assert 0.99 < seen_from((-9, 0, 0), (0.999, 0, 0)) < 1
         assert seen_from((9, 0, 0), (0, 0, 0)) == 0.5  # nothing is met

@@ -43,11 +43,37 @@ prefilter : bool, optional
     face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
     ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
     the probe's mipmaps, or the probe as it is.
+parallax : {"none", "box", "sphere", "distance", "layers"}
+    How a surface finds what its reflected ray meets, in a cube that was captured elsewhere. "none": as if
+    the scene were infinitely far away. "box": the scene lies on the inside of `box`. "sphere": on the inside
+    of the ellipsoid that `box` encloses, a sphere if its edges are equal. A ray from outside that misses the proxy sees
+    the cube as with "none". "distance": the ray is followed through the distances of what the probe captured. "layers":
+    the probe captures the farthest surfaces, too, and the ray finds what the nearest ones hide; such a probe
+    costs twice as much to draw.
+box : array_like (2, 3), optional
+    The low and the high corner of the proxy, world units; in the space of `proxy_matrix` if there is one. It does not
+    move with the parent.
+proxy_matrix : array_like (4, 4), optional
+    From the space of `box` to the world, for a room that is turned; its last row is (0, 0, 0, 1). None: the world.
+fetches : {14, 6, 35}
+    About how many lookups of distance a ray makes with "distance" and "layers". More find thinner things; the cost of
+    a pixel grows with them.
+
+Notes
+-----
+With a parallax, rough surfaces look the cube up by the roughness whose lobe, seen from the probe, is as wide as the
+surface's own lobe where it meets the scene. Irradiance is that of the probe's place. Surfaces that are blended are in the
+colours, but not in the distances, as in other outputs.
+
+"box": S. Lagarde and A. Zanuttini, "Local Image-based Lighting with Parallax-corrected Cubemaps", SIGGRAPH 2012. "distance" and
+"layers": after L. Szirmay-Kalos et al., "Approximate Ray-Tracing on the GPU with Distance Impostors", Eurographics 2005; 1 / z is
+interpolated, which is exact on planes.
 
 Raises
 ------
 ValueError
-    For a number out of its range, near >= far, or another format or update.
+    For a number out of its range, near >= far, another format, update or parallax, a proxy without a box, a box whose low
+    corner is not below its high one, a singular matrix, or a march without depths of 32 bits.
 TypeError
     For a parent or an excluded object that is not a node.
 
@@ -59,6 +85,11 @@ Examples
 >>> ball.environment = cc.Probe(parent=ball, size=128)
 >>> ball.environment.update
 'on_change'
+
+The walls of a room that reaches from (-5, 0, -4) to (5, 3, 4) are then in their places:
+
+>>> ball.environment.box = (-5, 0, -4), (5, 3, 4)
+>>> ball.environment.parallax = "box"
 )doc";
 
 }  // namespace cubecam::docs

@@ -90,6 +90,8 @@ roughness 1 and irradiance are then the coarsest of these.
 ``vec3 environment_mip(vec3 direction, float level)``: the light at a level of mipmaps that are averages of
 boxes of texels, whether the environment has mipmaps or not; ``float environment_size()``: the texels along an edge of
 level 0.
+``vec3 environment_at(vec3 position, vec3 direction)``: ``environment`` for another world position than the
+surface's own. The position matters for a probe with a `Probe.parallax`; the other functions take the surface's.
 ``bool environment_is_local()``: whether a probe captured it; ``vec3 environment_position()``: where in the world the probe
 did.
 ``int light_count()``, ``LightSample sample_light(int index, Surface surface)`` with ``direction`` (unit, to

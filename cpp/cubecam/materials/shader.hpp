@@ -46,9 +46,9 @@ struct Shader {
     std::array<Switch, 0> switches() const { return {}; }
     bool uses_environment() const {
         for (const char* word :
-             {"environment", "environment_at", "environment_lod", "environment_levels", "environment_position",
-              "environment_is_local", "environment_filtered", "environment_irradiance",
-              "environment_mip", "environment_size"}) {
+             {"environment", "environment_at", "environment_lod", "environment_levels",
+              "environment_position", "environment_is_local", "environment_filtered",
+              "environment_irradiance", "environment_mip", "environment_size"}) {
             if (mentions(fragment.text, word)) return true;
         }
         return false;

@@ -29,8 +29,8 @@ bool ParallaxValue::operator==(const ParallaxValue& other) const {
 void check(const ParallaxValue& value) {
     if (value.by_proxy()) {
         expect(value.box.has_value(),
-               "box=(low, high), the corners of the proxy, with parallax='" + std::string(to_string(value.method)) +
-                   "'",
+               "box=(low, high), the corners of the proxy, with parallax='" +
+                   std::string(to_string(value.method)) + "'",
                "None");
     }
     if (value.box) {

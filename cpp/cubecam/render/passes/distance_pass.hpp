@@ -17,9 +17,9 @@ struct DistanceRange {
     double far = 0.0;
 };
 
-/// How near the surfaces of a captured cube are: for each texel 1 / z, where z is the distance along
-/// the axis of its face, and 0 where there is none. Between texels 1 / z is linear where z itself is
-/// not, so that planes are exact. Red is the nearest surface, green the farthest one.
+/// How near the surfaces of a captured cube are: for each texel 1 / z, where z is the distance
+/// along the axis of its face, and 0 where there is none. Between texels 1 / z is linear where z
+/// itself is not, so that planes are exact. Red is the nearest surface, green the farthest one.
 ///
 /// The faces lie as those of FilteredTexture do, with a border of one texel, so that bilinear
 /// lookups are seamless and cheap: a lookup in a cube costs llvmpipe several times as much.

@@ -296,8 +296,7 @@ const gl::Program& Programs::distances(bool layers) {
     if (!program) {
         gl::ShaderOptions options;
         if (layers) options.defines.emplace_back("LAYERS", "1");
-        program =
-            gl::Program(*gl_, {"passes/full_screen.vert", "passes/distances.frag"}, options);
+        program = gl::Program(*gl_, {"passes/full_screen.vert", "passes/distances.frag"}, options);
     }
     return program;
 }

@@ -21,12 +21,12 @@ namespace cubecam {
 
 /// How a surface looks up its environment.
 struct EnvironmentVariant {
-    bool block = false;         ///< it reads the uniform block `Environment`
-    bool turned = false;        ///< Environment::placing is not plain
-    bool by_roughness = false;  ///< EnvironmentParts::filtered
-    bool filtered = false;      ///< the environment has filtered levels
-    bool uneven = false;        ///< not FilteredTexture::is_even
-    bool box_mipmaps = false;   ///< EnvironmentParts::mipmaps
+    bool block = false;                  ///< it reads the uniform block `Environment`
+    bool turned = false;                 ///< Environment::placing is not plain
+    bool by_roughness = false;           ///< EnvironmentParts::filtered
+    bool filtered = false;               ///< the environment has filtered levels
+    bool uneven = false;                 ///< not FilteredTexture::is_even
+    bool box_mipmaps = false;            ///< EnvironmentParts::mipmaps
     Parallax parallax = Parallax::none;  ///< LocalLookup::method
     int fetches = 0;                     ///< LocalLookup::fetches
 

@@ -18,19 +18,19 @@ namespace cubecam {
 /// How the levels of an environment's cube were made, except the finest one.
 enum class EnvironmentLevels : std::uint8_t { none, mipmaps, filtered };
 
-/// The texture of distances has the faces of a cube with a border of one texel, in three columns and
-/// two rows, as FilteredTexture has them.
+/// The texture of distances has the faces of a cube with a border of one texel, in three columns
+/// and two rows, as FilteredTexture has them.
 constexpr int distances_width(int size) { return 3 * (size + 2); }
 constexpr int distances_height(int size) { return 2 * (size + 2); }
 
 /// How a surface looks up an environment that was captured in its world.
 struct LocalLookup {
     Parallax method = Parallax::none;
-    int fetches = 0;               ///< ParallaxValue::fetches; 0 without a march
-    glm::dmat4 to_proxy{1.0};      ///< ParallaxValue::to_proxy
-    BoundTexture distances;        ///< passes/distance_pass.hpp; texture 0: none
-    BoundTexture farthest;         ///< a cube of the farthest surfaces; texture 0: none
-    int size = 0;                  ///< texels along an edge of a face
+    int fetches = 0;           ///< ParallaxValue::fetches; 0 without a march
+    glm::dmat4 to_proxy{1.0};  ///< ParallaxValue::to_proxy
+    BoundTexture distances;    ///< passes/distance_pass.hpp; texture 0: none
+    BoundTexture farthest;     ///< a cube of the farthest surfaces; texture 0: none
+    int size = 0;              ///< texels along an edge of a face
 
     bool has_layers() const { return farthest.texture != 0; }
     bool by_distance() const { return distances.texture != 0; }
@@ -74,8 +74,8 @@ struct EnvironmentBlock {
     glm::vec4 position{0.0F};  ///< xyz: position of the capture, w: 1; all 0: infinitely far
     glm::ivec4 levels{0};      ///< x: how many levels
     glm::vec4 turn[3];  ///< xyz: rows of the matrix from the world to the cube; [0].w: intensity
-    glm::vec4 texel{0.0F};     ///< xy: FilteredTexture::texel
-    glm::vec4 proxy[3];        ///< rows of LocalLookup::to_proxy, from relative to the origin
+    glm::vec4 texel{0.0F};      ///< xy: FilteredTexture::texel
+    glm::vec4 proxy[3];         ///< rows of LocalLookup::to_proxy, from relative to the origin
     glm::vec4 distances{0.0F};  ///< xy: a texel of the texture of distances, z: LocalLookup::size
     std::array<glm::vec4, most_filtered_levels> places{};  ///< FilteredTexture::places
 };

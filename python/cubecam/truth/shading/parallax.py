@@ -249,13 +249,13 @@ def march(
 def roughness_at(roughness: npt.ArrayLike, found: Parallax) -> Array:
     """The roughness by which to look up what a rough surface in P sees of a cube that was filtered in C.
 
-    S. Lagarde, C. de Rousiers, "Moving Frostbite to physically based rendering 3.0" (SIGGRAPH 2014 course notes),
-    section 4.9.3: the lobe's cone has a footprint at the hit, and the cone from C with the same footprint tells the
-    roughness. The share E of GGX's facets lies within tan(angle) = alpha sqrt(E / (1 - E)), so that the radius of the
-    footprint is proportional to alpha t from P, and to alpha' |X + t R| from C: alpha' = alpha t / |X + t R|. With
-    alpha = roughness^2, roughness' = roughness sqrt(t / |X + t R|), at most 1. The authors, whose listing scales the
-    roughness without the root, limit it to the original one and mix both by roughness; this is the plain result of
-    the cones.
+    After S. Lagarde, C. de Rousiers, "Moving Frostbite to physically based rendering 3.0" (SIGGRAPH 2014 course
+    notes), section 4.9.3: the lobe's cone has a footprint at the hit, and the cone from C with the same footprint
+    tells the roughness. Half of the facets of GGX lie within the angle atan(alpha) of the normal (B. Walter and
+    others, "Microfacet models for refraction through rough surfaces", EGSR 2007, equation 35), so that half of the
+    light comes from within 2 atan(alpha) of the lobe's middle. With a tangent that is t / |X + t R| times as large
+    from C, atan(alpha') is half of that angle. Alpha is roughness^2. For small alpha, roughness' is roughness times
+    the root of t / |X + t R|.
 
     Parameters
     ----------
@@ -271,14 +271,16 @@ def roughness_at(roughness: npt.ArrayLike, found: Parallax) -> Array:
     Examples
     --------
     >>> found = box_direction((1, 0, 0), (1, 0, 0), (0, 0, 0), (-2, -2, -2), (2, 2, 2))
-    >>> float(roughness_at(0.5, found).round(6)), 0.5 * 0.5**0.5
-    (0.353553, 0.3535533905932738)
+    >>> float(roughness_at(0.1, found).round(4)), round(0.1 * 0.5**0.5, 4)
+    (0.0707, 0.0707)
     """
     met = np.isfinite(found.distance)
     from_center = np.sqrt((found.direction**2).sum(axis=-1))
     with np.errstate(divide="ignore"):
         ratio = np.where(met, found.distance, 1.0) / np.where(met, from_center, 1.0)
-    result: Array = np.minimum(np.asarray(roughness, float) * np.sqrt(ratio), 1.0)
+    angle = 2 * np.arctan(np.asarray(roughness, float) ** 2)
+    seen = np.arctan2(ratio * np.sin(angle), np.cos(angle))
+    result: Array = np.sqrt(np.tan(seen / 2))
     return result
 
 
