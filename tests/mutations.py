@@ -653,9 +653,16 @@ MUTATIONS = [
     ),
     Mutation(
         "distances: a face upside down",
-        "passes/distances.frag",
-        "return vec3(place.x, s, s * place.y);",
-        "return vec3(place.x, s, -s * place.y);",
+        "include/cube_place.glsl",
+        "vec3(place.x, s, s * place.y)",
+        "vec3(place.x, s, -s * place.y)",
+        PARALLAX,
+    ),
+    Mutation(
+        "distances: a ray goes through what is in reach",
+        "include/parallax.glsl",
+        "if (!(within && reach < 1.0 - s)) break;",
+        "if (!(within && reach < 1.5 - s)) break;",
         PARALLAX,
     ),
     Mutation(
@@ -2881,8 +2888,8 @@ MUTATIONS = [
     Mutation(
         "parallax, reference: a rough lobe's cone starts in the probe",
         "parallax.py",
-        "np.sqrt(ratio)",
-        "np.sqrt(1 / ratio)",
+        "np.arctan2(ratio * np.sin(angle), np.cos(angle))",
+        "np.arctan2(np.sin(angle), ratio * np.cos(angle))",
         PARALLAX_REFERENCE,
     ),
     Mutation(

@@ -1,3 +1,5 @@
+#include "include/cube_place.glsl"
+
 layout(binding = 1) uniform samplerCube u_cube;
 
 #ifdef ENVIRONMENT_BLOCK
@@ -31,19 +33,6 @@ vec3 environment_scaled(vec3 light) { return u_environment_turn[0].w * light; }
 #if defined(ENVIRONMENT_BOX) || defined(ENVIRONMENT_SPHERE) || defined(ENVIRONMENT_FETCHES)
 #define ENVIRONMENT_NEAR
 #endif
-
-// The face that a direction meets: xy: its column and row among the faces of a level (x, y, z; positive, negative);
-// zw: the place on the face, from 0 to 1.
-vec4 environment_face(vec3 direction) {
-    vec3 size = abs(direction);
-    bool x = size.x >= size.y && size.x >= size.z;
-    bool y = !x && size.y >= size.z;
-    float along = x ? direction.x : y ? direction.y : direction.z;
-    float s = along >= 0.0 ? 1.0 : -1.0;
-    vec2 place = x ? vec2(-s * direction.z, -direction.y)
-                   : y ? vec2(direction.x, s * direction.z) : vec2(s * direction.x, -direction.y);
-    return vec4(x ? 0.0 : y ? 1.0 : 2.0, 0.5 - 0.5 * s, 0.5 + 0.5 * place / max(abs(along), 1e-30));
-}
 
 // What a ray from a point of the scene meets, as the place of the capture sees it.
 struct EnvironmentHit {
@@ -130,7 +119,7 @@ float environment_level_of(float roughness) {
 // itself.
 vec3 environment_seen(vec3 direction, float level) {
     int lower = clamp(int(level), 0, max(u_environment_levels.x - 2, 0));
-    vec4 on = environment_face(direction);
+    vec4 on = cube_place(direction);
     // Every fragment makes all lookups: the level of a mipmapped lookup depends on the neighbour fragments.
     vec3 sharp = texture(u_cube, direction).rgb;
     vec3 low = environment_place(u_environment_places[lower], on);
@@ -141,7 +130,7 @@ vec3 environment_seen(vec3 direction, float level) {
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.
 vec3 environment_irradiance(vec3 normal_world) {
     vec3 normal = environment_in_cube(normal_world);
-    return environment_scaled(environment_place(u_environment_places[0], environment_face(normal)));
+    return environment_scaled(environment_place(u_environment_places[0], cube_place(normal)));
 }
 #else
 // Without filtered levels the mipmaps replace them, or the cube itself if it has none.

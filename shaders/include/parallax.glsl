@@ -50,21 +50,25 @@ layout(binding = 6) uniform sampler2D u_distances;
 layout(binding = 7) uniform samplerCube u_farthest;
 #endif
 
-// How many places of the ray are looked up, and how often the place of a hit is improved.
+// How many parts of the ray are looked up in blocks, how many places of the rest are looked up, and how often the place of a
+// hit is improved.
 #if ENVIRONMENT_FETCHES == 6
+const int MARCH_PARTS = 4;
 const int MARCH_STEPS = 4;
 const int MARCH_ROOTS = 1;
 #elif ENVIRONMENT_FETCHES == 14
-const int MARCH_STEPS = 10;
+const int MARCH_PARTS = 8;
+const int MARCH_STEPS = 8;
 const int MARCH_ROOTS = 2;
 #else
-const int MARCH_STEPS = 28;
+const int MARCH_PARTS = 16;
+const int MARCH_STEPS = 22;
 const int MARCH_ROOTS = 4;
 #endif
 
 // xy: where u_distances has a direction; z: its greatest component.
 vec3 distances_place(vec3 direction) {
-    vec4 on = environment_face(direction);
+    vec4 on = cube_place(direction);
     vec3 size = abs(direction);
     float texels = u_environment_distances.z;
     vec2 at = on.xy * (texels + 2.0) + 1.0 + on.zw * texels;
@@ -76,6 +80,34 @@ vec3 distances_place(vec3 direction) {
 vec2 behind_surfaces(vec3 place, float s) {
     vec3 at = distances_place(place);
     return at.z * textureLod(u_distances, at.xy, 0.0).xy - (1.0 - s);
+}
+
+float greatest_part(vec3 v) {
+    v = abs(v);
+    return max(max(v.x, v.y), v.z);
+}
+
+// From where on the ray may meet something: the end of its first parts that have no surface in reach. What a block says
+// counts for all directions within 0.1 of it.
+float first_in_reach(vec3 start, vec3 end) {
+    float free = 0.0;
+    int below = 2 * (int(u_environment_distances.z) + 2);
+    vec3 before = start;
+    for (int i = 1; i <= MARCH_PARTS; ++i) {
+        float s = float(i) / float(MARCH_PARTS);
+        vec3 after = mix(start, end, s);
+        vec3 middle = normalize(before + after);
+        vec3 turn = normalize(before) - middle;
+        vec3 turn_after = normalize(after) - middle;
+        bool within = max(dot(turn, turn), dot(turn_after, turn_after)) < 0.01;
+        float nearness = texelFetch(u_distances, cube_block(cube_place(middle)) + ivec2(0, below), 0).r;
+        // The greatest part of a place between two is at most that of one of them.
+        float reach = max(greatest_part(before), greatest_part(after)) * nearness;
+        if (!(within && reach < 1.0 - s)) break;
+        free = s;
+        before = after;
+    }
+    return free;
 }
 
 // Whether one of the four texels round a place is a surface that goes through the place. Between the texels of two
@@ -116,8 +148,9 @@ EnvironmentHit environment_met(vec3 from_origin, vec3 direction_world) {
     float size = max(length(start), 1e-6);
     vec3 end = direction_world * (size * inversesqrt(max(dot(direction_world, direction_world), 1e-36)));
     EnvironmentHit hit = EnvironmentHit(end, 1.0, false);
-    vec2 before = behind_surfaces(start, 0.0);
-    float last = 0.0;
+    float free = first_in_reach(start, end);
+    vec2 before = behind_surfaces(mix(start, end, free), free);
+    float last = free;
     bool found = false;
     int step = 0;
     while (!found && step < MARCH_STEPS) {
@@ -130,7 +163,7 @@ EnvironmentHit environment_met(vec3 from_origin, vec3 direction_world) {
             first = last;
             at_first = before;
             ++step;
-            last = float(step) / float(MARCH_STEPS);
+            last = mix(free, 1.0, float(step) / float(MARCH_STEPS));
             before = behind_surfaces(mix(start, end, last), last);
             near_one = at_first.x < 0.0 && before.x >= 0.0;
 #ifdef ENVIRONMENT_LAYERS

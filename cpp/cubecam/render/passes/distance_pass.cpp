@@ -9,21 +9,52 @@
 
 namespace cubecam {
 
+namespace {
+
+/// Sets no filter between texels.
+void filter_nearest(const GladGLContext& gl, GLuint texture) {
+    gl.TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+constexpr Rect blocks_at(int y) { return {0, y, 3 * distance_blocks, y + 2 * distance_blocks}; }
+
+}  // namespace
+
 void DistancePass::make(DistanceMap& map, int size, bool layers) {
     const GladGLContext& gl = context_->gl();
     map = {};  // frees the old memory first
-    map.texture_ = gl::create_texture_2d(gl, layers ? GL_RG32F : GL_R32F, distances_width(size),
-                                         distances_height(size));
-    const GLuint id = map.texture_.id();
-    gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    gl.TextureParameteri(id, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    map.framebuffer_ = gl::create_framebuffer(gl);
-    gl.NamedFramebufferTexture(map.framebuffer_.id(), GL_COLOR_ATTACHMENT0, id, 0);
-    gl::check_framebuffer(gl, map.framebuffer_, "making a map of distances");
+    const auto add = [&](gl::Texture& texture, gl::Framebuffer& framebuffer, GLenum format,
+                         int width, int height) {
+        texture = gl::create_texture_2d(gl, format, width, height);
+        gl.TextureParameteri(texture.id(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        gl.TextureParameteri(texture.id(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        framebuffer = gl::create_framebuffer(gl);
+        gl.NamedFramebufferTexture(framebuffer.id(), GL_COLOR_ATTACHMENT0, texture.id(), 0);
+        gl::check_framebuffer(gl, framebuffer, "making a map of distances");
+    };
+    add(map.texture_, map.framebuffer_, layers ? GL_RG32F : GL_R32F, distances_width(size),
+        distances_height(size));
+    gl.TextureParameteri(map.texture_.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl.TextureParameteri(map.texture_.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    add(map.blocks_, map.blocks_framebuffer_, GL_R32F, 3 * distance_blocks, 2 * distance_blocks);
+    filter_nearest(gl, map.blocks_.id());
     map.size_ = size;
     map.layers_ = layers;
+}
+
+void DistancePass::draw(const DistanceMap& map, DistanceStep step, const Rect& to, Stats& stats) {
+    const GladGLContext& gl = context_->gl();
+    const bool blocks = step == DistanceStep::blocks;
+    gl.BindFramebuffer(GL_FRAMEBUFFER,
+                       blocks ? map.blocks_framebuffer_.id() : map.framebuffer_.id());
+    gl.Scissor(to.x0, to.y0, to.width(), to.height());
+    gl.Viewport(to.x0, to.y0, to.width(), to.height());
+    const gl::Program& program = programs_->distances(step, map.layers_);
+    program.use();
+    program.set("u_size", map.size_);
+    draw_full_screen(gl, *cache_, {}, stats);
+    context_->pace().submitted(gl, static_cast<double>(to.area()));
 }
 
 void DistancePass::update(DistanceMap& map, const Target& nearest, const Target* farthest,
@@ -37,22 +68,17 @@ void DistancePass::update(DistanceMap& map, const Target& nearest, const Target*
     for (const Target* target : {&nearest, farthest}) {
         if (target == nullptr) continue;
         // The mean of a surface's depth and the background's is that of no surface.
-        gl.TextureParameteri(target->depth().id(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl.TextureParameteri(target->depth().id(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        filter_nearest(gl, target->depth().id());
         gl.BindTextureUnit(unit++, target->depth().id());
     }
-    const int width = distances_width(size);
-    const int height = distances_height(size);
     set_full_screen_state(gl);
-    gl.Scissor(0, 0, width, height);
-    gl.Viewport(0, 0, width, height);
-    gl.BindFramebuffer(GL_FRAMEBUFFER, map.framebuffer_.id());
-    const gl::Program& program = programs_->distances(layers);
-    program.use();
-    program.set("u_size", size);
+    const gl::Program& program = programs_->distances(DistanceStep::faces, layers);
     program.set("u_range", glm::vec2(1.0 / range.near, 1.0 / range.far));
-    draw_full_screen(gl, *cache_, {}, stats);
-    context_->pace().submitted(gl, static_cast<double>(width) * height);
+    draw(map, DistanceStep::faces, {0, 0, 3 * (size + 2), 2 * (size + 2)}, stats);
+    gl.BindTextureUnit(0, map.texture_.id());
+    draw(map, DistanceStep::blocks, blocks_at(0), stats);
+    gl.BindTextureUnit(0, map.blocks_.id());  // no texture is read and written at once
+    draw(map, DistanceStep::around, blocks_at(2 * (size + 2)), stats);
     gl::check_gl(gl, "making a map of distances");
     map.made_of_ = contents;
     map.revision_ = next_revision();

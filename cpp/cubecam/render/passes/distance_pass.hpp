@@ -22,7 +22,8 @@ struct DistanceRange {
 /// itself is not, so that planes are exact. Red is the nearest surface, green the farthest one.
 ///
 /// The faces lie as those of FilteredTexture do, with a border of one texel, so that bilinear
-/// lookups are seamless and cheap: a lookup in a cube costs llvmpipe several times as much.
+/// lookups are seamless and cheap: a lookup in a cube costs llvmpipe several times as much. Below
+/// them is how near a surface may be around a direction, for the part of a ray that meets nothing.
 class DistanceMap {
 public:
     GLuint id() const { return texture_.id(); }
@@ -35,6 +36,8 @@ private:
 
     gl::Texture texture_;
     gl::Framebuffer framebuffer_;
+    gl::Texture blocks_;  ///< the nearest surface of each block, for the rows below the faces
+    gl::Framebuffer blocks_framebuffer_;
     int size_ = 0;
     bool layers_ = false;
     std::uint64_t revision_ = 0;
@@ -54,6 +57,7 @@ public:
 
 private:
     void make(DistanceMap& map, int size, bool layers);
+    void draw(const DistanceMap& map, DistanceStep step, const Rect& to, Stats& stats);
 
     const gl::Context* context_;
     const GpuCache* cache_;

@@ -98,6 +98,7 @@ void add_environment(gl::ShaderOptions& options, const EnvironmentVariant& varia
     define(variant.parallax == Parallax::layers, "ENVIRONMENT_LAYERS");
     if (variant.fetches > 0) {
         options.defines.emplace_back("ENVIRONMENT_FETCHES", std::to_string(variant.fetches));
+        options.defines.emplace_back("DISTANCE_BLOCKS", std::to_string(distance_blocks));
     }
 }
 
@@ -291,10 +292,16 @@ const gl::Program& Programs::shadow(const ShadowVariant& variant) {
         .first->second;
 }
 
-const gl::Program& Programs::distances(bool layers) {
-    gl::Program& program = layers ? layered_distances_ : distances_;
+const gl::Program& Programs::distances(DistanceStep step, bool layers) {
+    gl::Program& program = distances_[{step, layers}];
     if (!program) {
         gl::ShaderOptions options;
+        options.defines.emplace_back("DISTANCE_BLOCKS", std::to_string(distance_blocks));
+        switch (step) {
+            case DistanceStep::faces: options.defines.emplace_back("FACES", "1"); break;
+            case DistanceStep::blocks: options.defines.emplace_back("NEAREST_OF_BLOCK", "1"); break;
+            case DistanceStep::around: break;
+        }
         if (layers) options.defines.emplace_back("LAYERS", "1");
         program = gl::Program(*gl_, {"passes/full_screen.vert", "passes/distances.frag"}, options);
     }

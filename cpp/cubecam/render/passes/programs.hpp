@@ -68,6 +68,10 @@ struct SurfaceVariant {
     auto operator<=>(const SurfaceVariant&) const = default;
 };
 
+/// How the texture of distances is made: from depth buffers; the nearest surface of each block;
+/// that of all blocks around.
+enum class DistanceStep : std::uint8_t { faces, blocks, around };
+
 /// The variant of shadow.vert and shadow.frag that a caster needs.
 struct ShadowVariant {
     bool holes = false;          ///< there is nothing where alpha is below a cutoff
@@ -101,9 +105,9 @@ public:
     const gl::Program& shadow(const ShadowVariant& variant);
     UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors,
                              DrawConditions& conditions);
-    /// Makes the texture of distances from depth buffers; `layers`: also from that of the farthest
-    /// surfaces.
-    const gl::Program& distances(bool layers);
+    /// A step of the texture of distances. `layers`: there are depths of the farthest surfaces,
+    /// too.
+    const gl::Program& distances(DistanceStep step, bool layers);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
 
 private:
@@ -119,7 +123,8 @@ private:
     std::map<std::tuple<Tonemap, Encode, bool>, gl::Program> grades_;
     UserPrograms users_;
     std::map<ShadowVariant, gl::Program> shadows_;
-    gl::Program skybox_, turned_skybox_, distances_, layered_distances_;
+    std::map<std::pair<DistanceStep, bool>, gl::Program> distances_;
+    gl::Program skybox_, turned_skybox_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -19,9 +20,11 @@ namespace cubecam {
 enum class EnvironmentLevels : std::uint8_t { none, mipmaps, filtered };
 
 /// The texture of distances has the faces of a cube with a border of one texel, in three columns
-/// and two rows, as FilteredTexture has them.
-constexpr int distances_width(int size) { return 3 * (size + 2); }
-constexpr int distances_height(int size) { return 2 * (size + 2); }
+/// and two rows, as FilteredTexture has them. Rows below have the same faces in blocks: the nearest
+/// surface of each block and of those around it.
+inline constexpr int distance_blocks = 8;  ///< along an edge of a face
+constexpr int distances_width(int size) { return 3 * std::max(size + 2, distance_blocks); }
+constexpr int distances_height(int size) { return 2 * (size + 2) + 2 * distance_blocks; }
 
 /// How a surface looks up an environment that was captured in its world.
 struct LocalLookup {
