@@ -442,7 +442,7 @@ VALUES = {
 
 #: Edits of these properties can leave probes out of date on purpose. The values here, which are
 #: set afterwards, make the probes catch up.
-LATE = {"Probe.update": "on_change", "Probe.faces_per_frame": 6}
+LATE = {"Probe.update": "on_change", "Probe.faces_per_frame": 6, "Probe.parallax": "none"}
 
 
 def has_value(thing, attribute):
