@@ -40,6 +40,7 @@ SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
 ENDS = ("tests/gl/test_daemon_threads.py",)
 INTERRUPTS = ("tests/gl/test_interrupts.py",)
+SRGB_MAPS = ("tests/gl/test_srgb_maps.py",)
 FORKS = ("tests/gl/test_fork.py",)
 STATES = ("tests/unit/test_states.py",)
 CUBE_MAPS = ("tests/viewer/test_cube_maps.py",)
@@ -2688,6 +2689,34 @@ MUTATIONS = [
         "if (PyErr_CheckSignals() != 0) throw py::error_already_set();",
         "if (PyErr_CheckSignals() != 0) PyErr_Clear();",
         INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: a large texture is made in one call without looks",
+        "large_texture.cpp",
+        "if (texels < many_texels || !may_be_interrupted() ||",
+        "if (true || !may_be_interrupted() ||",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: a texture that nobody wants is never deleted",
+        "large_texture.cpp",
+        "if (!unwanted_) made_ = texture.release();",
+        "made_ = texture.release();",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "interrupts: the driver waits for the picture that a tone curve reads",
+        "post_process_pass.cpp",
+        "if (place.context.software()) place.context.pace().finish(*gl_);",
+        "",
+        INTERRUPTS,
+    ),
+    Mutation(
+        "images: each part of the rows is taken from the top",
+        "gpu_cache.cpp",
+        "const auto first = static_cast<std::size_t>(height - y - rows);",
+        "const auto first = std::size_t{0};",
+        SRGB_MAPS,
     ),
     Mutation(
         "interrupts: state of a draw that was left stays",

@@ -1,6 +1,7 @@
 #include "unlocked.hpp"
 
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/large_texture.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -89,7 +90,8 @@ void stop_other_threads() {
     // An OpenGL driver that is inside a call while its exit handlers run may end the process by a
     // signal. Work reaches its next poll soon; no thread is waited for longer than this.
     const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-    while (running.load() > 0 && std::chrono::steady_clock::now() < latest) {
+    while (running.load() + gl::threads_making_textures() > 0 &&
+           std::chrono::steady_clock::now() < latest) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
 }

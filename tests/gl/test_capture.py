@@ -171,6 +171,15 @@ def test_sizes_that_are_no_powers_of_two(renderer, size):
     assert (cube.id == hits.id)[mask].mean() > 0.95
 
 
+def test_a_large_background_is_uploaded_in_parts(renderer):
+    """Each face has more than a million texels; the picture's texels lie on those of the cube, in their middle."""
+    faces = np.random.default_rng(5).integers(0, 256, (6, 1100, 1100, 1), dtype=np.uint8)
+    scene = cc.Scene(background=cc.CubeMap(faces))
+    got = renderer.capture(scene, size=1100, format="rgba8").faces[..., :1]
+    # The ray of a texel meets the next one's middle by the rounding of float32, so a mean has at most one step.
+    assert np.abs(got.astype(int) - faces).max() <= 1
+
+
 def test_a_fine_sphere_is_a_sphere(renderer):
     """The capture is compared with a true sphere: the tolerances allow for the sphere's 64 x 32 facets."""
     world = World()

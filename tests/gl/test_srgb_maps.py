@@ -45,6 +45,18 @@ def test_texels_are_decoded_and_then_filtered(renderer, channels):
     assert np.abs(wrong - want).max() > 0.05
 
 
+@pytest.mark.parametrize("channels", [1, 3, 4])
+@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+def test_large_pictures_are_uploaded_in_parts(renderer, channels, encoding):
+    """A frame with a pixel for each of more than a million texels shows them all, each in its place."""
+    picture = np.random.default_rng(4).integers(0, 256, (1100, 1000, channels), dtype=np.uint8)
+    image = cc.Image(picture, encoding=encoding, mag_filter="nearest", min_filter="nearest")
+    got, _ = look(renderer, image, (1000, 1100), alpha_mode="opaque")
+    want = decoded(picture) if encoding == "srgb" else picture / 255
+    want = np.repeat(want, 3, axis=-1) if channels == 1 else want[..., :3]
+    assert_close(got[..., :3], want, "srgb_filter")
+
+
 def test_alpha_is_linear(renderer):
     got, uv = look(renderer, PICTURE, alpha_mode="blend", blend=cc.Blend("one", "zero"))
     assert_close(got[..., 3], sample_image(PICTURE, uv)[..., 3], "srgb_filter")

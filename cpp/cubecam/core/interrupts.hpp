@@ -71,6 +71,12 @@ inline void poll_interrupts() {
     interrupts::next = end + std::clamp(longer, pause, 4 * pause);
 }
 
+/// Whether poll_interrupts() looks at all on this thread.
+inline bool may_be_interrupted() noexcept {
+    return interrupts::check.load(std::memory_order_acquire) != nullptr &&
+           interrupts::uninterrupted == 0;
+}
+
 /// For loops over many small steps: polls once in 65,536 of them.
 inline void poll_interrupts(std::size_t step) {
     if ((step & 0xFFFF) == 0xFFFF) poll_interrupts();

@@ -68,7 +68,8 @@ LargestSide largest_side(const Limits& limits, bool face) noexcept;
 /// An OpenGL 4.5 core context without a window, current on no thread between CurrentScopes.
 ///
 /// Any thread may use a context, one thread at a time: its owner holds a mutex. Contexts share
-/// nothing, so several may be used in parallel.
+/// nothing, so several may be used in parallel. (That of a thread of large_texture.hpp shares the
+/// textures of one context, and makes one of them.)
 class Context {
 public:
     /// Throws ContextError that lists every attempt, why it failed, and what to install;
@@ -117,7 +118,8 @@ public:
     /// with the context. The context itself is destroyed only if its handle is known to be valid.
     void abandon() noexcept;
 
-    struct Impl;
+    struct Impl;  ///< private to gl/ (context_impl.hpp)
+    const Impl& impl() const noexcept { return *impl_; }
 
 private:
     friend class CurrentScope;

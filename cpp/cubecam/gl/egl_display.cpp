@@ -74,6 +74,19 @@ Display get_display(const Table& egl, Platform platform, Device device) {
     return display;
 }
 
+std::vector<Int> attributes_of(int major, int minor, bool debug, bool robust) {
+    std::vector<Int> attributes{context_major_version,       major,
+                                context_minor_version,       minor,
+                                context_opengl_profile_mask, context_opengl_core_profile_bit};
+    if (debug) attributes.insert(attributes.end(), {context_flags, context_opengl_debug_bit});
+    if (robust) {
+        attributes.insert(attributes.end(), {context_robust_access, 1, context_reset_strategy,
+                                             lose_context_on_reset});
+    }
+    attributes.push_back(none);
+    return attributes;
+}
+
 }  // namespace
 
 const char* platform_name(Platform platform) noexcept {
@@ -130,52 +143,51 @@ OpenDisplay open_display(Platform platform, Device device) {
 }
 
 RawContext::RawContext(const OpenDisplay& display, int major, int minor, bool debug, bool robust)
-    : display_(display.display) {
+    : RawContext(display, attributes_of(major, minor, debug, robust),
+                 "OpenGL " + std::to_string(major) + "." + std::to_string(minor) +
+                     (robust ? " core, robust" : " core"),
+                 nullptr) {}
+
+RawContext RawContext::sharing() const { return {place_, attributes_, name_, context_}; }
+
+RawContext::RawContext(const OpenDisplay& place, std::vector<Int> attributes, std::string name,
+                       Context shared)
+    : place_(place), attributes_(std::move(attributes)), name_(std::move(name)) {
     const Table& egl = library();
     // The bound API belongs to the thread, and another library may depend on its own choice.
     const Enum api = egl.query_api();
     if (!egl.bind_api(opengl_api))
         throw_egl(egl, "eglBindAPI(EGL_OPENGL_API)", " (EGL without desktop OpenGL)");
 
-    std::vector<Int> attributes{context_major_version,       major,
-                                context_minor_version,       minor,
-                                context_opengl_profile_mask, context_opengl_core_profile_bit};
-    if (debug) attributes.insert(attributes.end(), {context_flags, context_opengl_debug_bit});
-    if (robust) {
-        attributes.insert(attributes.end(), {context_robust_access, 1, context_reset_strategy,
-                                             lose_context_on_reset});
-    }
-    attributes.push_back(none);
-    context_ = egl.create_context(display_, display.config, nullptr, attributes.data());
+    context_ = egl.create_context(place_.display, place_.config, shared, attributes_.data());
     const Int context_error = context_ != nullptr ? success : egl.get_error();
     Int surface_error = success;
-    if (context_ != nullptr && !display.surfaceless) {
+    if (context_ != nullptr && !place_.surfaceless) {
         const std::array size{width, 1, height, 1, none};
-        surface_ = egl.create_pbuffer_surface(display_, display.config, size.data());
+        surface_ = egl.create_pbuffer_surface(place_.display, place_.config, size.data());
         if (surface_ == nullptr) surface_error = egl.get_error();
     }
     if (api != static_cast<Enum>(none)) egl.bind_api(api);
 
     if (context_ == nullptr) {
-        throw ContextError("eglCreateContext(OpenGL " + std::to_string(major) + "." +
-                           std::to_string(minor) + (robust ? " core, robust): " : " core): ") +
-                           error_name(context_error));
+        throw ContextError("eglCreateContext(" + name_ + "): " + error_name(context_error));
     }
     if (surface_error != success) {
-        egl.destroy_context(display_, context_);
+        egl.destroy_context(place_.display, context_);
         throw ContextError("eglCreatePbufferSurface: " + error_name(surface_error));
     }
 }
 
 RawContext::RawContext(RawContext&& other) noexcept
-    : display_(other.display_), context_(std::exchange(other.context_, nullptr)),
+    : place_(std::move(other.place_)), attributes_(std::move(other.attributes_)),
+      name_(std::move(other.name_)), context_(std::exchange(other.context_, nullptr)),
       surface_(std::exchange(other.surface_, nullptr)), abandoned_(other.abandoned_) {}
 
 RawContext::~RawContext() {
     if (context_ == nullptr || abandoned_ || in_forked_child()) return;
     const Table& egl = library();  // open since this context was made: cannot throw
-    if (surface_ != nullptr) egl.destroy_surface(display_, surface_);
-    egl.destroy_context(display_, context_);
+    if (surface_ != nullptr) egl.destroy_surface(place_.display, surface_);
+    egl.destroy_context(place_.display, context_);
 }
 
 Current::Current(const RawContext& context) : ours_(context.display()) {

@@ -39,6 +39,8 @@ public:
     /// GPU; a driver may refuse to make such a context.
     RawContext(const OpenDisplay& display, int major, int minor, bool debug, bool robust = false);
     RawContext(RawContext&& other) noexcept;
+    /// Makes a context of the same kind that shares textures with this one, for another thread.
+    RawContext sharing() const;
     RawContext& operator=(RawContext&&) = delete;
     ~RawContext();
 
@@ -46,12 +48,17 @@ public:
     void abandon() noexcept { abandoned_ = true; }
     bool abandoned() const noexcept { return abandoned_; }
 
-    Display display() const noexcept { return display_; }
+    Display display() const noexcept { return place_.display; }
     Context context() const noexcept { return context_; }
     Surface surface() const noexcept { return surface_; }
 
 private:
-    Display display_ = nullptr;
+    RawContext(const OpenDisplay& place, std::vector<Int> attributes, std::string name,
+               Context shared);
+
+    OpenDisplay place_;
+    std::vector<Int> attributes_;
+    std::string name_;  ///< the kind of context, for error messages
     Context context_ = nullptr;
     Surface surface_ = nullptr;
     bool abandoned_ = false;

@@ -55,6 +55,9 @@ UserProgram& PostProcessPass::program_of(const EffectValue& effect,
 
 void PostProcessPass::draw_quad(GLuint framebuffer, GLuint source, const gl::Program& program,
                                 const Place& place, Stats& stats) {
+    // llvmpipe waits for the whole source in the first call that looks it up, without looking for
+    // signals.
+    if (place.context.software()) place.context.pace().finish(*gl_);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     program.use();
     program.set("u_layer", place.layer);

@@ -1,6 +1,7 @@
 #include "cubecam/render/passes/shadow_pass.hpp"
 
 #include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/large_texture.hpp"
 #include "cubecam/gl/pace.hpp"
 #include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/image/flip.hpp"
@@ -87,7 +88,11 @@ ShadowMap ShadowPass::make_map(int size, int count) const {
                              std::to_string(size) + " x " + std::to_string(size) + " texels";
     check_texture_memory(*context_, bytes, 0.0, what);
     ShadowMap map;
-    map.depth = gl::create_texture_2d_array(*gl_, map_format, size, size, count);
+    map.depth = gl::make_large_texture(*context_, static_cast<double>(size) * size * count,
+                                       [size, count](const GladGLContext& gl) {
+                                           return gl::create_texture_2d_array(gl, map_format, size,
+                                                                              size, count);
+                                       });
     const GLuint id = map.depth.id();
     gl_->TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     gl_->TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);

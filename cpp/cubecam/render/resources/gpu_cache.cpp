@@ -1,5 +1,7 @@
 #include "cubecam/render/resources/gpu_cache.hpp"
 
+#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/large_texture.hpp"
 #include "cubecam/image/flip.hpp"
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/render/resources/node_record.hpp"
@@ -17,6 +19,8 @@
 
 namespace cubecam {
 namespace {
+
+constexpr int texels_of_a_part = 1 << 20;
 
 struct TextureFormat {
     GLenum internal;
@@ -181,16 +185,6 @@ GpuMesh upload_mesh(const GladGLContext& gl, const MeshData& data) {
     return mesh;
 }
 
-/// Reverses the rows, since GL's texel (0, 0) is the bottom-left corner of a picture.
-std::vector<std::byte> bottom_row_first(const Image& image) {
-    const std::size_t row = static_cast<std::size_t>(image.width()) *
-                            static_cast<std::size_t>(image.channels()) * dtype_size(image.dtype());
-    const auto rows = static_cast<std::size_t>(image.height());
-    std::vector<std::byte> flipped(row * rows);
-    flip_rows(image.pixels()->data(), flipped.data(), row, rows);
-    return flipped;
-}
-
 std::vector<std::byte> three_times(const std::vector<std::byte>& grey) {
     std::vector<std::byte> rgb;
     rgb.reserve(3 * grey.size());
@@ -198,25 +192,44 @@ std::vector<std::byte> three_times(const std::vector<std::byte>& grey) {
     return rgb;
 }
 
-GpuTexture upload_image(const GladGLContext& gl, const Image& image, bool decoded) {
+/// Rows that are copied between two looks for interrupts.
+int rows_of_a_part(int width) { return std::max(1, texels_of_a_part / std::max(1, width)); }
+
+GpuTexture upload_image(const gl::Context& context, const Image& image, bool decoded) {
+    const GladGLContext& gl = context.gl();
     const bool mipmaps = image.sampler().mipmaps();
+    const int width = image.width();
+    const int height = image.height();
     TextureFormat format = texture_format(image.dtype(), image.channels());
-    std::vector<std::byte> pixels = bottom_row_first(image);
+    // The texture unit decodes before it filters, and alpha stays as it is. OpenGL has no such
+    // format of one channel.
+    const bool threefold = decoded && image.channels() == 1;
     if (decoded) {
-        // The texture unit decodes before it filters, and alpha stays as it is. OpenGL has no such
-        // format of one channel.
         format.internal = image.channels() == 4 ? GL_SRGB8_ALPHA8 : GL_SRGB8;
-        if (image.channels() == 1) {
-            format.format = GL_RGB;
-            pixels = three_times(pixels);
-        }
+        if (threefold) format.format = GL_RGB;
     }
-    GpuTexture result{
-        gl::create_texture_2d(gl, format.internal, image.width(), image.height(), mipmaps ? 0 : 1),
-        mipmaps};
+    GpuTexture result{gl::make_large_texture(context, static_cast<double>(width) * height,
+                                             [internal = format.internal, width, height,
+                                              levels = mipmaps ? 0 : 1](const GladGLContext& of) {
+                                                 return gl::create_texture_2d(of, internal, width,
+                                                                              height, levels);
+                                             }),
+                      mipmaps};
     const GLuint id = result.texture.id();
-    gl.TextureSubImage2D(id, 0, 0, 0, image.width(), image.height(), format.format, format.type,
-                         pixels.data());
+    // The rows are reversed, since GL's texel (0, 0) is the bottom-left corner of a picture.
+    const std::size_t row = static_cast<std::size_t>(width) *
+                            static_cast<std::size_t>(image.channels()) * dtype_size(image.dtype());
+    const int most = rows_of_a_part(width);
+    for (int y = 0; y < height; y += most) {
+        poll_interrupts();
+        const int rows = std::min(most, height - y);
+        const auto first = static_cast<std::size_t>(height - y - rows);
+        std::vector<std::byte> pixels(row * static_cast<std::size_t>(rows));
+        flip_rows(image.pixels()->data() + first * row, pixels.data(), row,
+                  static_cast<std::size_t>(rows));
+        if (threefold) pixels = three_times(pixels);
+        gl.TextureSubImage2D(id, 0, 0, y, width, rows, format.format, format.type, pixels.data());
+    }
     if (mipmaps) gl.GenerateTextureMipmap(id);
     set_sampler(gl, id, image.sampler());
     if (!decoded) set_swizzle(gl, id, image.channels());
@@ -243,7 +256,7 @@ const GpuTexture& GpuCache::image(const std::shared_ptr<const Image>& image, boo
     return (decoded ? decoded_images_ : images_).get(image, [&] {
         check_side(*context_, "map", std::max(image->width(), image->height()),
                    context_->limits().max_texture_size, "GL_MAX_TEXTURE_SIZE");
-        return upload_image(*gl_, *image, decoded);
+        return upload_image(*context_, *image, decoded);
     });
 }
 
@@ -263,7 +276,13 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
         check_side(*context_, "cubemap", data.size, context_->limits().max_cube_map_texture_size,
                    "GL_MAX_CUBE_MAP_TEXTURE_SIZE");
         const int levels = mipmaps ? gl::mip_levels(data.size, data.size) : 1;
-        GpuCube made{{gl::create_texture_cube(*gl_, format.internal, data.size, levels), mipmaps},
+        GpuCube made{{gl::make_large_texture(*context_, 6.0 * data.size * data.size,
+                                             [internal = format.internal, size = data.size,
+                                              levels](const GladGLContext& of) {
+                                                 return gl::create_texture_cube(of, internal, size,
+                                                                                levels);
+                                             }),
+                      mipmaps},
                      {}};
         set_cube_filters(*gl_, made.texture.texture.id(), mipmaps);
         set_swizzle(*gl_, made.texture.texture.id(), data.channels);
@@ -271,8 +290,15 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
     });
     const GLuint id = entry.texture.texture.id();
     const auto upload = [&](int level, std::size_t face, int size, const std::byte* pixels) {
-        gl_->TextureSubImage3D(id, level, 0, 0, static_cast<GLint>(face), size, size, 1,
-                               format.format, format.type, pixels);
+        const std::size_t row = static_cast<std::size_t>(size) *
+                                static_cast<std::size_t>(data.channels) * dtype_size(data.dtype);
+        const int most = rows_of_a_part(size);
+        for (int y = 0; y < size; y += most) {
+            poll_interrupts();
+            gl_->TextureSubImage3D(id, level, 0, y, static_cast<GLint>(face), size,
+                                   std::min(most, size - y), 1, format.format, format.type,
+                                   pixels + static_cast<std::size_t>(y) * row);
+        }
     };
     const bool changed = entry.face_revisions != data.face_revisions;
     // The levels are computed on the CPU, so that CubeMap::sample and a shader see the same
@@ -280,6 +306,7 @@ const GpuTexture& GpuCache::upload(WeakCache<CubeMap, GpuCube>& to, const CubeSn
     const CubeMap::MipChain chain = mipmaps && changed ? make_mip_chain(data) : CubeMap::MipChain{};
     for (std::size_t face = 0; face < all_faces.size(); ++face) {
         if (entry.face_revisions[face] == data.face_revisions[face]) continue;
+        entry.face_revisions[face] = {};  // a look for interrupts may end the upload in its middle
         upload(0, face, data.size, data.face_pixels(all_faces[face]).data());
         for (std::size_t level = 1; level <= chain.size(); ++level) {
             const PixelBuffer& pixels = chain[level - 1];

@@ -1,7 +1,7 @@
 #include "cubecam/render/resources/target.hpp"
 
 #include "cubecam/core/error.hpp"
-#include "cubecam/core/interrupts.hpp"
+#include "cubecam/gl/large_texture.hpp"
 #include "cubecam/gl/texture_memory.hpp"
 
 #include <algorithm>
@@ -216,17 +216,11 @@ Target::Target(const gl::Context& context, const TargetDescription& description)
         output_pass.push_back({attachment(output.slot), outputs_.back().id()});
     }
     if (multisampled()) {
-        poll_interrupts();
-        sample_color_ = gl::create_texture_2d_multisample_array(
-            *gl_, color_format, description.samples, description.width, description.height,
-            description.layers());
+        sample_color_ = make_samples(context, color_format);
         resolved_.emplace(*gl_, color_pass, description.layers());
         color_pass = {{attachment(0), sample_color_.id()}};
         if (depth_format != GL_NONE) {
-            poll_interrupts();
-            sample_depth_ = gl::create_texture_2d_multisample_array(
-                *gl_, depth_format, description.samples, description.width, description.height,
-                description.layers());
+            sample_depth_ = make_samples(context, depth_format);
             color_pass.push_back({depth_point, sample_depth_.id()});
         }
         if (description.outputs.any())
@@ -270,26 +264,37 @@ void Target::check_complete() {
     }
 }
 
+double Target::texels() const {
+    return static_cast<double>(description_.width) * description_.height * description_.layers();
+}
+
+gl::Texture Target::make_samples(const gl::Context& context, GLenum format) const {
+    return gl::make_large_texture(
+        context, texels() * description_.samples,
+        [format, samples = description_.samples, width = description_.width,
+         height = description_.height, layers = description_.layers()](const GladGLContext& gl) {
+            return gl::create_texture_2d_multisample_array(gl, format, samples, width, height,
+                                                           layers);
+        });
+}
+
 gl::Texture Target::make_texture(const gl::Context& context, GLenum format, int levels) const {
-    poll_interrupts();  // llvmpipe fills memory with zeros, a GB in half a second
     // All attachments of a layered framebuffer must have one kind (GL 4.6 section 9.4.2). A flat
     // target is an array of one layer, so that full-screen passes look up all targets in one way.
-    const int width = description_.width;
-    const int count = description_.shape.count;
-    gl::Texture texture;
-    switch (description_.shape.kind) {
-        case TargetShape::Kind::cube:
-            texture = gl::create_texture_cube(context.gl(), format, width, levels);
-            break;
-        case TargetShape::Kind::cube_array:
-            texture = gl::create_texture_cube_array(context.gl(), format, width, count, levels);
-            break;
-        case TargetShape::Kind::flat:
-        case TargetShape::Kind::array:
-            texture = gl::create_texture_2d_array(context.gl(), format, width, description_.height,
-                                                  count, levels);
-            break;
-    }
+    gl::Texture texture = gl::make_large_texture(
+        context, texels(),
+        [format, levels, shape = description_.shape, width = description_.width,
+         height = description_.height](const GladGLContext& gl) {
+            switch (shape.kind) {
+                case TargetShape::Kind::cube:
+                    return gl::create_texture_cube(gl, format, width, levels);
+                case TargetShape::Kind::cube_array:
+                    return gl::create_texture_cube_array(gl, format, width, shape.count, levels);
+                case TargetShape::Kind::flat:
+                case TargetShape::Kind::array: break;
+            }
+            return gl::create_texture_2d_array(gl, format, width, height, shape.count, levels);
+        });
     // Probes and effects look up these textures.
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     gl_->TextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);

@@ -168,7 +168,9 @@ public:
 
 private:
     void check_complete();
+    double texels() const;  ///< of all layers
     gl::Texture make_texture(const gl::Context& context, GLenum format, int levels) const;
+    gl::Texture make_samples(const gl::Context& context, GLenum format) const;
 
     const GladGLContext* gl_;
     bool flushes_before_resolve_;

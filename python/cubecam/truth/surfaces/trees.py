@@ -18,7 +18,8 @@ class Tree:
         self._places = places
         self._scene: Any = None
         if len(places):
-            self._scene = scenes.EmbreeScene()
+            # Without `robust`, Embree 2 (embreex 2.17) lets rays through between two triangles.
+            self._scene = scenes.EmbreeScene(robust=True)
             self._mesh = meshes.TriangleMesh(self._scene, corners.astype(np.float32))
 
     def nearest(self, origins: Array, directions: Array) -> tuple[Ints, Ints]:
