@@ -141,8 +141,11 @@ std::size_t DrawnPicture::draw_changed(Target& target, std::optional<Budget> bud
     for (std::size_t i = 0; i < views.size(); ++i) {
         const std::size_t v = (first + i) % views.size();
         if (!budget || count < budget->views) damaged[v] = damage(target.keys[v], keys[v], whole);
-        // llvmpipe (Mesa 22.3) also writes samples beyond the edge of the scissor.
-        if (target.multisampled() && !damaged[v].empty()) damaged[v] = {whole};
+        // llvmpipe (Mesa 22.3) also writes samples beyond the edge of the scissor, and rounds a
+        // pixel of rgb565 otherwise if the scissor cuts the block of pixels in which it lies.
+        const bool indivisible =
+            target.multisampled() || target.description().format == Format::rgb565;
+        if (indivisible && !damaged[v].empty()) damaged[v] = {whole};
         if (damaged[v].empty()) {
             ++stats.views_skipped;
             continue;
