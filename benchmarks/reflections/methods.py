@@ -42,7 +42,7 @@ class Method:
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def prepare(
-        self, world: World, *, size: int, bounces: int | None = None, format: str = "rgba16f"
+        self, world: World, *, size: int, bounces: int | None = None, texels: str = "rgba16f"
     ) -> dict[str, Any]:
         """Give the nodes of a world their environments, and return the options that its frames need.
 
@@ -53,8 +53,8 @@ class Method:
             Texels along an edge of a face.
         bounces : int, optional
             How many mirrors of a circle a path meets. None: the default.
-        format : str
-            Of the probes.
+        texels : str
+            The format of the probes.
 
         Raises
         ------
@@ -66,7 +66,7 @@ class Method:
             if self.planar:
                 node.environment = _made("PlanarMirror", **counted)
                 continue
-            options: dict[str, Any] = {"size": size, "format": format, **self.probe, **counted}
+            options: dict[str, Any] = {"size": size, "format": texels, **self.probe, **counted}
             if self.proxy:
                 options["box"] = (world.place.low, world.place.high)
             if np.any(self.shift):
@@ -76,7 +76,7 @@ class Method:
 
 
 def _made(name: str, *arguments: Any, **options: Any) -> Any:
-    """Make an environment. For the time in which the parts of cubecam arrive one by one: refuse what is not there yet."""
+    """Make an environment; as long as the parts of cubecam arrive one by one, refuse what is not there yet."""
     kind = getattr(cc, name, None)
     if kind is None:
         raise MissingError(f"no {name}")

@@ -3,13 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 Color: TypeAlias = Sequence[float]
 Array: TypeAlias = npt.NDArray[np.float64]
+
+CREAM = (0.93, 0.87, 0.75)
+SAGE = (0.56, 0.68, 0.58)
+WHITE = (0.94, 0.94, 0.92)
+OAK = (0.76, 0.56, 0.36)
+WALNUT = (0.42, 0.27, 0.17)
+RED = (0.74, 0.22, 0.18)
+BLUE = (0.2, 0.36, 0.62)
+GOLD = (0.87, 0.68, 0.26)
+TEAL = (0.13, 0.46, 0.48)
+BOOKS = (
+    (0.66, 0.32, 0.28),
+    (0.32, 0.44, 0.6),
+    (0.74, 0.6, 0.36),
+    (0.36, 0.52, 0.36),
+    (0.78, 0.75, 0.7),
+    (0.3, 0.5, 0.5),
+)
 
 
 def grid(width: int, height: int) -> tuple[Array, Array]:
@@ -18,7 +36,7 @@ def grid(width: int, height: int) -> tuple[Array, Array]:
     return u, v
 
 
-def mixed(share: Array, first: Color, second: Color) -> Array:
+def mixed(share: npt.NDArray[Any], first: Color, second: Color) -> Array:
     """Mix two colours: the first where the share (H, W) is 0, the second where it is 1."""
     part = np.asarray(share, float)[..., None]
     result: Array = (1 - part) * np.asarray(first, float) + part * np.asarray(second, float)
@@ -76,7 +94,7 @@ def bricks(brick: Color, mortar: Color, rows: int = 8, size: int = 256, seed: in
     row = (v * rows).astype(int) % rows
     x = u * rows / 2 + 0.5 * (row % 2)
     tone = 0.75 + 0.4 * rng.random((rows, rows))[row, x.astype(int) % (rows // 2)]
-    color = np.asarray(brick, float) * tone[..., None]
+    color: Array = np.asarray(brick, float) * tone[..., None]
     color[((v * rows) % 1 < 0.12) | (x % 1 < 0.06)] = mortar
     return color
 
@@ -85,16 +103,18 @@ def books(colors: Sequence[Color], shelves: int = 4, wood: Color = (0.42, 0.27, 
     """Shelves full of books, (256, 256, 3)."""
     rng = np.random.default_rng(7)
     u, v = grid(256, 256)
-    color = np.broadcast_to(np.asarray(wood, float) * 0.35, (256, 256, 3)).copy()
+    color: Array = np.broadcast_to(np.asarray(wood, float) * 0.6, (256, 256, 3)).copy()
     for shelf in range(shelves):
         x = 0.03
         while x < 0.95:
-            wide, tall = rng.uniform(0.03, 0.07), rng.uniform(0.62, 0.86)
+            wide, tall = rng.uniform(0.05, 0.1), rng.uniform(0.62, 0.86)
             place = v * shelves - shelf
             on = (u >= x) & (u < min(x + wide, 0.97)) & (place > 0.1) & (place < 0.1 + tall)
             tone = np.asarray(colors[int(rng.integers(len(colors)))], float) * rng.uniform(0.8, 1.1)
             color[on] = tone
-            color[on & (np.abs(place - 0.1 - 0.7 * tall) < 0.04)] = (0.86, 0.78, 0.5)
+            color[on & (np.abs(place - 0.1 - 0.7 * tall) < 0.04)] = tuple(
+                0.6 * c + 0.25 for c in tone
+            )
             x += wide + 0.004
         color[(v * shelves - shelf >= 0) & (v * shelves - shelf < 0.1)] = wood
     color[(u < 0.03) | (u > 0.97) | (v > 0.98)] = wood
@@ -121,7 +141,7 @@ def rug(ground: Color, pattern: Color, border: Color) -> Array:
     """A rug with rhombs and borders, (256, 256, 3)."""
     u, v = grid(256, 256)
     rhombs = np.abs((u * 5) % 1 - 0.5) + np.abs((v * 4) % 1 - 0.5)
-    color = np.broadcast_to(np.asarray(ground, float), (256, 256, 3)).copy()
+    color: Array = np.broadcast_to(np.asarray(ground, float), (256, 256, 3)).copy()
     color[rhombs < 0.36] = pattern
     color[rhombs < 0.2] = border
     edge = np.minimum(np.minimum(u, 1 - u), np.minimum(v, 1 - v))
@@ -135,7 +155,9 @@ def window(size: int = 256) -> Array:
     u, v = grid(size, size)
     color = mixed(np.clip(2 * v - 0.8, 0, 1), (0.93, 0.95, 0.98), (0.42, 0.66, 0.95))
     cloud = clouds(size, size, 5, 3)
-    color = color + np.clip(3 * (cloud - 0.55), 0, 1)[..., None] * (1 - color) * (v > 0.45)[..., None]
+    color = (
+        color + np.clip(3 * (cloud - 0.55), 0, 1)[..., None] * (1 - color) * (v > 0.45)[..., None]
+    )
     color[v < 0.42 + 0.08 * np.sin(7 * u + 1)] = (0.35, 0.55, 0.3)
     color[v < 0.25 + 0.05 * np.sin(11 * u)] = (0.22, 0.42, 0.2)
     bar = (np.minimum(u, 1 - u) < 0.03) | (np.minimum(v, 1 - v) < 0.03)
@@ -144,10 +166,12 @@ def window(size: int = 256) -> Array:
     return color
 
 
-def facade(wall: Color, frame: Color, columns: int = 3, rows: int = 2, *, door: bool = False) -> Array:
+def facade(
+    wall: Color, frame: Color, columns: int = 3, rows: int = 2, *, door: bool = False
+) -> Array:
     """The front of a house, (128, 128, 3): plaster, windows with shutters, a door in the middle."""
     u, v = grid(128, 128)
-    color = np.asarray(wall, float) * (0.92 + 0.12 * clouds(128, 128, 8, 5))[..., None]
+    color: Array = np.asarray(wall, float) * (0.92 + 0.12 * clouds(128, 128, 8, 5))[..., None]
     x, y = (u * columns) % 1, (v * rows) % 1
     inside = (np.abs(x - 0.5) < 0.17) & (np.abs(y - 0.55) < 0.26)
     around = (np.abs(x - 0.5) < 0.21) & (np.abs(y - 0.55) < 0.31)
@@ -168,3 +192,28 @@ def facade(wall: Color, frame: Color, columns: int = 3, rows: int = 2, *, door: 
 def in_bytes(color: Array) -> npt.NDArray[np.uint8]:
     """Give a picture as uint8, in steps of 4, which files of PNG hold in less than half the bytes."""
     return np.asarray(np.clip(np.rint(np.clip(color, 0, 1) * 255 / 4) * 4, 0, 255), np.uint8)
+
+
+def crate() -> Array:
+    """The side of a wooden crate, (128, 128, 3)."""
+    u, v = grid(128, 128)
+    color = planks((0.78, 0.6, 0.38), (0.62, 0.45, 0.27), 5, 128, 9)
+    edge = np.minimum(np.minimum(u, 1 - u), np.minimum(v, 1 - v))
+    color[(edge < 0.13) | (np.abs(u - v) < 0.09)] = (0.55, 0.38, 0.22)
+    color[(np.abs(edge - 0.13) < 0.012) | (np.abs(np.abs(u - v) - 0.09) < 0.012)] = (
+        0.38,
+        0.26,
+        0.16,
+    )
+    return color
+
+
+def door() -> Array:
+    """A door with four panels in a frame, (192, 128, 3)."""
+    u, v = grid(128, 192)
+    color: Array = np.broadcast_to(np.asarray(WALNUT) * 1.2, (192, 128, 3)).copy()
+    panel = (np.abs((u * 2) % 1 - 0.5) < 0.33) & (np.abs((v * 2) % 1 - 0.5) < 0.38)
+    color[panel] = np.asarray(WALNUT) * 0.85
+    color[(np.minimum(u, 1 - u) < 0.06) | (v > 0.96)] = WHITE
+    color[np.hypot((u - 0.86) * 0.67, v - 0.48) < 0.025] = GOLD
+    return color

@@ -9,7 +9,8 @@ import numpy as np
 
 import cubecam as cc
 
-from .scenes import PLACE, PLACES, load
+from .scenes import PLACES, load
+from .stage import PLACE
 
 WHITE = (1.0, 1.0, 1.0)
 
@@ -53,12 +54,15 @@ class World:
         self.scene = load(place)
         (empty,) = self.scene.find(PLACE)
         self.middle = np.asarray(empty.position, float)
-        self.camera = self.scene.cameras[0]
+        (camera,) = self.scene.cameras
+        if not isinstance(camera, cc.PerspectiveCamera):
+            raise TypeError(f"{place}: expected a PerspectiveCamera, got {camera}")
+        self.camera = camera
         self.nodes = self.reflector.add(self)
 
     def put(self, mesh: cc.Mesh, material: cc.Material, at: tuple[float, float, float]) -> cc.Node:
         """Add a node beside the middle of the place."""
-        return self.scene.add(mesh, material, position=self.middle + at)
+        return self.scene.add(mesh, material, position=np.add(self.middle, at))
 
 
 def _ball(material: Callable[[], cc.Material]) -> Callable[[World], list[cc.Node]]:
@@ -83,8 +87,11 @@ def _teapot(world: World) -> list[cc.Node]:
 def _facing_balls(world: World) -> list[cc.Node]:
     radius = 0.72 * world.place.radius
     mesh = cc.Mesh.sphere(radius, 192, 96)
-    balls = [world.put(mesh, cc.MirrorMaterial(), (x, 0, 0)) for x in (-1.15 * radius, 1.15 * radius)]
-    world.camera.fov *= 1.05
+    balls = [
+        world.put(mesh, cc.MirrorMaterial(), (x, 0, 0)) for x in (-1.15 * radius, 1.15 * radius)
+    ]
+    world.camera.position = np.add(world.middle, (0.25, 0.3, 3.9 * world.place.radius))
+    world.camera.fov = 46
     return balls
 
 
@@ -96,15 +103,15 @@ def _facing_planes(world: World) -> list[cc.Node]:
         node = world.put(mesh, cc.MirrorMaterial(tint=(0.9, 0.95, 0.93)), (side * apart, 0.15, 0))
         node.rotation = cc.axis_angle((0, 0, 1), 90 * side)
         found.append(node)
-    world.camera.position = world.middle + (0.55, 0.3, 1.25)
-    world.camera.look_at(world.middle + (-0.75, 0.05, -0.05))
+    world.camera.position = np.add(world.middle, (0.55, 0.3, 1.25))
+    world.camera.look_at(np.add(world.middle, (-0.75, 0.05, -0.05)))
     world.camera.fov = 62
     return found
 
 
 def _quad(world: World) -> list[cc.Node]:
     """A mirror on a stand, whose plane a planar mirror or a probe shows."""
-    node = world.put(cc.Mesh.plane(1.3, 1.0), cc.MirrorMaterial(), (0, 0, 0))
+    node = world.put(cc.Mesh.plane(0.95, 0.8), cc.MirrorMaterial(), (0, 0.05, 0))
     way = world.camera.position - world.middle
     turn = np.degrees(np.arctan2(way[0], way[2])) - 20
     node.rotation = _times(cc.axis_angle((0, 1, 0), turn), cc.axis_angle((1, 0, 0), 80))

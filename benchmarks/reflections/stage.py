@@ -11,6 +11,8 @@ import cubecam as cc
 from .paint import Array, Color, in_bytes
 
 Vector = Sequence[float]
+#: The name of the empty node at the middle of the reflector.
+PLACE = "place of the reflector"
 #: Where the painted light comes from, how much is everywhere, and how much of it comes from there.
 LAMP, AMBIENT, DIRECT = np.array((0.35, 0.85, 0.4)), 0.62, 0.42
 
@@ -21,8 +23,8 @@ class Stage:
     Parameters
     ----------
     linear : bool
-        False: colours are numbers of a screen, as in the rooms. True: colours are decoded (IEC 61966-2-1), so that they are
-        light, like a photograph of the sky beside them.
+        False: colours are numbers of a screen, as in the rooms. True: colours are decoded (IEC 61966-2-1), so that they
+        are light, like a photograph of the sky beside them.
     """
 
     def __init__(self, *, linear: bool = False, background: Color = (0, 0, 0)) -> None:
@@ -32,12 +34,11 @@ class Stage:
         self._toward = np.asarray(toward)
         self._maps: dict[bytes, cc.Image] = {}
 
-    def material(self, color: Color | Array, *, double_sided: bool = False) -> cc.BasicMaterial:
+    def material(self, color: Color | Array) -> cc.BasicMaterial:
         """Make a material of a colour or of a picture (H, W, 3)."""
         found = np.asarray(color, float)
-        options = {"vertex_colors": True, "double_sided": double_sided}
         if found.ndim == 1:
-            return cc.BasicMaterial(color=self._light(found), **options)
+            return cc.BasicMaterial(color=self._light(found), vertex_colors=True)
         pixels = in_bytes(found)
         key = pixels.tobytes()
         if key not in self._maps:
@@ -46,7 +47,7 @@ class Stage:
                 if self._linear
                 else cc.Image(pixels)
             )
-        return cc.BasicMaterial(map=self._maps[key], **options)
+        return cc.BasicMaterial(map=self._maps[key], vertex_colors=True)
 
     def _light(self, color: Array) -> Array:
         if not self._linear:
@@ -70,18 +71,15 @@ class Stage:
         `repeat` tells how often the picture is repeated along u and v.
         """
         rotation = np.asarray(cc.axis_angle(axis, turn))
-        node = self.scene.add(
+        return self.scene.add(
             self._painted(mesh, rotation, even=even, repeat=repeat),
             self.material(color),
             position=at,
             rotation=rotation,
             name=name,
         )
-        return node
 
-    def _painted(
-        self, mesh: cc.Mesh, rotation: Array, *, even: bool, repeat: Vector
-    ) -> cc.Mesh:
+    def _painted(self, mesh: cc.Mesh, rotation: Array, *, even: bool, repeat: Vector) -> cc.Mesh:
         w, x, y, z = rotation
         r = np.array(
             (
@@ -159,6 +157,14 @@ class Stage:
         ):
             self.quad(corner, right, (0, h, 0), colors[2 + number], name, repeat=repeat)
 
+    def finish(self, middle: Vector, eye: Vector, fov: float) -> cc.Scene:
+        """Add the place of the reflector and the camera, and give the scene."""
+        self.scene.add(position=middle, name=PLACE)
+        self.scene.add(
+            cc.PerspectiveCamera(fov=fov, position=eye, target=middle, near=0.05, far=400)
+        )
+        return self.scene
+
 
 def shadowed(
     color: Array, low: Vector, high: Vector, spots: Sequence[tuple[float, float, float, float]]
@@ -173,7 +179,7 @@ def shadowed(
         away = np.maximum(np.abs(x - cx) / rx, np.abs(z - cz) / rz) * 0.5
         away = away + 0.5 * np.hypot((x - cx) / rx, (z - cz) / rz)
         light *= 1 - 0.5 * np.clip(1.6 - away, 0, 1) ** 1.5
-    return color * light[..., None]
+    return np.asarray(color * light[..., None])
 
 
 def in_corners(color: Array, depth: float = 0.25) -> Array:
@@ -182,4 +188,13 @@ def in_corners(color: Array, depth: float = 0.25) -> Array:
     u = np.minimum(np.arange(width) + 0.5, width - np.arange(width) - 0.5) / height
     v = np.minimum(np.arange(height) + 0.5, height - np.arange(height) - 0.5) / height
     light = (1 - depth * np.exp(-u / 0.12))[None, :] * (1 - depth * np.exp(-v / 0.12))[:, None]
-    return color * light[..., None]
+    return np.asarray(color * light[..., None])
+
+
+def model(name: str, size: float) -> cc.Mesh:
+    """A mesh of the package's data that stands on y = 0, `size` metres high or wide, without its own uvs."""
+    mesh = cc.load_mesh(cc.sample_data(name)).resized(size)
+    positions = np.asarray(mesh.positions).copy()
+    low, high = mesh.bounds
+    positions -= ((low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2)
+    return cc.Mesh(positions, mesh.indices, normals=mesh.normals)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ import cubecam as cc
 
 from . import measure
 from .methods import METHODS, MissingError
-from .reflectors import REFLECTORS, World
+from .reflectors import World
 
 FACES = 256
 SINGLE = (
@@ -39,8 +39,7 @@ class Case:
     @property
     def baseline(self) -> Case:
         """The row of the plain probe that this one is compared with."""
-        bounces = None if self.bounces is None else 1
-        return Case(self.place, self.reflector, "plain", self.faces, bounces)
+        return replace(self, method="plain")
 
 
 @dataclass
@@ -49,7 +48,7 @@ class Row:
 
     Attributes
     ----------
-    rmse, within : float
+    rmse, within, largest : float or None
         See `measure.Colors`.
     ratio : float or None
         `rmse` over that of the plain probe.
@@ -65,6 +64,7 @@ class Row:
     rmse: float | None = None
     ratio: float | None = None
     within: float | None = None
+    largest: float | None = None
     p1: float | None = None
     ms: float | None = None
     time: float | None = None
@@ -82,14 +82,20 @@ def cases(*, quick: bool) -> list[Case]:
             found += [Case("room_a", reflector, m) for m in SOME]
         found += [Case("outdoor", r, m) for r in ("glossy .2", "glass") for m in SOME]
         for faces in (64, 128, 512, 1024):
-            found += [Case("room_a", "mirror", m, faces) for m in ("plain", "distance 14", "layers 35")]
+            found += [
+                Case("room_a", "mirror", m, faces) for m in ("plain", "distance 14", "layers 35")
+            ]
     found += [Case("room_a", "plane", m) for m in ("plain", "box", "layers 35", "planar")]
     for bounces in (1, 2) if quick else (0, 1, 2, 3):
         found += [
-            Case("room_a", "facing balls", m, bounces=bounces) for m in ("plain", "distance 14", "layers 35")
+            Case("room_a", "facing balls", m, bounces=bounces)
+            for m in ("plain", "distance 14", "layers 35")
         ]
     for bounces in (4,) if quick else (1, 2, 3, 4):
-        found += [Case("room_a", "facing planes", m, bounces=bounces) for m in ("plain", "layers 35", "planar")]
+        found += [
+            Case("room_a", "facing planes", m, bounces=bounces)
+            for m in ("plain", "layers 35", "planar")
+        ]
     return found
 
 
@@ -102,7 +108,7 @@ class _Truth:
 
 
 @cache
-def _truth(place: str, reflector: str, bounces: int, *, coded: bool) -> _Truth:
+def _truth(place: str, reflector: str, bounces: int, size: int, *, coded: bool) -> _Truth:
     """The exact picture, once for all methods."""
     world = World(place, reflector)
     kind = world.reflector
@@ -111,7 +117,7 @@ def _truth(place: str, reflector: str, bounces: int, *, coded: bool) -> _Truth:
     exact = cc.truth.render(
         world.scene,
         world.camera,
-        (kind.size, kind.size),
+        (size, size),
         bounces=bounces,
         samples=kind.samples,
         self_hits=False,
@@ -134,13 +140,24 @@ class Bench:
         Frames of each method whose time is taken; 0: none is.
     pictures : Path, optional
         A folder for a PNG of each case, beside the truth.
+    size : int, optional
+        Pixels along an edge of the frames. None: as the reflector has it.
     """
 
-    def __init__(self, renderer: cc.Renderer, rounds: int, pictures: Path | None = None) -> None:
+    def __init__(
+        self,
+        renderer: cc.Renderer,
+        rounds: int,
+        pictures: Path | None = None,
+        size: int | None = None,
+    ) -> None:
         self._renderer, self._rounds, self._pictures = renderer, rounds, pictures
+        self._size = size
         self._plain: dict[Case, float] = {}
 
-    def run(self, chosen: Iterable[Case], tell: Callable[[Row], None] = lambda row: None) -> list[Row]:
+    def run(
+        self, chosen: Iterable[Case], tell: Callable[[Row], None] = lambda row: None
+    ) -> list[Row]:
         """Measure cases in their order, the plain probe of a group first, and tell of each one that is done."""
         rows = []
         for case in chosen:
@@ -157,12 +174,14 @@ class Bench:
         case = row.case
         world, frame = self._prepared(case)
         bounces = world.reflector.bounces if case.bounces is None else case.bounces
-        truth = _truth(case.place, case.reflector, bounces, coded=False)
+        size = self._size or world.reflector.size
+        truth = _truth(case.place, case.reflector, bounces, size, coded=False)
         linear = world.place.linear
         got, exact = (measure.shown(c, linear=linear) for c in (frame(0), truth.color))
         found = measure.compare(got, exact, truth.on)
-        row.rmse, row.within = found.rmse, found.within
-        self._plain.setdefault(case, found.rmse) if case.method == "plain" else None
+        row.rmse, row.within, row.largest = found.rmse, found.within, found.largest
+        if case.method == "plain":
+            self._plain[case] = found.rmse
         base = self._plain.get(case.baseline)
         row.ratio = None if base is None else found.rmse / base
         if world.reflector.mirror:
@@ -177,14 +196,14 @@ class Bench:
     def _prepared(
         self, case: Case, size: int | None = None
     ) -> tuple[World, Callable[[int], npt.NDArray[Any]]]:
-        """Make a world with its environments, and what draws a frame of it: a number moves the camera by some nanometres."""
+        """Make a world with its environments, and what draws a frame of it; a number moves the camera a little."""
         world = World(case.place, case.reflector)
         options = _environments(world, case)
-        pixels = size or world.reflector.size
+        pixels = size or self._size or world.reflector.size
         eye = world.camera.position
 
         def frame(index: int) -> npt.NDArray[Any]:
-            world.camera.position = eye + (1e-7 * index, 0, 0)
+            world.camera.position = np.add(eye, (1e-7 * index, 0, 0))
             drawn = self._renderer.render(
                 world.scene, world.camera, (pixels, pixels), format="rgba32f", **options
             )
@@ -195,18 +214,19 @@ class Bench:
     def _hits(self, case: Case) -> float:
         world = World(case.place, case.reflector)
         measure.code_positions(world.scene, world.nodes)
-        options = _environments(world, case, format="rgba32f")
-        truth = _truth(case.place, case.reflector, 1, coded=True)
-        size = (world.reflector.size,) * 2
-        drawn = self._renderer.render(world.scene, world.camera, size, format="rgba32f", **options)
+        options = _environments(world, case, texels="rgba32f")
+        pixels = self._size or world.reflector.size
+        truth = _truth(case.place, case.reflector, 1, pixels, coded=True)
+        drawn = self._renderer.render(
+            world.scene, world.camera, (pixels, pixels), format="rgba32f", **options
+        )
         return measure.hits_found(np.asarray(drawn.color), truth.color, truth.position, truth.on)
 
 
 def _environments(world: World, case: Case, **options: Any) -> dict[str, Any]:
     # One bounce is the default, and needs no option.
     bounces = None if case.bounces == 1 else case.bounces
-    found = METHODS[case.method].prepare(world, size=case.faces, bounces=bounces, **options)
-    return found
+    return METHODS[case.method].prepare(world, size=case.faces, bounces=bounces, **options)
 
 
 def _name(case: Case) -> str:
@@ -222,15 +242,26 @@ def _save(path: Path, picture: npt.NDArray[Any]) -> None:
 
 def markdown(rows: Iterable[Row]) -> str:
     """Give the table as Markdown."""
+    columns = (
+        "scene reflector faces bounces method RMSE over_plain within_4/255 hits_within_1_% CPU_time"
+    )
     lines = [
-        "| scene | reflector | faces | bounces | method | RMSE | over plain | within 4/255 | hits within 1 % | CPU time |",
+        "| " + columns.replace(" ", " | ").replace("_", " ") + " |",
         "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for row in rows:
         c = row.case
-        head = [c.place, c.reflector, str(c.faces), "" if c.bounces is None else str(c.bounces), c.method]
+        names = [
+            c.place,
+            c.reflector,
+            str(c.faces),
+            "" if c.bounces is None else str(c.bounces),
+            c.method,
+        ]
         if row.missing:
-            lines.append("| " + " | ".join([*head, f"not yet: {row.missing}", "", "", "", ""]) + " |")
+            lines.append(
+                "| " + " | ".join([*names, f"not yet: {row.missing}", "", "", "", ""]) + " |"
+            )
             continue
         numbers = [
             _text(row.rmse, ".4f"),
@@ -239,7 +270,7 @@ def markdown(rows: Iterable[Row]) -> str:
             _text(row.p1, ".1%"),
             "" if row.time is None else f"{row.time:.1f} x ({row.ms:.0f} ms)",
         ]
-        lines.append("| " + " | ".join([*head, *numbers]) + " |")
+        lines.append("| " + " | ".join([*names, *numbers]) + " |")
     return "\n".join(lines) + "\n"
 
 
