@@ -13,6 +13,8 @@ def test_a_plain_probe_in_a_room(renderer, tmp_path):
     case = Case("room_b", "mirror", "plain")
     (row,) = Bench(renderer, 0, tmp_path, size=160).run([case])
     assert row.missing == ""
+    assert row.rmse is not None
+    assert row.p1 is not None
     assert 0.14 < row.rmse < 0.2
     assert row.ratio == 1
     assert row.p1 < 0.01

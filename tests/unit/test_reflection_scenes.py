@@ -24,7 +24,9 @@ class TestScenes:
     @pytest.mark.parametrize("name", ["room_a", "room_b"])
     def test_a_room_fills_its_box(self, name):
         bounds = cc.load_scene(FOLDER / f"{name}.glb").bounds
-        np.testing.assert_allclose(bounds, (PLACES[name].low, PLACES[name].high), atol=1e-6)
+        np.testing.assert_allclose(
+            bounds, np.array([PLACES[name].low, PLACES[name].high]), atol=1e-6
+        )
         assert (bounds[1] - bounds[0]).round(6).tolist() == [10, 6, 8]
 
     @pytest.mark.parametrize("name", PLACES)
@@ -32,10 +34,12 @@ class TestScenes:
         """From its middle it reaches over more than half of the way to the frame's edge, and not beyond."""
         scene = cc.load_scene(FOLDER / f"{name}.glb")
         (camera,), (place,) = scene.cameras, scene.find(PLACE)
+        assert isinstance(camera, cc.PerspectiveCamera)
+        assert camera.target is not None
         away = np.linalg.norm(camera.position - place.position)
         reach = math.tan(math.asin(PLACES[name].radius / away))
         assert 0.6 < reach / math.tan(math.radians(camera.fov / 2)) < 0.95
-        np.testing.assert_allclose(camera.target, place.position)
+        np.testing.assert_allclose(camera.target - place.position, 0, atol=1e-12)
 
     def test_nothing_in_the_rooms_reflects(self):
         for name in PLACES:
@@ -127,7 +131,7 @@ class TestHits:
 class TestTable:
     def test_every_group_begins_with_its_plain_probe(self):
         for quick in (True, False):
-            seen = set()
+            seen: set[Case] = set()
             for case in cases(quick=quick):
                 assert case.baseline in seen | {case}
                 seen.add(case)
