@@ -138,6 +138,25 @@ class Stage:
         )
         return self.add(mesh, color, middle, name=name, even=True, repeat=repeat)
 
+    def ground(
+        self,
+        low: Sequence[float],
+        high: Sequence[float],
+        color: Color | Array,
+        name: str,
+        cell: float,
+    ) -> cc.Node:
+        """Add a rectangle (x, z) of the ground, with a picture that is repeated every `cell` metres of the world."""
+        (x, z), (a, b) = low, high
+        corners = np.array(((x, 0, b), (a, 0, b), (a, 0, z), (x, 0, z)), float)
+        mesh = cc.Mesh(
+            corners,
+            ((0, 1, 2), (0, 2, 3)),
+            normals=np.tile((0.0, 1.0, 0.0), (4, 1)),
+            uvs=corners[:, [0, 2]] * (1 / cell, -1 / cell),
+        )
+        return self.add(mesh, color, name=name, even=True)
+
     def walls(self, low: Vector, high: Vector, colors: Sequence[Array], repeat: Vector) -> None:
         """Add the six sides of a room, seen from inside: floor, ceiling, front (-Z), right (+X), back (+Z), left (-X).
 

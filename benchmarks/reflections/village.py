@@ -31,12 +31,16 @@ def village() -> cc.Scene:
     """A village green: houses, trees, crates and a wall at 3 to 60 m, under a sky of high dynamic range."""
     stage = Stage(linear=True)
     green = paint.mixed(paint.clouds(128, 128, 6, 11), (0.3, 0.4, 0.16), (0.52, 0.6, 0.28))
-    plane = cc.Mesh.plane(130, 130)
-    stage.add(plane, green, name="ground", even=True, repeat=(16, 16))
-    # Paving round the reflector, just above the grass.
     slabs = paint.bricks((0.66, 0.62, 0.56), (0.42, 0.4, 0.36), 8, 128, 12)
-    stage.add(cc.Mesh.plane(7, 7), slabs, (0, 0.02, 0), name="paving", even=True, repeat=(2, 2))
-    stage.add(cc.Mesh.plane(3, 50), slabs, (0, 0.01, -28), name="path", even=True, repeat=(1, 14))
+    # Nothing lies on top of the grass: a farthest layer would show the grass below the slabs.
+    stage.ground((-65, -65), (-3.5, 65), green, "grass", 8)
+    stage.ground((3.5, -65), (65, 65), green, "grass", 8)
+    stage.ground((-3.5, 3.5), (3.5, 65), green, "grass", 8)
+    stage.ground((-3.5, -53.5), (-1.5, -3.5), green, "grass", 8)
+    stage.ground((1.5, -53.5), (3.5, -3.5), green, "grass", 8)
+    stage.ground((-3.5, -65), (3.5, -53.5), green, "grass", 8)
+    stage.ground((-3.5, -3.5), (3.5, 3.5), slabs, "paving", 3.5)
+    stage.ground((-1.5, -53.5), (1.5, -3.5), slabs, "path", 3.5)
     stage.add(
         cc.Mesh.cylinder(0.3, 0.68, 48),
         paint.stripes(8, (0.75, 0.72, 0.68), (0.55, 0.52, 0.5), size=64),
@@ -51,7 +55,7 @@ def village() -> cc.Scene:
         stage.add(
             cc.Mesh.box(size),
             paint.crate(),
-            (x, 0.02 + size / 2, z),
+            (x, size / 2, z),
             turn=turn,
             name=f"crate {number + 1}",
         )
