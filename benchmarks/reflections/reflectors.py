@@ -134,8 +134,8 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 REFLECTORS = {
     "mirror": Reflector(_ball(cc.MirrorMaterial), mirror=True),
     "teapot": Reflector(_teapot, mirror=True),
-    "glossy .2": Reflector(_ball(_glossy(0.2)), size=192, samples=96),
-    "glossy .4": Reflector(_ball(_glossy(0.4)), size=192, samples=96),
+    "glossy .2": Reflector(_ball(_glossy(0.2)), size=112, samples=400),
+    "glossy .4": Reflector(_ball(_glossy(0.4)), size=112, samples=400),
     "glass": Reflector(_ball(lambda: cc.GlassMaterial(ior=1.5)), size=256, samples=48, bounces=4),
     "facing balls": Reflector(_facing_balls, bounces=8),
     "plane": Reflector(_quad, mirror=True),
