@@ -13,6 +13,7 @@ from rich.console import Console
 
 from . import equirect, live, machine, marks, reflection, startup
 from .processes import ROOT
+from .reflections import marks as reflection_marks
 from .results import Section, print_sections
 
 TEAPOT = ROOT / "python" / "cubecam" / "data" / "teapot.obj"
@@ -27,8 +28,17 @@ def _arguments() -> argparse.Namespace:
         "--only",
         action="append",
         metavar="NAME",
-        choices=["p14-teapot", "p14-knot", "equirect", "startup", "live", "marks", *marks.PARTS],
-        help="p14-teapot, p14-knot, equirect, startup, live, marks, or one of "
+        choices=[
+            "p14-teapot",
+            "p14-knot",
+            "equirect",
+            "startup",
+            "live",
+            "reflections",
+            "marks",
+            *marks.PARTS,
+        ],
+        help="p14-teapot, p14-knot, equirect, startup, live, reflections, marks, or one of "
         + ", ".join(marks.PARTS)
         + "; may be given several times",
     )
@@ -63,6 +73,7 @@ def main() -> int:
     workloads["equirect"] = partial(equirect.run, arguments.quick)
     workloads["startup"] = partial(startup.run, arguments.quick)
     workloads["live"] = partial(live.run, arguments.quick)
+    workloads["reflections"] = partial(reflection_marks.run, arguments.quick)
     for part in marks.PARTS:
         workloads[part] = partial(marks.run, part, quick=arguments.quick, old=arguments.before)
 

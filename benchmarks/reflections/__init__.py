@@ -1,0 +1,1 @@
+"""Reflections in three scenes, by each method, against exact rays: `python -m benchmarks.reflections`."""
