@@ -61,7 +61,7 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near
                                   const UpdateLike& update, const Nodes& exclude,
                                   const OrNone<Node>& parent, Int faces_per_frame,
                                   const DepthFormatName& depth_format,
-                                  Argument<std::optional<bool>> prefilter) {
+                                  Argument<std::optional<bool>> prefilter, Int bounces) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -76,6 +76,7 @@ std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near
     value.exclude = to_nodes(exclude, "exclude");
     value.depth_format = to_depth_format(depth_format);
     value.prefilter = value_of(prefilter);
+    value.bounces = bounces;
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -127,7 +128,8 @@ void bind_probe(pybind11::module_& module) {
               py::arg("format") = "rgba16f", py::arg("mipmaps") = false, py::arg("samples") = 1,
               py::arg("update") = "on_change", py::arg("exclude") = py::tuple(),
               py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6,
-              py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none());
+              py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none(),
+              py::arg("bounces") = 1);
 
     probe.def_property(
         "position", [](const Probe& self) { return point_array(self.value().position); },
@@ -173,6 +175,9 @@ void bind_probe(pybind11::module_& module) {
         probe, "prefilter", &ProbeValue::prefilter,
         "bool or None: whether the probe is filtered by roughness; None: if a drawn surface needs "
         "it.");
+    field(probe, "bounces", &ProbeValue::bounces,
+          "int: how many mirrors of a circle of probes that see each other a path meets, from 1 to "
+          "16.");
     bind_links(probe);
 
     probe.def("__repr__", [](const Probe& self) {
@@ -182,14 +187,15 @@ void bind_probe(pybind11::module_& module) {
                (parent ? ", parent=node " + std::to_string(parent->id()) : std::string()) +
                ", size=" + std::to_string(value.size) + ", format='" +
                std::string(to_string(value.format)) + "'" +
-               ", update=" + py::repr(update_of(value)).cast<std::string>() + ")";
+               ", update=" + py::repr(update_of(value)).cast<std::string>() +
+               (value.bounces == 1 ? "" : ", bounces=" + std::to_string(value.bounces)) + ")";
     });
     // Nodes go into the state, which is pickled later, since a node may use the probe itself.
     probe.def("__reduce__", [](const py::object& self) {
         return reduced(self,
                        attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",
                                      "samples", "update", "faces_per_frame", "depth_format",
-                                     "prefilter"),
+                                     "prefilter", "bounces"),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

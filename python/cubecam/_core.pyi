@@ -564,6 +564,7 @@ class Probe:
         faces_per_frame: typing.SupportsIndex = 6,
         depth_format: DepthFormat | None = "depth_component32f",
         prefilter: bool | None = None,
+        bounces: typing.SupportsIndex = 1,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -582,6 +583,14 @@ class Probe:
         Give the HTML that Jupyter shows.
         """
 
+    @property
+    def bounces(self) -> int:
+        """
+        int: how many mirrors of a circle of probes that see each other a path meets, from 1 to 16.
+        """
+
+    @bounces.setter
+    def bounces(self, value: typing.SupportsIndex) -> None: ...
     @property
     def depth_format(self) -> DepthFormat | None:
         """
@@ -8283,6 +8292,14 @@ class Stats:
     def _repr_html_(self) -> str:
         """
         Give the HTML that Jupyter shows.
+        """
+
+    @property
+    def bounce_changes(self) -> tuple[float, ...]:
+        """
+        tuple of float: how much each bounce after the first changed what mirrors show.
+
+        Entry i compares the picture of a probe with i + 2 bounces to that with i + 1: the root of the mean of the squared differences of red, green and blue, as the pictures hold them, in the directions of the texels of a cube of 32 texels an edge, over all probes that the call drew and of which it needed both pictures; nan if there is no such probe. Empty if no probe of more than one bounce was drawn.
         """
 
     @property

@@ -247,6 +247,7 @@ VALUES = {
     "Node.variants": variants,
     "Node.visible": flag,
     "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
+    "Probe.bounces": choice(1, 2, 3),
     "Probe.depth_format": choice(*DEPTHS),
     "Probe.exclude": excluded,
     "Probe.faces_per_frame": choice(1, 2, 5),

@@ -37,14 +37,19 @@ struct ProbeValue {
     int faces_per_frame = 6;  ///< the largest number of faces drawn in one call
     WeakNodes exclude;
     DepthFormat depth_format = DepthFormat::depth_component32f;
+    /// How many mirrors of a circle of probes that see each other a path meets (docs/adr/0003).
+    int bounces = 1;
     /// Whether it is filtered by roughness; none: if a drawn surface needs that.
     std::optional<bool> prefilter;
 
     bool operator==(const ProbeValue& other) const;
 };
 
-/// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, or faces
-/// outside 1..6.
+/// The largest ProbeValue::bounces: each is a picture of its own.
+inline constexpr int most_bounces = 16;
+
+/// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, faces
+/// outside 1..6, or bounces outside 1..most_bounces.
 void check(const ProbeValue& value);
 
 /// A cubemap that follows the scene. A Probe is only a description: each renderer holds contents of

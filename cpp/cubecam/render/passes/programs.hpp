@@ -100,6 +100,7 @@ public:
     UserProgram& user_shadow(const MaterialTraits& material, bool vertex_colors,
                              DrawConditions& conditions);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
+    const gl::Program& bounce_change();
 
 private:
     gl::ShaderOptions layer_options() const;
@@ -115,6 +116,7 @@ private:
     UserPrograms users_;
     std::map<ShadowVariant, gl::Program> shadows_;
     gl::Program skybox_, turned_skybox_;
+    gl::Program bounce_change_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

@@ -62,7 +62,7 @@ PLANS = {
             _core.Probe,
             (
                 "position", "size", "near", "far", "format", "mipmaps", "samples", "update",
-                "faces_per_frame", "depth_format", "prefilter",
+                "faces_per_frame", "depth_format", "prefilter", "bounces",
             ),
             ("parent", "exclude"),
         ),
