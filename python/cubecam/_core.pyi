@@ -522,7 +522,7 @@ class Probe:
         A node that the probe moves with; the axes of the probe stay those of the world. The probe does not
         keep the node alive.
     faces_per_frame : int
-        The greatest number of faces that one call draws, from 1 to 6.
+        The greatest number of faces that one call draws, from 1 to 6; of each bounce, if there are several.
     depth_format : str or None
         The format of the depth and stencil buffer, see `Renderer.render`.
     prefilter : bool, optional
@@ -530,6 +530,12 @@ class Probe:
         face was drawn. None: only if a drawn surface looks it up by roughness. True: always, so that
         ``environment_lod`` in a `ShaderMaterial` finds these levels, too. False: never; rough surfaces then see
         the probe's mipmaps, or the probe as it is.
+    bounces : int
+        How many mirrors of a circle a path meets, from 1 to 16; beyond that it sees the scene's environment, or
+        black without one. Probes whose pictures may show each other's users, in view or not, form a circle. With
+        1, the other mirrors of the circle show the environment in this one. All probes of a circle have the
+        largest ``bounces`` among them, so none is preferred. Time and memory grow with it;
+        ``renderer.stats.bounce_changes`` says how much each bounce changed. Without a circle it has no effect.
 
     Raises
     ------
@@ -546,6 +552,13 @@ class Probe:
     >>> ball.environment = cc.Probe(parent=ball, size=128)
     >>> ball.environment.update
     'on_change'
+
+    Two mirrors that face each other, with two reflections of each:
+
+    >>> other = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(1.2, 1, 0))
+    >>> other.environment = cc.Probe(parent=other, size=128, bounces=2)
+    >>> other.environment.bounces
+    2
     """
 
     def __init__(

@@ -173,8 +173,7 @@ std::optional<PictureId> FrameContext::shown_probe(const PictureId& viewer, std:
     if (in_circle && root->bounce == 0) return std::nullopt;
     ProbePicture& first = this->probe(probe_id(scene, probe));
     if (first.due()) {
-        const std::size_t levels =
-            in_circle ? root->bounce : probe_circles(scene).levels(probe);
+        const std::size_t levels = in_circle ? root->bounce : probe_circles(scene).levels(probe);
         return probe_id(scene, probe, levels - 1);
     }
     const auto kept =

@@ -68,7 +68,8 @@ public:
     /// takes its place. Asking for it counts the call, since the probe is needed.
     std::optional<PictureId> shown_probe(const PictureId& viewer, std::size_t scene,
                                          std::size_t probe);
-    /// Puts the shown picture in the place of each probe of a scene; those without one are left out.
+    /// Puts the shown picture in the place of each probe of a scene; those without one are left
+    /// out.
     Dependencies with_shown_probes(const PictureId& viewer, std::size_t scene,
                                    const Dependencies& shown);
     /// All pictures of a probe, one for each bounce.
@@ -100,9 +101,9 @@ private:
 
     std::vector<Ranks> ranks_;  // for each scene
     std::vector<std::optional<SceneContents>>
-        contents_;                      // for each scene, made when a picture needs it
+        contents_;  // for each scene, made when a picture needs it
     std::vector<std::optional<ProbeCircles>> circles_;  // the same
-    Dependencies caster_dependencies_;  // of all scenes
+    Dependencies caster_dependencies_;                  // of all scenes
 };
 
 }  // namespace cubecam

@@ -7,9 +7,9 @@
 
 namespace cubecam {
 
-/// The circles of a scene's probes (docs/adr/0003-probe-cycles.md): a circle is a strongly connected
-/// component of "the picture of probe A may show a node that looks up probe B". The answers depend
-/// on the scene alone, and neither on views nor on update policies.
+/// The circles of a scene's probes (docs/adr/0003-probe-cycles.md): a circle is a strongly
+/// connected component of "the picture of probe A may show a node that looks up probe B". The
+/// answers depend on the scene alone, and neither on views nor on update policies.
 class ProbeCircles {
 public:
     explicit ProbeCircles(const SceneSnapshot& scene);

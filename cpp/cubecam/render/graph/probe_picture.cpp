@@ -11,8 +11,8 @@ namespace cubecam {
 ProbePicture::ProbePicture(FrameContext& context, const PictureId& id)
     : ScenePicture(context, id, id.scene), probe_(scene_.probes[id.object]),
       levels_(context.probe_levels(id.scene, id.object)), kept_(levels_.at(id.bounce)),
-      state_(*kept_), first_(id.bounce == 0 ? *this : context.probe(probe_id(id.scene, id.object))) {
-}
+      state_(*kept_),
+      first_(id.bounce == 0 ? *this : context.probe(probe_id(id.scene, id.object))) {}
 
 bool ProbePicture::due() {
     if (&first_ != this) return first_.due();

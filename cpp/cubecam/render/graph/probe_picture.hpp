@@ -12,10 +12,10 @@
 
 namespace cubecam {
 
-/// A cube of a probe, as one scene of the call shows it. A probe in a circle of probes that see each
-/// other has one for each bounce: PictureId::bounce 0 shows the other mirrors of the circle with the
-/// scene's environment, b with their bounce b - 1 (docs/adr/0003-probe-cycles.md). The policy of the
-/// probe counts for all of them; the picture of bounce 0 decides.
+/// A cube of a probe, as one scene of the call shows it. A probe in a circle of probes that see
+/// each other has one for each bounce: PictureId::bounce 0 shows the other mirrors of the circle
+/// with the scene's environment, b with their bounce b - 1 (docs/adr/0003-probe-cycles.md). The
+/// policy of the probe counts for all of them; the picture of bounce 0 decides.
 class ProbePicture final : public ScenePicture {
 public:
     ProbePicture(FrameContext& context, const PictureId& id);
@@ -48,9 +48,7 @@ public:
     std::vector<PictureId> companions() override;
     void update() override;
     /// Nothing can replace a probe that moves casters.
-    bool strict() const override {
-        return context_.moves_casters(probe_id(id_.scene, id_.object));
-    }
+    bool strict() const override { return context_.moves_casters(probe_id(id_.scene, id_.object)); }
     std::string label(std::size_t place) const override;
 
 private:

@@ -11,8 +11,8 @@
 namespace cubecam {
 namespace {
 
-/// The directions are those of the texels of a cube of this size (shaders/passes/bounce_change.frag).
-/// The faces lie side by side, the pairs above each other.
+/// The directions are those of the texels of a cube of this size
+/// (shaders/passes/bounce_change.frag). The faces lie side by side, the pairs above each other.
 constexpr int size = 32;
 constexpr int width = 6 * size;
 constexpr std::size_t directions = std::size_t{width} * size;
@@ -41,8 +41,8 @@ std::vector<double> BounceChangePass::sums_of_squares(std::span<const BouncePair
     }
     std::vector<float> squares(pairs.size() * directions);
     gl.GetTextureSubImage(squares_.id(), 0, 0, 0, 0, width, size * static_cast<int>(pairs.size()),
-                          1, GL_RED, GL_FLOAT,
-                          static_cast<GLsizei>(squares.size() * sizeof(float)), squares.data());
+                          1, GL_RED, GL_FLOAT, static_cast<GLsizei>(squares.size() * sizeof(float)),
+                          squares.data());
     std::vector<double> sums;
     for (auto at = squares.cbegin(); at != squares.cend(); at += directions) {
         sums.push_back(std::accumulate(at, at + directions, 0.0));

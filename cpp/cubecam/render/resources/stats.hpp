@@ -20,7 +20,7 @@ struct Stats {
     /// For each bounce of probes after the first: how much it changed what their mirrors show, as
     /// the root of the mean of squares (BounceChangePass); NaN if that is not known.
     std::vector<double> bounce_changes;
-    double milliseconds = 0.0;            ///< of the whole call with reading back
+    double milliseconds = 0.0;  ///< of the whole call with reading back
 };
 
 }  // namespace cubecam
