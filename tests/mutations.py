@@ -548,14 +548,14 @@ MUTATIONS = [
     Mutation(
         "lost context: manual probes stay empty",
         "probe_picture.cpp",
-        "if (forced_ || state_.last.lost) return true;",
+        "if (forced_ || levels_.last.lost) return true;",
         "if (forced_) return true;",
         LOST,
     ),
     Mutation(
         "lost context: a call that is done again counts twice",
         "probe_picture.cpp",
-        "if (state_.counted != context_.gpu.call) ++state_.calls;",
+        "if (levels_.counted != context_.gpu.call) ++levels_.calls;",
         "++state_.calls;",
         FAKE_DRIVERS,
     ),
