@@ -31,6 +31,7 @@ ALPHA = ("tests/gl/test_alpha.py",)
 SIDES = ("tests/gl/test_sides.py",)
 STATS = ("tests/gl/test_stats.py",)
 PROBES = ("tests/gl/test_probes.py",)
+BOUNCES = ("tests/gl/test_bounces.py",)
 FORMATS = ("tests/gl/test_formats.py",)
 STENCIL = ("tests/gl/test_stencil.py",)
 STEREO = ("tests/gl/test_stereo.py",)
@@ -485,11 +486,53 @@ MUTATIONS = [
         PROBES,
     ),
     Mutation(
-        "probe: a cycle shows old contents",
-        "texture_lookup.cpp",
-        "known = !context_.probe(number_, probe).drawn() ||",
-        "known = !context_.probe(number_, probe).drawn() &&",
-        PROBES + INCREMENTAL,
+        "bounces: pictures outside of a circle show its first level",
+        "frame_context.cpp",
+        "return probe_id(scene, probe, levels - 1);",
+        "return probe_id(scene, probe, 0);",
+        BOUNCES,
+    ),
+    Mutation(
+        "bounces: the first level shows the first level of other mirrors",
+        "frame_context.cpp",
+        "if (in_circle && root->bounce == 0) return std::nullopt;",
+        "if (in_circle && root->bounce == 0) return probe_id(scene, probe);",
+        BOUNCES,
+    ),
+    Mutation(
+        "bounces: a circle of mirrors that captures do not show",
+        "probe_circles.cpp",
+        "if (!node.in_captures) continue;",
+        "",
+        BOUNCES,
+    ),
+    Mutation(
+        "bounces: each probe counts its own, not the circle's largest",
+        "probe_circles.cpp",
+        "levels = std::max(levels, bounces);",
+        "levels = bounces;",
+        BOUNCES,
+    ),
+    Mutation(
+        "bounces: a probe that is drawn once draws the level in view",
+        "probe_picture.cpp",
+        "return context_.probe_pictures(id_.scene, id_.object);",
+        "return {};",
+        BOUNCES,
+    ),
+    Mutation(
+        "bounces: the memory of levels is kept",
+        "renderer_state.hpp",
+        "if (states_.size() > bounce) states_.resize(bounce);",
+        "",
+        BOUNCES,
+    ),
+    Mutation(
+        "bounces: the change is measured on half of each face",
+        "bounce_change.frag",
+        "vec2 place = mod(gl_FragCoord.xy, 32.0) / 16.0 - 1.0;",
+        "vec2 place = mod(gl_FragCoord.xy, 32.0) / 32.0 - 1.0;",
+        BOUNCES,
     ),
     Mutation(
         "lost context: another context with its handle is taken for it",
@@ -508,14 +551,14 @@ MUTATIONS = [
     Mutation(
         "lost context: manual probes stay empty",
         "probe_picture.cpp",
-        "if (forced_ || state_.last.lost) return true;",
+        "if (forced_ || levels_.last.lost) return true;",
         "if (forced_) return true;",
         LOST,
     ),
     Mutation(
         "lost context: a call that is done again counts twice",
         "probe_picture.cpp",
-        "if (state_.counted != context_.gpu.call) ++state_.calls;",
+        "if (levels_.counted != context_.gpu.call) ++levels_.calls;",
         "++state_.calls;",
         FAKE_DRIVERS,
     ),
@@ -725,7 +768,7 @@ MUTATIONS = [
     Mutation(
         "texture: circles by way of others overlooked",
         "picture_order.cpp",
-        "return sizes[components[picture]] > 1 ||",
+        "return sizes[of[picture]] > 1 ||",
         "return",
         ("tests/gl/test_render_texture_circles.py",),
     ),

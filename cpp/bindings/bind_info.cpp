@@ -11,6 +11,14 @@ namespace cubecam {
 
 namespace py = pybind11;
 
+namespace {
+
+std::string list(const std::vector<double>& numbers) {
+    return py::repr(py::tuple(py::cast(numbers))).cast<std::string>();
+}
+
+}  // namespace
+
 void bind_stats(py::module_& m) {
     bindings::declare<Stats>(
         m, "Stats", "What the last call of a renderer drew and skipped, and how long it took.")
@@ -34,6 +42,17 @@ void bind_stats(py::module_& m) {
         .def_readonly("pictures_not_kept", &Stats::pictures_not_kept,
                       "int: frames and captures whose buffers take more than the renderer's "
                       "``cache_bytes``, so that the next call must draw them again.")
+        .def_property_readonly(
+            "bounce_changes",
+            [](const Stats& s) -> py::typing::Tuple<py::float_, py::ellipsis> {
+                return py::tuple(py::cast(s.bounce_changes));
+            },
+            "tuple of float: how much each bounce after the first changed what mirrors show.\n\n"
+            "Entry i compares the picture of a probe with i + 2 bounces to that with i + 1: the "
+            "root of the mean of the squared differences of red, green and blue, as the pictures "
+            "hold them, in the directions of the texels of a cube of 32 texels an edge, over all "
+            "probes that the call drew and of which it needed both pictures; nan if there is no "
+            "such probe. Empty if no probe of more than one bounce was drawn.")
         .def_readonly("milliseconds", &Stats::milliseconds,
                       "float: time of the whole call, including the copy to main memory.")
         .def("__repr__", [](const Stats& s) {
@@ -46,6 +65,8 @@ void bind_stats(py::module_& m) {
                    " shadow_views_drawn=" + std::to_string(s.shadow_views_drawn) +
                    " faces_filtered=" + std::to_string(s.faces_filtered) +
                    " pictures_not_kept=" + std::to_string(s.pictures_not_kept) +
+                   (s.bounce_changes.empty() ? std::string()
+                                             : " bounce_changes=" + list(s.bounce_changes)) +
                    " milliseconds=" + std::to_string(s.milliseconds) + ">";
         });
 }

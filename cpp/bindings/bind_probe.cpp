@@ -78,7 +78,8 @@ make_probe(const ArrayLike& position, Int size, Real near, Real far, const Forma
            Flag mipmaps, Int samples, const UpdateLike& update, const Nodes& exclude,
            const OrNone<Node>& parent, Int faces_per_frame, const DepthFormatName& depth_format,
            Argument<std::optional<bool>> prefilter, const ParallaxName& parallax,
-           const OrNone<ArrayLike>& box, const OrNone<ArrayLike>& proxy_matrix, Int fetches) {
+           const OrNone<ArrayLike>& box, const OrNone<ArrayLike>& proxy_matrix, Int fetches,
+           Int bounces) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -97,6 +98,7 @@ make_probe(const ArrayLike& position, Int size, Real near, Real far, const Forma
     value.parallax.box = to_box(box);
     value.parallax.proxy_matrix = to_proxy_matrix(proxy_matrix);
     value.parallax.fetches = fetches;
+    value.bounces = bounces;
     return std::make_shared<Probe>(std::move(value));
 }
 
@@ -192,7 +194,8 @@ void bind_probe(pybind11::module_& module) {
               py::arg("parent") = py::none(), py::arg("faces_per_frame") = 6,
               py::arg("depth_format") = "depth_component32f", py::arg("prefilter") = py::none(),
               py::arg("parallax") = "none", py::arg("box") = py::none(),
-              py::arg("proxy_matrix") = py::none(), py::arg("fetches") = 14);
+              py::arg("proxy_matrix") = py::none(), py::arg("fetches") = 14,
+              py::arg("bounces") = 1);
 
     probe.def_property(
         "position", [](const Probe& self) { return point_array(self.value().position); },
@@ -238,6 +241,9 @@ void bind_probe(pybind11::module_& module) {
         probe, "prefilter", &ProbeValue::prefilter,
         "bool or None: whether the probe is filtered by roughness; None: if a drawn surface needs "
         "it.");
+    field(probe, "bounces", &ProbeValue::bounces,
+          "int: how many mirrors of a circle of probes that see each other a path meets, from 1 to "
+          "16.");
     bind_parallax(probe);
     bind_links(probe);
 
@@ -252,14 +258,15 @@ void bind_probe(pybind11::module_& module) {
                (value.parallax.method == Parallax::none
                     ? std::string()
                     : ", parallax='" + std::string(to_string(value.parallax.method)) + "'") +
-               ")";
+               (value.bounces == 1 ? "" : ", bounces=" + std::to_string(value.bounces)) + ")";
     });
     // Nodes go into the state, which is pickled later, since a node may use the probe itself.
     probe.def("__reduce__", [](const py::object& self) {
         return reduced(self,
                        attributes_of(self, "position", "size", "near", "far", "format", "mipmaps",
                                      "samples", "update", "faces_per_frame", "depth_format",
-                                     "prefilter", "parallax", "box", "proxy_matrix", "fetches"),
+                                     "prefilter", "parallax", "box", "proxy_matrix", "fetches",
+                                     "bounces"),
                        py::make_tuple(self.attr("parent"), self.attr("exclude")));
     });
     def_setstate(probe, "tuple", [](const py::object& self, const py::tuple& state) {

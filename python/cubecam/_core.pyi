@@ -523,7 +523,7 @@ class Probe:
         A node that the probe moves with; the axes of the probe stay those of the world. The probe does not
         keep the node alive.
     faces_per_frame : int
-        The greatest number of faces that one call draws, from 1 to 6.
+        The greatest number of faces that one call draws, from 1 to 6; of each bounce, if there are several.
     depth_format : str or None
         The format of the depth and stencil buffer, see `Renderer.render`.
     prefilter : bool, optional
@@ -546,6 +546,12 @@ class Probe:
     fetches : {14, 6, 35}
         About how many lookups of distance a ray makes with "distance" and "layers". More find thinner things; the cost of
         a pixel grows with them.
+    bounces : int
+        How many mirrors of a circle a path meets, from 1 to 16; beyond that it sees the scene's environment, or
+        black without one. Probes whose pictures may show each other's users, in view or not, form a circle. With
+        1, the other mirrors of the circle show the environment in this one. All probes of a circle have the
+        largest ``bounces`` among them, so none is preferred. Time and memory grow with it;
+        ``renderer.stats.bounce_changes`` says how much each bounce changed. Without a circle it has no effect.
 
     Notes
     -----
@@ -578,6 +584,13 @@ class Probe:
 
     >>> ball.environment.box = (-5, 0, -4), (5, 3, 4)
     >>> ball.environment.parallax = "box"
+
+    Two mirrors that face each other, with two reflections of each:
+
+    >>> other = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(1.2, 1, 0))
+    >>> other.environment = cc.Probe(parent=other, size=128, bounces=2)
+    >>> other.environment.bounces
+    2
     """
 
     def __init__(
@@ -600,6 +613,7 @@ class Probe:
         box: np.typing.ArrayLike | None = None,
         proxy_matrix: np.typing.ArrayLike | None = None,
         fetches: typing.SupportsIndex = 14,
+        bounces: typing.SupportsIndex = 1,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
     def __repr__(self: Probe) -> str: ...
@@ -618,6 +632,14 @@ class Probe:
         Give the HTML that Jupyter shows.
         """
 
+    @property
+    def bounces(self) -> int:
+        """
+        int: how many mirrors of a circle of probes that see each other a path meets, from 1 to 16.
+        """
+
+    @bounces.setter
+    def bounces(self, value: typing.SupportsIndex) -> None: ...
     @property
     def box(self) -> np.typing.NDArray[np.float64] | None:
         """
@@ -8353,6 +8375,14 @@ class Stats:
     def _repr_html_(self) -> str:
         """
         Give the HTML that Jupyter shows.
+        """
+
+    @property
+    def bounce_changes(self) -> tuple[float, ...]:
+        """
+        tuple of float: how much each bounce after the first changed what mirrors show.
+
+        Entry i compares the picture of a probe with i + 2 bounces to that with i + 1: the root of the mean of the squared differences of red, green and blue, as the pictures hold them, in the directions of the texels of a cube of 32 texels an edge, over all probes that the call drew and of which it needed both pictures; nan if there is no such probe. Empty if no probe of more than one bounce was drawn.
         """
 
     @property

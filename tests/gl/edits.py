@@ -261,6 +261,7 @@ VALUES = {
     "Node.variants": variants,
     "Node.visible": flag,
     "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
+    "Probe.bounces": choice(1, 2, 3),
     "Probe.box": choice(((-1, -1, -2), (2, 1, 1)), ((-0.5, -1, -1), (1, 2, 1))),
     "Probe.depth_format": probe_depth,
     "Probe.exclude": excluded,

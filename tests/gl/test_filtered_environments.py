@@ -515,7 +515,7 @@ def test_box_mipmaps_of_a_probe_follow_it(renderer):
 
 
 def test_probes_in_a_circle_show_the_turned_environment(new_renderer):
-    """Of two balls that see each other, the first one in the second probe shows the scene's environment, filtered."""
+    """Of two balls that see each other, each shows the scene's environment in the other's probe, filtered."""
     cube = random_cube(27)
     scene = cc.Scene(environment=cube, environment_rotation=TURN, environment_intensity=2)
     glass, ball = cc.GlassMaterial(roughness=0.5), cc.Mesh.icosphere(0.5, subdivisions=3)
@@ -526,12 +526,15 @@ def test_probes_in_a_circle_show_the_turned_environment(new_renderer):
         node.environment = probes[-1]
     renderer = new_renderer()
     picture = drawn(renderer, scene)
-    second = renderer.read_probe(probes[1])
+    held = [renderer.read_probe(probe).faces for probe in probes]
     assert_identical(picture, drawn(new_renderer(), scene))
-    # The same from the second probe's place, with the scene's environment on the first ball.
-    scene.nodes[0].environment = None
-    want = renderer.capture(scene, (0.8, 0, 0), 16, exclude=[scene.nodes[1]])
-    assert_identical(second.faces, want.faces)
+    # The same from each probe's place, with the scene's environment on the other ball.
+    for other, faces in ((1, held[0]), (0, held[1])):
+        probe, scene.nodes[other].environment = scene.nodes[other].environment, None
+        place = (-0.8 if other else 0.8, 0, 0)
+        want = renderer.capture(scene, place, 16, exclude=[scene.nodes[1 - other]])
+        assert_identical(faces, want.faces)
+        scene.nodes[other].environment = probe
 
 
 def test_two_renderers_layered_or_not_filter_the_same(shared_renderers):

@@ -128,6 +128,27 @@ with warned(1):
     )
 
 
+def test_all_bounces_of_a_manual_probe_are_drawn_again():
+    """Also the level of a mirror that no frame since has shown."""
+    run_python(
+        ROOM
+        + """
+other = cc.Probe(position=(1.5, 0, 0), size=16, format="rgba32f", update="manual", bounces=3)
+scene.add(cc.Mesh.sphere(0.5), cc.MirrorMaterial(), position=(1.5, 0, 0), environment=other)
+renderer.update_probes(scene)
+cubes = [renderer.read_probe(p).faces for p in (probe, other)]
+want = draw()
+end_displays()
+with warned(1):
+    for p, cube in zip((probe, other), cubes):
+        assert np.array_equal(renderer.read_probe(p).faces, cube)
+end_displays()
+with warned(1):
+    assert np.array_equal(draw(), want)
+"""
+    )
+
+
 def test_an_undrawn_probe_stays_undrawn():
     run_python(
         ROOM

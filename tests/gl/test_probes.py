@@ -226,7 +226,7 @@ def test_what_a_probe_depends_on_is_drawn_first(renderer):
     )
 
 
-def test_in_a_cycle_the_edge_back_shows_the_environment(new_renderer):
+def test_in_a_circle_the_other_mirror_shows_the_environment(new_renderer):
     """Two mirrors that see each other never show old contents: any order and number of frames gives the same."""
     scene = cc.Scene(environment=cc.CubeMap(np.full((6, 2, 2, 3), (0, 0, 1), np.float32)))
     balls = [

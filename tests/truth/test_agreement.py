@@ -1,11 +1,13 @@
 """Where the renderer approximates nothing, exact rays give the same picture, off the edges of nodes and shadows."""
 
+import itertools
 from typing import Any
 
 import numpy as np
 import pytest
 
 import cubecam as cc
+from tests.gl.world import smooth_environment
 from tests.reference.raycast import interior
 
 SIZE = (96, 72)
@@ -245,3 +247,61 @@ def test_a_picture_of_another_scene(renderer):
     apart = np.abs(exact.color - got.color).max(-1)
     assert (apart <= 2 * STEP).mean() > 0.97  # the rest lies on edges
     assert (exact.color[..., 0] > 0.9).mean() > 0.02
+
+
+# Probes that see each other.
+
+WHITE = cc.CubeMap(np.ones((6, 1, 1, 3), np.float32))
+
+
+def facing_planes(bounces, order=(-1, 1)):
+    """Two mirrors that keep a half, with a probe in the middle of each; the eye is between them."""
+    scene = cc.Scene(environment=WHITE)
+    half = cc.MirrorMaterial(tint=(0.5, 0.5, 0.5))
+    for z in order:
+        turn = cc.axis_angle((1, 0, 0), -90 * z)
+        mirror = scene.add(cc.Mesh.plane(4, 4), half, position=(0, 0, z), rotation=turn)
+        mirror.environment = cc.Probe(parent=mirror, size=32, format="rgba32f", bounces=bounces)
+    return scene
+
+
+@pytest.mark.parametrize("bounces", [1, 2, 5])
+def test_mirrors_that_face_each_other(renderer, bounces):
+    """Where each path meets both mirrors in turn, a probe's bounces are those of the exact rays."""
+    pictures = []
+    for order, ahead in itertools.product([(-1, 1), (1, -1)], (-1, 1)):
+        scene = facing_planes(bounces, order)
+        camera = cc.PerspectiveCamera(fov=20, position=(0, 0, -0.5 * ahead), target=(0, 0, ahead))
+        exact = cc.truth.render(
+            scene, camera, (12, 12), samples=1, bounces=bounces, self_hits=False, progress=False
+        )
+        assert np.ptp(exact.color[..., :3]) < 1e-6
+        found = renderer.render(scene, camera, (12, 12), format="rgba32f")
+        pictures.append(found.color)
+        assert np.abs(found.color - exact.color)[..., :3].max() < 1e-6
+        assert found.color[0, 0, 0] == pytest.approx(0.5 ** (bounces + 1))
+    for picture in pictures:
+        assert np.array_equal(picture, pictures[0])
+
+
+def test_more_bounces_are_nearer_to_all_bounces(renderer):
+    """Balls: the parallax of cubemaps limits how near, but no further bounce adds to the error."""
+    size, errors = (48, 32), []
+    camera = cc.PerspectiveCamera(fov=20, position=(0, 0, 3), target=(0, 0, 0))
+    for bounces in (1, 2, 3):
+        scene = cc.Scene(environment=cc.CubeMap(smooth_environment(16)))
+        for x in (-0.525, 0.525):
+            tint = cc.MirrorMaterial(tint=(0.9, 0.9, 0.9))
+            ball = scene.add(cc.Mesh.icosphere(0.5, subdivisions=5), tint, position=(x, 0, 0))
+            ball.environment = cc.Probe(parent=ball, size=64, near=0.01, bounces=bounces)
+        found = renderer.render(scene, camera, size, format="rgba32f", outputs=("id",))
+        for of in (bounces, 8):
+            exact = cc.truth.render(
+                scene, camera, size, samples=1, bounces=of, self_hits=False, progress=False
+            )
+            difference = (found.color - exact.color)[found.id > 0, :3]
+            errors.append(float(np.sqrt((difference**2).mean())))
+    same, all_of_them = errors[::2], errors[1::2]
+    assert max(same[1:]) < same[0]
+    assert all_of_them[1] < all_of_them[0]
+    assert all_of_them[2] < all_of_them[0]

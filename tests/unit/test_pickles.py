@@ -242,7 +242,7 @@ MAKE = {
     "PerspectiveCamera": lens,
     "OrthographicCamera": lambda: cc.OrthographicCamera(height=3, target=(0, 0, -2)),
     "StereoCamera": lambda: cc.StereoCamera(lens(), lens(fov=20), layout="top_bottom"),
-    "Probe": lambda: cc.Probe((1, 2, 3), size=16, update=3, faces_per_frame=2),
+    "Probe": lambda: cc.Probe((1, 2, 3), size=16, update=3, faces_per_frame=2, bounces=3),
     "RenderTexture": lambda: cc.RenderTexture(cc.Scene(), lens(), size=(3, 4), name="screen"),
     "Scene": lambda: cc.Scene(background=(1, 0, 0)),
     "Node": lambda: cc.Scene().add(name="n"),

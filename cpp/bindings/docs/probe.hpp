@@ -35,7 +35,7 @@ parent : Node, optional
     A node that the probe moves with; the axes of the probe stay those of the world. The probe does not
     keep the node alive.
 faces_per_frame : int
-    The greatest number of faces that one call draws, from 1 to 6.
+    The greatest number of faces that one call draws, from 1 to 6; of each bounce, if there are several.
 depth_format : str or None
     The format of the depth and stencil buffer, see `Renderer.render`.
 prefilter : bool, optional
@@ -58,6 +58,12 @@ proxy_matrix : array_like (4, 4), optional
 fetches : {14, 6, 35}
     About how many lookups of distance a ray makes with "distance" and "layers". More find thinner things; the cost of
     a pixel grows with them.
+bounces : int
+    How many mirrors of a circle a path meets, from 1 to 16; beyond that it sees the scene's environment, or
+    black without one. Probes whose pictures may show each other's users, in view or not, form a circle. With
+    1, the other mirrors of the circle show the environment in this one. All probes of a circle have the
+    largest ``bounces`` among them, so none is preferred. Time and memory grow with it;
+    ``renderer.stats.bounce_changes`` says how much each bounce changed. Without a circle it has no effect.
 
 Notes
 -----
@@ -90,6 +96,13 @@ The walls of a room that reaches from (-5, 0, -4) to (5, 3, 4) are then in their
 
 >>> ball.environment.box = (-5, 0, -4), (5, 3, 4)
 >>> ball.environment.parallax = "box"
+
+Two mirrors that face each other, with two reflections of each:
+
+>>> other = scene.add(cc.Mesh.sphere(.5), cc.MirrorMaterial(), position=(1.2, 1, 0))
+>>> other.environment = cc.Probe(parent=other, size=128, bounces=2)
+>>> other.environment.bounces
+2
 )doc";
 
 }  // namespace cubecam::docs

@@ -450,13 +450,17 @@ ShadowDistances Renderer::shadow_map(const SceneSnapshot& scene,
 
 std::shared_ptr<CubeMap> Renderer::read_probe(const std::shared_ptr<Probe>& probe) {
     return run([&](RendererState& gpu) {
-        StatesByScene<ProbeState>* contents = gpu.probes.find(probe);
-        const ProbeState* state = contents == nullptr ? nullptr : &contents->of(0);
-        if (state != nullptr && state->last.lost) draw_again(gpu, *probe, state->last, "probe");
-        if (state == nullptr || state->target == nullptr) {
+        StatesByScene<ProbeLevels>* contents = gpu.probes.find(probe);
+        ProbeLevels* levels = contents == nullptr ? nullptr : &contents->of(0);
+        if (levels != nullptr && levels->last.lost) {
+            draw_again(gpu, *probe, LostPicture(levels->last), "probe");
+        }
+        const auto drawn = levels == nullptr ? std::nullopt : levels->drawn();
+        if (!drawn) {
             throw std::invalid_argument("probe: expected one that this renderer has drawn; render "
                                         "a frame that needs it, or call update_probes()");
         }
+        const std::shared_ptr<ProbeState> state = levels->at(*drawn);
         return read_cube(gpu.context, *state->target, *gpu.results, gpu.read_buffer,
                          state->encoding);
     });

@@ -14,7 +14,8 @@ bool ProbeValue::operator==(const ProbeValue& other) const {
            mipmaps == other.mipmaps && samples == other.samples && update == other.update &&
            every == other.every && faces_per_frame == other.faces_per_frame &&
            depth_format == other.depth_format && prefilter == other.prefilter &&
-           parallax == other.parallax && same_nodes(exclude, other.exclude);
+           parallax == other.parallax && bounces == other.bounces &&
+           same_nodes(exclude, other.exclude);
 }
 
 void check(const ProbeValue& value) {
@@ -30,6 +31,8 @@ void check(const ProbeValue& value) {
     expect(value.every >= 1, "update every 1 or more frames", std::to_string(value.every));
     expect(value.faces_per_frame >= 1 && value.faces_per_frame <= 6, "faces_per_frame from 1 to 6",
            std::to_string(value.faces_per_frame));
+    expect(value.bounces >= 1 && value.bounces <= most_bounces, "bounces from 1 to 16",
+           std::to_string(value.bounces));
     check(value.parallax);
     if (value.parallax.by_distance()) {
         expect(value.depth_format == DepthFormat::depth_component32f ||

@@ -38,6 +38,8 @@ struct ProbeValue {
     int faces_per_frame = 6;  ///< the largest number of faces drawn in one call
     WeakNodes exclude;
     DepthFormat depth_format = DepthFormat::depth_component32f;
+    /// How many mirrors of a circle of probes that see each other a path meets (docs/adr/0003).
+    int bounces = 1;
     /// Whether it is filtered by roughness; none: if a drawn surface needs that.
     std::optional<bool> prefilter;
     ParallaxValue parallax;
@@ -45,8 +47,12 @@ struct ProbeValue {
     bool operator==(const ProbeValue& other) const;
 };
 
+/// The largest ProbeValue::bounces: each is a picture of its own.
+inline constexpr int most_bounces = 16;
+
 /// Throws std::invalid_argument for size < 1, near <= 0, near >= far, samples < 1, n < 1, faces
-/// outside 1..6, a wrong parallax, or a march through distances without depths of 32 bits.
+/// outside 1..6, bounces outside 1..most_bounces, a wrong parallax, or a march through distances
+/// without depths of 32 bits.
 void check(const ProbeValue& value);
 
 /// A cubemap that follows the scene. A Probe is only a description: each renderer holds contents of

@@ -8,6 +8,7 @@
 #include "cubecam/render/graph/texture_picture.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -16,7 +17,7 @@ namespace cubecam {
 
 FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes)
     : gpu(its_gpu), scenes(its_scenes), pictures([this](const PictureId& id) { return make(id); }),
-      contents_(its_scenes.others.size() + 1) {
+      contents_(its_scenes.others.size() + 1), circles_(contents_.size()) {
     std::map<const void*, std::size_t> users;  // how many scenes so far use an object; not iterated
     for (std::size_t s = 0; s < contents_.size(); ++s) {
         const SceneSnapshot& scene = scenes.scene(s);
@@ -70,8 +71,9 @@ void FrameContext::draw(std::vector<View> views, Target& target,
 void FrameContext::update_probes(const std::vector<std::size_t>& probes) {
     Dependencies roots;
     for (const std::size_t place : probes) {
-        probe(0, place).force();
-        roots.push_back(probe_id(0, place));
+        probe(probe_id(0, place)).force();
+        const Dependencies all = probe_pictures(0, place);
+        roots.insert(roots.end(), all.begin(), all.end());
     }
     update(roots);
 }
@@ -81,8 +83,8 @@ bool FrameContext::draw_again(const Probe& lost) {
         const std::vector<ProbeSnapshot>& probes = scenes.scene(s).probes;
         for (std::size_t place = 0; place < probes.size(); ++place) {
             if (probes[place].object.get() != &lost) continue;
-            probe(s, place).force();
-            update({probe_id(s, place)});
+            probe(probe_id(s, place)).force();
+            update(probe_pictures(s, place));
             return true;
         }
     }
@@ -115,6 +117,20 @@ void FrameContext::update(const std::vector<PictureId>& roots) {
         pictures.refuse_circles(roots, advice);
     }
     pictures.update(roots);
+    measure_bounces();
+}
+
+void FrameContext::measure_bounces() {
+    std::vector<BouncePair> pairs;
+    for (const PictureId& id : pictures.order()) {
+        if (id.kind != PictureKind::probe || id.bounce == 0) continue;
+        // One bounce less is out of date if nothing in this call shows it.
+        const ProbePicture& more = probe(id);
+        const ProbePicture& less = probe(probe_id(id.scene, id.object, id.bounce - 1));
+        if (!more.probe_updated() || !more.up_to_date() || !less.up_to_date()) continue;
+        pairs.push_back({id.bounce, less.cube(), more.cube()});
+    }
+    if (!pairs.empty()) stats.bounce_changes = gpu.bounce_changes.measure(pairs, stats);
 }
 
 std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
@@ -128,12 +144,63 @@ std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
     throw std::logic_error("expected a frame to be added before something depends on it");
 }
 
-ProbePicture& FrameContext::probe(std::size_t scene, std::size_t place) {
-    return static_cast<ProbePicture&>(pictures.at(probe_id(scene, place)));
+ProbePicture& FrameContext::probe(const PictureId& id) {
+    return static_cast<ProbePicture&>(pictures.at(id));
+}
+
+const ProbeCircles& FrameContext::probe_circles(std::size_t scene) {
+    std::optional<ProbeCircles>& known = circles_[scene];
+    if (!known) known.emplace(scenes.scene(scene));
+    return *known;
+}
+
+std::vector<PictureId> FrameContext::probe_pictures(std::size_t scene, std::size_t probe) {
+    std::vector<PictureId> all;
+    const std::size_t levels = probe_circles(scene).levels(probe);
+    for (std::size_t bounce = 0; bounce < levels; ++bounce) {
+        all.push_back(probe_id(scene, probe, bounce));
+    }
+    return all;
+}
+
+std::optional<PictureId> FrameContext::shown_probe(const PictureId& viewer, std::size_t scene,
+                                                   std::size_t probe) {
+    // A picture for one viewer shows what its viewer shows.
+    const PictureId* root = &viewer;
+    while (root->viewer != nullptr) root = root->viewer.get();
+    const bool in_circle = root->kind == PictureKind::probe && root->scene == scene &&
+                           probe_circles(scene).together(root->object, probe);
+    if (in_circle && root->bounce == 0) return std::nullopt;
+    ProbePicture& first = this->probe(probe_id(scene, probe));
+    if (first.due()) {
+        const std::size_t levels = in_circle ? root->bounce : probe_circles(scene).levels(probe);
+        return probe_id(scene, probe, levels - 1);
+    }
+    const auto kept =
+        first.drawn_below(in_circle ? root->bounce : std::numeric_limits<std::size_t>::max());
+    if (!kept) return std::nullopt;  // a manual probe before its first update
+    return probe_id(scene, probe, *kept);
 }
 
 ScenePicture& FrameContext::scene_picture(const PictureId& id) {
     return static_cast<ScenePicture&>(pictures.at(id));
+}
+
+Dependencies FrameContext::with_shown_probes(const PictureId& viewer, std::size_t scene,
+                                             const Dependencies& shown) {
+    Dependencies found;
+    std::vector<bool> known(scenes.scene(scene).probes.size(), false);
+    for (const PictureId& id : shown) {
+        if (id.kind != PictureKind::probe) {
+            found.push_back(id);
+        } else if (!known[id.object]) {
+            known[id.object] = true;
+            if (auto picture = shown_probe(viewer, scene, id.object)) {
+                found.push_back(std::move(*picture));
+            }
+        }
+    }
+    return found;
 }
 
 TexturePicture& FrameContext::texture(std::size_t place) {
@@ -150,11 +217,11 @@ std::vector<ShadowUse> FrameContext::shadows(std::size_t scene) {
     return uses;
 }
 
-ProbeState& FrameContext::probe_state(std::size_t scene, std::size_t probe) {
+ProbeLevels& FrameContext::probe_levels(std::size_t scene, std::size_t probe) {
     const ProbeSnapshot& snapshot = scenes.scene(scene).probes[probe];
     // A manual probe has one state: every scene sees what it last showed.
     const bool by_hand = snapshot.value.update == ProbeUpdate::manual;
-    return gpu.probes.get(snapshot.object, [] { return StatesByScene<ProbeState>(); })
+    return gpu.probes.get(snapshot.object, [] { return StatesByScene<ProbeLevels>(); })
         .of(by_hand ? 0 : ranks_[scene].probes[probe]);
 }
 

@@ -3,6 +3,7 @@
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/render/graph/dependencies.hpp"
 #include "cubecam/render/graph/picture_graph.hpp"
+#include "cubecam/render/graph/probe_circles.hpp"
 #include "cubecam/render/graph/renderer_state.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
@@ -56,15 +57,27 @@ public:
     Stats stats;
     PictureGraph pictures;
 
-    ProbePicture& probe(std::size_t scene, std::size_t place);
+    ProbePicture& probe(const PictureId& id);
     TexturePicture& texture(std::size_t place);
     /// The picture of a scene with this id.
     ScenePicture& scene_picture(const PictureId& id);
     /// The shadow maps of a scene, in the order of its lights; they are up to date.
     std::vector<ShadowUse> shadows(std::size_t scene);
 
-    /// The renderer's state of a probe, or of a light's shadow map, for a scene of this call.
-    ProbeState& probe_state(std::size_t scene, std::size_t probe);
+    /// The picture of a probe that another picture, `viewer`, shows; none: the scene's environment
+    /// takes its place. Asking for it counts the call, since the probe is needed.
+    std::optional<PictureId> shown_probe(const PictureId& viewer, std::size_t scene,
+                                         std::size_t probe);
+    /// Puts the shown picture in the place of each probe of a scene; those without one are left
+    /// out.
+    Dependencies with_shown_probes(const PictureId& viewer, std::size_t scene,
+                                   const Dependencies& shown);
+    /// All pictures of a probe, one for each bounce.
+    std::vector<PictureId> probe_pictures(std::size_t scene, std::size_t probe);
+    const ProbeCircles& probe_circles(std::size_t scene);
+
+    /// The renderer's states of a probe, or of a light's shadow map, for a scene of this call.
+    ProbeLevels& probe_levels(std::size_t scene, std::size_t probe);
     ShadowState& shadow_state(std::size_t scene, std::size_t light);
 
     const SceneContents& contents(std::size_t scene);
@@ -78,6 +91,8 @@ private:
     bool counts_no_calls() const;
     /// Refuses circles, then draws the pictures.
     void update(const std::vector<PictureId>& roots);
+    /// Measures how much each round of bounces changed what mirrors show.
+    void measure_bounces();
 
     /// For each probe and each light of a scene: how many earlier scenes of the call use it.
     struct Ranks {
@@ -86,8 +101,9 @@ private:
 
     std::vector<Ranks> ranks_;  // for each scene
     std::vector<std::optional<SceneContents>>
-        contents_;                      // for each scene, made when a picture needs it
-    Dependencies caster_dependencies_;  // of all scenes
+        contents_;  // for each scene, made when a picture needs it
+    std::vector<std::optional<ProbeCircles>> circles_;  // the same
+    Dependencies caster_dependencies_;                  // of all scenes
 };
 
 }  // namespace cubecam

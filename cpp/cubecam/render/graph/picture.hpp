@@ -9,9 +9,8 @@
 
 namespace cubecam {
 
-/// The kind of a picture. Of the pictures in one circle, those with the lower kind come first, and
-/// those for one viewer directly after their viewer. picture_kind.hpp lists the kinds; the graph
-/// does not depend on them.
+/// The kind of a picture. Of the pictures that do not depend on each other, those with the lower
+/// kind come first. picture_kind.hpp lists the kinds; the graph does not depend on them.
 enum class PictureKind : std::uint8_t;
 
 /// Identifies a picture: equal values mean the same picture. The members are indices, not
@@ -48,6 +47,10 @@ public:
     /// `update` is called. It runs once in a call of a renderer, since policies like every_n_frames
     /// count these runs.
     virtual std::vector<PictureId> dependencies() = 0;
+
+    /// The pictures that a call brings up to date whenever it plans this one, before or after it.
+    /// It runs after `dependencies`.
+    virtual std::vector<PictureId> companions() { return {}; }
 
     /// Draws what has changed.
     virtual void update() = 0;

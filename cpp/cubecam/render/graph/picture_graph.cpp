@@ -52,8 +52,9 @@ std::strong_ordering PictureId::operator<=>(const PictureId& other) const {
     }
     if (const auto order = kind <=> other.kind; order != 0) return order;
     if (const auto order = scene <=> other.scene; order != 0) return order;
-    if (const auto order = object <=> other.object; order != 0) return order;
-    return bounce <=> other.bounce;
+    // Bounces are drawn in rounds.
+    if (const auto order = bounce <=> other.bounce; order != 0) return order;
+    return object <=> other.object;
 }
 
 Picture& PictureGraph::at(const PictureId& id) {
@@ -79,15 +80,19 @@ std::vector<std::size_t> PictureGraph::Edges::places(const std::vector<PictureId
     return found;
 }
 
-PictureGraph::Edges PictureGraph::walk(const std::vector<PictureId>& roots, Question dependencies) {
+PictureGraph::Edges PictureGraph::walk(const std::vector<PictureId>& roots, Question question) {
     std::map<PictureId, std::vector<PictureId>> found;
     std::vector<PictureId> open = roots;
     while (!open.empty()) {
         const auto [place, added] = found.try_emplace(std::move(open.back()));
         open.pop_back();
         if (!added) continue;
-        place->second = (at(place->first).*dependencies)();
+        Picture& picture = at(place->first);
+        place->second = question == Question::planned ? picture.dependencies()
+                                                      : picture.possible_dependencies();
         open.insert(open.end(), place->second.begin(), place->second.end());
+        if (question == Question::possible) continue;
+        for (PictureId& companion : picture.companions()) open.push_back(std::move(companion));
     }
     Edges edges;
     for (const auto& [id, shown] : found) edges.ids.push_back(id);
@@ -96,10 +101,10 @@ PictureGraph::Edges PictureGraph::walk(const std::vector<PictureId>& roots, Ques
 }
 
 void PictureGraph::refuse_circles(const std::vector<PictureId>& roots, const std::string& advice) {
-    const Edges edges = walk(roots, &Picture::possible_dependencies);
-    const PictureOrder order = order_pictures(edges.of, edges.places(roots));
+    const Edges edges = walk(roots, Question::possible);
+    const PictureComponents components = find_components(edges.of);
     for (std::size_t p = 0; p < edges.ids.size(); ++p) {
-        if (!order.in_circle(p, edges.of) || !at(edges.ids[p]).strict()) continue;
+        if (!components.in_circle(p, edges.of) || !at(edges.ids[p]).strict()) continue;
         throw std::invalid_argument(message(edges, p) + advice);
     }
 }
@@ -126,22 +131,12 @@ std::string PictureGraph::message(const Edges& edges, std::size_t start) {
 }
 
 void PictureGraph::update(const std::vector<PictureId>& roots) {
-    edges_ = walk(roots, &Picture::dependencies);
-    order_ = order_pictures(edges_.of, edges_.places(roots));
-    for (const std::size_t place : order_.order) at(edges_.ids[place]).update();
-}
-
-bool PictureGraph::is_edge_back(const PictureId& from, const PictureId& to) const {
-    const std::size_t first = edges_.place(from);
-    const std::size_t second = edges_.place(to);
-    return std::max(first, second) < edges_.ids.size() && edges_.ids[first] == from &&
-           edges_.ids[second] == to && order_.is_edge_back(first, second);
-}
-
-std::vector<PictureId> PictureGraph::order() const {
-    std::vector<PictureId> ids;
-    for (const std::size_t place : order_.order) ids.push_back(edges_.ids[place]);
-    return ids;
+    const Edges edges = walk(roots, Question::planned);
+    for (const std::size_t place : order_pictures(edges.of)) order_.push_back(edges.ids[place]);
+    if (order_.size() != edges.ids.size()) {
+        throw std::logic_error("expected pictures that do not depend on each other, got a circle");
+    }
+    for (const PictureId& id : order_) at(id).update();
 }
 
 }  // namespace cubecam

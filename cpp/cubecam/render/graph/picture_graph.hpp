@@ -4,6 +4,7 @@
 #include "cubecam/render/graph/picture_order.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -33,16 +34,13 @@ public:
     /// @throws std::invalid_argument that names the chain.
     void refuse_circles(const std::vector<PictureId>& roots, const std::string& advice);
 
-    /// Brings `roots` up to date, and before each picture those that it depends on. It may be
-    /// called once for each graph.
+    /// Brings `roots` and the companions of all pictures up to date, and before each picture those
+    /// that it depends on. It may be called once for each graph.
+    /// @throws std::logic_error if pictures depend on each other in a circle.
     void update(const std::vector<PictureId>& roots);
 
-    /// Whether `from` must not look at `to`; see PictureOrder. False if the update did not reach
-    /// one of them.
-    bool is_edge_back(const PictureId& from, const PictureId& to) const;
-
-    /// The pictures that `update` draws, in this order.
-    std::vector<PictureId> order() const;
+    /// The pictures that `update` brought up to date, in this order.
+    const std::vector<PictureId>& order() const { return order_; }
 
 private:
     /// The dependencies between pictures. A picture is an index into `ids`, which are sorted, so
@@ -55,16 +53,15 @@ private:
         std::vector<std::size_t> places(const std::vector<PictureId>& some) const;
     };
 
-    using Question = std::vector<PictureId> (Picture::*)();
+    enum class Question : std::uint8_t { possible, planned };
 
-    /// Finds all pictures that `roots` depend on; `dependencies` is the function that reports them.
-    Edges walk(const std::vector<PictureId>& roots, Question dependencies);
+    /// Finds all pictures that `roots` may ever depend on, or do depend on as planned.
+    Edges walk(const std::vector<PictureId>& roots, Question question);
     std::string message(const Edges& edges, std::size_t start);
 
     PictureSource source_;
     std::map<PictureId, std::unique_ptr<Picture>> pictures_;
-    Edges edges_;  // of the update
-    PictureOrder order_;
+    std::vector<PictureId> order_;
 };
 
 }  // namespace cubecam

@@ -73,62 +73,38 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The pictures that `roots` depend on without edges back.
-std::vector<std::size_t> drawn_from(const PictureOrder& order, const Edges& edges,
-                                    const std::vector<std::size_t>& roots) {
-    std::vector<bool> seen(edges.size(), false);
-    std::vector<std::size_t> reached;
-    const auto reach = [&](std::size_t picture) {
-        if (!seen[picture]) reached.push_back(picture);
-        seen[picture] = true;
-    };
-    for (const std::size_t root : roots) reach(root);
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-        const std::size_t from = reached[i];
-        for (const std::size_t to : edges[from]) {
-            if (!order.is_edge_back(from, to)) reach(to);
-        }
-    }
-    return reached;
-}
-
 }  // namespace
 
-bool PictureOrder::in_circle(std::size_t picture, const Edges& edges) const {
-    if (components[picture] == unseen) return false;
-    return sizes[components[picture]] > 1 ||
+bool PictureComponents::in_circle(std::size_t picture, const Edges& edges) const {
+    return sizes[of[picture]] > 1 ||
            std::find(edges[picture].begin(), edges[picture].end(), picture) != edges[picture].end();
 }
 
-PictureOrder order_pictures(const Edges& edges, const std::vector<std::size_t>& roots) {
+PictureComponents find_components(const Edges& edges) {
     Components components(edges);
-    for (const std::size_t root : roots) components.visit(root);
-    PictureOrder result{{}, std::move(components.of), std::move(components.sizes)};
+    for (std::size_t picture = 0; picture < edges.size(); ++picture) components.visit(picture);
+    return {std::move(components.of), std::move(components.sizes)};
+}
 
-    // Without the edges back there are no circles.
-    const std::vector<std::size_t> drawn = drawn_from(result, edges, roots);
+std::vector<std::size_t> order_pictures(const Edges& edges) {
     std::vector<std::vector<std::size_t>> shown_by(edges.size());
     std::vector<std::size_t> waits_for(edges.size(), 0);
-    for (const std::size_t from : drawn) {
-        for (const std::size_t to : edges[from]) {
-            if (result.is_edge_back(from, to)) continue;
-            shown_by[to].push_back(from);
-            ++waits_for[from];
-        }
-    }
     std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready;
-    for (const std::size_t picture : drawn) {
-        if (waits_for[picture] == 0) ready.push(picture);
+    for (std::size_t from = 0; from < edges.size(); ++from) {
+        for (const std::size_t to : edges[from]) shown_by[to].push_back(from);
+        waits_for[from] = edges[from].size();
+        if (waits_for[from] == 0) ready.push(from);
     }
+    std::vector<std::size_t> order;
     while (!ready.empty()) {
         const std::size_t next = ready.top();
         ready.pop();
-        result.order.push_back(next);
+        order.push_back(next);
         for (const std::size_t waiting : shown_by[next]) {
             if (--waits_for[waiting] == 0) ready.push(waiting);
         }
     }
-    return result;
+    return order;
 }
 
 }  // namespace cubecam

@@ -10,7 +10,19 @@ namespace cubecam {
 
 ProbePicture::ProbePicture(FrameContext& context, const PictureId& id)
     : ScenePicture(context, id, id.scene), probe_(scene_.probes[id.object]),
-      state_(context.probe_state(id.scene, id.object)) {}
+      levels_(context.probe_levels(id.scene, id.object)), kept_(levels_.at(id.bounce)),
+      state_(*kept_),
+      first_(id.bounce == 0 ? *this : context.probe(probe_id(id.scene, id.object))) {}
+
+bool ProbePicture::due() {
+    if (&first_ != this) return first_.due();
+    if (!due_) {
+        due_ = count_and_decide();
+        // A probe that keeps its pictures keeps all of them.
+        if (*due_) levels_.drop_from(context_.probe_circles(id_.scene).levels(id_.object));
+    }
+    return *due_;
+}
 
 Environment ProbePicture::environment(const EnvironmentParts& parts) {
     const TargetDescription& description = state_.target->description();
@@ -97,9 +109,9 @@ bool ProbePicture::sees(const NodeSnapshot& node) const {
 }
 
 bool ProbePicture::count_and_decide() {
-    const bool drawn = state_.target != nullptr;
+    const bool drawn = levels_.drawn().has_value();
     // Whatever its policy is: a picture that was lost with its context is drawn again.
-    if (forced_ || state_.last.lost) return true;
+    if (forced_ || levels_.last.lost) return true;
     switch (probe_.value.update) {
         case ProbeUpdate::on_change: return true;
         case ProbeUpdate::once: return !drawn || (has_layers() && state_.farthest == nullptr);
@@ -111,15 +123,20 @@ bool ProbePicture::count_and_decide() {
 
 /// Counts the call, unless the same call counted before its context was lost.
 bool ProbePicture::due_by_count() {
-    if (state_.counted != context_.gpu.call) ++state_.calls;
-    state_.counted = context_.gpu.call;
-    return (state_.calls - 1) % probe_.value.every == 0;
+    if (levels_.counted != context_.gpu.call) ++levels_.calls;
+    levels_.counted = context_.gpu.call;
+    return (levels_.calls - 1) % probe_.value.every == 0;
 }
 
 std::vector<PictureId> ProbePicture::dependencies() {
-    due_ = count_and_decide();
-    if (!due_) return {};  // it keeps its contents and depends on nothing
+    if (!due()) return {};  // it keeps its contents and depends on nothing
     return plan(cube_views(probe_.position, probe_.value.near, probe_.value.far), describe());
+}
+
+std::vector<PictureId> ProbePicture::companions() {
+    // What follows changes is drawn as soon as something shows it. A policy concerns one moment.
+    if (!due() || probe_.value.update == ProbeUpdate::on_change) return {};
+    return context_.probe_pictures(id_.scene, id_.object);
 }
 
 TargetDescription ProbePicture::describe() const {
@@ -147,7 +164,7 @@ TargetDescription ProbePicture::describe_farthest() const {
 }
 
 void ProbePicture::update() {
-    if (due_) draw();
+    if (due()) draw();
     if (!has_layers()) state_.farthest = nullptr;
     if (!probe_.value.parallax.by_distance()) state_.distances = {};
     if (drawn() && probe_.value.parallax.by_distance()) {
@@ -164,7 +181,7 @@ void ProbePicture::draw() {
     if (state_.target == nullptr || state_.target->description() != description) {
         state_.target = nullptr;  // frees the old memory first
         state_.target = std::make_unique<Target>(context_.gpu.context, description);
-    } else if (!forced_ && probe_.value.faces_per_frame < 6) {
+    } else if (!first_.forced_ && probe_.value.faces_per_frame < 6) {
         // The first time all six faces are drawn: an undrawn face would have undefined contents.
         budget = Budget{static_cast<std::size_t>(probe_.value.faces_per_frame), state_.next_face};
     }
@@ -178,11 +195,12 @@ void ProbePicture::draw() {
         context_.gpu.contents = next_revision();
         throw;
     }
+    up_to_date_ = true;
     // A face that is left for a later call was drawn from elsewhere.
     if (state_.position != probe_.position) context_.gpu.contents = next_revision();
     state_.position = probe_.position;
     state_.range = {probe_.value.near, probe_.value.far};
-    state_.last = {false, context_.scenes.origin};
+    levels_.last = {false, context_.scenes.origin};
     state_.encoding =
         scene_encoding(context_.scenes, number_, [this](const NodeSnapshot& n) { return sees(n); });
     if (drawn == 0) return;
@@ -191,7 +209,8 @@ void ProbePicture::draw() {
         context_.gpu.context.gl().GenerateTextureMipmap(state_.target->color().id());
     }
     state_.revision = context_.gpu.contents = next_revision();
-    ++context_.stats.probes_updated;
+    if (!first_.updated_) ++context_.stats.probes_updated;
+    first_.updated_ = true;
 }
 
 std::size_t ProbePicture::draw_farthest(std::optional<Budget> budget) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/gl/context.hpp"
+#include "cubecam/render/passes/bounce_change_pass.hpp"
 #include "cubecam/render/passes/distance_pass.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/passes/shadow_pass.hpp"
@@ -16,6 +17,8 @@
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -29,13 +32,11 @@ struct LostPicture {
     std::weak_ptr<const Scene> scene;  ///< from which it was drawn last
 };
 
-/// A renderer's state of a probe.
+/// A renderer's state of one picture of a probe; most probes have one picture.
 struct ProbeState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     Target::Behind behind;
     std::uint64_t revision = 0;              ///< new whenever a face was drawn; 0: not drawn yet
-    std::int64_t calls = 0;                  ///< calls that needed it, for every_n_frames
-    std::uint64_t counted = 0;               ///< the last of these calls (RendererState::call)
     std::size_t next_face = 0;               ///< the next face to draw with faces_per_frame
     glm::dvec3 position{0.0};                ///< the position of the last drawing, world
     Encoding encoding = Encoding::linear;    ///< of the last drawing
@@ -46,17 +47,53 @@ struct ProbeState {
     std::uint64_t farthest_mipmaps = 0;      ///< `revision` of which it has levels
     DistanceRange range;                     ///< of the last drawing
     DistanceMap distances;                   ///< empty until a parallax needs it
+};
+
+/// A renderer's states of all pictures of a probe (docs/adr/0003-probe-cycles.md).
+class ProbeLevels {
+public:
+    std::int64_t calls = 0;     ///< calls that needed the probe, for every_n_frames
+    std::uint64_t counted = 0;  ///< the last of these calls (RendererState::call)
     LostPicture last;
 
-    /// The state in a new context, after this one's context was lost.
-    ProbeState in_new_context() const {
-        ProbeState state;
-        state.calls = calls;
-        state.counted = counted;
-        state.next_face = next_face;
-        state.last = {target != nullptr || last.lost, last.scene};
-        return state;
+    /// The state of the picture with this PictureId::bounce. It stays valid while its owner lives,
+    /// even if it is dropped.
+    std::shared_ptr<ProbeState> at(std::size_t bounce) {
+        while (states_.size() <= bounce) states_.push_back(std::make_shared<ProbeState>());
+        return states_[bounce];
     }
+
+    /// The highest bounce below `end` whose picture was drawn; none: no such picture.
+    std::optional<std::size_t> drawn_below(std::size_t end) const {
+        for (std::size_t bounce = std::min(end, states_.size()); bounce-- > 0;) {
+            if (states_[bounce]->target != nullptr) return bounce;
+        }
+        return std::nullopt;
+    }
+
+    /// The highest bounce whose picture was drawn.
+    std::optional<std::size_t> drawn() const { return drawn_below(states_.size()); }
+
+    /// Drops the pictures from this bounce on.
+    void drop_from(std::size_t bounce) {
+        if (states_.size() > bounce) states_.resize(bounce);
+    }
+
+    /// The state in a new context, after this one's context was lost.
+    ProbeLevels in_new_context() const {
+        ProbeLevels made;
+        made.calls = calls;
+        made.counted = counted;
+        made.last = {drawn() || last.lost, last.scene};
+        for (const auto& state : states_) {
+            made.states_.push_back(std::make_shared<ProbeState>());
+            made.states_.back()->next_face = state->next_face;
+        }
+        return made;
+    }
+
+private:
+    std::vector<std::shared_ptr<ProbeState>> states_;
 };
 
 /// A renderer's state of a light's shadow map.
@@ -114,7 +151,8 @@ struct RendererState {
         : context(its_context), cache(its_context), surface(its_context, cache, layering),
           post_process(its_context.gl(), cache, surface.programs()),
           shadows(its_context, cache, surface.programs()),
-          distances(its_context, cache, surface.programs()), targets(cache_bytes),
+          distances(its_context, cache, surface.programs()),
+          bounce_changes(its_context, cache, surface.programs()), targets(cache_bytes),
           results(std::make_shared<ResultPool>(cache_bytes)) {}
 
     /// Takes over what was not on the GPU from the state of a lost context. All else is drawn again
@@ -131,10 +169,11 @@ struct RendererState {
     PostProcessPass post_process;
     ShadowPass shadows;
     DistancePass distances;
+    BounceChangePass bounce_changes;
     TargetStore targets;
     std::shared_ptr<ResultPool> results;  ///< shared: results may outlive the renderer
     ReadBuffer read_buffer;
-    WeakCache<Probe, StatesByScene<ProbeState>> probes;
+    WeakCache<Probe, StatesByScene<ProbeLevels>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
     FilteredCubes filtered_cubes;

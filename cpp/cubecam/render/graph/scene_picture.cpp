@@ -39,6 +39,7 @@ Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription
         shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
         shows_behind_ = shows_behind_ || (target.color && shows_behind(node));
     });
+    shown = context_.with_shown_probes(id_, number_, shown);
     if (shows_behind_) shown.push_back(behind_id(id_));
     if (shows_shadows_) add_shadows(scene_, number_, shown);
     return shown;

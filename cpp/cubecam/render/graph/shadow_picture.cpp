@@ -50,10 +50,14 @@ ShadowPicture::ShadowPicture(FrameContext& context, const PictureId& id)
     : context_(context), id_(id), scene_(context.scenes.scene(id.scene)),
       state_(context.shadow_state(id.scene, id.object)) {}
 
-std::vector<PictureId> ShadowPicture::dependencies() {
+std::vector<PictureId> ShadowPicture::possible_dependencies() {
     Dependencies shown;
     add_caster_dependencies(scene_, id_.scene, shown);
     return shown;
+}
+
+std::vector<PictureId> ShadowPicture::dependencies() {
+    return context_.with_shown_probes(id_, id_.scene, possible_dependencies());
 }
 
 void ShadowPicture::update() {

@@ -22,7 +22,7 @@ public:
     /// The map for lookups; valid after `update`.
     const ShadowUse& use() const { return use_; }
 
-    std::vector<PictureId> possible_dependencies() override { return dependencies(); }
+    std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
     void update() override;
     bool strict() const override { return true; }

@@ -1,7 +1,6 @@
 #include "cubecam/render/graph/texture_lookup.hpp"
 
 #include "cubecam/render/graph/frame_context.hpp"
-#include "cubecam/render/graph/picture_kind.hpp"
 #include "cubecam/render/graph/probe_picture.hpp"
 #include "cubecam/render/graph/scene_picture.hpp"
 #include "cubecam/render/graph/texture_picture.hpp"
@@ -11,7 +10,7 @@ namespace cubecam {
 
 TextureLookup::TextureLookup(FrameContext& context, const PictureId& viewer, std::size_t scene)
     : context_(context), viewer_(viewer), number_(scene), scene_(context.scenes.scene(scene)),
-      replaced_(scene_.probes.size()) {}
+      shown_(scene_.probes.size()) {}
 
 BoundTexture TextureLookup::find(const CubeSourceSnapshot& source) {
     return find_environment(source, {}).cube;
@@ -21,8 +20,9 @@ Environment TextureLookup::find_environment(const CubeSourceSnapshot& source,
                                             const EnvironmentParts& parts) {
     if (const auto* cube = std::get_if<CubeSnapshot>(&source)) return find_cube(*cube, parts);
     if (const auto* probe = std::get_if<std::size_t>(&source)) {
-        return is_replaced(*probe) ? find_scene_environment(parts)
-                                   : context_.probe(number_, *probe).environment(parts);
+        const std::optional<PictureId>& picture = shown(*probe);
+        return picture ? context_.probe(*picture).environment(parts)
+                       : find_scene_environment(parts);
     }
     Environment none;
     none.parts = parts;
@@ -54,14 +54,9 @@ Environment TextureLookup::find_scene_environment(const EnvironmentParts& parts)
     return found;
 }
 
-bool TextureLookup::is_replaced(std::size_t probe) {
-    std::optional<bool>& known = replaced_[probe];
-    if (!known) {
-        // Nothing is drawn for a mirror in a circle of mirrors, or for a manual probe before its
-        // first update.
-        known = !context_.probe(number_, probe).drawn() ||
-                context_.pictures.is_edge_back(viewer_, probe_id(number_, probe));
-    }
+const std::optional<PictureId>& TextureLookup::shown(std::size_t probe) {
+    std::optional<std::optional<PictureId>>& known = shown_[probe];
+    if (!known) known = context_.shown_probe(viewer_, number_, probe);
     return *known;
 }
 

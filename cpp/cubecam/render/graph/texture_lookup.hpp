@@ -40,14 +40,15 @@ private:
     Environment find_cube(const CubeSnapshot& cube, const EnvironmentParts& parts);
     /// The scene's own environment, as the scene places it.
     Environment find_scene_environment(const EnvironmentParts& parts);
-    /// Whether the scene's environment replaces a probe.
-    bool is_replaced(std::size_t probe);
+    /// The picture of a probe that the viewer shows; none: the scene's environment.
+    const std::optional<PictureId>& shown(std::size_t probe);
 
     FrameContext& context_;
     PictureId viewer_;
     std::size_t number_;
     const SceneSnapshot& scene_;
-    std::vector<std::optional<bool>> replaced_;  // for each probe of the scene; none: not yet known
+    /// For each probe of the scene; none: not yet known.
+    std::vector<std::optional<std::optional<PictureId>>> shown_;
 };
 
 }  // namespace cubecam

@@ -327,4 +327,12 @@ const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) 
         .first->second;
 }
 
+const gl::Program& Programs::bounce_change() {
+    if (!bounce_change_) {
+        bounce_change_ =
+            gl::Program(*gl_, {"passes/full_screen.vert", "passes/bounce_change.frag"}, {});
+    }
+    return bounce_change_;
+}
+
 }  // namespace cubecam

@@ -109,6 +109,7 @@ public:
     /// too.
     const gl::Program& distances(DistanceStep step, bool layers);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
+    const gl::Program& bounce_change();
 
 private:
     gl::ShaderOptions layer_options() const;
@@ -125,6 +126,7 @@ private:
     std::map<ShadowVariant, gl::Program> shadows_;
     std::map<std::pair<DistanceStep, bool>, gl::Program> distances_;
     gl::Program skybox_, turned_skybox_;
+    gl::Program bounce_change_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace cubecam {
 
@@ -16,7 +17,10 @@ struct Stats {
     std::int64_t shadow_views_drawn = 0;  ///< layers of shadow maps; a point light has six
     std::int64_t faces_filtered = 0;      ///< faces of environments, filtered by roughness
     std::int64_t pictures_not_kept = 0;   ///< too large for the cache, so every call draws them
-    double milliseconds = 0.0;            ///< of the whole call with reading back
+    /// For each bounce of probes after the first: how much it changed what their mirrors show, as
+    /// the root of the mean of squares (BounceChangePass); NaN if that is not known.
+    std::vector<double> bounce_changes;
+    double milliseconds = 0.0;  ///< of the whole call with reading back
 };
 
 }  // namespace cubecam

@@ -63,7 +63,7 @@ PLANS = {
             (
                 "position", "size", "near", "far", "format", "mipmaps", "samples", "update",
                 "faces_per_frame", "depth_format", "prefilter", "parallax", "box", "proxy_matrix",
-                "fetches",
+                "fetches", "bounces",
             ),
             ("parent", "exclude"),
         ),
