@@ -8,6 +8,7 @@ layout(std140, binding = 5) uniform Environment {
     vec4 u_environment_turn[3];   // xyz: rows of the matrix from the world to the cube; [0].w: intensity
     vec4 u_environment_texel;     // xy: width and height of a texel of u_filtered
     vec4 u_environment_places[16];  // of the levels in u_filtered, [0]: of the irradiance; see environment_place()
+    vec4 u_environment_planar;      // of a planar mirror: xyz: its normal, w: how far from it rays are looked up
 };
 #elif defined(USER_SOURCE)
 const vec4 u_environment_position = vec4(0.0);
@@ -26,10 +27,13 @@ vec3 environment_scaled(vec3 light) { return u_environment_turn[0].w * light; }
 #define environment_scaled(light) light
 #endif
 
+#include "include/planar_mirror.glsl"
+
 // The light from a world direction (from the surface outwards, of any length). It needs no sign flip, since faces are
 // in GL's layout.
 vec3 environment(vec3 direction_world) {
-    return environment_scaled(texture(u_cube, environment_in_cube(direction_world)).rgb);
+    vec3 light = environment_scaled(texture(u_cube, environment_in_cube(direction_world)).rgb);
+    return or_planar_mirror(light, direction_world, 0.0, 0.0);
 }
 
 #ifdef USES_ENVIRONMENT_MIPS
@@ -37,7 +41,9 @@ vec3 environment(vec3 direction_world) {
 layout(binding = 4) uniform samplerCube u_box_mipmaps;
 
 vec3 environment_mip(vec3 direction_world, float lod) {
-    return environment_scaled(textureLod(u_box_mipmaps, environment_in_cube(direction_world), lod).rgb);
+    vec3 light = environment_scaled(textureLod(u_box_mipmaps, environment_in_cube(direction_world), lod).rgb);
+    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
+    return or_planar_mirror(light, direction_world, exp2(lod) / float(textureSize(u_box_mipmaps, 0).x), 0.0);
 }
 
 // Texels along an edge of level 0.
@@ -105,7 +111,8 @@ vec3 environment_level(vec3 direction_world, float level) {
 
 // The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
-    return environment_level(direction_world, environment_level_of(roughness));
+    vec3 light = environment_level(direction_world, environment_level_of(roughness));
+    return or_planar_mirror(light, direction_world, planar_mirror_spread(roughness), 0.0);
 }
 
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.
@@ -117,9 +124,14 @@ vec3 environment_irradiance(vec3 normal_world) {
 // Without filtered levels the mipmaps replace them, or the cube itself if it has none.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
     float level = clamp(roughness, 0.0, 1.0) * float(max(u_environment_levels.x - 1, 0));
-    return environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
+    vec3 light = environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
+    return or_planar_mirror(light, direction_world, planar_mirror_spread(roughness), 0.0);
 }
 
-vec3 environment_irradiance(vec3 normal_world) { return environment_filtered(normal_world, 1.0); }
+// Planar mirrors show no irradiance, so that this is that of the scene's environment.
+vec3 environment_irradiance(vec3 normal_world) {
+    float level = float(max(u_environment_levels.x - 1, 0));
+    return environment_scaled(textureLod(u_cube, environment_in_cube(normal_world), level).rgb);
+}
 #endif
 #endif

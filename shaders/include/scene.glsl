@@ -28,10 +28,11 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 // roughnesses.
 vec3 environment_lod(vec3 direction_world, float level) {
 #ifdef ENVIRONMENT_FILTERED
-    return environment_level(direction_world, level);
+    vec3 light = environment_level(direction_world, level);
 #else
-    return environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
+    vec3 light = environment_scaled(textureLod(u_cube, environment_in_cube(direction_world), level).rgb);
 #endif
+    return or_planar_mirror(light, direction_world, 0.0, level);
 }
 
 #ifdef USES_FILTERED_ENVIRONMENT

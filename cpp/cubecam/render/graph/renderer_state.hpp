@@ -1,6 +1,8 @@
 #pragma once
 
 #include "cubecam/gl/context.hpp"
+#include "cubecam/geometry/mesh_data.hpp"
+#include "cubecam/math/plane.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/passes/shadow_pass.hpp"
 #include "cubecam/render/passes/surface_pass.hpp"
@@ -32,6 +34,7 @@ struct LostPicture {
 struct ProbeState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     Target::Behind behind;
+    Target::Mirrors mirrors;
     std::uint64_t revision = 0;              ///< new whenever a face was drawn; 0: not drawn yet
     std::int64_t calls = 0;                  ///< calls that needed it, for every_n_frames
     std::uint64_t counted = 0;               ///< the last of these calls (RendererState::call)
@@ -88,6 +91,7 @@ private:
 struct TextureState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     Target::Behind behind;
+    Target::Mirrors mirrors;
     gl::Texture view;                      ///< its colour, as materials look it up
     Wrap wrap = Wrap::clamp;               ///< of `view`
     std::uint64_t revision = 0;            ///< new whenever lookups may give another result
@@ -130,6 +134,7 @@ struct RendererState {
     WeakCache<Probe, StatesByScene<ProbeState>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
+    WeakCache<const MeshData, Plane> planes;  ///< of meshes that are planar mirrors
     FilteredCubes filtered_cubes;
     /// Numbers the drawings of views. It is no revision: live views look for changes of the newest
     /// revision, and drawing alone changes nothing.

@@ -10,6 +10,7 @@
 namespace cubecam::texture_unit {
 
 inline constexpr GLuint frame = 0;        ///< the picture that effects and post-processing read
+inline constexpr GLuint planar = 0;       ///< what a surface's planar mirror shows
 inline constexpr GLuint cube = 1;         ///< the environment
 inline constexpr GLuint filtered = 2;     ///< its filtered levels and irradiance
 inline constexpr GLuint brdf_table = 3;   ///< integrals of reflection models

@@ -17,6 +17,14 @@ namespace cubecam {
 /// How the levels of an environment's cube were made, except the finest one.
 enum class EnvironmentLevels : std::uint8_t { none, mipmaps, filtered };
 
+/// The picture that a planar mirror shows instead of the environment, where a ray does not go
+/// through its plane.
+struct PlanarReflection {
+    BoundTexture picture;     ///< texture 0: none
+    glm::dvec3 normal{0.0};   ///< of the plane, unit length
+    double distance = 1.0;    ///< PlanarMirrorValue::distance
+};
+
 /// The environment that a surface reflects.
 struct Environment {
     BoundTexture cube;  ///< texture 0: none, black
@@ -29,6 +37,7 @@ struct Environment {
     /// stays valid for the call.
     const FilteredTexture* filtered = nullptr;
     BoundTexture box_mipmaps;  ///< the cube with box-filtered levels; texture 0: not needed
+    PlanarReflection planar;
 
     /// Makes the filtered levels the levels of the environment.
     void filter(const FilteredTexture& by_roughness) {
@@ -55,12 +64,14 @@ struct EnvironmentBlock {
     glm::vec4 turn[3];  ///< xyz: rows of the matrix from the world to the cube; [0].w: intensity
     glm::vec4 texel{0.0F};                                 ///< xy: FilteredTexture::texel
     std::array<glm::vec4, most_filtered_levels> places{};  ///< FilteredTexture::places
+    glm::vec4 planar{0.0F};  ///< PlanarReflection: xyz: normal, w: distance
 };
-static_assert(sizeof(EnvironmentBlock) == 96 + 16 * most_filtered_levels);
+static_assert(sizeof(EnvironmentBlock) == 112 + 16 * most_filtered_levels);
 
 /// Whether a surface reads the block, or only the cube. `user_code`: the GLSL is a user's own.
 inline bool needs_block(const Environment& environment, bool user_code) {
-    return user_code || environment.parts.filtered || !environment.placing.is_plain();
+    return user_code || environment.parts.filtered || !environment.placing.is_plain() ||
+           environment.planar.picture.texture != 0;
 }
 
 /// `origin` is the origin of the shaders' positions.

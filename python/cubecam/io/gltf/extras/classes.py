@@ -66,6 +66,7 @@ PLANS = {
             ),
             ("parent", "exclude"),
         ),
+        Plan(_core.PlanarMirror, ("bounces", "distance")),
         Plan(
             _core.RenderTexture,
             (
