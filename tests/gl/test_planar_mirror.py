@@ -16,9 +16,19 @@ from tests.compare import assert_close, assert_identical
 from tests.helpers import DEVICE, need_equal_pixels
 
 SIZE = (60, 44)
+
+
+def turn(axis, degrees):
+    """Rodrigues' matrix of a turn."""
+    x, y, z = np.asarray(axis, float) / np.linalg.norm(axis)
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    angle = np.radians(degrees)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
 #: The frame of the mirror: it stands turned in the world, and its front is +Z of this frame.
 FRAME = np.eye(4)
-FRAME[:3, :3] = cc.rotation_matrix(cc.axis_angle((1, 2, 0.5), 25))
+FRAME[:3, :3] = turn((1, 2, 0.5), 25)
 FRAME[:3, 3] = (0.3, -0.2, 0.1)
 
 
@@ -40,8 +50,8 @@ def placed(x, y, z):
 
 def things(rng, kind):
     """(mesh, material, matrix in the mirror's frame): all before the mirror, and far enough from it."""
-    for i in range(7):
-        place = rng.uniform((-1.3, -1, 0.8), (1.3, 1, 2.2))
+    for i in range(14):
+        place = rng.uniform((-2, -0.8, 1.5), (0.3, 0.8, 2.6))
         color = rng.uniform(0.2, 1, 3)
         mesh = cc.Mesh.box(rng.uniform(0.3, 0.7, 3)) if i % 2 else cc.Mesh.sphere(0.3, 24, 12)
         material = cc.PhongMaterial(color=color) if kind != "unlit" else cc.BasicMaterial(color=color)
@@ -51,24 +61,25 @@ def things(rng, kind):
     if kind == "blended":
         for i in range(3):
             smoke = cc.BasicMaterial(color=rng.random(3), opacity=0.4)
-            yield cc.Mesh.box(0.9), smoke, placed(0.7 * i - 0.7, 0.3, 1.7)
+            yield cc.Mesh.box(0.9), smoke, placed(0.4 * i - 1.5, 0.3, 2)
         glass = cc.StandardMaterial(
             color=(0.5, 1, 0.7), transmission=1, roughness=0, specular_weight=0, metallic=0
         )
-        yield cc.Mesh.box((2, 0.8, 0.05)), glass, placed(0, -0.2, 2.6)
+        yield cc.Mesh.box((1, 0.8, 0.05)), glass, placed(-1.2, -0.2, 1.3)
 
 
 def build(kind="lit", world=FRAME, change=None, seed=5):
-    """The scene in the world, or changed by a matrix, which may mirror. A lit one has shadows."""
+    """The scene in the world, or changed by a matrix, which may mirror."""
     rng = np.random.default_rng(seed)
     change = np.eye(4) if change is None else change
     at = change @ world
     scene = cc.Scene(background=(0.1, 0.2, 0.3))
     for mesh, material, matrix in things(rng, kind):
         scene.add(mesh, material, matrix=at @ matrix)
-    if kind in ("lit", "blended"):
-        lamp = at @ (1.2, 1.5, 5, 1)
-        scene.add(cc.PointLight(lamp[:3], shadow=cc.Shadow(size=256)))
+    if kind in ("lit", "blended", "shadowed"):
+        lamp = at @ (1.2, 1.5, 0.3, 1)
+        shadow = cc.Shadow(size=512) if kind == "shadowed" else None
+        scene.add(cc.PointLight(lamp[:3], shadow=shadow))
         scene.add(cc.DirectionalLight(at[:3, :3] @ (0.3, -1, -0.6), intensity=0.5))
         scene.add(cc.AmbientLight(intensity=0.3))
     return scene
@@ -83,14 +94,14 @@ def with_mirror(scene, world=FRAME, **options):
 
 
 def eye(world=FRAME, **more):
-    place, aim = world @ (0.9, 0.5, 3.4, 1), world @ (0.1, 0, 0, 1)
-    options = {"fov": 60, "position": place[:3], "target": aim[:3], "near": 0.1, "far": 60}
+    place, aim = world @ (1.5, 0.3, 3, 1), world @ (0.1, 0.1, 0, 1)
+    options = {"fov": 36, "position": place[:3], "target": aim[:3], "near": 0.1, "far": 60}
     return cc.PerspectiveCamera(**{**options, **more})
 
 
 def parallel(world=FRAME):
-    place, aim = world @ (0.6, 0.4, 4, 1), world @ (0, 0, 0, 1)
-    return cc.OrthographicCamera(height=3.4, position=place[:3], target=aim[:3], near=0.1, far=60)
+    place, aim = world @ (1.7, 0.2, 3, 1), world @ (0.2, 0, 0, 1)
+    return cc.OrthographicCamera(height=2.2, position=place[:3], target=aim[:3], near=0.1, far=60)
 
 
 def away_from_edges(ids, normals):
@@ -113,7 +124,8 @@ def compare(renderer, kind, cameras, world=FRAME, tolerance="phong", **options):
     got = renderer.render(scene, cameras, SIZE, **outputs)
     expected = renderer.render(want, cameras, SIZE, **outputs)
     mask = (got.id == mirror.id) & away_from_edges(expected.id, expected.normal)
-    assert (expected.id[mask] > 0).mean() > 0.3
+    mask &= away_from_edges(got.id, got.normal)
+    assert (expected.id[mask] > 0).sum() > 80
     assert_close(got.color, expected.color, tolerance, mask=mask)
 
 
@@ -121,7 +133,7 @@ VIEWS = {
     "perspective": eye(),
     "shifted": eye(shift=(0.2, -0.3), pixel_aspect=1.2),
     "parallel": parallel(),
-    "matrices": cc.Camera(view=eye().view, projection=eye(fov=75).projection(aspect=60 / 44)),
+    "matrices": cc.Camera(view=eye().view, projection=eye(fov=30).projection(aspect=60 / 44)),
     "mirror image": cc.Camera(
         view=np.diag([-1.0, 1, 1, 1]) @ eye().view, projection=eye().projection(aspect=60 / 44)
     ),
@@ -136,6 +148,22 @@ def test_it_shows_the_mirrored_scene(any_path, view):
 @pytest.mark.parametrize("kind", ["unlit", "blended", "bright"])
 def test_it_shows_all_kinds_of_surfaces(any_path, kind):
     compare(any_path, kind, eye())
+
+
+def test_shadows(renderer):
+    """Those of the mirrored scene lie in other texels of the map, so that their edges differ."""
+    scene, want = build("shadowed"), build("shadowed", change=mirrored(FRAME))
+    mirror = with_mirror(scene)
+    got, expected, plain = (
+        renderer.render(one, eye(), SIZE, format="rgba32f", outputs=["id", "normal"])
+        for one in (scene, want, build(change=mirrored(FRAME)))
+    )
+    mask = (got.id == mirror.id) & away_from_edges(expected.id, expected.normal)
+    mask &= expected.id > 0
+    off = np.abs(got.color - expected.color).max(axis=-1)[mask]
+    in_shadow = np.abs(plain.color - expected.color).max(axis=-1)[mask] > 0.02
+    assert in_shadow.mean() > 0.04
+    assert (off > 0.01).mean() < 0.02
 
 
 def test_samples(renderer):
@@ -189,7 +217,7 @@ def test_what_stands_in_the_plane_is_cut_there(renderer):
 def test_captures_show_mirrors(any_path):
     scene, want = build(), build(change=mirrored(FRAME))
     mirror = with_mirror(scene)
-    place = (FRAME @ (0.4, 0.2, 3, 1))[:3]
+    place = (FRAME @ (0.9, 0.2, 1, 1))[:3]
     options = {"format": "rgba32f", "outputs": ("id", "normal")}
     got = any_path.capture(scene, place, 32, **options)
     expected = any_path.capture(want, place, 32, **options)
@@ -221,7 +249,7 @@ def test_probes_and_render_textures_show_mirrors(renderer):
     place = (FRAME @ (0.4, 0.2, 3, 1))[:3]
     ball = scene.add(cc.Mesh.sphere(0.2), cc.MirrorMaterial(), position=place, in_captures=False)
     ball.environment = cc.Probe(parent=ball, size=24, near=0.1, far=60, format="rgba32f")
-    renderer.render(scene, eye(fov=90), SIZE)
+    renderer.render(scene, eye(target=place), SIZE)
     want = renderer.capture(scene, place, 24, near=0.1, far=60, format="rgba32f")
     assert_identical(renderer.read_probe(ball.environment).faces, want.faces)
 
@@ -230,7 +258,7 @@ def test_probes_and_render_textures_show_mirrors(renderer):
     screen.add(pane(), cc.BasicMaterial(map=texture))
     renderer.render(screen, cc.OrthographicCamera(height=3, position=(0, 0, 1)), SIZE)
     want = renderer.render(scene, eye(), SIZE, format="rgba32f")
-    assert_identical(renderer.read_texture(texture).color, want.color)
+    assert_identical(renderer.read_texture(texture), want.color)
 
 
 def test_a_probe_sees_its_own_ball_in_the_mirror(renderer):
@@ -252,7 +280,7 @@ def test_a_probe_sees_its_own_ball_in_the_mirror(renderer):
 def test_from_behind(renderer):
     scene = build()
     mirror = with_mirror(scene)
-    back = eye(position=(FRAME @ (0.2, 0.3, -4, 1))[:3])
+    back = eye(position=(FRAME @ (1.5, 0.3, -3, 1))[:3])
     renderer.render(scene, back, SIZE, outputs=["id"])
     assert renderer.stats.views_drawn == 1  # one side shows nothing
     mirror.material.double_sided = True
@@ -267,7 +295,7 @@ def test_from_behind(renderer):
         build("unlit", turned, mirrored(FRAME)), back, SIZE, outputs=["id", "normal"], format="rgba32f"
     )
     mask = (got.id == mirror.id) & away_from_edges(want.id, want.normal)
-    assert (want.id[mask] > 0).mean() > 0.2
+    assert (want.id[mask] > 0).mean() > 0.1
     assert_close(got.color, want.color, "half", mask=mask)
 
 
@@ -279,12 +307,12 @@ def facing(bounces, tilt=6.0):
         color = rng.integers(1, 256, 3) / 255
         place = rng.uniform((-1.2, -0.9, -1.4), (1.2, 0.9, 1.4))
         scene.add(cc.Mesh.box(rng.uniform(0.2, 0.5, 3)), cc.BasicMaterial(color=color), position=place)
-    for z, turn in ((-2.5, 0), (2.5, 180 + tilt)):
+    for z, angle in ((-2.5, 0), (2.5, 180 + tilt)):
         scene.add(
             pane(),
             cc.MirrorMaterial(),
             position=(0, 0, z),
-            rotation=cc.axis_angle((0, 1, 0), turn),
+            rotation=cc.axis_angle((0, 1, 0), angle),
             environment=cc.PlanarMirror(bounces=bounces),
         )
     return scene, cc.PerspectiveCamera(fov=65, position=(1.3, 0.3, 1.9), target=(0, 0, -2.5))
@@ -318,7 +346,7 @@ def test_after_the_last_bounce_there_is_the_environment(renderer, rng):
     options = {"samples": 1, "processes": 1, "progress": False}
     want = cc.truth.render(scene, camera, SIZE, bounces=2, **options).color[..., :3]
     assert (np.abs(got - want).max(axis=-1) > 1 / 255).mean() < 0.01
-    assert (np.abs(want - 0.7) < 1e-3).all(axis=-1).mean() > 0.02
+    assert (np.abs(want - 0.7) < 1e-3).all(axis=-1).mean() > 0.005
 
 
 def test_mirrors_may_have_different_bounces(renderer):
@@ -336,9 +364,9 @@ def test_mirrors_may_have_different_bounces(renderer):
 
 def test_too_many_mirrors_in_mirrors(fresh_renderer):
     scene = cc.Scene()
-    for turn in range(0, 360, 30):
+    for angle in range(0, 360, 30):
         spin = np.eye(4)
-        spin[:3, :3] = cc.rotation_matrix(cc.axis_angle((0, 1, 0), turn))
+        spin[:3, :3] = turn((0, 1, 0), angle)
         wall = spin @ placed(0, 0, -3)
         scene.add(
             pane(1.5, 3), cc.MirrorMaterial(), matrix=wall, environment=cc.PlanarMirror(bounces=12)
@@ -357,7 +385,7 @@ def test_the_sky_is_mirrored(renderer, rng):
     scene = cc.Scene(background=cube)
     with_mirror(scene, mesh=pane(40, 40))
     frame = renderer.render(scene, eye(), SIZE, format="rgba32f", outputs=["id"])
-    camera, half = eye(), np.tan(np.radians(30))
+    camera, half = eye(), np.tan(np.radians(18))
     x = ((np.arange(60) + 0.5) / 30 - 1) * half * 60 / 44
     y = (1 - (np.arange(44) + 0.5) / 22) * half
     ray = np.stack([*np.meshgrid(x, y), -np.ones((44, 60))], axis=-1) @ camera.view[:3, :3]
@@ -369,12 +397,15 @@ def test_the_sky_is_mirrored(renderer, rng):
 def test_all_nodes_that_captures_show(renderer):
     scene = build("unlit")
     with_mirror(scene)
-    hidden = scene.nodes[0]
+    wide = {"camera": eye(fov=100), "size": SIZE, "outputs": ["id"], "format": "rgba32f"}
+    ids = renderer.render(scene, **wide).id
+    number = int(np.bincount(ids[(ids > 0) & (ids < 15)]).argmax()) - 1
+    hidden = scene.nodes[number]
     want_scene = copy.deepcopy(scene)
-    want_scene.remove(want_scene.nodes[0])
-    want = renderer.render(want_scene, eye(), SIZE, outputs=["id"], format="rgba32f")
+    want_scene.remove(want_scene.nodes[number])
+    want = renderer.render(want_scene, **wide)
     hidden.in_captures = False
-    got = renderer.render(scene, eye(), SIZE, outputs=["id"], format="rgba32f")
+    got = renderer.render(scene, **wide)
     mirror = got.id == scene.nodes[-1].id
     assert (got.id == hidden.id).any()  # the frame shows it
     assert_identical(got.color[mirror], want.color[mirror])
@@ -426,7 +457,7 @@ def test_tiles_in_one_plane_are_one_mirror(fresh_renderer):
     assert fresh_renderer.stats.views_drawn == 2
     want = fresh_renderer.render(whole, eye(), SIZE, format="rgba32f").color
     assert (np.abs(got - want).max(axis=-1) > 1e-4).mean() < 0.01
-    scene.nodes[-1].position += 0.2
+    scene.nodes[-1].position = scene.nodes[-1].position + 0.2
     fresh_renderer.render(scene, eye(), SIZE)
     assert fresh_renderer.stats.views_drawn == 3  # in two planes now
 
@@ -501,11 +532,11 @@ def pixel_places(points, camera, size):
 @pytest.mark.parametrize("distance", [0.5, 2.0])
 def test_bent_rays_are_looked_up_at_the_distance(any_path, distance):
     """Numpy: the end of the ray, mirrored at the plane, is projected into a picture of the mirrored scene."""
-    turn = (0.12, -0.08, 0.05)
+    bend = (0.12, -0.08, 0.05)
     bent = cc.ShaderMaterial(
-        "uniform vec3 turn; vec3 shade(Surface s) {"
-        " return environment(normalize(reflect(s.incident, s.normal) + turn)); }",
-        uniforms={"turn": turn},
+        "uniform vec3 bend; vec3 shade(Surface s) {"
+        " return environment(normalize(reflect(s.incident, s.normal) + bend)); }",
+        uniforms={"bend": bend},
     )
     scene = build("unlit")
     mirror = with_mirror(scene, material=bent, distance=distance)
@@ -517,7 +548,7 @@ def test_bent_rays_are_looked_up_at_the_distance(any_path, distance):
     incident = frame.position - camera.position
     incident /= np.linalg.norm(incident, axis=-1, keepdims=True)
     normal = FRAME[:3, 2]
-    ray = incident - 2 * (incident @ normal)[..., None] * normal + turn
+    ray = incident - 2 * (incident @ normal)[..., None] * normal + bend
     ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
     ends = frame.position + distance * ray
     ends = ends @ mirrored(FRAME)[:3, :3].T + mirrored(FRAME)[:3, 3]
@@ -527,7 +558,7 @@ def test_bent_rays_are_looked_up_at_the_distance(any_path, distance):
     off = np.abs(frame.color[..., :3] - want).max(axis=-1)[mask]
     assert mask.mean() > 0.1
     assert (off < 0.01).mean() > 0.99
-    assert np.abs(frame.color[..., :3] - flat).max(axis=-1)[mask].mean() > 0.02
+    assert np.abs(frame.color[..., :3] - flat).max(axis=-1)[mask].mean() > 0.01
 
 
 def test_rays_that_leave_the_picture_see_its_border(renderer):
@@ -552,8 +583,6 @@ def test_rough_mirrors_look_up_a_level_of_the_mipmaps(renderer, roughness):
     scene, want = build("unlit", np.eye(4)), build("unlit", np.eye(4), np.diag([1.0, 1, -1, 1]))
     with_mirror(scene, np.eye(4), mesh=pane(30, 30), material=rough, distance=distance)
     camera = cc.OrthographicCamera(height=3, position=(0, 0, away), target=(0, 0, 0), near=0.01)
-    for node in (*scene.nodes[:-1],):  # only the mirror image shows them
-        node.matrix = node.matrix @ placed(0, 0, 0)
     frame = renderer.render(scene, camera, size, format="rgba32f", outputs=["id"])
     flat = renderer.render(want, camera, size, format="rgba32f").color[..., :3].astype(float)
     levels = [flat]
@@ -562,7 +591,7 @@ def test_rough_mirrors_look_up_a_level_of_the_mipmaps(renderer, roughness):
         levels.append(levels[-1].reshape(half, 2, half, 2, 3).mean(axis=(1, 3)))
     alpha = roughness**2
     spread = 2 * alpha / (1 - alpha**2)
-    level = np.log2(1 + 2 * spread * distance * 64 / 3 / 2 * 1)
+    level = np.log2(1 + 2 * spread * distance * 64 / 3)
     at = (np.arange(64) + 0.5) / 64
     uv = np.stack(np.meshgrid(at, at[::-1]), axis=-1)
     low, share = int(level), level % 1
@@ -599,9 +628,9 @@ def test_a_mesh_that_is_not_flat_is_an_error(renderer, mesh, message):
 
 def test_small_and_far_meshes_may_be_flat(renderer):
     """Floats of a mesh far from its own origin have steps of their own; a small mesh has no smaller ones."""
-    turn = cc.rotation_matrix(cc.axis_angle((1, 2, 3), 50))
+    tilted = turn((1, 2, 3), 50)
     for scale, shift in ((1e-4, 0.0), (1e4, 0.0), (1.0, 1e3)):
-        mesh = cc.Mesh((pane().positions * scale) @ turn.T + shift, pane().triangles)
+        mesh = cc.Mesh((pane().positions * scale) @ tilted.T + shift, pane().indices)
         scene = cc.Scene()
         scene.add(mesh, cc.MirrorMaterial(), environment=cc.PlanarMirror())
         renderer.render(scene, eye(), SIZE)

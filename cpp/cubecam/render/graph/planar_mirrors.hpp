@@ -2,7 +2,9 @@
 
 #include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/math/plane.hpp"
+#include "cubecam/math/rect.hpp"
 #include "cubecam/render/resources/target.hpp"
+#include "cubecam/render/resources/view.hpp"
 #include "cubecam/render/resources/weak_cache.hpp"
 #include "cubecam/scene/snapshot.hpp"
 
@@ -39,5 +41,11 @@ private:
     std::vector<Mirror> all_;
     std::vector<std::optional<std::size_t>> places_;  // of each node; empty: no node has a mirror
 };
+
+/// The pixels of a picture of `width` x `height` that a node's box, in its own space, may cover;
+/// empty: the node is out of view. For a flat node it is narrower than the bounds of its box in the
+/// world, which is thick where the node is turned and then reaches beside the eye: each mirror that
+/// seems to be in view costs a picture.
+Rect bounds_in_view(const View& view, const NodeSnapshot& node, int width, int height);
 
 }  // namespace cubecam

@@ -31,7 +31,8 @@ std::optional<PlanarReflection> ScenePicture::reflection(const NodeSnapshot& nod
                             mirrors.all()[*mirror].value.distance};
 }
 
-void ScenePicture::add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows) {
+void ScenePicture::add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows,
+                              const glm::ivec2& size) {
     const NodeSnapshot& node = scene_.nodes[planned.node];
     const PlanarMirrors& mirrors = context_.mirrors(number_);
     const auto place = mirrors.of(node);
@@ -42,10 +43,14 @@ void ScenePicture::add_mirror(const PlannedNode& planned, const std::vector<Rect
     std::vector<Rect>& bounds = mirror_bounds_[*place];
     const bool both_sides = node.material.value.surface.double_sided;
     for (const Visibility& visibility : plan_.visible_in(planned)) {
+        const View& view = views_[visibility.view];
+        if (!both_sides && !sees_front(view, mirror.plane)) continue;
         Rect covered = visibility.bounds;
+        if (!node.unbounded) {
+            covered = covered.intersected(bounds_in_view(view, node, size.x, size.y));
+        }
         if (!windows.empty()) covered = covered.intersected(windows[visibility.view]);
         if (covered.empty()) continue;
-        if (!both_sides && !sees_front(views_[visibility.view], mirror.plane)) continue;
         if (bounds.empty()) bounds.resize(views_.size());
         Rect& known = bounds[visibility.view];
         known = known.empty() ? covered : known.united(covered);
@@ -102,7 +107,7 @@ Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription
         add_dependencies(scene_, number_, node, shown);
         shows_shadows_ = shows_shadows_ || (shadows && receive_shadow(node));
         shows_behind_ = shows_behind_ || (target.color && shows_behind(node));
-        if (mirrors) add_mirror(planned, through);
+        if (mirrors) add_mirror(planned, through, {target.width, target.height});
     });
     if (shows_behind_) shown.push_back(behind_id(id_));
     const Dependencies mirrored = mirror_pictures();

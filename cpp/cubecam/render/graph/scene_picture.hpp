@@ -67,8 +67,9 @@ protected:
     const SceneSnapshot& scene_;
 
 private:
-    /// Notes that a planned node shows its planar mirror.
-    void add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows);
+    /// Notes that a planned node shows its planar mirror. `size` is that of the picture in pixels.
+    void add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows,
+                    const glm::ivec2& size);
     /// The pictures of the planar mirrors that were noted. Forgets those of all others.
     Dependencies mirror_pictures();
 
