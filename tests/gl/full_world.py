@@ -107,7 +107,14 @@ class FullWorld:
         lights = [light for scene in self.scenes for light in scene.lights]
         materials = [node.material for node in nodes if node.material is not None]
         every = [*nodes, *self.scenes, *lights, *materials, *cameras, self.stereo, *effects]
-        every += [*self.textures, *self.probes, *self.mirrors, *self.cubes, *self.images, *self.meshes]
+        every += [
+            *self.textures,
+            *self.probes,
+            *self.mirrors,
+            *self.cubes,
+            *self.images,
+            *self.meshes,
+        ]
         if kind is cc.Camera:  # its subclasses compute their matrices
             return [thing for thing in every if type(thing) is cc.Camera]
         return [thing for thing in every if isinstance(thing, kind)]

@@ -38,7 +38,11 @@ def mirrored(plane):
 
 
 def pane(width=4.0, height=3.0):
-    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * (width / 2, height / 2, 1)
+    corners = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]) * (
+        width / 2,
+        height / 2,
+        1,
+    )
     return cc.Mesh(corners, [[0, 1, 2], [0, 2, 3]], uvs=[[0, 0], [1, 0], [1, 1], [0, 1]])
 
 
@@ -54,7 +58,9 @@ def things(rng, kind):
         place = rng.uniform((-2, -0.8, 1.5), (0.3, 0.8, 2.6))
         color = rng.uniform(0.2, 1, 3)
         mesh = cc.Mesh.box(rng.uniform(0.3, 0.7, 3)) if i % 2 else cc.Mesh.sphere(0.3, 24, 12)
-        material = cc.PhongMaterial(color=color) if kind != "unlit" else cc.BasicMaterial(color=color)
+        material = (
+            cc.PhongMaterial(color=color) if kind != "unlit" else cc.BasicMaterial(color=color)
+        )
         if kind == "bright":
             material = cc.BasicMaterial(color=30 * color)
         yield mesh, material, placed(*place)
@@ -239,7 +245,9 @@ def test_captures_with_another_eye(renderer):
     on_mirror = got.id == mirror.id
     expected = cube.sample((got.position[on_mirror] - other).astype(np.float32))
     off = np.abs(got.faces[on_mirror] - expected)[..., :3].max(axis=-1)
-    assert (off < 0.01).mean() > 0.97  # the picture is a cube of the same size, drawn from the same place
+    assert (
+        off < 0.01
+    ).mean() > 0.97  # the picture is a cube of the same size, drawn from the same place
     assert on_mirror.sum() > 500
 
 
@@ -292,7 +300,11 @@ def test_from_behind(renderer):
         scene.add(node.mesh, node.material, matrix=node.matrix)
     got = renderer.render(scene, back, SIZE, outputs=["id"], format="rgba32f")
     want = renderer.render(
-        build("unlit", turned, mirrored(FRAME)), back, SIZE, outputs=["id", "normal"], format="rgba32f"
+        build("unlit", turned, mirrored(FRAME)),
+        back,
+        SIZE,
+        outputs=["id", "normal"],
+        format="rgba32f",
     )
     mask = (got.id == mirror.id) & away_from_edges(want.id, want.normal)
     assert (want.id[mask] > 0).mean() > 0.1
@@ -306,7 +318,9 @@ def facing(bounces, tilt=6.0):
     for _ in range(8):
         color = rng.integers(1, 256, 3) / 255
         place = rng.uniform((-1.2, -0.9, -1.4), (1.2, 0.9, 1.4))
-        scene.add(cc.Mesh.box(rng.uniform(0.2, 0.5, 3)), cc.BasicMaterial(color=color), position=place)
+        scene.add(
+            cc.Mesh.box(rng.uniform(0.2, 0.5, 3)), cc.BasicMaterial(color=color), position=place
+        )
     for z, angle in ((-2.5, 0), (2.5, 180 + tilt)):
         scene.add(
             pane(),
@@ -423,8 +437,8 @@ def test_unchanged_it_draws_nothing_and_changes_draw_what_they_touch(fresh_rende
     scene, camera = facing(2)
     box, mirror = scene.nodes[0], scene.nodes[-2]
     steps = (
-        lambda: setattr(box, "position", box.position + (0.2, 0, 0)),
-        lambda: setattr(mirror, "position", mirror.position + (0, 0, 0.1)),
+        lambda: setattr(box, "position", np.add(box.position, (0.2, 0, 0))),
+        lambda: setattr(mirror, "position", np.add(mirror.position, (0, 0, 0.1))),
         lambda: setattr(mirror, "rotation", cc.axis_angle((0, 1, 0), 3)),
         lambda: setattr(mirror, "matrix", mirror.matrix @ np.diag([-1.0, 1, 1, 1])),
         lambda: setattr(mirror.environment, "bounces", 1),
@@ -452,7 +466,9 @@ def test_tiles_in_one_plane_are_one_mirror(fresh_renderer):
     with_mirror(whole)
     shared = cc.PlanarMirror()
     for x in (-1, 1):
-        scene.add(pane(2, 3), cc.MirrorMaterial(), matrix=FRAME @ placed(x, 0, 0)).environment = shared
+        scene.add(
+            pane(2, 3), cc.MirrorMaterial(), matrix=FRAME @ placed(x, 0, 0)
+        ).environment = shared
     got = fresh_renderer.render(scene, eye(), SIZE, format="rgba32f").color
     assert fresh_renderer.stats.views_drawn == 2
     want = fresh_renderer.render(whole, eye(), SIZE, format="rgba32f").color
@@ -460,6 +476,24 @@ def test_tiles_in_one_plane_are_one_mirror(fresh_renderer):
     scene.nodes[-1].position = scene.nodes[-1].position + 0.2
     fresh_renderer.render(scene, eye(), SIZE)
     assert fresh_renderer.stats.views_drawn == 3  # in two planes now
+
+
+@pytest.mark.parametrize("scale", [(-1.0, 1, 1), (1, -0.5, 2), (-1, -1, -1), (1, 1, -3)])
+def test_a_node_may_mirror_its_mesh(renderer, scale):
+    """The front stays the side that other materials show, wherever a matrix with a negative determinant puts it."""
+    scene, want = build(), build()
+    mirror, plain = with_mirror(scene, mesh=pane(4, 4)), with_mirror(want, mesh=pane(4, 4))
+    mirror.matrix = FRAME @ np.diag([*scale, 1.0])
+    frame = renderer.render(scene, eye(), SIZE, format="rgba32f", outputs=["id"])
+    mirror.material, mirror.environment = cc.BasicMaterial(), None
+    shown = renderer.render(scene, eye(), SIZE, outputs=["id"]).id == mirror.id
+    assert_identical(frame.id == mirror.id, shown)
+    expected = renderer.render(want, eye(), SIZE, format="rgba32f", outputs=["id"])
+    mask = shown & (expected.id == plain.id)
+    assert shown.any() == (scale[2] > 0)
+    if shown.any():
+        assert_close(frame.color, expected.color, "half", mask=mask)
+        assert renderer.stats.views_drawn == 2
 
 
 def test_a_mirror_follows_its_parent(renderer):
@@ -525,7 +559,11 @@ def pixel_places(points, camera, size):
     width, height = size
     scale = height / 2 / np.tan(np.radians(camera.fov / 2))
     return np.stack(
-        [width / 2 + scale * at[..., 0] / -at[..., 2], height / 2 - scale * at[..., 1] / -at[..., 2]], -1
+        [
+            width / 2 + scale * at[..., 0] / -at[..., 2],
+            height / 2 - scale * at[..., 1] / -at[..., 2],
+        ],
+        -1,
     )
 
 
@@ -620,7 +658,9 @@ def test_rough_mirrors_look_up_a_level_of_the_mipmaps(renderer, roughness):
 def test_a_mesh_that_is_not_flat_is_an_error(renderer, mesh, message):
     scene = cc.Scene()
     node = scene.add(mesh, cc.MirrorMaterial(), environment=cc.PlanarMirror())
-    with pytest.raises(ValueError, match=f"node {node.id}: expected a PlanarMirror on a flat mesh.*{message}"):
+    with pytest.raises(
+        ValueError, match=f"node {node.id}: expected a PlanarMirror on a flat mesh.*{message}"
+    ):
         renderer.render(scene, eye(), SIZE)
     node.mesh = pane()
     renderer.render(scene, eye(), SIZE)
@@ -642,11 +682,13 @@ def test_only_the_environment_of_a_node_may_be_one():
         cc.BasicMaterial(cubemap=mirror)
     with pytest.raises(TypeError, match="environment"):
         cc.Scene(environment=mirror)
-    with pytest.raises(TypeError, match="environment: expected a CubeMap .*, a Probe, a PlanarMirror or None"):
+    with pytest.raises(
+        TypeError, match=r"environment: expected a CubeMap .*, a Probe, a PlanarMirror or None"
+    ):
         cc.Scene().add(pane(), environment=3)
 
 
-def test_values_and_copies():
+def test_values_and_copies(tmp_path):
     mirror = cc.PlanarMirror(bounces=3, distance=0.5)
     assert repr(mirror) == "PlanarMirror(bounces=3, distance=0.5)"
     again = pickle.loads(pickle.dumps(mirror))
@@ -656,6 +698,10 @@ def test_values_and_copies():
     held = pickle.loads(pickle.dumps(scene)).nodes[-1].environment
     assert held.bounces == 2
     assert node.environment is node.environment
+    scene.save(tmp_path / "scene.glb")
+    loaded = [node for node in cc.load_scene(tmp_path / "scene.glb").nodes if node.name == "mirror"]
+    assert loaded[0].environment.bounces == 2
+    assert "PlanarMirror, 2 bounces" in node._repr_html_()
     for values in ({"bounces": 0}, {"distance": 0}, {"distance": np.inf}):
         with pytest.raises(ValueError, match="expected"):
             cc.PlanarMirror(**values)

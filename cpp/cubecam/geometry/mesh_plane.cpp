@@ -43,8 +43,7 @@ Plane plane_of(const MeshData& mesh) {
     double off = 0.0;
     for (const glm::uvec3& triangle : *mesh.triangles()) {
         for (int corner = 0; corner < 3; ++corner) {
-            off = std::max(off,
-                           std::abs(plane.height(glm::dvec3(positions[triangle[corner]]))));
+            off = std::max(off, std::abs(plane.height(glm::dvec3(positions[triangle[corner]]))));
         }
     }
     if (off > most_uneven * size + step) {

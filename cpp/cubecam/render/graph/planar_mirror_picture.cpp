@@ -49,10 +49,9 @@ TargetDescription PlanarMirrorPicture::describe() const {
 /// A rough or bent reflection looks up pixels beside the mirror, too.
 std::vector<Rect> PlanarMirrorPicture::windows() const {
     const std::vector<View>& views = viewer_.views();
-    const bool seen_from_elsewhere =
-        std::any_of(views.begin(), views.end(), [](const View& view) {
-            return !view.parallel && view.eye != view.position;
-        });
+    const bool seen_from_elsewhere = std::any_of(views.begin(), views.end(), [](const View& view) {
+        return !view.parallel && view.eye != view.position;
+    });
     if (mirror_.looked_up_by_level || seen_from_elsewhere) return {};
     return viewer_.mirror_bounds(id_.object);
 }

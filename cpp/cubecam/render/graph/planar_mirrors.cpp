@@ -75,16 +75,14 @@ Rect bounds_in_view(const View& view, const NodeSnapshot& node, int width, int h
     constexpr double margin = 2.0;  // pixels, as in passes/screen_bounds.cpp
     const glm::dvec2 size(width, height);
     const glm::dvec2 most = size + 1.0;
-    const glm::dvec2 first =
-        glm::clamp((low * 0.5 + 0.5) * size - margin, glm::dvec2(0.0), most);
+    const glm::dvec2 first = glm::clamp((low * 0.5 + 0.5) * size - margin, glm::dvec2(0.0), most);
     const glm::dvec2 last = glm::clamp((high * 0.5 + 0.5) * size + margin, glm::dvec2(0.0), most);
     return Rect{static_cast<int>(first.x), static_cast<int>(first.y),
                 static_cast<int>(std::ceil(last.x)), static_cast<int>(std::ceil(last.y))}
         .intersected({0, 0, width, height});
 }
 
-PlanarMirrors::PlanarMirrors(const SceneSnapshot& scene,
-                             WeakCache<const MeshData, Plane>& planes) {
+PlanarMirrors::PlanarMirrors(const SceneSnapshot& scene, WeakCache<const MeshData, Plane>& planes) {
     if (scene.planar_mirrors.empty()) return;
     first_ = scene.nodes.data();
     places_.resize(scene.nodes.size());
@@ -101,8 +99,8 @@ PlanarMirrors::PlanarMirrors(const SceneSnapshot& scene,
         const MaterialTraits& traits = node.material.value.traits();
         const EnvironmentParts& parts = traits.environment_parts;
         Mirror& mirror = all_[*places_[i]];
-        mirror.looked_up_by_level = mirror.looked_up_by_level || parts.filtered || parts.mipmaps ||
-                                    parts.filtered_if_made;
+        mirror.looked_up_by_level =
+            mirror.looked_up_by_level || parts.filtered || parts.mipmaps || parts.filtered_if_made;
     }
 }
 

@@ -22,7 +22,7 @@ public:
         Target::Mirrors::Name name;
         PlanarMirrorValue value;
         Plane plane;
-        double size;        ///< of its first node
+        double size;                      ///< of its first node
         bool looked_up_by_level = false;  ///< some node's material looks it up by roughness
     };
 

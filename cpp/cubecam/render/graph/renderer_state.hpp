@@ -1,7 +1,7 @@
 #pragma once
 
-#include "cubecam/gl/context.hpp"
 #include "cubecam/geometry/mesh_data.hpp"
+#include "cubecam/gl/context.hpp"
 #include "cubecam/math/plane.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
 #include "cubecam/render/passes/shadow_pass.hpp"

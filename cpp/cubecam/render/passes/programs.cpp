@@ -30,8 +30,8 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
     taken += material.textures.empty() ? 0 : 2;  // uv, the object's own position
     taken += variant.uvs1 ? 1 : 0;
     taken += variant.tangents ? 1 : 0;
-    const bool by_pixel = variant.behind == BehindLookup::flat ||
-                          variant.planar == BehindLookup::flat;
+    const bool by_pixel =
+        variant.behind == BehindLookup::flat || variant.planar == BehindLookup::flat;
     taken += by_pixel ? 4 : 0;  // rows of a matrix; layer
     taken += variant.clipped ? 1 : 0;
     taken += variant.vertex_colors ? 1 : 0;

@@ -20,9 +20,9 @@ enum class EnvironmentLevels : std::uint8_t { none, mipmaps, filtered };
 /// The picture that a planar mirror shows instead of the environment, where a ray does not go
 /// through its plane.
 struct PlanarReflection {
-    BoundTexture picture;     ///< texture 0: none
-    glm::dvec3 normal{0.0};   ///< of the plane, unit length
-    double distance = 1.0;    ///< PlanarMirrorValue::distance
+    BoundTexture picture;    ///< texture 0: none
+    glm::dvec3 normal{0.0};  ///< of the plane, unit length
+    double distance = 1.0;   ///< PlanarMirrorValue::distance
 };
 
 /// The environment that a surface reflects.
