@@ -39,6 +39,7 @@ INCREMENTAL = ("tests/gl/test_incremental.py",)
 RENDER_TEXTURES = ("tests/gl/test_render_textures.py",)
 SHADOWS = ("tests/gl/test_shadows.py",)
 PLOTS = ("tests/plot",)
+PLANAR_MIRROR = ("tests/gl/test_planar_mirror.py",)
 ENDS = ("tests/gl/test_daemon_threads.py",)
 INTERRUPTS = ("tests/gl/test_interrupts.py",)
 SRGB_MAPS = ("tests/gl/test_srgb_maps.py",)
@@ -2452,6 +2453,90 @@ MUTATIONS = [
         "vec3(uv, v_layer)",
         "vec3(uv, 1.0 - v_layer)",
         ("tests/gl/test_behind.py",),
+    ),
+    Mutation(
+        "plane: mirrored at the origin's distance once, not twice",
+        "math/plane.hpp",
+        "made[3] = glm::dvec4(2.0 * glm::dot(n, plane.point) * n, 1.0);",
+        "made[3] = glm::dvec4(glm::dot(n, plane.point) * n, 1.0);",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "plane: the front of a mirrored node's plane turns to its back",
+        "math/plane.hpp",
+        "const double side = glm::determinant(m) < 0.0 ? -1.0 : 1.0;",
+        "const double side = 1.0;",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: what lies behind the plane shows",
+        "passes/surface.vert",
+        "dot(u_clip_plane.xyz, position_world.xyz) + u_clip_plane.w;",
+        "1.0 + 0.0 * u_clip_plane.w;",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: clipped on the wrong side for a viewer behind it",
+        "render/resources/view.cpp",
+        "if (!sees_front(view, mirror)) made.clip->normal = -mirror.normal;",
+        "",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: reflections of a capture start at its position, not at its eye",
+        "render/resources/view.cpp",
+        "made.view = glm::translate(view.view, view.position - view.eye);",
+        "made.view = view.view;",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: one bounce more",
+        "scene_picture.cpp",
+        "if (mirrors_met() >= static_cast<std::size_t>(mirror.value.bounces)) return;",
+        "if (mirrors_met() > static_cast<std::size_t>(mirror.value.bounces)) return;",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: a changed picture does not draw the mirror again",
+        "render/resources/environment.cpp",
+        "key.push_back(planar.picture.revision);",
+        "",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: a probe's own node is left out of its mirrors",
+        "probe_picture.cpp",
+        "return node.in_captures && !is_excluded(node, probe_.excluded);",
+        "return sees(node);",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: bent rays are not mirrored back",
+        "include/planar_mirror.glsl",
+        "direction - 2.0 * height * normal;",
+        "direction - height * normal;",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: light through the plane comes from the picture",
+        "include/planar_mirror.glsl",
+        "return through ? light : seen;",
+        "return seen;",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: half the width of a lobe",
+        "include/planar_mirror.glsl",
+        "return 2.0 * alpha / max(1.0 - alpha * alpha, 0.1);",
+        "return alpha / max(1.0 - alpha * alpha, 0.1);",
+        PLANAR_MIRROR,
+    ),
+    Mutation(
+        "planar mirror: looked up in the layer of the other eye",
+        "include/planar_mirror.glsl",
+        "texelFetch(u_planar_mirror, ivec3(gl_FragCoord.xy, v_layer), 0)",
+        "texelFetch(u_planar_mirror, ivec3(gl_FragCoord.xy, 1.0 - v_layer), 0)",
+        PLANAR_MIRROR,
     ),
     Mutation(
         "animation: tangents without the distance of the keys",

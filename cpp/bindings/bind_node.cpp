@@ -166,12 +166,15 @@ void bind_contents(Class<Node>& node) {
         docs::node_weights);
     node.def_property(
         "environment",
-        [](const Node& self) -> CubeLike { return from_cube_source(self.value().environment); },
-        [](Node& self, const CubeLike& value) {
-            const CubeSource environment = to_cube_source(value, "environment");
+        [](const Node& self) -> EnvironmentLike {
+            return from_cube_source(self.value().environment);
+        },
+        [](Node& self, const EnvironmentLike& value) {
+            const CubeSource environment = to_environment_source(value, "environment");
             self.edit([&](NodeValue& next) { next.environment = environment; });
         },
-        "CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.");
+        "CubeMap, Probe, PlanarMirror or None: what mirrors and glass show. None: the scene's "
+        "environment.");
     node.def_property(
         "visible", [](const Node& self) { return self.value().visible; },
         [](Node& self, Flag value) { self.edit([&](NodeValue& next) { next.visible = value; }); },
@@ -181,7 +184,8 @@ void bind_contents(Class<Node>& node) {
         [](Node& self, Flag value) {
             self.edit([&](NodeValue& next) { next.in_captures = value; });
         },
-        "bool: False: captures and probes show neither the node nor any node below it. Frames do, "
+        "bool: False: captures, probes and planar mirrors show neither the node nor any node below "
+        "it. Frames do, "
         "and "
         "the node still shows its own probe there.");
     node.def_property(

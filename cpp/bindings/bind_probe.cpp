@@ -73,13 +73,14 @@ std::optional<glm::dmat4> to_proxy_matrix(const OrNone<ArrayLike>& matrix) {
     return to_mat4(matrix, "proxy_matrix");
 }
 
-std::shared_ptr<Probe>
-make_probe(const ArrayLike& position, Int size, Real near, Real far, const FormatName& format,
-           Flag mipmaps, Int samples, const UpdateLike& update, const Nodes& exclude,
-           const OrNone<Node>& parent, Int faces_per_frame, const DepthFormatName& depth_format,
-           Argument<std::optional<bool>> prefilter, const ParallaxName& parallax,
-           const OrNone<ArrayLike>& box, const OrNone<ArrayLike>& proxy_matrix, Int fetches,
-           Int bounces) {
+std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near, Real far,
+                                  const FormatName& format, Flag mipmaps, Int samples,
+                                  const UpdateLike& update, const Nodes& exclude,
+                                  const OrNone<Node>& parent, Int faces_per_frame,
+                                  const DepthFormatName& depth_format,
+                                  Argument<std::optional<bool>> prefilter,
+                                  const ParallaxName& parallax, const OrNone<ArrayLike>& box,
+                                  const OrNone<ArrayLike>& proxy_matrix, Int fetches, Int bounces) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");

@@ -47,17 +47,19 @@ BackgroundNow from_background(const Background& background) {
     return py::none();
 }
 
-std::shared_ptr<Node>
-add_node(Scene& scene, const OrNone<Mesh>& mesh, const OrNone<Material>& material,
-         const OrNone<ArrayLike>& position, const OrNone<ArrayLike>& rotation,
-         const OneOf<py::float_, ArrayLike, py::none>& scale, const OrNone<ArrayLike>& matrix,
-         const OrNone<Node>& parent, const CubeLike& environment, Flag visible, Flag in_captures,
-         const Text& name, const WholeNumber& render_order, Flag cast_shadow, Flag receive_shadow,
-         const WholeNumber& label, const OrNone<Skin>& skin, const OrNone<ArrayLike>& weights) {
+std::shared_ptr<Node> add_node(Scene& scene, const OrNone<Mesh>& mesh,
+                               const OrNone<Material>& material, const OrNone<ArrayLike>& position,
+                               const OrNone<ArrayLike>& rotation,
+                               const OneOf<py::float_, ArrayLike, py::none>& scale,
+                               const OrNone<ArrayLike>& matrix, const OrNone<Node>& parent,
+                               const EnvironmentLike& environment, Flag visible, Flag in_captures,
+                               const Text& name, const WholeNumber& render_order, Flag cast_shadow,
+                               Flag receive_shadow, const WholeNumber& label,
+                               const OrNone<Skin>& skin, const OrNone<ArrayLike>& weights) {
     NodeValue value{{},
                     to_mesh(mesh),
                     to_material(material),
-                    to_cube_source(environment, "environment"),
+                    to_environment_source(environment, "environment"),
                     visible,
                     in_captures,
                     name,

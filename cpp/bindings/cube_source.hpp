@@ -5,6 +5,7 @@
 
 #include "cubecam/cubemap/cubemap.hpp"
 #include "cubecam/materials/texture_source.hpp"
+#include "cubecam/scene/planar_mirror.hpp"
 #include "cubecam/scene/probe.hpp"
 
 namespace cubecam::bindings {
@@ -18,9 +19,23 @@ inline CubeSource to_cube_source(py::handle value, const char* name) {
                               "a CubeMap (see cubecam.load_environment), a Probe or None");
 }
 
+/// What the environment of a node may be: also a PlanarMirror.
+using EnvironmentLike = OneOf<CubeMap, Probe, PlanarMirror, py::none>;
+
+inline CubeSource to_environment_source(py::handle value, const char* name) {
+    if (py::isinstance<PlanarMirror>(value)) return py::cast<std::shared_ptr<PlanarMirror>>(value);
+    if (value.is_none()) return {};
+    if (py::isinstance<Probe>(value)) return py::cast<std::shared_ptr<Probe>>(value);
+    return to_shared<CubeMap>(
+        value, name, "a CubeMap (see cubecam.load_environment), a Probe, a PlanarMirror or None");
+}
+
 inline py::object from_cube_source(const CubeSource& source) {
     if (const auto* cube = std::get_if<std::shared_ptr<CubeMap>>(&source)) return py::cast(*cube);
     if (const auto* probe = std::get_if<std::shared_ptr<Probe>>(&source)) return py::cast(*probe);
+    if (const auto* mirror = std::get_if<std::shared_ptr<PlanarMirror>>(&source)) {
+        return py::cast(*mirror);
+    }
     return py::none();
 }
 

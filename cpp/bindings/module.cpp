@@ -5,6 +5,7 @@
 
 #include "cubecam/core/revision.hpp"
 #include "cubecam/scene/node.hpp"
+#include "cubecam/scene/planar_mirror.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 #include "cubecam/scene/scene.hpp"
@@ -36,6 +37,7 @@ void bind_camera_views(pybind11::module_& module);
 void bind_animation(pybind11::module_& module);
 void bind_stereo(pybind11::module_& module);
 void bind_probe(pybind11::module_& module);
+void bind_planar_mirror(pybind11::module_& module);
 void bind_render_texture(pybind11::module_& module);
 void bind_node(pybind11::module_& module);
 void bind_scene(pybind11::module_& module);
@@ -100,6 +102,7 @@ PYBIND11_MODULE(_core, module) {
     // defined.
     declare<Node>(module, "Node", nullptr);
     declare<Probe>(module, "Probe", nullptr);
+    declare<PlanarMirror>(module, "PlanarMirror", nullptr);
     declare<RenderTexture>(module, "RenderTexture", nullptr);
     declare<Scene>(module, "Scene", nullptr);
 
@@ -121,6 +124,7 @@ PYBIND11_MODULE(_core, module) {
     bind_animation(module);
     bind_stereo(module);
     bind_probe(module);
+    bind_planar_mirror(module);
     bind_render_texture(module);
     bind_node(module);
     bind_scene(module);

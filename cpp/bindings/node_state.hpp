@@ -129,7 +129,7 @@ inline NodeValue node_from_state(const py::tuple& state) {
     NodeValue value{to_placing(state[2], state[3], state[4], state[5]),
                     to_mesh(state[0]),
                     to_material(state[1]),
-                    to_cube_source(state[6], "environment"),
+                    to_environment_source(state[6], "environment"),
                     state[7].cast<bool>(),
                     state[8].cast<bool>(),
                     state[9].cast<std::string>(),

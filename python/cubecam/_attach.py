@@ -35,6 +35,7 @@ _DESCRIBED = (
     _core.Shadow,
     _core.Animation,
     _core.Probe,
+    _core.PlanarMirror,
     _core.RenderTexture,
     _core.Camera,
     _core.StereoCamera,

@@ -85,6 +85,7 @@ __all__: list[str] = [
     "OrthographicCamera",
     "PerspectiveCamera",
     "PhongMaterial",
+    "PlanarMirror",
     "PointLight",
     "Probe",
     "RenderTexture",
@@ -291,13 +292,13 @@ class Node:
         """
 
     @property
-    def environment(self) -> CubeMap | Probe | None:
+    def environment(self) -> CubeMap | Probe | PlanarMirror | None:
         """
-        CubeMap, Probe or None: what mirrors and glass show. None: the scene's environment.
+        CubeMap, Probe, PlanarMirror or None: what mirrors and glass show. None: the scene's environment.
         """
 
     @environment.setter
-    def environment(self, value: CubeMap | Probe | None) -> None: ...
+    def environment(self, value: CubeMap | Probe | PlanarMirror | None) -> None: ...
     @property
     def id(self) -> int:
         """
@@ -307,7 +308,7 @@ class Node:
     @property
     def in_captures(self) -> bool:
         """
-        bool: False: captures and probes show neither the node nor any node below it. Frames do, and the node still shows its own probe there.
+        bool: False: captures, probes and planar mirrors show neither the node nor any node below it. Frames do, and the node still shows its own probe there.
         """
 
     @in_captures.setter
@@ -777,6 +778,87 @@ class Probe:
     @update.setter
     def update(self, value: ProbeUpdate | typing.SupportsIndex) -> None: ...
 
+class PlanarMirror:
+    """
+    What a flat mirror shows, exactly: the scene from behind the mirror, clipped at its plane.
+
+    Assign it to ``node.environment``; the plane is that of the node's mesh, and moves with the node. Each picture
+    that shows the node's front gets a picture of its own of what is in the mirror, of the same size and with the same
+    samples: frames, both eyes of a stereo frame, captures, probes and render textures alike. It is drawn again only
+    where it would change. Where the node shows its back (``double_sided``), it reflects that side.
+
+    The mirror shows all nodes that the picture may show, except its own nodes and those with
+    ``in_captures=False``, with the picture's background behind them. Nodes with one PlanarMirror in one plane, as the
+    tiles of a floor, are one mirror.
+
+    Every material that looks up its environment shows it: `MirrorMaterial`, `StandardMaterial`, `GlassMaterial`, and a
+    `ShaderMaterial` by ``environment(direction)``. On a flat surface each pixel is exact. Other directions are
+    approximations: of normal maps, of normals that are not the plane's, and of rough surfaces. Such a ray is taken to
+    end at ``distance`` from the surface; rays that leave the picture see its border. A rough surface looks up a level of
+    the picture's mipmaps as wide as its lobe at that distance, which blurs near and far things alike. Light that goes
+    through the plane, as what `GlassMaterial` refracts, and the irradiance of `StandardMaterial` are those of the scene's
+    environment.
+
+    Parameters
+    ----------
+    bounces : int
+        A path may meet so many planar mirrors, with this one as the last of them, at least 1. Beyond that the mirror shows the
+        scene's environment, or black. With 1, mirrors in this mirror show that. Facing mirrors need one picture for each bounce;
+        where mirrors see each other in many ways, one for each path, and more than 256 in one call are an error.
+    distance : float
+        How far from the surface bent and rough rays are taken to end, world units, above 0. Flat smooth mirrors do
+        not depend on it.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range. A picture of a node whose mesh is not flat, within 1e-5 of its size, raises it, too, and
+        says by how much.
+
+    Examples
+    --------
+    >>> import cubecam as cc
+    >>> scene = cc.Scene()
+    >>> glass = scene.add(cc.Mesh.plane(2), cc.MirrorMaterial(), environment=cc.PlanarMirror())
+    >>> glass.environment.bounces
+    1
+    """
+
+    def __init__(
+        self: PlanarMirror,
+        *,
+        bounces: typing.SupportsIndex = 1,
+        distance: typing.SupportsFloat | typing.SupportsIndex = 1.0,
+    ) -> None: ...
+    def __reduce__(self) -> tuple[object, ...]: ...
+    def __repr__(self: PlanarMirror) -> str: ...
+    def __rich__(self) -> object:
+        """
+        Give what `rich.print` shows.
+        """
+
+    def _repr_html_(self) -> str:
+        """
+        Give the HTML that Jupyter shows.
+        """
+
+    @property
+    def bounces(self) -> int:
+        """
+        int: how many planar mirrors a path may meet, this one as the last of them.
+        """
+
+    @bounces.setter
+    def bounces(self, value: typing.SupportsIndex) -> None: ...
+    @property
+    def distance(self) -> float:
+        """
+        float: how far from the surface bent and rough rays are taken to end, world units.
+        """
+
+    @distance.setter
+    def distance(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
+
 class RenderTexture:
     """
     A picture that a scene is drawn into and that materials show in the same frame.
@@ -1185,7 +1267,7 @@ class Scene:
         scale: float | np.typing.ArrayLike | None = None,
         matrix: np.typing.ArrayLike | None = None,
         parent: Node | None = None,
-        environment: CubeMap | Probe | None = None,
+        environment: CubeMap | Probe | PlanarMirror | None = None,
         visible: bool = True,
         in_captures: bool = True,
         name: str = "",
@@ -1215,7 +1297,7 @@ class Scene:
             Node to parent, in place of position, rotation and scale: not singular, last row (0, 0, 0, 1).
         parent : Node, optional
             A node of this scene that the new node moves with.
-        environment : CubeMap or Probe, optional
+        environment : CubeMap, Probe or PlanarMirror, optional
             The surroundings that mirrors and glass show on this node. None: the scene's environment.
         visible : bool
             False: no picture shows the node or any node below it.

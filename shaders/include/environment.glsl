@@ -12,6 +12,7 @@ layout(std140, binding = 5) uniform Environment {
     vec4 u_environment_proxy[3];  // rows of the matrix to the proxy, whose box is from -1 to 1, from relative to u_origin
     vec4 u_environment_distances;  // xy: width and height of a texel of u_distances, z: texels along an edge of a face
     vec4 u_environment_places[16];  // of the levels in u_filtered, [0]: of the irradiance; see environment_place()
+    vec4 u_environment_planar;      // of a planar mirror: xyz: its normal, w: how far from it rays are looked up
 };
 #elif defined(USER_SOURCE)
 const vec4 u_environment_position = vec4(0.0);
@@ -60,8 +61,12 @@ vec3 environment_from(vec3 from_origin, vec3 direction_world) {
     return environment_scaled(light);
 }
 
-// The same at the surface.
-vec3 environment(vec3 direction_world) { return environment_from(v_position, direction_world); }
+#include "include/planar_mirror.glsl"
+
+// The same at the surface, which may be a planar mirror.
+vec3 environment(vec3 direction_world) {
+    return or_planar_mirror(environment_from(v_position, direction_world), direction_world, 0.0, 0.0);
+}
 
 #ifdef USES_ENVIRONMENT_MIPS
 // The same environment with levels that are averages of boxes of texels.
@@ -74,7 +79,9 @@ vec3 environment_mip(vec3 direction_world, float lod) {
 #ifdef ENVIRONMENT_LAYERS
     if (hit.farthest) light = textureLod(u_farthest, hit.direction, level).rgb;
 #endif
-    return environment_scaled(light);
+    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
+    float spread = exp2(lod) / float(textureSize(u_box_mipmaps, 0).x);
+    return or_planar_mirror(environment_scaled(light), direction_world, spread, 0.0);
 }
 
 // Texels along an edge of level 0.
@@ -128,6 +135,7 @@ vec3 environment_seen(vec3 direction, float level) {
 }
 
 // The mean of the radiance around a direction, weighted by the cosine: irradiance / pi.
+// A planar mirror shows no irradiance, so that this is that of the scene's environment.
 vec3 environment_irradiance(vec3 normal_world) {
     vec3 normal = environment_in_cube(normal_world);
     return environment_scaled(environment_place(u_environment_places[0], cube_place(normal)));
@@ -148,13 +156,14 @@ vec3 environment_irradiance(vec3 normal_world) {
 // The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
     EnvironmentHit hit = environment_met(v_position, direction_world);
+    float seen = roughness;
 #ifdef ENVIRONMENT_NEAR
-    roughness = roughness_from_there(roughness, hit.spread);
+    seen = roughness_from_there(roughness, hit.spread);
 #endif
-    vec3 light = environment_seen(hit.direction, environment_level_of(roughness));
+    vec3 light = environment_seen(hit.direction, environment_level_of(seen));
 #ifdef ENVIRONMENT_LAYERS
-    if (hit.farthest) light = textureLod(u_farthest, hit.direction, farthest_level(roughness)).rgb;
+    if (hit.farthest) light = textureLod(u_farthest, hit.direction, farthest_level(seen)).rgb;
 #endif
-    return environment_scaled(light);
+    return or_planar_mirror(environment_scaled(light), direction_world, planar_mirror_spread(roughness), 0.0);
 }
 #endif

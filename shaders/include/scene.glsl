@@ -29,13 +29,15 @@ vec3 eye_position() { return v_eye.xyz + u_origin.xyz; }
 vec3 environment_lod(vec3 direction_world, float level) {
     EnvironmentHit hit = environment_met(v_position, direction_world);
 #ifdef ENVIRONMENT_FILTERED
-    return environment_scaled(environment_seen(hit.direction, level));
+    vec3 light = environment_scaled(environment_seen(hit.direction, level));
 #else
-    return environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
+    vec3 light = environment_scaled(textureLod(u_cube, hit.direction, level).rgb);
 #endif
+    return or_planar_mirror(light, direction_world, 0.0, level);
 }
 
-// The light that reaches a world position from a direction: `environment` for another place than the surface.
+// The light that reaches a world position from a direction: `environment` for another place than the surface. What a planar
+// mirror shows belongs to its surface.
 vec3 environment_at(vec3 position_world, vec3 direction_world) {
     return environment_from(position_world - u_origin.xyz, direction_world);
 }

@@ -20,6 +20,13 @@ layout(location = 14) in vec4 a_tangent;
 layout(location = 15) in vec2 a_uv1;
 #endif
 
+#ifdef CLIPPED
+// Only what lies on one side of a plane is drawn (View::clip).
+layout(std140, binding = 6) uniform Clip {
+    vec4 u_clip_plane;  // xyz: its normal, w: the height of u_origin above it
+};
+#endif
+
 // Variants of this source draw the same node: layered or view by view, alone or as an instance, with outputs or without.
 // What they compute for a vertex must be equal bit for bit: `invariant` and `precise` keep a compiler from changing the
 // order of the operations, and from joining some of them, in one variant and not in another. The other values are copies.
@@ -57,6 +64,9 @@ void main() {
     precise vec4 position_world = u_model * vec4(a_position, 1.0);
     gl_Position = a_view_matrix * position_world;
     route_to_layer();
+#ifdef CLIPPED
+    gl_ClipDistance[0] = dot(u_clip_plane.xyz, position_world.xyz) + u_clip_plane.w;
+#endif
     v_position = position_world.xyz;
     v_normal = mat3(u_normal_matrix) * a_normal;
 #ifdef SHADOW_COUNT
@@ -76,7 +86,7 @@ void main() {
     // A matrix that mirrors turns the cross product of normal and tangent round.
     v_tangent = vec4(mat3(u_model) * a_tangent.xyz, determinant(mat3(u_model)) < 0.0 ? -a_tangent.w : a_tangent.w);
 #endif
-#if defined(SHOWS_BEHIND) && !defined(BEHIND_CUBE)
+#if (defined(SHOWS_BEHIND) && !defined(BEHIND_CUBE)) || (defined(PLANAR_MIRROR) && !defined(PLANAR_MIRROR_CUBE))
     v_layer = a_view_forward.w;
     mat4 rows = transpose(a_view_matrix);
     v_clip_rows[0] = rows[0];

@@ -167,6 +167,12 @@ def cube_of(world, rng, thing):
     return one(rng, None, *world.cubes, *world.probes)
 
 
+def environment_of(world, rng, thing):
+    """A planar mirror only for a flat node, the one that has one at first."""
+    mirrors = world.mirrors if thing.name == "pane" else []
+    return one(rng, None, *world.cubes, *world.probes, *mirrors)
+
+
 def scene_of(world, rng, thing):
     """A texture that shows the main scene keeps it: the other scenes do not have the nodes that it excludes."""
     return world.scene if thing.scene is world.scene else one(rng, world.inner, world.spare)
@@ -244,7 +250,7 @@ def probe_parallax(world, rng, thing):
 
 VALUES = {
     "Node.cast_shadow": flag,
-    "Node.environment": cube_of,
+    "Node.environment": environment_of,
     "Node.in_captures": flag,
     "Node.label": choice(-1, 0, 2**31 - 1),
     "Node.material": new_material,
@@ -261,6 +267,8 @@ VALUES = {
     "Node.variants": variants,
     "Node.visible": flag,
     "Node.weights": lambda world, rng, thing: rng.uniform(-0.5, 1, len(thing.weights)),
+    "PlanarMirror.bounces": choice(1, 2, 3),
+    "PlanarMirror.distance": number(0.1, 3),
     "Probe.bounces": choice(1, 2, 3),
     "Probe.box": choice(((-1, -1, -2), (2, 1, 1)), ((-0.5, -1, -1), (1, 2, 1))),
     "Probe.depth_format": probe_depth,

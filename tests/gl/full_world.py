@@ -91,6 +91,7 @@ class FullWorld:
     images: list
     textures: list = field(default_factory=list)
     probes: list = field(default_factory=list)
+    mirrors: list = field(default_factory=list)
     materials: list = field(default_factory=list)  # at first, whatever the nodes have later
 
     @property
@@ -106,7 +107,14 @@ class FullWorld:
         lights = [light for scene in self.scenes for light in scene.lights]
         materials = [node.material for node in nodes if node.material is not None]
         every = [*nodes, *self.scenes, *lights, *materials, *cameras, self.stereo, *effects]
-        every += [*self.textures, *self.probes, *self.cubes, *self.images, *self.meshes]
+        every += [
+            *self.textures,
+            *self.probes,
+            *self.mirrors,
+            *self.cubes,
+            *self.images,
+            *self.meshes,
+        ]
         if kind is cc.Camera:  # its subclasses compute their matrices
             return [thing for thing in every if type(thing) is cc.Camera]
         return [thing for thing in every if isinstance(thing, kind)]
@@ -197,6 +205,14 @@ def full_world(rng):
         anisotropy=0.5,
     )
     inner.add(box, painted, position=(0.1, -0.6, 0.4))
+    world.mirrors = [cc.PlanarMirror(bounces=2)]
+    inner.add(
+        quad(2, 1.6),
+        cc.MirrorMaterial(),
+        position=(-0.9, -0.7, -0.8),
+        environment=world.mirrors[0],
+        name="pane",
+    )
     shader = cc.ShaderMaterial(
         SOURCES[0],
         vertex=VERTEX_SOURCES[0],

@@ -88,7 +88,13 @@ def instances(world, renderer):
     found = [
         thing for kind in (cc.Scene, cc.Node, cc.Mesh, cc.Material) for thing in world.things(kind)
     ]
-    found += [*world.things(cc.Light), *world.textures, *world.probes, *world.effects]
+    found += [
+        *world.things(cc.Light),
+        *world.textures,
+        *world.probes,
+        *world.mirrors,
+        *world.effects,
+    ]
     found += [
         *world.cameras,
         world.stereo,

@@ -243,6 +243,7 @@ MAKE = {
     "OrthographicCamera": lambda: cc.OrthographicCamera(height=3, target=(0, 0, -2)),
     "StereoCamera": lambda: cc.StereoCamera(lens(), lens(fov=20), layout="top_bottom"),
     "Probe": lambda: cc.Probe((1, 2, 3), size=16, update=3, faces_per_frame=2, bounces=3),
+    "PlanarMirror": lambda: cc.PlanarMirror(bounces=3, distance=0.5),
     "RenderTexture": lambda: cc.RenderTexture(cc.Scene(), lens(), size=(3, 4), name="screen"),
     "Scene": lambda: cc.Scene(background=(1, 0, 0)),
     "Node": lambda: cc.Scene().add(name="n"),
@@ -280,6 +281,7 @@ def test_both_lists_hold_every_class_that_pickles():
         "Skin",
         "AnimationChannel",
         "Animation",
+        "PlanarMirror",
         "Node with a skin",
     }
     assert set(OLD_PICKLES) == set(MAKE) - new_since_0_1

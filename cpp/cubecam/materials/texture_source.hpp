@@ -7,11 +7,15 @@ namespace cubecam {
 
 class CubeMap;
 class Image;
+class PlanarMirror;
 class Probe;
 class RenderTexture;
 
-/// The cubemap that a surface looks up: none, a fixed one, or a probe that follows the scene.
-using CubeSource = std::variant<std::monostate, std::shared_ptr<CubeMap>, std::shared_ptr<Probe>>;
+/// The cubemap that a surface looks up: none, a fixed one, or a probe that follows the scene. Only
+/// as the environment of a node it may also be a planar mirror, which is no cubemap; elsewhere that
+/// counts as none.
+using CubeSource = std::variant<std::monostate, std::shared_ptr<CubeMap>, std::shared_ptr<Probe>,
+                                std::shared_ptr<PlanarMirror>>;
 
 /// The 2D picture that a surface shows by its uvs: none, a fixed one, or one drawn from a scene.
 using MapSource =

@@ -27,6 +27,12 @@ struct Rect {
                 std::max(y1, other.y1)};
     }
 
+    /// The pixels that both contain.
+    Rect intersected(const Rect& other) const {
+        return {std::max(x0, other.x0), std::max(y0, other.y0), std::min(x1, other.x1),
+                std::min(y1, other.y1)};
+    }
+
     bool operator==(const Rect&) const = default;
 };
 

@@ -60,6 +60,10 @@ Look look_of(const NodeSnapshot& node) {
               std::uintptr_t{material.environment_parts.filtered},
               std::uintptr_t{material.environment_parts.mipmaps}};
     add_source(node.environment, look);
+    // Each planar mirror has its own plane.
+    if (std::holds_alternative<PlanarMirrorIndex>(node.environment)) {
+        look.push_back(static_cast<std::uintptr_t>(node.id));
+    }
     for (std::size_t i = 0; i < node.textures.size(); ++i) {
         std::visit([&look](const auto& source) { add_source(source, look); }, node.textures[i]);
         look.push_back(static_cast<std::uintptr_t>(uv_set_of(material.textures[i])));

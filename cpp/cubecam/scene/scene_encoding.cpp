@@ -42,11 +42,20 @@ private:
     /// A probe may show nodes that the picture itself excludes.
     bool add(std::size_t number, const CubeSourceSnapshot& source) {
         if (const auto* cube = std::get_if<CubeSnapshot>(&source)) return add(cube->data->encoding);
+        if (std::holds_alternative<PlanarMirrorIndex>(source)) return add_mirrored(number);
         const auto* probe = std::get_if<std::size_t>(&source);
         if (probe == nullptr || !probes_.emplace(number, *probe).second) return true;
         const SceneSnapshot& scene = first_.scene(number);
         return add_scene(number,
                          [&](const NodeSnapshot& node) { return is_seen(scene, node, *probe); });
+    }
+
+    /// Planar mirrors may show all that captures show, and the scene's environment.
+    bool add_mirrored(std::size_t number) {
+        if (!mirrored_.insert(number).second) return true;
+        const SceneSnapshot& scene = first_.scene(number);
+        return add(number, scene.environment) &&
+               add_scene(number, [](const NodeSnapshot& node) { return node.in_captures; });
     }
 
     /// Two textures of one scene may show different nodes of it.
@@ -91,6 +100,7 @@ private:
     const SceneSnapshot& first_;
     std::vector<bool> textures_;                            ///< those that were walked over
     std::set<std::pair<std::size_t, std::size_t>> probes_;  ///< the same, by scene and place
+    std::set<std::size_t> mirrored_;  ///< scenes whose planar mirrors were walked over
     bool any_srgb_ = false;
 };
 

@@ -143,6 +143,12 @@ public:
         return std::move(state.value);
     }
 
+    PlanarMirrorValue value_of(const PlanarMirror& mirror) {
+        const PlanarMirror::State state = mirror.state();
+        seen_.push_back({&mirror.revision(), state.revision});
+        return state.value;
+    }
+
     CubeSnapshot snapshot_of(const std::shared_ptr<CubeMap>& cube) {
         auto& data = cubes_[cube];
         if (!data) {
@@ -340,7 +346,7 @@ private:
             {},
             mesh,
             material,
-            snapshot_of(value.environment),
+            environment_of(value.environment),
             traits.textured ? snapshot_of(traits.textures, *mesh)
                             : std::vector<TextureSourceSnapshot>(),
             moved && !traits.user_code->displacement,
@@ -379,6 +385,15 @@ private:
             return found->second;
         }
         return {};
+    }
+
+    /// The environment of a node, which may also be a planar mirror.
+    CubeSourceSnapshot environment_of(const CubeSource& source) {
+        const auto* mirror = std::get_if<std::shared_ptr<PlanarMirror>>(&source);
+        if (mirror == nullptr || !*mirror) return snapshot_of(source);
+        const auto [found, added] = mirrors_.try_emplace(mirror->get(), to_.planar_mirrors.size());
+        if (added) to_.planar_mirrors.push_back({*mirror, shared_.value_of(**mirror)});
+        return PlanarMirrorIndex{found->second};
     }
 
     std::vector<TextureSourceSnapshot> snapshot_of(const std::vector<NamedTexture>& textures,
@@ -424,6 +439,7 @@ private:
     std::vector<Place> places_;
     std::vector<std::size_t> waiting_;
     std::unordered_map<const Probe*, std::size_t> probes_;
+    std::unordered_map<const PlanarMirror*, std::size_t> mirrors_;
     Elsewhere elsewhere_;
 };
 

@@ -8,6 +8,7 @@
 #include "cubecam/scene/environment_placing.hpp"
 #include "cubecam/scene/image_effect.hpp"
 #include "cubecam/scene/light.hpp"
+#include "cubecam/scene/planar_mirror.hpp"
 #include "cubecam/scene/probe.hpp"
 #include "cubecam/scene/render_texture.hpp"
 
@@ -28,9 +29,15 @@ struct CubeSnapshot {
     std::shared_ptr<const CubeMapData> data;
 };
 
+/// The index of a planar mirror in SceneSnapshot::planar_mirrors.
+struct PlanarMirrorIndex {
+    std::size_t value;
+};
+
 /// A cube lookup in a snapshot: none, a fixed cubemap, or the index of a probe in
-/// SceneSnapshot::probes.
-using CubeSourceSnapshot = std::variant<std::monostate, CubeSnapshot, std::size_t>;
+/// SceneSnapshot::probes. Only as the environment of a node it may also be a planar mirror.
+using CubeSourceSnapshot =
+    std::variant<std::monostate, CubeSnapshot, std::size_t, PlanarMirrorIndex>;
 
 /// A picture that a surface shows: none, a fixed one, or the index of a render texture in the
 /// `textures` of the first scene.
@@ -115,6 +122,11 @@ struct ProbeSnapshot {
     std::vector<std::int32_t> excluded;  ///< ids of nodes, each with its subtree
 };
 
+struct PlanarMirrorSnapshot {
+    std::shared_ptr<PlanarMirror> object;
+    PlanarMirrorValue value;
+};
+
 struct RenderTextureSnapshot {
     std::shared_ptr<RenderTexture> object;
     RenderTextureValue value;
@@ -136,6 +148,7 @@ struct SceneSnapshot {
     std::vector<LightSnapshot> lights;
     std::vector<ProbeSnapshot>
         probes;  ///< those that `nodes` use, in the order of their first user
+    std::vector<PlanarMirrorSnapshot> planar_mirrors;  ///< the same
 
     std::vector<std::int32_t> joints;  ///< ids of the nodes that move skins of `nodes`, sorted
 

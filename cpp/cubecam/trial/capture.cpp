@@ -121,6 +121,7 @@ State capture_state(const GladGLContext& gl) {
     capture_framebuffer(gl, state);
     capture_blending(gl, state);
     capture_tests(gl, state);
+    state.clip_distance = gl.IsEnabled(GL_CLIP_DISTANCE0);
     capture_attributes(gl, state);
     return state;
 }

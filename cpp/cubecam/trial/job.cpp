@@ -8,7 +8,7 @@ namespace cubecam::trial {
 namespace {
 
 static_assert(sizeof(State) ==
-              sizeof(std::uint32_t) * (2 * most_outputs + 7 * most_attributes + 22));
+              sizeof(std::uint32_t) * (2 * most_outputs + 7 * most_attributes + 23));
 static_assert(sizeof(Texture) == sizeof(std::uint32_t) * 15);
 
 class JobWriter {

@@ -50,6 +50,7 @@ struct State {
     std::uint32_t stencil_fail = 0;
     std::uint32_t stencil_depth_fail = 0;
     std::uint32_t stencil_depth_pass = 0;
+    std::uint32_t clip_distance = 0;  ///< whether GL_CLIP_DISTANCE0 is enabled
     std::array<Attribute, most_attributes> attributes{};
 };
 

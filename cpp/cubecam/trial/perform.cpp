@@ -161,6 +161,7 @@ void set_state(const GladGLContext& gl, const State& state) {
         gl.DepthFunc(state.depth_func);
         gl.DepthMask(state.depth_mask != 0 ? GL_TRUE : GL_FALSE);
     }
+    enable(gl, GL_CLIP_DISTANCE0, state.clip_distance != 0);
     enable(gl, GL_STENCIL_TEST, state.stencil_test != 0);
     if (state.stencil_test != 0) {
         gl.StencilFunc(state.stencil_func, static_cast<GLint>(state.stencil_reference),

@@ -20,6 +20,7 @@ from .._core import (
     Mesh,
     OrthographicCamera,
     PerspectiveCamera,
+    PlanarMirror,
     PointLight,
     Probe,
     Renderer,
@@ -104,6 +105,11 @@ def _(probe: Probe) -> Card:
     card = Card("Probe", _facts(probe, _properties(Probe)))
     card.diagram = diagrams.cross(probe.size)
     return card
+
+
+@card_of.register
+def _(mirror: PlanarMirror) -> Card:
+    return Card("PlanarMirror", _facts(mirror, _properties(PlanarMirror)))
 
 
 @card_of.register

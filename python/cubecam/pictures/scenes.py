@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .._core import CubeMap, Material, Mesh, Node, Probe, Scene
+from .._core import CubeMap, Material, Mesh, Node, PlanarMirror, Probe, Scene
 from .cards import Card, Fact, Row, Shot, count, number, shorten, swatch_of, vector
 from .describe import animation_text, camera_text, card_of, color_of, light_text, mesh_text
 from .studio import BALL, draw_ball, draw_mesh, draw_scene, draw_solid
@@ -119,8 +119,8 @@ def _tree(roots: Iterable[Node], total: int | None, names: dict[int, str]) -> li
         else:
             kind = f"{names.get(id(node.material), '')} {_name_of(node.material)}".strip()
             parts[:0] = [mesh_text(node.mesh), kind]
-        if isinstance(node.environment, Probe):
-            parts.append("Probe")
+        if isinstance(node.environment, (Probe, PlanarMirror)):
+            parts.append(type(node.environment).__name__)
         parts += _flags(node)
         label = f"#{node.id}" + (f" {shorten(node.name, 40)}" if node.name else "")
         swatch = "" if node.mesh is None else color_of(node.material)
@@ -218,4 +218,6 @@ def _surroundings(name: str, thing: Any) -> Fact:
         return Fact(name, "none")
     if isinstance(thing, (CubeMap, Probe)):
         return Fact(name, f"{type(thing).__name__}, faces of {thing.size} × {thing.size} texels")
+    if isinstance(thing, PlanarMirror):
+        return Fact(name, f"PlanarMirror, {count(thing.bounces, 'bounce')}")
     return Fact(name, vector(thing), swatch_of(thing))

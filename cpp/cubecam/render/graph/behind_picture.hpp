@@ -18,6 +18,10 @@ public:
     TargetDescription describe() const override;
     /// Its own surfaces have nothing behind them, since it shows no transmissive ones.
     Target::Behind& kept_behind() override { return none_; }
+    /// Its planar mirrors are those of the viewer, whose views it has.
+    Target::Mirrors& kept_mirrors() override { return viewer_.kept_mirrors(); }
+    std::size_t mirrors_met() const override { return viewer_.mirrors_met(); }
+    std::vector<Rect> windows() const override { return viewer_.windows(); }
 
     std::vector<PictureId> possible_dependencies() override { return possible(); }
     std::vector<PictureId> dependencies() override;
@@ -25,6 +29,9 @@ public:
     bool strict() const override { return false; }
     /// Empty: messages name the viewer.
     std::string label(std::size_t place) const override;
+
+protected:
+    const PictureId& mirror_viewer() const override { return *id_.viewer; }
 
 private:
     /// Whether a blended node lies before all transmissive ones, in all views: it is blended over

@@ -3,6 +3,7 @@
 #include "cubecam/render/graph/behind_picture.hpp"
 #include "cubecam/render/graph/frame_picture.hpp"
 #include "cubecam/render/graph/picture_kind.hpp"
+#include "cubecam/render/graph/planar_mirror_picture.hpp"
 #include "cubecam/render/graph/probe_picture.hpp"
 #include "cubecam/render/graph/shadow_picture.hpp"
 #include "cubecam/render/graph/texture_picture.hpp"
@@ -11,9 +12,16 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace cubecam {
+namespace {
+
+/// Of mirrors in mirrors: a hall of n mirrors that all see each other makes n^bounces pictures.
+constexpr std::size_t most_mirror_pictures = 256;
+
+}  // namespace
 
 FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scenes)
     : gpu(its_gpu), scenes(its_scenes), pictures([this](const PictureId& id) { return make(id); }),
@@ -29,6 +37,7 @@ FrameContext::FrameContext(RendererState& its_gpu, const SceneSnapshot& its_scen
         for (const LightSnapshot& light : scene.lights) {
             ranks.lights.push_back(users[light.object.get()]++);
         }
+        mirrors_.emplace_back(scene, gpu.planes);
         add_caster_dependencies(scene, s, caster_dependencies_);
     }
     caster_dependencies_ = unique(std::move(caster_dependencies_));
@@ -139,6 +148,14 @@ std::unique_ptr<Picture> FrameContext::make(const PictureId& id) {
         case PictureKind::texture: return std::make_unique<TexturePicture>(*this, id);
         case PictureKind::shadow: return std::make_unique<ShadowPicture>(*this, id);
         case PictureKind::behind: return std::make_unique<BehindPicture>(*this, id);
+        case PictureKind::planar_mirror:
+            if (id.viewer->kind == id.kind && ++mirror_pictures_ > most_mirror_pictures) {
+                throw std::invalid_argument(
+                    "planar mirrors: expected at most " + std::to_string(most_mirror_pictures) +
+                    " pictures of mirrors in mirrors in one call, got more: mirrors that see each "
+                    "other need one for each path; set fewer bounces");
+            }
+            return std::make_unique<PlanarMirrorPicture>(*this, id);
         case PictureKind::frame: break;
     }
     throw std::logic_error("expected a frame to be added before something depends on it");

@@ -3,6 +3,7 @@
 #include "cubecam/image/pixels.hpp"
 #include "cubecam/render/graph/dependencies.hpp"
 #include "cubecam/render/graph/picture_graph.hpp"
+#include "cubecam/render/graph/planar_mirrors.hpp"
 #include "cubecam/render/graph/probe_circles.hpp"
 #include "cubecam/render/graph/renderer_state.hpp"
 #include "cubecam/scene/snapshot.hpp"
@@ -23,7 +24,7 @@ class TexturePicture;
 class FrameContext {
 public:
     /// @throws std::invalid_argument if the lights of a scene have more or larger shadows than the
-    /// driver allows.
+    /// driver allows, or for a planar mirror on a mesh that is not flat.
     FrameContext(RendererState& gpu, const SceneSnapshot& scenes);
     FrameContext(const FrameContext&) = delete;
     FrameContext& operator=(const FrameContext&) = delete;
@@ -80,6 +81,9 @@ public:
     ProbeLevels& probe_levels(std::size_t scene, std::size_t probe);
     ShadowState& shadow_state(std::size_t scene, std::size_t light);
 
+    /// The planar mirrors of a scene.
+    const PlanarMirrors& mirrors(std::size_t scene) const { return mirrors_[scene]; }
+
     const SceneContents& contents(std::size_t scene);
     /// Whether any scene's shadow maps depend on a picture.
     bool moves_casters(const PictureId& picture) const;
@@ -99,7 +103,9 @@ private:
         std::vector<std::size_t> probes, lights;
     };
 
-    std::vector<Ranks> ranks_;  // for each scene
+    std::vector<Ranks> ranks_;            // for each scene
+    std::vector<PlanarMirrors> mirrors_;  // for each scene
+    std::size_t mirror_pictures_ = 0;     // of mirrors in mirrors, that were made
     std::vector<std::optional<SceneContents>>
         contents_;  // for each scene, made when a picture needs it
     std::vector<std::optional<ProbeCircles>> circles_;  // the same

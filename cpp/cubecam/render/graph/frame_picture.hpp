@@ -17,6 +17,7 @@ public:
     bool sees(const NodeSnapshot& node) const override { return wanted_(node); }
     TargetDescription describe() const override { return target_.description(); }
     Target::Behind& kept_behind() override { return target_.behind; }
+    Target::Mirrors& kept_mirrors() override { return target_.mirrors; }
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;

@@ -108,6 +108,10 @@ bool ProbePicture::sees(const NodeSnapshot& node) const {
     return is_seen(scene_, node, id_.object);
 }
 
+bool ProbePicture::sees_in_mirrors(const NodeSnapshot& node) const {
+    return node.in_captures && !is_excluded(node, probe_.excluded);
+}
+
 bool ProbePicture::count_and_decide() {
     const bool drawn = levels_.drawn().has_value();
     // Whatever its policy is: a picture that was lost with its context is drawn again.

@@ -42,6 +42,9 @@ public:
     bool sees(const NodeSnapshot& node) const override;
     TargetDescription describe() const override;
     Target::Behind& kept_behind() override { return state_.behind; }
+    Target::Mirrors& kept_mirrors() override { return state_.mirrors; }
+    /// A mirror may show the nodes that use the probe: they lie before it.
+    bool sees_in_mirrors(const NodeSnapshot& node) const override;
 
     std::vector<PictureId> possible_dependencies() override { return possible(); }
     std::vector<PictureId> dependencies() override;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/gl/context.hpp"
+#include "cubecam/math/plane.hpp"
 #include "cubecam/render/passes/bounce_change_pass.hpp"
 #include "cubecam/render/passes/distance_pass.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
@@ -36,6 +38,7 @@ struct LostPicture {
 struct ProbeState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     Target::Behind behind;
+    Target::Mirrors mirrors;
     std::uint64_t revision = 0;              ///< new whenever a face was drawn; 0: not drawn yet
     std::size_t next_face = 0;               ///< the next face to draw with faces_per_frame
     glm::dvec3 position{0.0};                ///< the position of the last drawing, world
@@ -130,6 +133,7 @@ private:
 struct TextureState {
     std::unique_ptr<Target> target;  ///< null: not drawn yet
     Target::Behind behind;
+    Target::Mirrors mirrors;
     gl::Texture view;                      ///< its colour, as materials look it up
     Wrap wrap = Wrap::clamp;               ///< of `view`
     std::uint64_t revision = 0;            ///< new whenever lookups may give another result
@@ -176,6 +180,7 @@ struct RendererState {
     WeakCache<Probe, StatesByScene<ProbeLevels>> probes;
     WeakCache<Light, StatesByScene<ShadowState>> shadow_maps;
     WeakCache<RenderTexture, TextureState> textures;
+    WeakCache<const MeshData, Plane> planes;  ///< of meshes that are planar mirrors
     FilteredCubes filtered_cubes;
     /// Numbers the drawings of views. It is no revision: live views look for changes of the newest
     /// revision, and drawing alone changes nothing.

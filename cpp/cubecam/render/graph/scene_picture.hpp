@@ -22,6 +22,22 @@ public:
     virtual TargetDescription describe() const = 0;
     /// Where the renderer keeps the scene behind this picture's transmissive surfaces.
     virtual Target::Behind& kept_behind() = 0;
+    /// Where the renderer keeps what this picture's planar mirrors show.
+    virtual Target::Mirrors& kept_mirrors() = 0;
+    /// Whether the picture's planar mirrors may show a node that captures show.
+    virtual bool sees_in_mirrors(const NodeSnapshot& node) const { return sees(node); }
+    /// How many planar mirrors the paths have met that make this picture.
+    virtual std::size_t mirrors_met() const { return 0; }
+    /// The pixels of each view through which this picture is seen; empty: all.
+    virtual std::vector<Rect> windows() const { return {}; }
+
+    /// What a node's planar mirror shows in this picture; none: the node has none here, and the
+    /// scene's environment replaces it.
+    std::optional<PlanarReflection> reflection(const NodeSnapshot& node);
+    /// The pixels that a planar mirror may cover, in each view.
+    const std::vector<Rect>& mirror_bounds(std::size_t mirror) const {
+        return mirror_bounds_[mirror];
+    }
 
     const std::vector<View>& views() const { return views_; }
     std::size_t scene_number() const { return number_; }
@@ -42,14 +58,24 @@ protected:
     std::size_t draw_changed(Target& target, const PostProcess& post_process = {},
                              std::optional<Budget> budget = std::nullopt);
 
+    /// The picture whose planar mirrors this one shows: itself, or one of the same views.
+    virtual const PictureId& mirror_viewer() const { return id_; }
+
     FrameContext& context_;
     const PictureId id_;
     const std::size_t number_;
     const SceneSnapshot& scene_;
 
 private:
+    /// Notes that a planned node shows its planar mirror. `size` is that of the picture in pixels.
+    void add_mirror(const PlannedNode& planned, const std::vector<Rect>& windows,
+                    const glm::ivec2& size);
+    /// The pictures of the planar mirrors that were noted. Forgets those of all others.
+    Dependencies mirror_pictures();
+
     std::vector<View> views_;
     DrawPlan plan_;
+    std::vector<std::vector<Rect>> mirror_bounds_;  // by mirror and view; empty: it shows nothing
     bool shows_shadows_ = false;
     bool shows_behind_ = false;
 };

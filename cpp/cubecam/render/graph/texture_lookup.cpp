@@ -77,7 +77,11 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
     const MaterialTraits& material = node.material.value.traits();
     const EnvironmentParts& parts = material.environment_parts;
     NodeTextures found;
-    if (material.uses_environment && node.environment.index() == 0) {
+    if (material.uses_environment && std::holds_alternative<PlanarMirrorIndex>(node.environment)) {
+        found.environment = find_scene_environment(parts);
+        const auto planar = context_.scene_picture(viewer_).reflection(node);
+        if (planar) found.environment.planar = *planar;
+    } else if (material.uses_environment && node.environment.index() == 0) {
         found.environment = find_scene_environment(parts);
     } else {
         found.environment = find_environment(environment_of(scene_, node), parts);

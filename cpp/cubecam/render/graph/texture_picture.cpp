@@ -52,8 +52,10 @@ TargetDescription TexturePicture::describe() const {
 
 void TexturePicture::reset() {
     Target::Behind behind = std::move(state_.behind);
+    Target::Mirrors mirrors = std::move(state_.mirrors);
     state_ = TextureState{};
     state_.behind = std::move(behind);
+    state_.mirrors = std::move(mirrors);
 }
 
 void TexturePicture::prepare(const TargetDescription& description) {

@@ -19,6 +19,7 @@ public:
     bool sees(const NodeSnapshot& node) const override;
     TargetDescription describe() const override;
     Target::Behind& kept_behind() override { return state_.behind; }
+    Target::Mirrors& kept_mirrors() override { return state_.mirrors; }
 
     std::vector<PictureId> possible_dependencies() override;
     std::vector<PictureId> dependencies() override;
@@ -27,7 +28,7 @@ public:
     std::string label(std::size_t place) const override;
 
 private:
-    /// Forgets the picture, but not what is behind it.
+    /// Forgets the picture, but not what is behind it and in its mirrors.
     void reset();
     /// Makes the target and the view of it, if the texture's size, format or wrapping has changed.
     void prepare(const TargetDescription& description);

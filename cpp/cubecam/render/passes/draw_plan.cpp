@@ -54,7 +54,7 @@ std::vector<Place> places_of(std::span<const View> views) {
 
 bool same_place(const View& a, const View& b) {
     return a.position == b.position && a.parallel == b.parallel &&
-           (!a.parallel || a.forward == b.forward);
+           (!a.parallel || a.forward == b.forward) && a.clip == b.clip;
 }
 
 DrawPlan make_plan(const SceneSnapshot& scene, std::span<const View> views, int width, int height,

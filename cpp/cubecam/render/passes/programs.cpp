@@ -30,7 +30,10 @@ int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, i
     taken += material.textures.empty() ? 0 : 2;  // uv, the object's own position
     taken += variant.uvs1 ? 1 : 0;
     taken += variant.tangents ? 1 : 0;
-    taken += variant.behind == BehindLookup::none ? 0 : 4;  // rows of a matrix; layer
+    const bool by_pixel =
+        variant.behind == BehindLookup::flat || variant.planar == BehindLookup::flat;
+    taken += by_pixel ? 4 : 0;  // rows of a matrix; layer
+    taken += variant.clipped ? 1 : 0;
     taken += variant.vertex_colors ? 1 : 0;
     taken += variant.shadows > 0 ? 1 : 0;
     taken += variant.blend == Blend::opaque ? 0 : 1;
@@ -153,14 +156,16 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
         (material.uses_environment ? 1U : 0U) + variant.environment.texture_count();
     const auto shadows = static_cast<std::size_t>(variant.shadows);
     const std::size_t behind = variant.behind == BehindLookup::none ? 0U : 1U;
-    const std::size_t all = maps + environment + shadows + behind;
+    const std::size_t planar = variant.planar == BehindLookup::none ? 0U : 1U;
+    const std::size_t all = maps + environment + shadows + behind + planar;
     if (all <= most_textures_) return;
     throw std::invalid_argument(
         std::string(variant.kind->name) + ": expected at most " + std::to_string(most_textures_) +
         " textures on a surface (GL_MAX_TEXTURE_IMAGE_UNITS), got " + std::to_string(all) + ": " +
         std::to_string(maps) + " of the material, " + std::to_string(environment) +
         " of the environment, " + std::to_string(shadows) + " of shadows" +
-        (behind == 0 ? "" : ", 1 of the scene behind"));
+        (behind == 0 ? "" : ", 1 of the scene behind") +
+        (planar == 0 ? "" : ", 1 of the planar mirror"));
 }
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
@@ -185,6 +190,9 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.tangents, "USES_TANGENT");
     define(variant.behind != BehindLookup::none, "SHOWS_BEHIND");
     define(variant.behind == BehindLookup::cube, "BEHIND_CUBE");
+    define(variant.planar != BehindLookup::none, "PLANAR_MIRROR");
+    define(variant.planar == BehindLookup::cube, "PLANAR_MIRROR_CUBE");
+    define(variant.clipped, "CLIPPED");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
     define(variant.blend == Blend::additive, "BLEND_ADDITIVE");

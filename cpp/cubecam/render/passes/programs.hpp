@@ -37,8 +37,8 @@ struct EnvironmentVariant {
     auto operator<=>(const EnvironmentVariant&) const = default;
 };
 
-/// How a surface looks up the scene behind it: not at all, in a picture of the same view, or in a
-/// cube.
+/// How a surface looks up the scene behind it, or what its planar mirror shows: not at all, in a
+/// picture of the same view, or in a cube.
 enum class BehindLookup : std::uint8_t { none, flat, cube };
 
 /// The variant of surface.vert and surface.frag that a draw call needs.
@@ -64,6 +64,8 @@ struct SurfaceVariant {
     std::uint32_t shadow_kinds = 0;  ///< ShadowView::Kind of each: two bits, from the lowest on
     EnvironmentVariant environment;
     BehindLookup behind = BehindLookup::none;
+    BehindLookup planar = BehindLookup::none;  ///< what its planar mirror shows
+    bool clipped = false;                      ///< the view has a clip plane
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };

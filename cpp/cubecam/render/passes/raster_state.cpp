@@ -97,6 +97,7 @@ void reset_raster_state(const GladGLContext& gl, const DepthState& depth) {
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     gl.Disable(GL_BLEND);
     gl.Disable(GL_STENCIL_TEST);
+    gl.Disable(GL_CLIP_DISTANCE0);
 }
 
 }  // namespace cubecam

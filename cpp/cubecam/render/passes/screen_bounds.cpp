@@ -24,7 +24,7 @@ int clamped(double pixel, int size) {
 
 Culling::Culling(const View& view)
     : view_projection_(view.view_projection), position_(view.position),
-      frustum_(view.view_projection) {
+      frustum_(view.view_projection), clip_(view.clip) {
     for (int axis = 0; axis < 3; ++axis) {
         error_of_size_[static_cast<std::size_t>(axis)] =
             glm::abs(view_projection_[axis]) * (2.0 * rounding);
@@ -42,6 +42,13 @@ glm::dvec4 Culling::clip_error(const NodeSnapshot& node) const {
 
 bool Culling::may_show(const NodeSnapshot& node) const {
     const Bounds& bounds = node.world_bounds;
+    if (clip_) {
+        const glm::dvec3 half = 0.5 * bounds.extent();
+        const glm::dvec3 size = glm::abs(glm::dvec3(node.world[3]) - position_) + node.reach;
+        const double error = rounding * (size.x + size.y + size.z);
+        const double reach = glm::dot(glm::abs(clip_->normal), half);
+        if (clip_->height(bounds.center()) + reach < -error) return false;
+    }
     return frustum_.may_show(bounds.center(), 0.5 * bounds.extent(),
                              [&] { return clip_error(node); });
 }

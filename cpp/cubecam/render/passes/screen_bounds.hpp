@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <optional>
 
 namespace cubecam {
 
@@ -32,6 +33,7 @@ private:
     glm::dmat4 view_projection_;
     glm::dvec3 position_;
     Frustum frustum_;
+    std::optional<Plane> clip_;
     std::array<glm::dvec4, 3> error_of_size_;  ///< clip error for a unit of size along each axis
     glm::dvec4 least_error_;
 };

@@ -23,7 +23,8 @@ bool shows_in(const SurfaceItems& items, const SurfaceItem& item, std::size_t re
 /// Whether surfaces of one material see the same environment in the same way.
 bool same_look(const Environment& a, const Environment& b) {
     return a.cube.texture == b.cube.texture && a.placing == b.placing && a.filtered == b.filtered &&
-           a.box_mipmaps.texture == b.box_mipmaps.texture;
+           a.box_mipmaps.texture == b.box_mipmaps.texture &&
+           a.planar.picture.texture == b.planar.picture.texture;
 }
 
 bool is_drawn_alone(const NodeSnapshot& node) {

@@ -18,6 +18,7 @@ namespace {
 
 constexpr GLuint lights_binding = 1;
 constexpr GLuint shadows_binding = 2;
+constexpr GLuint clip_binding = 6;
 constexpr std::size_t unrolled_lights = 8;  // a loop of unknown length costs more for each light
 constexpr std::size_t many_triangles = 10'000;  // of one call
 
@@ -58,6 +59,16 @@ void SurfacePass::upload_shadows(std::span<const ShadowUse> shadows, const glm::
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, shadows_binding, shadows_.id());
 }
 
+/// All views of a call have the same plane, since they have the same position.
+void SurfacePass::upload_clip_plane(const SurfaceInput& input) {
+    const std::optional<Plane>& clip = input.views[input.regions.front().view].clip;
+    clipped_ = clip.has_value();
+    if (!clipped_) return;
+    const glm::vec4 plane(clip->normal, clip->height(input.origin()));
+    clip_ = gl::create_buffer(*gl_, sizeof(plane), &plane);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, clip_binding, clip_.id());
+}
+
 void SurfacePass::set_scissor(const Rect& rect) {
     gl_->Scissor(rect.x0, rect.y0, rect.width(), rect.height());
 }
@@ -69,6 +80,7 @@ void SurfacePass::draw(const SurfaceInput& input, Target& target, Stats& stats) 
     lights_block_ = gl::create_buffer(*gl_, sizeof(lights_.block), &lights_.block);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, lights_binding, lights_block_.id());
     upload_shadows(input.shadows, input.origin());
+    upload_clip_plane(input);
     outputs_ = description.outputs.without_buffered();
     output_count_ = outputs_.by_slot().size();
     depth_ = depth_state(description.depth_order);
@@ -133,6 +145,7 @@ void SurfacePass::draw_layers(const SurfaceInput& input, std::span<const Surface
     const bool layered = calls.size() < input.regions.size();
     pass_.clear();
     pass_.add_target(description, color, outputs, layered);
+    pass_.add(clipped_);
     if (!layered) {
         for (std::size_t r = 0; r < input.regions.size(); ++r) {
             bind(input.regions[r]);
@@ -273,6 +286,8 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
     }
     variant.environment = EnvironmentVariant::of(item.textures->environment, traits);
     if (traits.shows_behind) variant.behind = behind_;
+    if (item.textures->environment.planar.picture.texture != 0) variant.planar = behind_;
+    variant.clipped = clipped_;
     if (receive_shadow(node)) {
         variant.shadows = static_cast<int>(lights_.shadow_count);
         variant.shadow_kinds = shadow_kinds_;
@@ -302,6 +317,10 @@ void SurfacePass::find_conditions(const SurfaceItem& item, const SurfaceVariant&
     add(texture_unit::behind, item.textures->behind.texture, item.textures->behind.revision);
     add(texture_unit::distances, environment.local.distances.texture, 0);
     add(texture_unit::farthest, environment.local.farthest.texture, 0);
+    if (environment.planar.picture.texture != 0) {
+        add(texture_unit::planar, environment.planar.picture.texture,
+            environment.planar.picture.revision);
+    }
     if (environment.parts.filtered || environment.filtered != nullptr) {
         add(texture_unit::brdf_table, brdf_table(), 0);
     }
@@ -361,6 +380,9 @@ void SurfacePass::bind_environment(const Environment& environment) {
     if (environment.local.has_layers()) {
         gl_->BindTextureUnit(texture_unit::farthest, environment.local.farthest.texture);
     }
+    if (environment.planar.picture.texture != 0) {
+        gl_->BindTextureUnit(texture_unit::planar, environment.planar.picture.texture);
+    }
 }
 
 GLuint SurfacePass::brdf_table() {
@@ -379,6 +401,7 @@ GLuint SurfacePass::brdf_table() {
 void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bool outputs,
                              Stats& stats) {
     const gl::Program* bound = nullptr;
+    if (clipped_) gl_->Enable(GL_CLIP_DISTANCE0);
     for (const SurfaceCall& call : calls) {
         poll_interrupts();
         const NodeSnapshot& node = *call.item->node;

@@ -51,6 +51,7 @@ private:
     void draw_calls(std::span<const SurfaceCall> calls, bool mirror, bool outputs, Stats& stats);
     void set_scissor(const Rect& rect);
     void write_outputs(bool write);
+    void upload_clip_plane(const SurfaceInput& input);
     bool use_layers(const SurfaceInput& input, const SurfaceItems& items, const Rect& whole) const;
     SurfaceVariant variant_of(const SurfaceItem& item, bool instanced, bool outputs) const;
     /// Must be called in the state of the draw call (UserPrograms::get).
@@ -68,7 +69,7 @@ private:
     Layering layering_;
     gl::Texture black_;       ///< a cube of one texel, reflected if there is no environment
     gl::Texture brdf_table_;  ///< made when it is first needed
-    gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_;
+    gl::Buffer view_records_, node_records_, blocks_, lights_block_, shadows_, clip_;
     ShaderLights lights_;
     DrawConditions pass_;                        ///< what all draw calls of a pass have in common
     DrawConditions conditions_;                  ///< of the present draw call
@@ -78,6 +79,7 @@ private:
     std::size_t output_count_ = 0;               ///< the length of outputs_
     DepthState depth_ = depth_state(DepthOrder::nearest);  ///< of the target
     BehindLookup behind_ = BehindLookup::none;             ///< of surfaces in the target
+    bool clipped_ = false;                                 ///< the views have a clip plane
 };
 
 }  // namespace cubecam

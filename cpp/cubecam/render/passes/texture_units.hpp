@@ -10,6 +10,7 @@
 namespace cubecam::texture_unit {
 
 inline constexpr GLuint frame = 0;        ///< the picture that effects and post-processing read
+inline constexpr GLuint planar = 0;       ///< what a surface's planar mirror shows
 inline constexpr GLuint cube = 1;         ///< the environment
 inline constexpr GLuint filtered = 2;     ///< its filtered levels and irradiance
 inline constexpr GLuint brdf_table = 3;   ///< integrals of reflection models
@@ -18,7 +19,7 @@ inline constexpr GLuint behind = 5;       ///< the scene behind transmissive sur
 inline constexpr GLuint distances = 6;    ///< of the surfaces that a probe captured
 inline constexpr GLuint farthest = 7;     ///< the farthest surfaces that a probe captured
 /// The first texture of a material, or of a user's source; those that are set follow each other.
-inline constexpr GLuint first_of_material = 9;
+inline constexpr GLuint first_of_material = 8;
 /// The shadow map of the first light; the others follow.
 inline constexpr GLuint first_shadow = 48;
 

@@ -8,11 +8,16 @@
 namespace cubecam {
 
 void Environment::add_to(std::vector<std::uint64_t>& key) const {
-    key.push_back(cube.revision);
-    if (cube.texture == 0) return;
     const auto add_number = [&key](double value) {
         key.push_back(std::bit_cast<std::uint64_t>(value));
     };
+    if (planar.picture.texture != 0) {
+        key.push_back(planar.picture.revision);
+        for (int axis = 0; axis < 3; ++axis) add_number(planar.normal[axis]);
+        add_number(planar.distance);
+    }
+    key.push_back(cube.revision);
+    if (cube.texture == 0) return;
     if (filtered != nullptr) key.push_back(filtered->revision());
     if (!placing.is_plain()) {
         for (int i = 0; i < 4; ++i) add_number(placing.rotation[i]);
@@ -42,6 +47,7 @@ EnvironmentBlock make_environment_block(const Environment& environment, const gl
     const glm::mat3 to_world = glm::mat3(glm::mat3_cast(environment.placing.rotation));
     for (int row = 0; row < 3; ++row) block.turn[row] = glm::vec4(to_world[row], 0.0F);
     block.turn[0].w = environment.placing.intensity;
+    block.planar = glm::vec4(environment.planar.normal, environment.planar.distance);
     if (environment.filtered != nullptr) {
         block.texel = glm::vec4(environment.filtered->texel(), 0.0F, 0.0F);
         block.places = environment.filtered->places();

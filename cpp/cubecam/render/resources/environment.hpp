@@ -40,6 +40,14 @@ struct LocalLookup {
     bool by_proxy() const { return method == Parallax::box || method == Parallax::sphere; }
 };
 
+/// The picture that a planar mirror shows instead of the environment, where a ray does not go
+/// through its plane.
+struct PlanarReflection {
+    BoundTexture picture;    ///< texture 0: none
+    glm::dvec3 normal{0.0};  ///< of the plane, unit length
+    double distance = 1.0;   ///< PlanarMirrorValue::distance
+};
+
 /// The environment that a surface reflects.
 struct Environment {
     BoundTexture cube;  ///< texture 0: none, black
@@ -53,6 +61,7 @@ struct Environment {
     const FilteredTexture* filtered = nullptr;
     BoundTexture box_mipmaps;  ///< the cube with box-filtered levels; texture 0: not needed
     LocalLookup local;         ///< its method is none without `position`
+    PlanarReflection planar;
 
     /// Makes the filtered levels the levels of the environment.
     void filter(const FilteredTexture& by_roughness) {
@@ -81,13 +90,14 @@ struct EnvironmentBlock {
     glm::vec4 proxy[3];         ///< rows of LocalLookup::to_proxy, from relative to the origin
     glm::vec4 distances{0.0F};  ///< xy: a texel of the texture of distances, z: LocalLookup::size
     std::array<glm::vec4, most_filtered_levels> places{};  ///< FilteredTexture::places
+    glm::vec4 planar{0.0F};  ///< PlanarReflection: xyz: normal, w: distance
 };
-static_assert(sizeof(EnvironmentBlock) == 160 + 16 * most_filtered_levels);
+static_assert(sizeof(EnvironmentBlock) == 176 + 16 * most_filtered_levels);
 
 /// Whether a surface reads the block, or only the cube. `user_code`: the GLSL is a user's own.
 inline bool needs_block(const Environment& environment, bool user_code) {
     return user_code || environment.parts.filtered || !environment.placing.is_plain() ||
-           environment.local.method != Parallax::none;
+           environment.local.method != Parallax::none || environment.planar.picture.texture != 0;
 }
 
 /// `origin` is the origin of the shaders' positions.

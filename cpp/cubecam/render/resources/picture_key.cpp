@@ -174,6 +174,10 @@ void add_view(Key& key, const View& view) {
     key.add(view.position);
     key.add(view.eye);
     key.add(view.near);
+    key.add(view.clip.has_value());
+    if (!view.clip) return;
+    key.add(view.clip->point);
+    key.add(view.clip->normal);
 }
 
 std::vector<Rect> damage(const std::optional<PictureKey>& before, const PictureKey& now,

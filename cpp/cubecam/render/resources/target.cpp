@@ -145,6 +145,16 @@ std::size_t TargetDescription::bytes() const {
            static_cast<std::size_t>(layers());
 }
 
+std::size_t Target::Mirrors::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& [name, mirror] : kept) {
+        if (mirror->target) sum += mirror->target->bytes();
+        if (mirror->behind.target) sum += mirror->behind.target->bytes();
+        sum += mirror->mirrors.bytes();
+    }
+    return sum;
+}
+
 Layers::Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers)
     : gl_(&gl), attachments_(std::move(attachments)), one_(static_cast<std::size_t>(layers)) {}
 

@@ -13,8 +13,10 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace cubecam {
@@ -157,10 +159,27 @@ public:
         std::uint64_t revision = 0;      ///< new whenever a layer was drawn
     };
     Behind behind;  ///< of the picture in this target, if it is a frame or a capture
+    /// The pictures of the planar mirrors that a picture shows (graph/planar_mirror_picture.hpp).
+    struct Mirrors {
+        /// PlanarMirror::identity, and the id of the first node that it belongs to.
+        using Name = std::pair<std::uint64_t, std::int32_t>;
+        struct Kept;
+        std::map<Name, std::unique_ptr<Kept>> kept;
 
-    /// The GPU memory of the target and of what is behind it.
+        std::size_t bytes() const;
+    };
+    struct Mirrors::Kept {
+        std::unique_ptr<Target> target;  ///< null: not drawn yet
+        std::uint64_t revision = 0;      ///< new whenever a layer was drawn
+        Behind behind;                   ///< of this picture
+        Mirrors mirrors;                 ///< that this picture shows
+    };
+    Mirrors mirrors;  ///< of the picture in this target, if it is a frame or a capture
+
+    /// The GPU memory of the target, of what is behind it and of what its planar mirrors show.
     std::size_t bytes() const {
-        return description_.bytes() + (behind.target ? behind.target->bytes() : 0);
+        return description_.bytes() + (behind.target ? behind.target->bytes() : 0) +
+               mirrors.bytes();
     }
 
     /// The last call, if it drew nothing.

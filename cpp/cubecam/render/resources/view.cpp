@@ -3,6 +3,8 @@
 #include "cubecam/math/cube_face.hpp"
 #include "cubecam/math/transform.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 namespace cubecam {
 namespace {
 
@@ -27,6 +29,28 @@ View make_view(const Matrices& matrices) {
 }  // namespace
 
 View camera_view(const Matrices& matrices) { return make_view(matrices); }
+
+bool sees_front(const View& view, const Plane& plane) {
+    return view.parallel ? glm::dot(view.forward, plane.normal) < 0.0
+                         : plane.height(view.eye) > 0.0;
+}
+
+View mirrored(const View& view, const Plane& mirror) {
+    const glm::dmat4 mirror_matrix = reflection(mirror);
+    View made = view;
+    if (!view.parallel && view.eye != view.position) {
+        made.view = glm::translate(view.view, view.position - view.eye);
+    }
+    made.view = made.view * mirror_matrix;
+    made.view_projection = view.projection * made.view;
+    const glm::dvec3 from = view.parallel ? view.position : view.eye;
+    made.position = from - 2.0 * mirror.height(from) * mirror.normal;
+    made.eye = made.position;
+    made.forward = glm::dmat3(mirror_matrix) * view.forward;
+    made.clip = mirror;
+    if (!sees_front(view, mirror)) made.clip->normal = -mirror.normal;
+    return made;
+}
 
 std::vector<View> cube_views(glm::dvec3 position, double near, double far,
                              std::optional<glm::dvec3> eye, const glm::dquat& rotation) {

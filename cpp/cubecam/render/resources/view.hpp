@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cubecam/math/plane.hpp"
 #include "cubecam/scene/camera.hpp"
 
 #include <glm/glm.hpp>
@@ -21,9 +22,19 @@ struct View {
     glm::dvec3 forward;          ///< unit vector along the camera's axis
     bool parallel = false;       ///< orthographic: all rays have the direction `forward`
     double near = 0.0;           ///< parallel views only: distance along the axis counts from here
+    /// Only what lies on the side of this plane's normal is drawn; none: everything.
+    std::optional<Plane> clip = std::nullopt;
 };
 
 View camera_view(const Matrices& matrices);
+
+/// What a view sees in a mirror in this plane: the view from behind the mirror, through it. A point
+/// of the mirror lies at the same pixel in both pictures. The view starts at the eye that
+/// reflections are seen from.
+View mirrored(const View& view, const Plane& mirror);
+
+/// Whether a view sees the side of a plane to which its normal points.
+bool sees_front(const View& view, const Plane& plane);
 
 /// Returns the six views of a cube in the order of its faces, 90 degrees each. They follow GL's
 /// face table (math/cube_face.hpp), so that a lookup by world direction needs no sign flip and row

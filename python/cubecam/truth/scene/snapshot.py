@@ -16,6 +16,7 @@ from ..._core import (
     DirectionalLight,
     Material,
     Node,
+    PlanarMirror,
     PointLight,
     Probe,
     RenderTexture,
@@ -229,7 +230,7 @@ class _Surroundings:
         own = node.environment
         if own is None:
             return 0
-        if isinstance(own, Probe):
+        if isinstance(own, (Probe, PlanarMirror)):
             return 1
         if id(own) not in self._known:  # the cubemap is kept, so that its id stays its own
             self._known[id(own)] = (own, len(self.all))

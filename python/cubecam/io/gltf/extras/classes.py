@@ -67,6 +67,7 @@ PLANS = {
             ),
             ("parent", "exclude"),
         ),
+        Plan(_core.PlanarMirror, ("bounces", "distance")),
         Plan(
             _core.RenderTexture,
             (

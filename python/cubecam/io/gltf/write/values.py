@@ -21,6 +21,7 @@ from ...._core import (
     ImageEffect,
     Material,
     Node,
+    PlanarMirror,
     Probe,
     RenderTexture,
     Scene,
@@ -31,7 +32,7 @@ from .document import Array, Document, Json
 #: Larger arrays become bytes of a buffer view.
 _FEW = 64
 #: Objects that several others may share stand in one list.
-_SHARED = (CubeMap, Probe, RenderTexture, ImageEffect, Camera)
+_SHARED = (CubeMap, Probe, PlanarMirror, RenderTexture, ImageEffect, Camera)
 
 
 def number(value: float) -> float:
