@@ -17,6 +17,9 @@ from . import scenes
 from .reflectors import REFLECTORS
 from .table import Bench, Row, as_json, cases, markdown
 
+#: What stands in a document before and after the table.
+BEGIN, END = "<!-- benchmarks.reflections -->", "<!-- end -->"
+
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.reflections", description=__doc__)
@@ -25,6 +28,9 @@ def main() -> None:
     parser.add_argument("--place", action="append", choices=list(scenes.PLACES))
     parser.add_argument("--reflector", action="append", choices=list(REFLECTORS))
     parser.add_argument("--rounds", type=int, help="frames that are timed; 0: none")
+    parser.add_argument(
+        "--page", type=Path, help="a document that gets the table between its marks"
+    )
     parser.add_argument("--write", action="store_true", help="only write the files of the scenes")
     options = parser.parse_args()
     if options.write:
@@ -44,7 +50,18 @@ def main() -> None:
         rows = bench.run(chosen, _tell)
     (options.out / "table.md").write_text(markdown(rows))
     (options.out / "table.json").write_text(as_json(rows, machine.describe()))
+    if options.page is not None:
+        _put_into(options.page, markdown(row for row in rows if not row.missing))
     print(f"{_cpu_seconds() - started:.0f} s of CPU; wrote {options.out / 'table.md'}")
+
+
+def _put_into(page: Path, table: str) -> None:
+    """Replace what stands between the marks of a document."""
+    before, _, rest = page.read_text().partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not end:
+        raise SystemExit(f"{page}: expected the marks {BEGIN} and {END}, found none")
+    page.write_text(f"{before}{BEGIN}\n\n{table.strip()}\n\n{END}{after}")
 
 
 def _cpu_seconds() -> float:

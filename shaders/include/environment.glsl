@@ -162,7 +162,11 @@ vec3 environment_filtered(vec3 direction_world, float roughness) {
 #endif
     vec3 light = environment_seen(hit.direction, environment_level_of(seen));
 #ifdef ENVIRONMENT_LAYERS
-    if (hit.farthest) light = textureLod(u_farthest, hit.direction, farthest_level(seen)).rgb;
+    if (hit.farthest) {
+        // A wide lobe sees what hides and what is hidden: the nearest surfaces have both. A sharp one sees one of them.
+        vec3 hidden = textureLod(u_farthest, hit.direction, farthest_level(seen)).rgb;
+        light = mix(hidden, light, min(seen / 0.3, 1.0));
+    }
 #endif
     return or_planar_mirror(environment_scaled(light), direction_world, planar_mirror_spread(roughness), 0.0);
 }

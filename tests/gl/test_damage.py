@@ -60,9 +60,10 @@ def test_rgb565_has_the_bits_of_a_whole_picture(both):
     """llvmpipe rounds pixels of rgb565 otherwise where a scissor cuts a block of pixels."""
     rng = np.random.default_rng(8)
     scene = cc.Scene(background=(0.1, 0.2, 0.3))
-    boxes = [scene.add(cc.Mesh.box(0.8), cc.BasicMaterial(color=rng.random(3))) for _ in range(3)]
+    colors = [cc.BasicMaterial(color=rng.random(3)) for _ in range(3)]
+    boxes = [scene.add(cc.Mesh.box(0.8), color) for color in colors]
     for step in range(12):
         boxes[step % 3].position = (*rng.uniform(-0.6, 0.6, 2), -2)
-        boxes[(step + 1) % 3].material.color = rng.random(3)
+        colors[(step + 1) % 3].color = rng.random(3)
         got, want = (r.capture(scene, size=21, format="rgb565").faces for r in both)
         assert_identical(got, want)
