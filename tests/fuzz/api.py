@@ -64,6 +64,7 @@ OBJECTS = {
     "Texture": ["w.texture"],
     "RenderTexture": ["w.screen"],
     "Probe": ["w.probe", "cc.Probe(size=2)"],
+    "PlanarMirror": ["cc.PlanarMirror()"],
     "MorphTarget": ["w.target"],
     "Skin": ["w.skin"],
     "Animation": ["w.animation"],

@@ -69,6 +69,7 @@ def test_every_name_at_hand_exists():
         sum += surface.tangent.xyz;
         sum += environment_filtered(surface.normal, 0.5) + environment_irradiance(surface.normal);
         sum += vec3(brdf(0.5, 0.5), 0.0) + environment_mip(surface.normal, 1.0);
+        sum += environment_at(surface.position, surface.normal);
         sum += environment(surface.normal) + environment_lod(surface.normal, 1.0) + ambient_light();
         if (environment_is_local()) sum += environment_position() * float(environment_levels());
         sum += vec3(environment_size());

@@ -53,6 +53,8 @@ VALUES: dict[str, Any] = {
     "background": [0.25, 0.5, 1.0],
     "rotation": [1.0, 0.0, 0.0, 0.0],
     "matrix": np.eye(4),
+    "proxy_matrix": np.eye(4),
+    "box": [[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]],
     "view": np.eye(4),
     "projection": np.eye(4),
     "world_to_camera_cv": np.eye(4),

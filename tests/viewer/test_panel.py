@@ -31,7 +31,8 @@ MAKERS: dict[str, Any] = {
     "PerspectiveCamera": cc.PerspectiveCamera,
     "PhongMaterial": cc.PhongMaterial,
     "PointLight": lambda: cc.PointLight((1, 2, 3)),
-    "Probe": lambda: cc.Probe((0, 1, 0)),
+    "PlanarMirror": cc.PlanarMirror,
+    "Probe": lambda: cc.Probe((0, 1, 0), box=((-1, -1, -1), (1, 1, 1))),
     "RenderTexture": lambda: cc.RenderTexture(cc.Scene(), cc.PerspectiveCamera(), size=(8, 4)),
     "Scene": lambda: cc.Scene(background=(0.25, 0.5, 1)),
     "ShaderMaterial": lambda: cc.ShaderMaterial(
@@ -58,6 +59,8 @@ WITHOUT = {
     "material": "an object, which has a section of its own",
     "parent": "a node",
     "exclude": "nodes",
+    "box": "two corners",
+    "proxy_matrix": "a matrix",
     "camera": "an object",
     "scene": "an object",
     "left": "a camera",
@@ -89,6 +92,8 @@ def by_name(thing):
 def other_value(control):
     """A value that differs from today's."""
     today = control.get()
+    if control.name == "fetches":
+        return 35  # one of three
     match control.kind:
         case "flag":
             return not today
