@@ -27,8 +27,8 @@ from pathlib import Path
 from typing import Any
 
 LINKED = re.compile(r"lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)\.so(\.\d+)?|ld-linux.*")
-#: Bytes. Samples take 2.2 million, and the extension 2 to 2.4 million, by compiler and interpreter; debug information would
-#: add ten times as much.
+#: Bytes. Samples take 2.2 million, and the extension 2 to 2.4 million, by compiler and interpreter; debug information
+#: would add ten times as much.
 LARGEST = 5_500_000
 HELPER = "cubecam/_shader_trial"  # the program that tries users' GLSL
 EXPECTED = (
