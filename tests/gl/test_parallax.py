@@ -260,14 +260,12 @@ def test_policies_keep_cube_and_distances_together(fresh_renderer, new_renderer,
 
 
 def test_layers_of_a_probe_that_is_drawn_once(fresh_renderer):
-    """A second layer that is asked for later is drawn, though the policy is "once"."""
+    """If a probe with the policy "once" gets a second layer later, the renderer draws that layer."""
     scene = room(FURNITURE)
     ball = add_ball(scene, parallax="distance", update="once", fetches=35)
     fresh_renderer.render(scene, CAMERA, SIZE)
     ball.environment.parallax = "layers"
     frame = fresh_renderer.render(scene, CAMERA, SIZE, format="rgba32f").color
-    again = add_ball(room(FURNITURE), parallax="layers", fetches=35)
-    del again
     scene.remove(ball)
     add_ball(scene, parallax="layers", fetches=35)
     assert_identical(frame, fresh_renderer.render(scene, CAMERA, SIZE, format="rgba32f").color)
@@ -382,6 +380,20 @@ def test_the_level_follows_from_the_cone(renderer, method, roughness):
     for other in (np.full((COUNT, 3), roughness), given**2):
         wrong, _ = looked_up(renderer, scene, source, found.direction, other)
         assert np.abs(wrong - want).mean() > 2 * np.abs(got - want).mean()
+
+
+def test_box_levels_of_both_layers(fresh_renderer):
+    """All surfaces have one colour, so that each level of each layer has it, too."""
+    scene = room(FURNITURE)
+    for node in scene.nodes:
+        node.material = cc.BasicMaterial(color=(0.25, 0.5, 1), double_sided=True)
+    ball = add_ball(scene, parallax="layers", fetches=35)
+    ball.material = cc.ShaderMaterial(
+        "vec3 shade(Surface s) { return environment_mip(reflect(s.incident, s.normal), 3.0); }"
+    )
+    frame = fresh_renderer.render(scene, CAMERA, SIZE, format="rgba32f", outputs=("id",))
+    on = frame.outputs["id"] == ball.id
+    np.testing.assert_allclose(frame.color[on][:, :3], [[0.25, 0.5, 1]] * on.sum(), rtol=1e-3)
 
 
 @pytest.mark.parametrize(

@@ -34,7 +34,7 @@ Environment ProbePicture::environment(const EnvironmentParts& parts) {
         made.level_count = gl::mip_levels(description.width, description.height);
     }
     made.position = state_.position;
-    made.local = local_lookup(parts.filtered || parts.filtered_if_made);
+    made.local = local_lookup(parts.filtered || parts.filtered_if_made || parts.mipmaps);
     const std::optional<bool> wanted = probe_.value.prefilter;
     if (parts.filtered ? wanted.value_or(true) : parts.filtered_if_made && wanted.value_or(false)) {
         made.filter(filter());

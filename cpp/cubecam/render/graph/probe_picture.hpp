@@ -62,7 +62,8 @@ private:
     bool has_layers() const { return probe_.value.parallax.method == Parallax::layers; }
     TargetDescription describe_farthest() const;
     std::size_t draw_farthest(std::optional<Budget> budget);
-    /// How surfaces find what they reflect; `rough`: some look the probe up by roughness.
+    /// How surfaces find what they reflect; `rough`: some look the probe up by
+    /// roughness or by mipmaps, so that the farthest surfaces need levels, too.
     LocalLookup local_lookup(bool rough);
     /// Filters the faces that were drawn since the last time.
     const FilteredTexture& filter();
