@@ -170,7 +170,7 @@ assert max(gaps)[0] < max({most} * whole, 0.06), (max(gaps), whole)
 assert longest < max({longest} * whole, 0.06), (longest, whole)
 looks = len(moments) - 2
 assert looks > 2, looks
-for share in (.1, .5, .9):
+for share in (.2, .7):
     for attempt in range(20):  # the number of looks differs from call to call
         stop_at, stopped = max(2, int(share * looks * (1 - attempt / 20))), False
         try:

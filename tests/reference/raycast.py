@@ -117,7 +117,7 @@ class Triangles(Shape):
     normals: Any = None
     uvs: Any = None
     colors: Any = None
-    chunk: int = 1 << 21  # ray-triangle pairs at once: about 200 MB of float64 temporaries
+    group: int = 48  # triangles that are tried together, with all rays near their bounding sphere
 
     def intersect(self, origins, directions, t_min, t_max):
         count = len(origins)
@@ -125,13 +125,14 @@ class Triangles(Shape):
         which = np.zeros(count, int)
         bary = np.zeros((count, 2))
         corners = np.asarray(self.positions, float)[np.asarray(self.indices, int)]
-        near = self._near_bounding_sphere(origins, directions)
-        step = max(1, self.chunk // max(len(corners), 1))
-        for start in range(0, len(near), step):
-            rows = near[start : start + step]
-            t[rows], which[rows], bary[rows] = self._chunk(
-                origins[rows], directions[rows], corners, t_min[rows], t_max[rows]
+        for rows, some in self._groups(np.arange(count), origins, directions, corners):
+            found, nth, at = self._chunk(
+                origins[rows], directions[rows], corners[some], t_min[rows], t_max[rows]
             )
+            # Of triangles that are met at the same place, the first one of the mesh counts.
+            nearer = (found < t[rows]) | ((found == t[rows]) & (some[nth] < which[rows]))
+            t[rows[nearer]], which[rows[nearer]] = found[nearer], some[nth[nearer]]
+            bary[rows[nearer]] = at[nearer]
         weights = np.stack([1 - bary.sum(-1), bary[:, 0], bary[:, 1]], axis=-1)
         vertices = np.asarray(self.indices, int)[which]
         flat = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -146,13 +147,25 @@ class Triangles(Shape):
         )
         return t, sides[1].reshape(-1)[which], normal, uv, color
 
-    def _near_bounding_sphere(self, origins, directions):
-        low, high = np.min(self.positions, axis=0), np.max(self.positions, axis=0)
+    def _groups(self, rows, origins, directions, corners, some=None):
+        """Pairs of rays and triangles, as indices: halves of halves of the triangles, with the rays near each half."""
+        if some is None:
+            some = np.arange(len(corners))
+        points = corners[some].reshape(-1, 3)
+        low, high = points.min(axis=0), points.max(axis=0)
         center, radius = (low + high) / 2, np.linalg.norm(high - low) / 2 * 1.001 + 1e-9
-        offset = center - origins
-        along = (offset * directions).sum(-1) / (directions * directions).sum(-1)
-        miss = offset - along[:, None] * directions
-        return np.flatnonzero((miss * miss).sum(-1) <= radius**2)
+        offset = center - origins[rows]
+        along = (offset * directions[rows]).sum(-1) / (directions[rows] ** 2).sum(-1)
+        miss = offset - along[:, None] * directions[rows]
+        rows = rows[(miss * miss).sum(-1) <= radius**2]
+        if len(rows) == 0:
+            return
+        if len(some) <= self.group:
+            yield rows, some
+            return
+        order = np.argsort(corners[some].mean(axis=1)[:, (high - low).argmax()], kind="stable")
+        for half in np.array_split(order, 2):
+            yield from self._groups(rows, origins, directions, corners, np.sort(some[half]))
 
     def _chunk(self, origins, directions, corners, t_min, t_max):
         """All rays against all triangles; the paper's triple products, turned so that each is a matrix product."""
