@@ -269,7 +269,7 @@ MUTATIONS = [
     ),
     Mutation(
         "glass: parallel and perpendicular confused",
-        "dielectric.glsl",
+        "glass.glsl",
         "return 0.5 * (r_s * r_s + r_p * r_p);",
         "return r_s * r_s;",
         LOOKUPS,
@@ -755,13 +755,6 @@ MUTATIONS = [
         BODIES,
     ),
     Mutation(
-        "bodies: the far side lets all light through",
-        "include/body.glsl",
-        "if (!inside && reflects)",
-        "if (false)",
-        BODIES,
-    ),
-    Mutation(
         "bodies: the near side of a ring is not there",
         "include/body.glsl",
         "v_to_body[1].w > 0.0 ? 1.0 - at.z * nearness.y : -1.0",
@@ -885,13 +878,6 @@ MUTATIONS = [
         "shading/bodies.py",
         "rows = rows[total]",
         "rows = rows[:0]",
-        BODIES_REFERENCE,
-    ),
-    Mutation(
-        "bodies, reference: the far side reflects as the near one",
-        "shading/bodies.py",
-        "fresnel_dielectric(dot(towards, normal), ior)",
-        "fresnel_dielectric(dot(towards, normal), 1 / ior)",
         BODIES_REFERENCE,
     ),
     Mutation(

@@ -62,8 +62,9 @@ handle of a teapot, and out of open meshes, light does not find its way: it is l
 to, as with ``surfaces=1``. So is what the back of a double-sided surface shows.
 
 Light meets the inner side up to four times. If it is reflected totally the fourth time, it leaves the
-body in that direction. What is reflected there in part is not followed, nor does light enter a body again
-that it has left, or another body inside. The tint counts once.
+body in that direction. What is reflected there in part is not followed: it is taken to be as bright as
+what leaves the body. Light does not enter a body again that it has left, or another body inside. The tint
+counts once.
 
 A rough body spreads what passes like a mirror of the roughness r' with r'^4 = r^4 (2 v^2 + k ior^2),
 v = (ior - 1) / 2, after k total reflections: facets that lean by a small angle d turn light by 2 d where

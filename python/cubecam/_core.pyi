@@ -5231,8 +5231,9 @@ class GlassMaterial(Material):
     Glass: F * environment(R) + (1 - F) * tint * environment(T).
 
     R is the reflected direction, and T the refracted direction of GLSL's ``refract``: at a single surface,
-    or through both sides of the body. F is Fresnel's reflectance of a dielectric for unpolarised light: the mean of both polarisations
-    (M. Born and E. Wolf, "Principles of Optics", section 1.5.2). Where there is no T, F is 1.
+    or through both sides of the body. F is Fresnel's reflectance of a dielectric for unpolarised light: the
+    mean of both polarisations (M. Born and E. Wolf, "Principles of Optics", section 1.5.2). Where there is
+    no T, F is 1.
 
     Parameters
     ----------
@@ -5281,8 +5282,9 @@ class GlassMaterial(Material):
     to, as with ``surfaces=1``. So is what the back of a double-sided surface shows.
 
     Light meets the inner side up to four times. If it is reflected totally the fourth time, it leaves the
-    body in that direction. What is reflected there in part is not followed, nor does light enter a body again
-    that it has left, or another body inside. The tint counts once.
+    body in that direction. What is reflected there in part is not followed: it is taken to be as bright as
+    what leaves the body. Light does not enter a body again that it has left, or another body inside. The tint
+    counts once.
 
     A rough body spreads what passes like a mirror of the roughness r' with r'^4 = r^4 (2 v^2 + k ior^2),
     v = (ior - 1) / 2, after k total reflections: facets that lean by a small angle d turn light by 2 d where

@@ -17,7 +17,6 @@ struct Passage {
     vec3 direction;    // world, unit length
     float way;         // its length in the body, world units
     int met;           // how often it met the inner side; 0: the far side is not known
-    float share;       // of the light, that passes the far side
 };
 
 vec3 body_place(vec3 place) {
@@ -81,9 +80,10 @@ vec3 body_normal(vec3 place, vec3 direction_world) {
 
 // Follows light that goes into the body from the fragment, with the index of refraction inside over that outside. Where
 // the far side is not known, it is taken to come from where the ray has got to, along its way: at the first surface that
-// is the rule for one surface. `reflects`: the far side lets through what Fresnel's equations leave of the light.
-Passage through_body(vec3 from_origin, vec3 direction_world, float ior, bool reflects) {
-    Passage passage = Passage(from_origin, direction_world, 0.0, 0, 1.0);
+// is the rule for one surface. What the far side reflects in part leaves the body elsewhere, and is taken to
+// be as bright as what leaves here.
+Passage through_body(vec3 from_origin, vec3 direction_world, float ior) {
+    Passage passage = Passage(from_origin, direction_world, 0.0, 0);
     vec3 place = v_body;
     bool inside = true;
 #ifdef DOUBLE_SIDED
@@ -104,7 +104,6 @@ Passage through_body(vec3 from_origin, vec3 direction_world, float ior, bool ref
         vec3 normal = body_normal(place, passage.direction);
         vec3 leaving = refract(passage.direction, -normal, ior);
         inside = dot(leaving, leaving) == 0.0;
-        if (!inside && reflects) passage.share = 1.0 - dielectric_reflectance(dot(passage.direction, normal), ior);
         passage.direction = inside ? reflect(passage.direction, normal) : leaving;
     }
     return passage;

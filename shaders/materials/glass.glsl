@@ -2,13 +2,22 @@
 // reflection. With ROUGH, material[1].xy: the roughness of what is reflected and of what is refracted at one surface.
 // With BODY light goes through both sides of the body; material[3].rgb: extinction for each world unit. With DISPERSION
 // material[2].rgb is eta for red, green and blue.
-#include "include/dielectric.glsl"
 #ifdef ROUGH
 #include "include/main_direction.glsl"
 #endif
 #ifdef BODY
 #include "include/body.glsl"
 #endif
+
+// The share of unpolarised light that the surface of a dielectric reflects, without total reflection: M. Born, E. Wolf,
+// "Principles of Optics", section 1.5.2. eta = n_outside / n_inside.
+float dielectric_reflectance(float cos_i, float eta) {
+    cos_i = clamp(cos_i, 0.0, 1.0);
+    float cos_t = sqrt(max(1.0 - eta * eta * (1.0 - cos_i * cos_i), 0.0));
+    float r_s = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+    float r_p = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+    return 0.5 * (r_s * r_s + r_p * r_p);
+}
 
 #if defined(BODY) && defined(ROUGH)
 // The roughness of a mirror that spreads light as both sides of the body do. Seen from outside, a facet that leans by a small
@@ -28,19 +37,15 @@ vec3 passed_light(Surface surface, vec3 reflected, float eta) {
     bool total = dot(refracted, refracted) == 0.0;
     vec3 direction = total ? reflected : refracted;
 #ifdef BODY
-    Passage passage = Passage(surface.from_origin, direction, 0.0, 0, 1.0);
-#ifdef FRESNEL
-    if (!total) passage = through_body(surface.from_origin, direction, 1.0 / eta, true);
-#else
-    if (!total) passage = through_body(surface.from_origin, direction, 1.0 / eta, false);
-#endif
+    Passage passage = Passage(surface.from_origin, direction, 0.0, 0);
+    if (!total) passage = through_body(surface.from_origin, direction, 1.0 / eta);
 #ifdef ROUGH
     float roughness = passage.met > 0 ? passed_roughness(1.0 / eta, passage.met - 1) : material[1].y;
     vec3 light = environment_filtered_from(passage.from_origin, passage.direction, total ? material[1].x : roughness);
 #else
     vec3 light = environment_from(passage.from_origin, passage.direction);
 #endif
-    return light * (passage.share * exp(-material[3].rgb * min(passage.way, 1e30)));
+    return light * exp(-material[3].rgb * min(passage.way, 1e30));
 #elif defined(ROUGH)
     return environment_filtered(direction, total ? material[1].x : material[1].y);
 #else

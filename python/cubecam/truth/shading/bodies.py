@@ -13,8 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .cubes import largest_part, padded, sample_padded
-from .fresnel import fresnel_dielectric
-from .vectors import Array, dot, normalised, reflect, refract
+from .vectors import Array, normalised, reflect, refract
 
 #: What stands for an index of refraction of 0, which is infinity (KHR_materials_ior).
 _INFINITE = 1e6
@@ -35,15 +34,12 @@ class Passage(NamedTuple):
         How far it went inside.
     met : ndarray (R,) of int
         How often it met the inner side; 0 where the far side is not known.
-    share : ndarray (R,)
-        What the far side lets through by Fresnel's equations; 1 where the light did not leave through it.
     """
 
     position: Array
     direction: Array
     way: Array
     met: npt.NDArray[np.int64]
-    share: Array
 
 
 def spread(ior: float, dispersion: float) -> Array:
@@ -105,14 +101,14 @@ def through(
 
     Examples
     --------
-    Through the middle of a ball, and out of a block at an angle that is reflected totally:
+    Through the middle of a ball:
 
     >>> found = through([(0, 0, 1)], [(0, 0, -1)], 1.5, ball(1.0))
-    >>> found.position.tolist(), float(found.way[0]), float(found.share[0].round(4))
-    ([[0.0, 0.0, -1.0]], 2.0, 0.96)
+    >>> found.position.tolist(), float(found.way[0])
+    ([[0.0, 0.0, -1.0]], 2.0)
     """
     place, d = (np.array(x, float).reshape(-1, 3) for x in (position, direction))
-    way, share = np.zeros(len(place)), np.ones(len(place))
+    way = np.zeros(len(place))
     met = np.zeros(len(place), np.int64)
     rows = np.arange(len(place))
     for _ in range(most):
@@ -127,11 +123,9 @@ def through(
         towards = d[rows]
         out = refract(towards, -normal, ior)
         total = (out * out).sum(axis=-1) == 0
-        reflected = fresnel_dielectric(dot(towards, normal), ior)[:, 0]
-        share[rows] = np.where(total, 1.0, 1 - reflected)
         d[rows] = np.where(total[:, None], reflect(towards, normal), out)
         rows = rows[total]
-    return Passage(place, d, way, met, share)
+    return Passage(place, d, way, met)
 
 
 def ball(radius: float) -> Exit:
