@@ -846,6 +846,13 @@ MUTATIONS = [
         BODIES,
     ),
     Mutation(
+        "bodies: the rim of a ring reaches far away",
+        "body_rim.frag",
+        "sum.y == 0.0 ? own : vec2(sum.x / sum.y)",
+        "sum.y == 0.0 ? own : vec2(0.0)",
+        BODIES,
+    ),
+    Mutation(
         "volume: the colour is reached at once",
         "materials/volume.hpp",
         "-std::log(color[i]) / distance",

@@ -31,9 +31,11 @@ float passed_roughness(float ior, int reflections) {
 }
 #endif
 
+vec3 refracted_by(Surface surface, float eta) { return refract(surface.incident, surface.normal, eta); }
+
 // The light that the surface lets through, without its tint. Where all light is reflected, it is that from `reflected`.
 vec3 passed_light(Surface surface, vec3 reflected, float eta) {
-    vec3 refracted = refract(surface.incident, surface.normal, eta);
+    vec3 refracted = refracted_by(surface, eta);
     bool total = dot(refracted, refracted) == 0.0;
     vec3 direction = total ? reflected : refracted;
 #ifdef BODY
@@ -56,7 +58,7 @@ vec3 passed_light(Surface surface, vec3 reflected, float eta) {
 vec3 shade(Surface surface) {
     float eta = material[0].a;
     vec3 reflected = reflect(surface.incident, surface.normal);
-    vec3 refracted = refract(surface.incident, surface.normal, eta);
+    vec3 refracted = refracted_by(surface, eta);
     bool total = dot(refracted, refracted) == 0.0;
 
     float f = 0.0;

@@ -89,7 +89,9 @@ def test_a_far_side_that_is_not_known():
     assert found.way.tolist() == [0]
 
 
-@pytest.mark.parametrize(("ior", "want"), [(1.5, (1.475, 1.5, 1.525)), (1.01, (1.0095, 1.01, 1.0105))])
+@pytest.mark.parametrize(
+    ("ior", "want"), [(1.5, (1.475, 1.5, 1.525)), (1.01, (1.0095, 1.01, 1.0105))]
+)
 def test_the_indices_of_three_colours(ior, want):
     """KHR_materials_dispersion: halfSpread = (ior - 1) * 0.025 * dispersion."""
     np.testing.assert_allclose(bodies.spread(ior, 2.0), want, atol=1e-12)

@@ -37,9 +37,10 @@ struct Glass {
               "int: 1, light is refracted where it enters; 2, also where it leaves the body."},
         Field{"dispersion", &Glass::dispersion,
               "float: 20 divided by the Abbe number, not negative; 0: none."},
-        Field{"attenuation_distance", &Glass::attenuation_distance,
-              "float: world units, above 0, after which white light in the body has the attenuation "
-              "colour; inf: never."},
+        Field{
+            "attenuation_distance", &Glass::attenuation_distance,
+            "float: world units, above 0, after which white light in the body has the attenuation "
+            "colour; inf: never."},
         Field{"attenuation_color", &Glass::attenuation_color,
               "ndarray (3,) float32: linear RGB, from 0 to 1, read-only."},
     };
@@ -72,8 +73,7 @@ struct Glass {
     }
     std::size_t constants_read() const { return shows_far_side() || disperses() ? 4 : 2; }
     std::array<Switch, 3> switches() const {
-        return {
-            {{"FRESNEL", fresnel}, {"ROUGH", roughness > 0.0F}, {"DISPERSION", disperses()}}};
+        return {{{"FRESNEL", fresnel}, {"ROUGH", roughness > 0.0F}, {"DISPERSION", disperses()}}};
     }
     EnvironmentParts environment_parts() const { return {.filtered = roughness > 0.0F}; }
     bool uses_environment() const { return true; }

@@ -3,6 +3,7 @@
 #include "cubecam/core/interrupts.hpp"
 #include "cubecam/gl/pace.hpp"
 #include "cubecam/math/cube_face.hpp"
+#include "cubecam/render/passes/full_screen_pass.hpp"
 #include "cubecam/render/resources/view_record.hpp"
 
 #include <algorithm>
@@ -35,9 +36,9 @@ double winding_number(const MeshData& mesh, const glm::dvec3& point) {
         const double la = glm::length(a);
         const double lb = glm::length(b);
         const double lc = glm::length(c);
-        sum += std::atan2(glm::dot(a, glm::cross(b, c)),
-                          la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb +
-                              glm::dot(b, c) * la);
+        sum += std::atan2(glm::dot(a, glm::cross(b, c)), la * lb * lc + glm::dot(a, b) * lc +
+                                                             glm::dot(a, c) * lb +
+                                                             glm::dot(b, c) * la);
     }
     return 2.0 * sum / (4.0 * std::numbers::pi);
 }
@@ -79,6 +80,19 @@ BodyLookup BodyPass::get(const MeshData& mesh, Stats& stats) {
     return body.lookup;
 }
 
+void BodyPass::close_rim(const Body& body, Stats& stats) {
+    const GladGLContext& gl = context_->gl();
+    gl.NamedFramebufferTexture(framebuffer_.id(), GL_COLOR_ATTACHMENT0, body.nearness.id(), 0);
+    gl.Viewport(0, 0, body_width, body_height);
+    gl.Scissor(0, 0, body_width, body_height);
+    set_full_screen_state(gl);
+    gl.ColorMaski(1, GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    gl.BindTextureUnit(0, open_.id());
+    programs_->body_rim().use();
+    draw_full_screen(gl, *cache_, {}, stats);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
 void BodyPass::draw(const MeshData& mesh, const Body& body, Stats& stats) {
     const GladGLContext& gl = context_->gl();
     if (!framebuffer_) {
@@ -89,7 +103,10 @@ void BodyPass::draw(const MeshData& mesh, const Body& body, Stats& stats) {
         gl.NamedFramebufferDrawBuffers(framebuffer_.id(), 2, outputs.data());
         record_ = gl::create_buffer(gl, sizeof(ViewRecord));
     }
-    gl.NamedFramebufferTexture(framebuffer_.id(), GL_COLOR_ATTACHMENT0, body.nearness.id(), 0);
+    const bool outside = body.lookup.outside;
+    if (outside && !open_) open_ = gl::create_texture_2d(gl, GL_RG32F, body_width, body_height);
+    const GLuint drawn = outside ? open_.id() : body.nearness.id();
+    gl.NamedFramebufferTexture(framebuffer_.id(), GL_COLOR_ATTACHMENT0, drawn, 0);
     const GpuMesh& gpu_mesh = cache_->mesh(mesh);
     const GLuint array = gpu_mesh.array.id();
     gl.VertexArrayVertexBuffer(array, vertex_buffer::records, record_.id(), 0, sizeof(ViewRecord));
@@ -111,7 +128,7 @@ void BodyPass::draw(const MeshData& mesh, const Body& body, Stats& stats) {
     gl.DepthMask(GL_TRUE);
     gl.FrontFace(GL_CCW);
     constexpr std::array<float, 4> nothing{};
-    for (int side = 0; side < (body.lookup.outside ? 2 : 1); ++side) {
+    for (int side = 0; side < (outside ? 2 : 1); ++side) {
         gl.NamedFramebufferTextureLayer(framebuffer_.id(), GL_COLOR_ATTACHMENT1, body.normals.id(),
                                         0, side);
         if (side == 0) gl::check_framebuffer(gl, framebuffer_, "drawing the inside of a body");
@@ -138,6 +155,7 @@ void BodyPass::draw(const MeshData& mesh, const Body& body, Stats& stats) {
     }
     gl.CullFace(GL_BACK);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    if (outside) close_rim(body, stats);
     gl::check_gl(gl, "drawing the inside of a body");
 }
 

@@ -40,13 +40,16 @@ private:
 
     Body make() const;
     void draw(const MeshData& mesh, const Body& body, Stats& stats);
+    /// Fills what lies beside the silhouettes of a body whose middle is outside.
+    void close_rim(const Body& body, Stats& stats);
 
     const gl::Context* context_;
     GpuCache* cache_;
     Programs* programs_;
-    gl::Texture depth_;             ///< for all bodies; made when it is first needed
+    gl::Texture depth_;  ///< for all bodies; made when it is first needed
+    gl::Texture open_;   ///< a body whose rim is not closed yet; the same
     gl::Framebuffer framebuffer_;
-    gl::Buffer record_;             ///< what vertex arrays of meshes read besides their vertices
+    gl::Buffer record_;  ///< what vertex arrays of meshes read besides their vertices
     WeakCache<const MeshIdentity, Body> bodies_;
 };
 

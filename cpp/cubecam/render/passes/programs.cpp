@@ -324,6 +324,15 @@ const gl::Program& Programs::body() {
     return body_;
 }
 
+const gl::Program& Programs::body_rim() {
+    if (!body_rim_) {
+        gl::ShaderOptions options;
+        options.defines.emplace_back("BODY_SIZE", std::to_string(body_size));
+        body_rim_ = gl::Program(*gl_, {"passes/full_screen.vert", "passes/body_rim.frag"}, options);
+    }
+    return body_rim_;
+}
+
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) {
     const auto found = grades_.find({tonemap, encode, decode});
     if (found != grades_.end()) return found->second;

@@ -115,6 +115,7 @@ public:
     const gl::Program& bounce_change();
     /// The inner side of a mesh.
     const gl::Program& body();
+    const gl::Program& body_rim();
 
 private:
     gl::ShaderOptions layer_options() const;
@@ -132,7 +133,7 @@ private:
     std::map<std::pair<DistanceStep, bool>, gl::Program> distances_;
     gl::Program skybox_, turned_skybox_;
     gl::Program bounce_change_;
-    gl::Program body_;
+    gl::Program body_, body_rim_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

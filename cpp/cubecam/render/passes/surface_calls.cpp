@@ -54,8 +54,7 @@ bool is_dense(const NodeSnapshot& node) {
 
 bool has_flat_constants(const NodeSnapshot& node) {
     const MaterialTraits& material = node.material.value.traits();
-    return !material.user_code && material.constants <= most_flat_constants &&
-           !is_dense(node);
+    return !material.user_code && material.constants <= most_flat_constants && !is_dense(node);
 }
 
 SurfaceItems find_items(const SurfaceInput& input, GpuCache& cache) {

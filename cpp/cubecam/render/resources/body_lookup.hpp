@@ -11,8 +11,8 @@ namespace cubecam {
 /// Its space is that of the mesh, moved and scaled along the axes so that the mesh fills the cube
 /// from -1 to 1: a flat body fills as many texels as a ball.
 struct BodyLookup {
-    GLuint nearness = 0;  ///< red: 1 / z of the nearest backs of surfaces, green: of the fronts
-    GLuint normals = 0;   ///< a layer for each of them, the second one only if `outside`
+    GLuint nearness = 0;     ///< red: 1 / z of the nearest backs of surfaces, green: of the fronts
+    GLuint normals = 0;      ///< a layer for each of them, the second one only if `outside`
     glm::vec3 middle{0.0F};  ///< of the mesh's bounds, in its own space
     glm::vec3 half{1.0F};    ///< of their extent
     bool outside = false;    ///< the middle is not in the body, as that of a ring

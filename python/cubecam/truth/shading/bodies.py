@@ -1,7 +1,7 @@
 """The way of light through a body of glass: where it goes in, is reflected inside, and comes out again.
 
-Written from Snell's and Fresnel's laws and from glTF's extensions, never from the shaders. A body is a function that
-says where a ray that starts on its surface, or inside, leaves it: `ball`, `convex` and `seen_from_middle` make such functions.
+Written from Snell's law and glTF's extensions, never from the shaders. A body is a function that says where a ray that
+starts on its surface, or inside, leaves it: `ball`, `convex` and `seen_from_middle` make such functions.
 """
 
 from __future__ import annotations
@@ -155,14 +155,12 @@ def convex(normals: npt.ArrayLike, heights: npt.ArrayLike) -> Exit:
     return leave
 
 
-def seen_from_middle(
-    nearness: npt.ArrayLike, normals: npt.ArrayLike, *, steps: int = 512
-) -> Exit:
+def seen_from_middle(nearness: npt.ArrayLike, normals: npt.ArrayLike, *, steps: int = 512) -> Exit:
     """A body of which a cube knows the inner side, as its middle, the origin, sees it.
 
-    A place q is inside where max(|qx|, |qy|, |qz|) W(q) < 1, with W = 1 / z of the side that lies in this direction, as in
-    `parallax.march`. The ray is walked in many steps over the length after which it has left the corners of the cube from
-    -2 to 2, and the first change is bisected.
+    A place q is inside where max(|qx|, |qy|, |qz|) W(q) < 1, with W = 1 / z of the side that lies in this direction, as
+    in `parallax.march`. The ray is walked in many steps over the length after which it has left the corners of the cube
+    from -2 to 2, and the first change is bisected.
 
     Parameters
     ----------
