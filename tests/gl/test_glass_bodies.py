@@ -379,7 +379,8 @@ def test_rough_glass_is_nearer_to_the_truth_than_clear_glass(renderer, roughness
     rng = np.random.default_rng(3)
     faces = np.repeat(np.repeat(rng.random((6, 4, 4, 3)), 8, axis=1), 8, axis=2)
     scene = cc.Scene(environment=cc.CubeMap(faces.astype(np.float32)), background=(0, 0, 0))
-    node = scene.add(BALL, glass(ior=1.5, roughness=roughness))
+    look = glass(ior=1.5, roughness=roughness)
+    scene.add(BALL, look)
     camera = cc.PerspectiveCamera(position=(0, 0, 3), target=(0, 0, 0), fov=26)
     exact = cc.truth.render(
         scene,
@@ -393,7 +394,7 @@ def test_rough_glass_is_nearer_to_the_truth_than_clear_glass(renderer, roughness
     ).color[..., :3]
     errors = {}
     for r in (roughness, 0.0, min(2 * roughness, 1.0)):
-        node.material.roughness = r
+        look.roughness = r
         got = renderer.render(scene, camera, (16, 16), format="rgba32f").color[..., :3]
         errors[r] = float(np.sqrt(np.mean((got - exact)[3:13, 3:13] ** 2)))
     assert errors[roughness] < 0.5 * errors[0.0]
