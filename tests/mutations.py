@@ -834,8 +834,9 @@ MUTATIONS = [
     Mutation(
         "bodies: the inner side is kept although vertices moved",
         "body_pass.cpp",
-        "if (body.positions_revision == mesh.position_stream().revision &&",
-        "if (body.positions_revision != 0 &&",
+        "if (body.positions_revision == mesh.position_stream().revision && "
+        "body.normals_revision == mesh.normal_stream().revision) {",
+        "if (body.positions_revision != 0) {",
         BODIES,
     ),
     Mutation(

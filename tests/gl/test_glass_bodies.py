@@ -282,8 +282,8 @@ def test_a_ring_whose_middle_is_outside(any_path):
     off = degrees_between(color, want.direction)
     assert np.isfinite(color).all()
     assert len(off) > 300
-    assert np.median(off) < 1
-    assert (off < 5).mean() > 0.75
+    assert np.median(off) < 0.1
+    assert (off < 1).mean() > 0.68
 
 
 def test_a_mesh_without_a_far_side_refracts_once(any_path):
@@ -442,7 +442,8 @@ def test_a_mesh_that_changes_changes_what_is_seen_through_it(renderer, fresh_ren
     scene = cc.Scene(environment=compass())
     scene.add(mesh, glass())
     before = renderer.render(scene, CAMERA, SIZE, format="rgba32f").color
-    mesh.update(positions=np.asarray(BALL.positions) * np.array([0.6, 1, 0.8], np.float32))
+    corners = np.asarray(BALL.positions)
+    mesh.update(positions=corners * (1 + 0.4 * corners[:, :1] * corners[:, 1:2]))
     after = renderer.render(scene, CAMERA, SIZE, format="rgba32f").color
     assert np.abs(before - after).max() > 0.1
     assert_identical(after, fresh_renderer.render(scene, CAMERA, SIZE, format="rgba32f").color)
