@@ -8,7 +8,7 @@ layout(binding = 46) uniform sampler2D u_body_nearness;
 layout(binding = 47) uniform sampler2DArray u_body_normals;  // of both, outwards
 
 const int BODY_STEPS = 6;  // places of the ray that are looked up until it is outside
-const int BODY_ROOTS = 2;  // how often the place of the exit is improved
+const int BODY_ROOTS = 3;  // how often the place of the exit is improved
 const int BODY_MEETS = 4;  // how often a ray meets the inner side; the last time it leaves the body in any case
 
 // How light leaves a body.
