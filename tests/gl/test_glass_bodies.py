@@ -512,3 +512,40 @@ def test_defaults_pickles_and_words():
 def test_bad_values(options, message):
     with pytest.raises(ValueError, match=message):
         cc.GlassMaterial(**options)
+
+
+def test_deformed_meshes_have_inner_sides_of_their_own(renderer):
+    """Nodes of one mesh with different weights of a morph target, beside meshes of these shapes."""
+    corners = np.asarray(BALL.positions)
+    bump = (0.5 * corners * corners[:, :1] * corners[:, 1:2]).astype(np.float32)
+    soft = cc.Mesh(corners, BALL.indices, morph_targets=[cc.MorphTarget(positions=bump)])
+    for weight in (0.5, 1.0):
+        colors = []
+        for mesh in (soft, cc.Mesh(corners + np.float32(weight) * bump, BALL.indices)):
+            scene = cc.Scene(environment=compass())
+            for x, share in ((-0.9, 0.0), (0.9, weight)):
+                own = soft if share == 0 else mesh
+                node = scene.add(own, glass(), position=(x, 0, 0))
+                if own is soft:
+                    node.weights = [share]
+            colors.append(renderer.render(scene, CAMERA, SIZE, format="rgba32f").color)
+        off = np.abs(colors[0] - colors[1]).max(axis=-1)
+        assert np.quantile(off, 0.98) < 1e-3
+
+
+@pytest.mark.parametrize("blend", ["alpha", "additive"])
+def test_translucent_glass_is_a_share_of_opaque_glass(any_path, blend):
+    around = cc.CubeMap(np.full((6, 4, 4, 3), 8.0, np.float32))  # brighter than a screen
+    looks = [
+        glass(fresnel=True, attenuation_color=(0.5, 0.7, 0.9), attenuation_distance=1.0, **more)
+        for more in ({}, {"opacity": 0.25, "blend": blend})
+    ]
+    full, part = (shown_colors(any_path, look, around) for look in looks)
+    np.testing.assert_allclose(part[..., :3], 0.25 * full[..., :3], atol=1e-5)
+    assert full.max() > 2
+
+
+def shown_colors(renderer, look, around):
+    scene = cc.Scene(background=(0, 0, 0), environment=around)
+    scene.add(BALL, look)
+    return renderer.render(scene, CAMERA, SIZE, format="rgba32f").color
