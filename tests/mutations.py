@@ -62,6 +62,7 @@ CROWDS = ("tests/gl/test_crowds.py",)
 KEPT = ("tests/gl/test_kept_snapshots.py",)
 FILTERED = ("tests/gl/test_filtered_environments.py",)
 PARALLAX = ("tests/gl/test_parallax.py",)
+BODIES = ("tests/gl/test_glass_bodies.py",)
 LABELS = ("tests/gl/test_labels.py",)
 STANDARD = ("tests/gl/test_standard_material.py",)
 STANDARD_REFERENCE = ("tests/gl/test_standard_reference.py",)
@@ -105,6 +106,7 @@ TRUTH_LIGHT = ("tests/truth/test_light.py",)
 TRUTH_SCENES = ("tests/truth/test_odd_scenes.py",)
 TRUTH_WORKERS = ("tests/truth/test_workers.py",)
 PARALLAX_REFERENCE = ("tests/unit/test_parallax.py",)
+BODIES_REFERENCE = ("tests/unit/test_glass_reference.py",)
 SHADER_TRIAL = ("tests/gl/test_shader_trial.py",)
 
 MUTATIONS = [
@@ -268,8 +270,8 @@ MUTATIONS = [
     Mutation(
         "glass: parallel and perpendicular confused",
         "glass.glsl",
-        "f = 0.5 * (r_s * r_s + r_p * r_p);",
-        "f = r_s * r_s;",
+        "return 0.5 * (r_s * r_s + r_p * r_p);",
+        "return r_s * r_s;",
         LOOKUPS,
     ),
     Mutation(
@@ -723,6 +725,182 @@ MUTATIONS = [
         "if (map.made_of_ == contents) return;",
         "if (map.made_of_ != 0) return;",
         PARALLAX,
+    ),
+    Mutation(
+        "bodies: light leaves with the index of its way in",
+        "include/body.glsl",
+        "refract(passage.direction, -normal, ior)",
+        "refract(passage.direction, -normal, 1.0 / ior)",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: what is reflected totally goes straight on",
+        "include/body.glsl",
+        "inside ? reflect(passage.direction, normal) : leaving",
+        "inside ? passage.direction : leaving",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: no total reflection is followed",
+        "include/body.glsl",
+        "const int BODY_MEETS = 4;",
+        "const int BODY_MEETS = 1;",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the way is as long as in the mesh",
+        "include/body.glsl",
+        "float way = exit * v_to_body[0].w / size;",
+        "float way = exit;",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the near side of a ring is not there",
+        "include/body.glsl",
+        "v_to_body[1].w > 0.0 ? 1.0 - at.z * nearness.y : -1.0",
+        "-1.0",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: places behind what the middle sees are in the body",
+        "include/body.glsl",
+        "bool known = at_before < 0.05;",
+        "bool known = true;",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the exit is where a step ends",
+        "include/body.glsl",
+        "k < BODY_ROOTS",
+        "k < 0",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the place of the exit counts, and not the way",
+        "materials/glass.glsl",
+        "environment_from(passage.from_origin, passage.direction)",
+        "environment_from(surface.from_origin, passage.direction)",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: only one side of rough glass is rough",
+        "materials/glass.glsl",
+        "float variance = 2.0 * through * through",
+        "float variance = 0.0 * through",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: light is absorbed by the square root of the way",
+        "materials/glass.glsl",
+        "exp(-material[3].rgb * min(passage.way, 1e30))",
+        "exp(-material[3].rgb * sqrt(passage.way))",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: red and blue exchanged",
+        "materials/glass.glsl",
+        "passed_light(surface, reflected, etas.r).r",
+        "passed_light(surface, reflected, etas.b).r",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: normals are not turned with the space of the body",
+        "passes/body.vert",
+        "v_normal = u_body_half * a_normal;",
+        "v_normal = a_normal;",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: a face of the inner side upside down",
+        "passes/body.vert",
+        "vec3(p.x, s * p.z, s * p.y)",
+        "vec3(p.x, -s * p.z, s * p.y)",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: directions are scaled twice",
+        "passes/surface.vert",
+        "vec4(u_normal_matrix[i].xyz / u_body_half[i], 0.0)",
+        "vec4(u_normal_matrix[i].xyz, 0.0)",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the fronts are taken for the backs",
+        "body_pass.cpp",
+        "gl.CullFace(side == 0 ? GL_FRONT : GL_BACK);",
+        "gl.CullFace(side == 0 ? GL_BACK : GL_FRONT);",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the inner side is kept although vertices moved",
+        "body_pass.cpp",
+        "if (body.positions_revision == mesh.position_stream().revision && "
+        "body.normals_revision == mesh.normal_stream().revision) {",
+        "if (body.positions_revision != 0) {",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: every middle is inside",
+        "body_pass.cpp",
+        "winding_number(mesh, middle) < 0.5",
+        "winding_number(mesh, middle) < -9.0",
+        BODIES,
+    ),
+    Mutation(
+        "bodies: the rim of a ring reaches far away",
+        "body_rim.frag",
+        "sum.y == 0.0 ? own : vec2(sum.x / sum.y)",
+        "sum.y == 0.0 ? own : vec2(0.0)",
+        BODIES,
+    ),
+    Mutation(
+        "volume: the colour is reached at once",
+        "materials/volume.hpp",
+        "-std::log(color[i]) / distance",
+        "-std::log(color[i])",
+        BODIES,
+    ),
+    Mutation(
+        "volume: a thinner body disperses as a denser one",
+        "materials/volume.hpp",
+        "return ior < 1.0F ? iors : 1.0F / iors;",
+        "return ior < 1.0F ? 1.0F / iors : 1.0F / iors;",
+        BODIES,
+    ),
+    Mutation(
+        "truth: glass of all colours has one index",
+        "paths/materials.py",
+        "part.paths.channel = np.full(len(rows), channel)",
+        "part.paths.channel = np.full(len(rows), 1)",
+        BODIES,
+    ),
+    Mutation(
+        "truth: glass absorbs nothing",
+        "paths/bodies.py",
+        "material.attenuation_color, material.attenuation_distance",
+        "material.attenuation_color, np.inf",
+        BODIES,
+    ),
+    Mutation(
+        "bodies, reference: total reflection ends the way",
+        "shading/bodies.py",
+        "rows = rows[total]",
+        "rows = rows[:0]",
+        BODIES_REFERENCE,
+    ),
+    Mutation(
+        "bodies, reference: the entry of a ball",
+        "shading/bodies.py",
+        "t = -b + np.sqrt",
+        "t = -b - np.sqrt",
+        BODIES_REFERENCE,
+    ),
+    Mutation(
+        "bodies, reference: z and not 1 / z",
+        "shading/bodies.py",
+        "largest_part(q) * sample_padded(w, q) - 1",
+        "largest_part(q) - sample_padded(1 / np.maximum(w, 1e-9), q)",
+        BODIES_REFERENCE,
     ),
     Mutation(
         "key: the proxy forgotten",

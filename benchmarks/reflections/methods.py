@@ -33,6 +33,8 @@ class Method:
         Whether the frame's own depth is marched first.
     shift : array_like (3,)
         Where the probe stands, from the middle of the reflector, metres.
+    material : dict
+        Properties of the reflectors' materials.
     """
 
     probe: dict[str, Any] = field(default_factory=dict)
@@ -40,6 +42,7 @@ class Method:
     planar: bool = False
     screen: bool = False
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    material: dict[str, Any] = field(default_factory=dict)
 
     def prepare(
         self, world: World, *, size: int, bounces: int | None = None, texels: str = "rgba16f"
@@ -63,6 +66,10 @@ class Method:
         """
         counted = {} if bounces is None else {"bounces": bounces}
         for node in world.nodes:
+            for name, value in self.material.items():
+                if not hasattr(node.material, name):
+                    raise MissingError(f"{type(node.material).__name__} has no {name}")
+                setattr(node.material, name, value)
             if self.planar:
                 node.environment = _made("PlanarMirror", **counted)
                 continue
@@ -95,6 +102,9 @@ def _frame_options(screen: bool) -> dict[str, Any]:
     return {"screen_reflections": True}
 
 
+#: Glass through both sides of the body.
+BOTH: dict[str, Any] = {"surfaces": 2}
+
 METHODS = {
     "plain": Method(),
     "box": Method({"parallax": "box"}, proxy=True),
@@ -109,4 +119,8 @@ METHODS = {
     "layers 35, .5 m off": Method({"parallax": "layers", "fetches": 35}, shift=(0.3, 0.2, 0.346)),
     "screen, layers 14": Method({"parallax": "layers", "fetches": 14}, screen=True),
     "planar": Method(planar=True),
+    "both sides, plain": Method(material=BOTH),
+    "both sides, box": Method({"parallax": "box"}, proxy=True, material=BOTH),
+    "both sides, distance 14": Method({"parallax": "distance", "fetches": 14}, material=BOTH),
+    "both sides, layers 35": Method({"parallax": "layers", "fetches": 35}, material=BOTH),
 }

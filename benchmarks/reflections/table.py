@@ -23,6 +23,10 @@ SINGLE = (
     "plain", "box", "sphere", "distance 6", "distance 14", "distance 35", "layers 6", "layers 14", "layers 35",
 )  # fmt: skip
 SOME = ("plain", "box", "distance 14", "distance 35", "layers 35")
+GLASS = (
+    "plain", "box", "distance 14", "layers 35",
+    "both sides, plain", "both sides, box", "both sides, distance 14", "both sides, layers 35",
+)  # fmt: skip
 SHARED = ("plain, .5 m off", "layers 35, .5 m off")
 
 
@@ -79,9 +83,10 @@ def cases(*, quick: bool) -> list[Case]:
     found += [Case("outdoor", "mirror", m) for m in (SOME if quick else SINGLE)]
     if not quick:
         found += [Case(p, "teapot", m) for p in ("room_a", "room_b") for m in SOME]
-        for reflector in ("glossy .2", "glossy .4", "glass"):
+        for reflector in ("glossy .2", "glossy .4"):
             found += [Case("room_a", reflector, m) for m in SOME]
-        found += [Case("outdoor", r, m) for r in ("glossy .2", "glass") for m in SOME]
+        found += [Case("outdoor", "glossy .2", m) for m in SOME]
+        found += [Case(place, "glass", m) for place in ("room_a", "outdoor") for m in GLASS]
         for faces in (64, 128, 512, 1024):
             found += [
                 Case("room_a", "mirror", m, faces) for m in ("plain", "distance 14", "layers 35")

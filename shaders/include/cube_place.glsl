@@ -12,6 +12,13 @@ vec4 cube_place(vec3 direction) {
     return vec4(x ? 0.0 : y ? 1.0 : 2.0, 0.5 - 0.5 * s, 0.5 + 0.5 * place / max(abs(along), 1e-30));
 }
 
+// xy: where a texture whose faces have a border of one texel shows a direction, in texels; z: its greatest component.
+vec3 bordered_place(vec3 direction, float texels) {
+    vec4 on = cube_place(direction);
+    vec3 size = abs(direction);
+    return vec3(on.xy * (texels + 2.0) + 1.0 + on.zw * texels, max(max(size.x, size.y), size.z));
+}
+
 #ifdef DISTANCE_BLOCKS
 // The direction of a place, of length 1 along the face's axis; places below 0 and above 1 lie beyond the face.
 vec3 cube_direction(vec4 at) {

@@ -1,4 +1,7 @@
 #include "include/cube_place.glsl"
+#if defined(ENVIRONMENT_FETCHES) || defined(BODY)
+#include "include/crossing.glsl"
+#endif
 
 layout(binding = 1) uniform samplerCube u_cube;
 
@@ -153,9 +156,10 @@ vec3 environment_irradiance(vec3 normal_world) {
 }
 #endif
 
-// The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
-vec3 environment_filtered(vec3 direction_world, float roughness) {
-    EnvironmentHit hit = environment_met(v_position, direction_world);
+// The radiance that comes to a point round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube
+// itself) to 1.
+vec3 environment_filtered_from(vec3 from_origin, vec3 direction_world, float roughness) {
+    EnvironmentHit hit = environment_met(from_origin, direction_world);
     float seen = roughness;
 #ifdef ENVIRONMENT_NEAR
     seen = roughness_from_there(roughness, hit.spread);
@@ -168,6 +172,12 @@ vec3 environment_filtered(vec3 direction_world, float roughness) {
         light = mix(hidden, light, min(seen / 0.3, 1.0));
     }
 #endif
-    return or_planar_mirror(environment_scaled(light), direction_world, planar_mirror_spread(roughness), 0.0);
+    return environment_scaled(light);
+}
+
+// The same at the surface, which may be a planar mirror.
+vec3 environment_filtered(vec3 direction_world, float roughness) {
+    vec3 light = environment_filtered_from(v_position, direction_world, roughness);
+    return or_planar_mirror(light, direction_world, planar_mirror_spread(roughness), 0.0);
 }
 #endif

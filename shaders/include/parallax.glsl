@@ -68,11 +68,8 @@ const int MARCH_ROOTS = 4;
 
 // xy: where u_distances has a direction; z: its greatest component.
 vec3 distances_place(vec3 direction) {
-    vec4 on = cube_place(direction);
-    vec3 size = abs(direction);
-    float texels = u_environment_distances.z;
-    vec2 at = on.xy * (texels + 2.0) + 1.0 + on.zw * texels;
-    return vec3(at * u_environment_distances.xy, max(max(size.x, size.y), size.z));
+    vec3 at = bordered_place(direction, u_environment_distances.z);
+    return vec3(at.xy * u_environment_distances.xy, at.z);
 }
 
 // How far a place of the ray is behind the nearest and the farthest surface in its direction: below 0 before it. A place is
@@ -119,24 +116,15 @@ bool on_surface(vec3 place, float s, bool farthest) {
     return min(min(off.x, off.y), min(off.z, off.w)) < (0.02 + 3.0 / u_environment_distances.z) * max(1.0 - s, 1e-4);
 }
 
-// The place between two, one before and one behind a surface, where the ray meets it: regula falsi by the Illinois rule
-// (M. Dowell and P. Jarratt, BIT 11, 1971).
+// The place between two, one before and one behind a surface, where the ray meets it.
 float root_between(vec3 start, vec3 end, float a, float b, float at_a, float at_b, bool farthest) {
-    float s = b;
+    Crossing crossing = Crossing(a, b, at_a, at_b);
     for (int i = 0; i < MARCH_ROOTS; ++i) {
-        s = a + (b - a) * clamp(at_a / (at_a - at_b), 0.0, 1.0);
+        float s = crossing_guess(crossing);
         vec2 behind = behind_surfaces(mix(start, end, s), s);
-        float now = farthest ? behind.y : behind.x;
-        if ((now < 0.0) == (at_b < 0.0)) {
-            at_a *= 0.5;
-        } else {
-            a = b;
-            at_a = at_b;
-        }
-        b = s;
-        at_b = now;
+        crossing = crossing_closer(crossing, s, farthest ? behind.y : behind.x);
     }
-    return at_a == at_b ? b : a + (b - a) * clamp(at_a / (at_a - at_b), 0.0, 1.0);
+    return crossing_guess(crossing);
 }
 
 EnvironmentHit hit_at(vec3 place, float s, float size, bool farthest) {

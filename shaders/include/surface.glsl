@@ -38,6 +38,12 @@ STAGE vec3 v_position_object;
 #ifdef USER_SOURCE
 STAGE vec3 v_normal_object;
 #endif
+#ifdef BODY
+STAGE vec3 v_body;  // the place in the space of include/body.glsl
+// xyz: columns of the matrix that brings normals from there to the world, of any size; its transpose brings directions
+// there, times a number. [0].w: 1 / that number, [1].w: 1 if the middle of the mesh is outside of the body, else 0.
+flat STAGE vec4 v_to_body[3];
+#endif
 #ifdef VOLUME
 flat STAGE vec3 v_scale;  // the lengths of the columns of the node's matrix
 #endif

@@ -42,6 +42,14 @@ invariant v_tangent;
 #ifdef VOLUME
 invariant v_scale;
 #endif
+#ifdef BODY
+invariant v_body;
+invariant v_to_body;
+
+// cpp/cubecam/render/resources/body_lookup.hpp
+layout(location = 2) uniform vec4 u_body_middle;  // xyz: in the mesh's space; w: 1 if it is outside of the body
+layout(location = 3) uniform vec3 u_body_half;    // half of the mesh's extent
+#endif
 
 #include "include/scene.glsl"
 
@@ -101,6 +109,17 @@ void main() {
 #endif
 #ifdef USER_SOURCE
     v_normal_object = a_normal;
+#endif
+#ifdef BODY
+    v_body = (a_position - u_body_middle.xyz) / u_body_half;
+    // u_model times the transpose of u_normal_matrix is the unit matrix times a number: the lengths of directions there.
+    float scale = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        scale += dot(u_model[i].xyz, u_normal_matrix[i].xyz) / 3.0;
+        v_to_body[i] = vec4(u_normal_matrix[i].xyz / u_body_half[i], 0.0);
+    }
+    v_to_body[0].w = scale;
+    v_to_body[1].w = u_body_middle.w;
 #endif
 #ifdef VOLUME
     v_scale = vec3(length(u_model[0].xyz), length(u_model[1].xyz), length(u_model[2].xyz));

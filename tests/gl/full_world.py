@@ -184,7 +184,12 @@ def full_world(rng):
     scene.add(ball, cc.MirrorMaterial(), position=(0.2, 0, 0.2), environment=mirror, scale=1.3)
     scene.add(ball, cc.GlassMaterial(), position=(-1, 0.3, 0.5), environment=glass)
     scene.add(ball, cc.MirrorMaterial(env_weight=0.7), position=(1, -0.5, 1))
-    scene.add(ball, cc.GlassMaterial(roughness=0.5), position=(-0.4, -0.8, 1.3), environment=glass)
+    scene.add(
+        ball,
+        cc.GlassMaterial(roughness=0.5, surfaces=2),
+        position=(-0.4, -0.8, 1.3),
+        environment=glass,
+    )
     scene.add(box, cc.BasicMaterial(cubemap=shown), position=(0.5, -0.7, 1.5), name="shown")
     scene.add(
         box, cc.BasicMaterial(color=(1, 0.5, 0.2), opacity=0.5), position=(1.5, 0.3, 0.8), scale=1.2

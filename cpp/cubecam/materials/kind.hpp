@@ -207,6 +207,14 @@ concept HasShowsBehind = requires(const Kind& kind) {
     { kind.shows_behind() } -> std::same_as<bool>;
 };
 template <class Kind>
+concept HasShowsFarSide = requires(const Kind& kind) {
+    { kind.shows_far_side() } -> std::same_as<bool>;
+};
+template <class Kind>
+concept HasConstantsRead = requires(const Kind& kind) {
+    { kind.constants_read() } -> std::same_as<std::size_t>;
+};
+template <class Kind>
 concept HasUsesTangents = requires(const Kind& kind) {
     { kind.uses_tangents() } -> std::same_as<bool>;
 };

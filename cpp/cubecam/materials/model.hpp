@@ -70,6 +70,12 @@ struct MaterialTraits {
     /// Whether the scene behind shows through the surface, which is not blended: the material calls
     /// scene_behind() (shaders/include/behind.glsl). A kind says so by `bool shows_behind() const`.
     bool shows_behind = false;
+    /// Whether light goes through the body to its far side: the material calls through_body()
+    /// (shaders/include/body.glsl). A kind says so by `bool shows_far_side() const`.
+    bool shows_far_side = false;
+    /// How many of the kind's numbers its shader reads with these switches: all of them, unless the
+    /// kind says so by `std::size_t constants_read() const`.
+    std::size_t constants = 0;
     std::optional<UserCode> user_code;
 
     bool moves_vertices() const { return user_code && user_code->moves_vertices(); }
@@ -86,7 +92,7 @@ public:
     const MaterialTraits& traits() const { return traits_; }
 
     /// Writes the numbers that the shader file reads as material[i]. `ambient` is the sum of the
-    /// scene's ambient lights; `to` has `traits().kind->constants` elements.
+    /// scene's ambient lights; `to` has `traits().constants` elements.
     virtual void write_constants(const glm::vec3& ambient, std::span<glm::vec4> to) const = 0;
 
     /// Whether both models have the same kind and equal parameters.
@@ -121,6 +127,11 @@ public:
         if constexpr (kinds::HasAlphaUse<Kind>) traits_.alpha_mode = kind_.alpha_use();
         if constexpr (kinds::HasAlphaMask<Kind>) traits_.alpha_mask = kind_.alpha_mask();
         if constexpr (kinds::HasShowsBehind<Kind>) traits_.shows_behind = kind_.shows_behind();
+        if constexpr (kinds::HasShowsFarSide<Kind>) {
+            traits_.shows_far_side = kind_.shows_far_side();
+        }
+        traits_.constants = constant_count;
+        if constexpr (kinds::HasConstantsRead<Kind>) traits_.constants = kind_.constants_read();
         if constexpr (kinds::HasUsesTangents<Kind>) traits_.uses_tangents = kind_.uses_tangents();
         if constexpr (kinds::HasTangentUvSet<Kind>) {
             traits_.tangent_uv_set = kind_.tangent_uv_set();
@@ -140,7 +151,7 @@ public:
 
     void write_constants(const glm::vec3& ambient, std::span<glm::vec4> to) const override {
         const auto constants = kind_.constants(ambient);
-        std::copy(constants.begin(), constants.end(), to.begin());
+        std::copy_n(constants.begin(), std::min(to.size(), constants.size()), to.begin());
     }
 
     bool equals(const MaterialModel& other) const override {
@@ -154,6 +165,8 @@ private:
         for_each_field<Kind>([&](const auto& field) {
             if constexpr (requires(glm::vec4 color) { color = kind_.*field.member; }) {
                 all = all && cubecam::zeros_and_ones(kind_.*field.member);
+            } else if constexpr (requires(glm::vec3 color) { color = kind_.*field.member; }) {
+                all = all && cubecam::zeros_and_ones(glm::vec4(kind_.*field.member, 1.0F));
             }
         });
         return all;

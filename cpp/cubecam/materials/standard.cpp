@@ -1,6 +1,7 @@
 #include "cubecam/materials/standard.hpp"
 
 #include "cubecam/core/checks.hpp"
+#include "cubecam/materials/volume.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -45,28 +46,6 @@ void for_each_map(const Standard& material, Visit&& visit) {
         using Value = std::remove_cvref_t<decltype(material.*field.member)>;
         if constexpr (std::same_as<Value, PlacedMap>) visit(material.*field.member);
     });
-}
-
-/// By KHR_materials_volume, "Attenuation", white light becomes color^(x / distance) on a way of the
-/// length x, which is exp(-x * extinction). Numbers end at 1e30, as that of black does, since
-/// infinity times 0 would be NaN.
-glm::vec3 extinction_of(const glm::vec3& color, float distance) {
-    glm::vec3 extinction(0.0F);
-    for (int i = 0; i < 3; ++i) {
-        if (!std::isfinite(distance)) continue;
-        const float exact = color[i] > 0.0F ? -std::log(color[i]) / distance : 1e30F;
-        extinction[i] = std::min(exact, 1e30F);
-    }
-    return extinction;
-}
-
-/// The ratio n_outside / n_inside for red, green and blue, by KHR_materials_dispersion,
-/// "Implementation". An ior of 0 stands for infinity.
-glm::vec3 ratios_of_refraction(float ior, float dispersion) {
-    if (ior == 0.0F) return glm::vec3(0.0F);
-    const float half_spread = (ior - 1.0F) * 0.025F * dispersion;
-    const glm::vec3 iors(ior - half_spread, ior, ior + half_spread);
-    return 1.0F / glm::max(iors, glm::vec3(1.0F));
 }
 
 }  // namespace

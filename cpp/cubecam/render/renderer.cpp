@@ -269,6 +269,7 @@ auto Renderer::attempt(Work&& work) {
     state.shadow_maps.sweep();
     state.filtered_cubes.sweep();
     state.planes.sweep();
+    state.bodies.sweep();
     state.results->next_call();
     stats_ = {};
     gpu_->context.take_debug_messages();  // drops those of earlier calls

@@ -3,6 +3,7 @@
 #include "cubecam/geometry/mesh_data.hpp"
 #include "cubecam/gl/context.hpp"
 #include "cubecam/math/plane.hpp"
+#include "cubecam/render/passes/body_pass.hpp"
 #include "cubecam/render/passes/bounce_change_pass.hpp"
 #include "cubecam/render/passes/distance_pass.hpp"
 #include "cubecam/render/passes/post_process_pass.hpp"
@@ -156,7 +157,8 @@ struct RendererState {
           post_process(its_context.gl(), cache, surface.programs()),
           shadows(its_context, cache, surface.programs()),
           distances(its_context, cache, surface.programs()),
-          bounce_changes(its_context, cache, surface.programs()), targets(cache_bytes),
+          bounce_changes(its_context, cache, surface.programs()),
+          bodies(its_context, cache, surface.programs()), targets(cache_bytes),
           results(std::make_shared<ResultPool>(cache_bytes)) {}
 
     /// Takes over what was not on the GPU from the state of a lost context. All else is drawn again
@@ -174,6 +176,7 @@ struct RendererState {
     ShadowPass shadows;
     DistancePass distances;
     BounceChangePass bounce_changes;
+    BodyPass bodies;
     TargetStore targets;
     std::shared_ptr<ResultPool> results;  ///< shared: results may outlive the renderer
     ReadBuffer read_buffer;

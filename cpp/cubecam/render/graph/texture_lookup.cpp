@@ -89,6 +89,7 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
     for (std::size_t i = 0; i < node.textures.size(); ++i) {
         found.textures.push_back(find(node.textures[i], material.textures[i].srgb));
     }
+    if (material.shows_far_side) found.body = context_.gpu.bodies.get(*node.mesh, context_.stats);
     if (material.shows_behind) found.behind = context_.scene_picture(viewer_).behind();
     return found;
 }

@@ -24,15 +24,14 @@ namespace {
 int flat_lights(const SurfaceVariant& variant, const MaterialTraits& material, int room) {
     if (variant.dense || variant.lights <= 0) return 0;
     int taken = 3;  // position, normal, eye
-    if (variant.kind->constants <= most_flat_constants) {
-        taken += static_cast<int>(variant.kind->constants);
-    }
+    if (material.constants <= most_flat_constants) taken += static_cast<int>(material.constants);
     taken += material.textures.empty() ? 0 : 2;  // uv, the object's own position
     taken += variant.uvs1 ? 1 : 0;
     taken += variant.tangents ? 1 : 0;
     const bool by_pixel =
         variant.behind == BehindLookup::flat || variant.planar == BehindLookup::flat;
-    taken += by_pixel ? 4 : 0;  // rows of a matrix; layer
+    taken += by_pixel ? 4 : 0;      // rows of a matrix; layer
+    taken += variant.body ? 4 : 0;  // a place; rows of a matrix
     taken += variant.clipped ? 1 : 0;
     taken += variant.vertex_colors ? 1 : 0;
     taken += variant.shadows > 0 ? 1 : 0;
@@ -157,7 +156,8 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
     const auto shadows = static_cast<std::size_t>(variant.shadows);
     const std::size_t behind = variant.behind == BehindLookup::none ? 0U : 1U;
     const std::size_t planar = variant.planar == BehindLookup::none ? 0U : 1U;
-    const std::size_t all = maps + environment + shadows + behind + planar;
+    const std::size_t body = variant.body ? 2U : 0U;
+    const std::size_t all = maps + environment + shadows + behind + planar + body;
     if (all <= most_textures_) return;
     throw std::invalid_argument(
         std::string(variant.kind->name) + ": expected at most " + std::to_string(most_textures_) +
@@ -165,7 +165,8 @@ void Programs::check_textures(const SurfaceVariant& variant, const MaterialTrait
         std::to_string(maps) + " of the material, " + std::to_string(environment) +
         " of the environment, " + std::to_string(shadows) + " of shadows" +
         (behind == 0 ? "" : ", 1 of the scene behind") +
-        (planar == 0 ? "" : ", 1 of the planar mirror"));
+        (planar == 0 ? "" : ", 1 of the planar mirror") +
+        (body == 0 ? "" : ", 2 of the body's far side"));
 }
 
 gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
@@ -182,7 +183,7 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(material.uses_environment, "USES_ENVIRONMENT");
     add_environment(options, variant.environment);
     define(material.uses_lights, "USES_LIGHTS");
-    const std::size_t constants = variant.kind->constants;
+    const std::size_t constants = material.constants;
     options.defines.emplace_back("MATERIAL_SIZE", std::to_string(constants));
     define(constants > 0 && constants <= most_flat_constants && !variant.dense, "FLAT_MATERIAL");
     define(variant.vertex_colors, "HAS_VERTEX_COLORS");
@@ -192,6 +193,8 @@ gl::ShaderOptions Programs::surface_options(const SurfaceVariant& variant,
     define(variant.behind == BehindLookup::cube, "BEHIND_CUBE");
     define(variant.planar != BehindLookup::none, "PLANAR_MIRROR");
     define(variant.planar == BehindLookup::cube, "PLANAR_MIRROR_CUBE");
+    define(variant.body, "BODY");
+    if (variant.body) options.defines.emplace_back("BODY_SIZE", std::to_string(body_size));
     define(variant.clipped, "CLIPPED");
     define(variant.double_sided, "DOUBLE_SIDED");
     define(variant.blend != Blend::opaque, "TRANSLUCENT");
@@ -314,6 +317,20 @@ const gl::Program& Programs::distances(DistanceStep step, bool layers) {
         program = gl::Program(*gl_, {"passes/full_screen.vert", "passes/distances.frag"}, options);
     }
     return program;
+}
+
+const gl::Program& Programs::body() {
+    if (!body_) body_ = gl::Program(*gl_, {"passes/body.vert", "passes/body.frag"}, {});
+    return body_;
+}
+
+const gl::Program& Programs::body_rim() {
+    if (!body_rim_) {
+        gl::ShaderOptions options;
+        options.defines.emplace_back("BODY_SIZE", std::to_string(body_size));
+        body_rim_ = gl::Program(*gl_, {"passes/full_screen.vert", "passes/body_rim.frag"}, options);
+    }
+    return body_rim_;
 }
 
 const gl::Program& Programs::grade(Tonemap tonemap, Encode encode, bool decode) {

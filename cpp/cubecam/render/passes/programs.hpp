@@ -66,6 +66,7 @@ struct SurfaceVariant {
     BehindLookup behind = BehindLookup::none;
     BehindLookup planar = BehindLookup::none;  ///< what its planar mirror shows
     bool clipped = false;                      ///< the view has a clip plane
+    bool body = false;                         ///< light goes to the far side of the body
 
     auto operator<=>(const SurfaceVariant&) const = default;
 };
@@ -112,6 +113,9 @@ public:
     const gl::Program& distances(DistanceStep step, bool layers);
     const gl::Program& grade(Tonemap tonemap, Encode encode, bool decode);
     const gl::Program& bounce_change();
+    /// The inner side of a mesh.
+    const gl::Program& body();
+    const gl::Program& body_rim();
 
 private:
     gl::ShaderOptions layer_options() const;
@@ -129,6 +133,7 @@ private:
     std::map<std::pair<DistanceStep, bool>, gl::Program> distances_;
     gl::Program skybox_, turned_skybox_;
     gl::Program bounce_change_;
+    gl::Program body_, body_rim_;
     std::size_t most_textures_ = 16;  ///< that one stage of a program may look up
 };
 

@@ -54,8 +54,7 @@ bool is_dense(const NodeSnapshot& node) {
 
 bool has_flat_constants(const NodeSnapshot& node) {
     const MaterialTraits& material = node.material.value.traits();
-    return !material.user_code && material.kind->constants <= most_flat_constants &&
-           !is_dense(node);
+    return !material.user_code && material.constants <= most_flat_constants && !is_dense(node);
 }
 
 SurfaceItems find_items(const SurfaceInput& input, GpuCache& cache) {
@@ -123,7 +122,7 @@ GLintptr SurfaceCallBuilder::append(const void* block, std::size_t size) {
 
 std::optional<GLintptr> SurfaceCallBuilder::append_constants(const NodeSnapshot& node) {
     const MaterialModel& material = *node.material.value.model;
-    constants_.resize(material.traits().kind->constants);
+    constants_.resize(material.traits().constants);
     if (constants_.empty()) return std::nullopt;
     material.write_constants(ambient_, constants_);
     return append(constants_.data(), constants_.size() * sizeof(glm::vec4));

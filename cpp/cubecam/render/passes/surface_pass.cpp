@@ -286,6 +286,7 @@ SurfaceVariant SurfacePass::variant_of(const SurfaceItem& item, bool instanced,
     }
     variant.environment = EnvironmentVariant::of(item.textures->environment, traits);
     if (traits.shows_behind) variant.behind = behind_;
+    variant.body = traits.shows_far_side;
     if (item.textures->environment.planar.picture.texture != 0) variant.planar = behind_;
     variant.clipped = clipped_;
     if (receive_shadow(node)) {
@@ -360,6 +361,10 @@ void SurfacePass::bind_textures(const SurfaceItem& item, const SurfaceVariant& v
     if (traits.shows_behind) {
         gl_->BindTextureUnit(texture_unit::behind, item.textures->behind.texture);
     }
+    if (traits.shows_far_side) {
+        gl_->BindTextureUnit(texture_unit::body_nearness, item.textures->body.nearness);
+        gl_->BindTextureUnit(texture_unit::body_normals, item.textures->body.normals);
+    }
 }
 
 void SurfacePass::bind_environment(const Environment& environment) {
@@ -426,13 +431,18 @@ void SurfacePass::draw_calls(std::span<const SurfaceCall> calls, bool mirror, bo
         const gl::Program& program = program_of(*call.item, variant, outputs);
         if (bound != &program) program.use();
         bound = &program;
+        if (variant.body) {
+            const BodyLookup& body = call.item->textures->body;
+            program.set("u_body_middle", glm::vec4(body.middle, body.outside ? 1.0F : 0.0F));
+            program.set("u_body_half", body.half);
+        }
 
         if (call.node_block) {
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, node_binding, blocks_.id(), *call.node_block,
                                  sizeof(NodeBlock));
         }
         if (call.constants) {
-            const std::size_t constants = node.material.value.traits().kind->constants;
+            const std::size_t constants = node.material.value.traits().constants;
             gl_->BindBufferRange(GL_UNIFORM_BUFFER, material_binding, blocks_.id(), *call.constants,
                                  static_cast<GLsizeiptr>(constants * sizeof(glm::vec4)));
         }

@@ -20,6 +20,9 @@ inline constexpr GLuint distances = 6;    ///< of the surfaces that a probe capt
 inline constexpr GLuint farthest = 7;     ///< the farthest surfaces that a probe captured
 /// The first texture of a material, or of a user's source; those that are set follow each other.
 inline constexpr GLuint first_of_material = 8;
+/// The far side of a surface's body; materials that look it up have few textures of their own.
+inline constexpr GLuint body_nearness = 46;
+inline constexpr GLuint body_normals = 47;
 /// The shadow map of the first light; the others follow.
 inline constexpr GLuint first_shadow = 48;
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cubecam/materials/kind.hpp"
+#include "cubecam/render/resources/body_lookup.hpp"
 #include "cubecam/render/resources/bound_texture.hpp"
 #include "cubecam/render/resources/filtered_texture.hpp"
 #include "cubecam/scene/environment_placing.hpp"
@@ -79,6 +80,8 @@ struct NodeTextures {
     Environment environment;
     std::vector<BoundTexture> textures;  ///< in the order of the material's fields
     BoundTexture behind;  ///< the scene behind a transmissive surface; texture 0: none
+    /// The inner side of the mesh, if light goes through it. It depends on the mesh alone.
+    BodyLookup body;
 };
 
 /// The uniform block `Environment` of shaders/include/environment.glsl, std140.

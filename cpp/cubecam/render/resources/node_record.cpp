@@ -55,7 +55,7 @@ NodeRecord make_node_record(const NodeSnapshot& node, const glm::dvec3& origin,
     }
     record.id_and_label = {node.id, node.label};
     const MaterialModel& material = *node.material.value.model;
-    const std::size_t constants = material.traits().kind->constants;
+    const std::size_t constants = material.traits().constants;
     if (constants <= most_flat_constants) {
         material.write_constants(ambient, std::span(record.material, constants));
     }

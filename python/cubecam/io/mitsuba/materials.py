@@ -118,6 +118,10 @@ def _glass(painter: Painter, material: GlassMaterial) -> None:
     tint = np.asarray(material.tint, float)[:3]
     if not material.fresnel:
         painter.tell("all glass of Mitsuba reflects: fresnel=False is left out")
+    if material.dispersion > 0:
+        painter.tell("the dispersion of a GlassMaterial is left out")
+    if np.isfinite(material.attenuation_distance) and material.surfaces == 2:
+        painter.tell("what the body of a GlassMaterial absorbs is left out")
     if material.roughness > 0 and material.ior != 1:
         bsdf: Json = {
             "type": "roughdielectric",

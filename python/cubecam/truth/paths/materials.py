@@ -83,8 +83,30 @@ class Materials:
         return Shaded(light, one, [Way(np.arange(len(paths)), direction, weight)])
 
     def _glass(self, group: Group, material: GlassRecord) -> Shaded:
+        if material.dispersion > 0 and material.ior != 1:
+            return self._dispersed(group, material)
+        way = self._glass_way(group, material)
+        return Shaded(np.zeros((len(group.paths), 3)), np.ones((len(group.paths), 1)), [way])
+
+    def _dispersed(self, group: Group, material: GlassRecord) -> Shaded:
+        """Part white light into three ways, one for each colour; light of one colour stays as it is."""
+        count = len(group.paths)
+        ways = []
+        for channel in range(3):
+            rows = np.flatnonzero((group.paths.channel < 0) | (group.paths.channel == channel))
+            if not len(rows):
+                continue
+            part = group.take(rows)
+            part.paths.channel = np.full(len(rows), channel)
+            way = self._glass_way(part, material)
+            way.rows, way.channel = rows, part.paths.channel
+            way.weight = way.weight * (np.arange(3) == channel)
+            ways.append(way)
+        return Shaded(np.zeros((count, 3)), np.ones((count, 1)), ways)
+
+    def _glass_way(self, group: Group, material: GlassRecord) -> Way:
         paths, points, inside = group.paths, group.points, group.inside
-        own = np.full((len(paths), 1), material.ior)
+        own = self._bodies.ior[points.node, np.where(paths.channel < 0, 1, paths.channel)][:, None]
         # What lies on the other side of the surface: the next body for a ray that leaves, the present one else.
         other = self._bodies.ior_around(paths, np.where(inside, 1, 0))[:, None]
         eta = np.where(inside[:, None], own / other, other / own)
@@ -100,13 +122,10 @@ class Materials:
         # The tint colours the light once, where it enters.
         goes_in = way.through & ~inside
         weight = way.weight * np.where(goes_in[:, None], material.tint[:3], 1.0)
-        ways = [
-            Way(
-                np.arange(len(paths)),
-                way.direction,
-                weight,
-                entered=goes_in,
-                left=way.through & inside,
-            )
-        ]
-        return Shaded(np.zeros((len(paths), 3)), np.ones((len(paths), 1)), ways)
+        return Way(
+            np.arange(len(paths)),
+            way.direction,
+            weight,
+            entered=goes_in,
+            left=way.through & inside,
+        )

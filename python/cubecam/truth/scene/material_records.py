@@ -153,7 +153,13 @@ class MaterialReader:
             )
         if isinstance(material, GlassMaterial):
             return GlassRecord(
-                material.ior, material.fresnel, _numbers(material.tint), material.roughness
+                material.ior,
+                material.fresnel,
+                _numbers(material.tint),
+                material.roughness,
+                material.dispersion,
+                material.attenuation_distance,
+                _numbers(material.attenuation_color),
             )
         if isinstance(material, StandardMaterial):
             return self._standard(node, material, mesh)

@@ -156,6 +156,9 @@ class GlassRecord:
     fresnel: bool
     tint: Array
     roughness: float
+    dispersion: float
+    attenuation_distance: float
+    attenuation_color: Array
 
 
 @dataclass

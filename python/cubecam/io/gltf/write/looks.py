@@ -40,6 +40,11 @@ def _of_kind(material: Material) -> StandardMaterial:
             roughness=material.roughness,
             ior=max(material.ior, 1 / material.ior),
             transmission=1,
+            # A body is a volume, whose thickness path tracers take from the mesh.
+            thickness=1 if material.surfaces == 2 else 0,
+            dispersion=material.dispersion,
+            attenuation_distance=material.attenuation_distance,
+            attenuation_color=material.attenuation_color,
         )
     if isinstance(material, BasicMaterial):
         return StandardMaterial(
