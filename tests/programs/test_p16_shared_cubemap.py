@@ -236,11 +236,10 @@ def test_the_proxy_ends_at_the_floor():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("document", [False, True])
-def test_methods_bring_the_shared_cubemap_nearer_to_the_truth(renderer, document):
+def test_methods_bring_the_shared_cubemap_nearer_to_the_truth(renderer):
     """The floor is the box's bottom; a march finds figures, too, and two layers what these hide."""
     pytest.importorskip("embreex")
-    program = example.build(probe_size=128, probe_format="rgba32f", document=document)
+    program = example.build(probe_size=128, probe_format="rgba32f")
     apart = (program.nearest + program.farthest) / 2
     found = {}
     for method in example.METHODS:
@@ -251,7 +250,7 @@ def test_methods_bring_the_shared_cubemap_nearer_to_the_truth(renderer, document
     assert shared["layers"] < 0.5 * shared["none"]
     assert shared["layers"] <= shared["distance"] * 1.02 < shared["box"]
     assert shared["box"] < shared["none"]
-    assert own["layers"] < 0.7 * own["none"]
+    assert own["layers"] < 0.3 * own["none"]
     # One for all by a march is better than one for each without.
     assert shared["layers"] < own["none"]
 
@@ -269,5 +268,5 @@ def test_the_label_names_the_method(renderer):
 
 
 def test_an_unknown_method_is_refused():
-    with pytest.raises(ValueError, match="method: expected one of none, box, .*, got 'ray'"):
+    with pytest.raises(ValueError, match=r"method: expected one of none, box, .*, got 'ray'"):
         example.build(method="ray")  # type: ignore[arg-type]

@@ -204,7 +204,9 @@ def test_a_method_is_that_of_the_program(tmp_path, renderer):
     module = examples.load("P16")
     samples = min(4, renderer.info.limits.max_samples)
     box, none = (
-        module.draw(module.build(method=one), renderer, module.STILL, size=(64, 64), samples=samples)
+        module.draw(
+            module.build(method=one), renderer, module.STILL, size=(64, 64), samples=samples
+        )
         for one in ("box", "none")
     )
     np.testing.assert_array_equal(cc.load_image(out), box[..., :3])

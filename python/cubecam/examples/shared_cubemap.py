@@ -22,7 +22,8 @@ A probe may also know where things are: ``build(method=...)`` takes any ``parall
 "layers" a ray is followed through what the middle ball's probe captured, and one cubemap for all is nearly as good as
 one for each: the lower picture gets dark. "box" and "sphere" know the floor, but not the figures; "distance" does
 not know what the figures hide from the middle ball. "none" is the classic picture. In the live form the key m goes
-through the methods, and `correct` sets one.
+through the methods, and `correct` sets one. With ``document=True`` nothing is won: the balls show little but the
+lamp's highlight on the ground, which lies elsewhere for each eye, and a probe has it where its own middle sees it.
 
 Worth trying: ``build(document=True)`` has the ground, the actors and the grey background of P14's
 document. Or hide floor and figures, ``node.visible = False``: only the sky is left, and there is no
