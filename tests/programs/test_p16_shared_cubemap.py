@@ -227,8 +227,11 @@ def test_a_method_is_that_of_all_probes_and_can_be_taken_back(document):
 def test_the_proxy_ends_at_the_floor():
     for document, height in ((False, -example.SITTING), (True, -2)):
         program = example.build(document=document, method="box")
-        low, high = program.probes[0].box
-        edge = 2 * np.abs(program.ground.mesh.positions).max() / 2
+        box, mesh = program.probes[0].box, program.ground.mesh
+        assert box is not None
+        assert mesh is not None
+        low, high = box
+        edge = np.abs(mesh.positions).max()  # half of it, since the plane is centred
         middle = program.ground.world_matrix[:3, 3]
         np.testing.assert_allclose(low[[0, 2]], (middle - edge)[[0, 2]])
         np.testing.assert_allclose(high[[0, 2]], (middle + edge)[[0, 2]])
