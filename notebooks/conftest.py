@@ -7,7 +7,11 @@ import pytest
 from tests.helpers import load_script, on_llvmpipe
 
 #: What a notebook needs that has no wheel for every Python and machine of the suite.
-NEEDS = {"11-truth-and-error": ("embreex", "flip_evaluator")}
+NEEDS = {
+    "11-truth-and-error": ("embreex", "flip_evaluator"),
+    "12-a-room-and-its-parallax": ("embreex",),
+    "13-facing-mirrors-and-glass": ("embreex",),
+}
 
 
 def pytest_collect_file(file_path, parent):

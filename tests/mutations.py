@@ -1094,6 +1094,13 @@ MUTATIONS = [
         ("tests/programs/test_p16_shared_cubemap.py",),
     ),
     Mutation(
+        "P16: the proxy ends below the floor",
+        "shared_cubemap.py",
+        "((-edge / 2, -SITTING, -edge / 2)",
+        "((-edge / 2, -edge / 2, -edge / 2)",
+        ("tests/programs/test_p16_shared_cubemap.py",),
+    ),
+    Mutation(
         "P17: glass and mirror change places",
         "dynamic_refraction.py",
         "zip((-apart, apart)",

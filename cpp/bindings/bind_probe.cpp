@@ -31,6 +31,7 @@ constexpr NameTable<ProbeUpdate, 3> update_names{{{"on_change", ProbeUpdate::on_
                                                   {"manual", ProbeUpdate::manual}}};
 
 using ParallaxName = Choice<parallax_names>;
+using Fetches = NumberChoice<parallax_fetches>;
 
 using UpdateLike = OneOf<Choice<update_names>, WholeNumber>;
 using UpdateNow = OneOf<Choice<update_names>, int>;
@@ -73,14 +74,13 @@ std::optional<glm::dmat4> to_proxy_matrix(const OrNone<ArrayLike>& matrix) {
     return to_mat4(matrix, "proxy_matrix");
 }
 
-std::shared_ptr<Probe> make_probe(const ArrayLike& position, Int size, Real near, Real far,
-                                  const FormatName& format, Flag mipmaps, Int samples,
-                                  const UpdateLike& update, const Nodes& exclude,
-                                  const OrNone<Node>& parent, Int faces_per_frame,
-                                  const DepthFormatName& depth_format,
-                                  Argument<std::optional<bool>> prefilter,
-                                  const ParallaxName& parallax, const OrNone<ArrayLike>& box,
-                                  const OrNone<ArrayLike>& proxy_matrix, Int fetches, Int bounces) {
+std::shared_ptr<Probe>
+make_probe(const ArrayLike& position, Int size, Real near, Real far, const FormatName& format,
+           Flag mipmaps, Int samples, const UpdateLike& update, const Nodes& exclude,
+           const OrNone<Node>& parent, Int faces_per_frame, const DepthFormatName& depth_format,
+           Argument<std::optional<bool>> prefilter, const ParallaxName& parallax,
+           const OrNone<ArrayLike>& box, const OrNone<ArrayLike>& proxy_matrix, Fetches fetches,
+           Int bounces) {
     ProbeValue value;
     value.position = to_point(position, "position");
     value.parent = to_shared_or_none<Node>(parent, "parent", "a Node or None");
@@ -148,8 +148,8 @@ void bind_parallax(Class<Probe>& probe) {
         },
         "ndarray (4, 4) float64 or None: from the space of `box` to the world; read-only.");
     probe.def_property(
-        "fetches", [](const Probe& self) { return self.value().parallax.fetches; },
-        [](Probe& self, Int value) {
+        "fetches", [](const Probe& self) -> Fetches { return self.value().parallax.fetches; },
+        [](Probe& self, Fetches value) {
             self.edit([&](ProbeValue& next) { next.parallax.fetches = value; });
         },
         "int: 6, 14 or 35 lookups of distance for a ray, at most.");

@@ -1,5 +1,7 @@
-/// Arguments and attributes whose value is one of a list of names.
+/// Arguments and attributes whose value is one of a list of names, or one of a few numbers.
 #pragma once
+
+#include "values.hpp"
 
 #include "cubecam/core/parse_name.hpp"
 
@@ -30,14 +32,28 @@ private:
     std::string name_;
 };
 
+/// An int of which signatures show the numbers in a table, as `typing.Literal[6, 14]`. What takes
+/// the number raises the error for one that is not in the table.
+template <const auto& table>
+class NumberChoice {
+public:
+    NumberChoice() = default;
+    NumberChoice(int number) : number_(number) {}
+
+    operator int() const { return number_; }
+
+private:
+    int number_ = 0;
+};
+
 }  // namespace cubecam::bindings
 
 namespace pybind11::detail {
 
-/// The type of a table's names as pybind11 writes it in a signature, where '!' stands before the
-/// letters that have a meaning of their own.
+/// The names of a table as pybind11 writes them in a signature, where '!' stands before the letters
+/// that have a meaning of their own.
 template <const auto& table>
-class LiteralText {
+struct LiteralNames {
     template <class Write>
     static constexpr void each_letter(Write write) {
         const auto plain = [&](std::string_view text) {
@@ -54,10 +70,33 @@ class LiteralText {
         }
         plain("]");
     }
+};
 
+/// The same of a table of numbers, of which none is negative.
+template <const auto& table>
+struct LiteralNumbers {
+    template <class Write>
+    static constexpr void each_letter(Write write) {
+        const auto plain = [&](std::string_view text) {
+            for (const char letter : text) write(letter);
+        };
+        plain("typing.Literal[");
+        for (std::size_t i = 0; i < table.size(); ++i) {
+            if (i > 0) plain(", ");
+            int power = 1;
+            while (table[i] / power >= 10) power *= 10;
+            for (; power > 0; power /= 10) write(static_cast<char>('0' + table[i] / power % 10));
+        }
+        plain("]");
+    }
+};
+
+/// The type whose letters `Literal::each_letter` writes.
+template <class Literal>
+class LiteralText {
     static constexpr std::size_t count() {
         std::size_t letters = 0;
-        each_letter([&letters](char) { ++letters; });
+        Literal::each_letter([&letters](char) { ++letters; });
         return letters;
     }
 
@@ -68,7 +107,7 @@ class LiteralText {
     static constexpr Letters letters() {
         Letters made;
         std::size_t at = 0;
-        each_letter([&](char letter) { made.text[at++] = letter; });
+        Literal::each_letter([&](char letter) { made.text[at++] = letter; });
         return made;
     }
 
@@ -79,7 +118,7 @@ public:
 template <const auto& table>
 struct type_caster<cubecam::bindings::Choice<table>> {
     using Value = cubecam::bindings::Choice<table>;
-    PYBIND11_TYPE_CASTER(Value, LiteralText<table>::name);
+    PYBIND11_TYPE_CASTER(Value, LiteralText<LiteralNames<table>>::name);
 
     bool load(handle from, bool convert) {
         if (!from || PyUnicode_Check(from.ptr()) == 0) return false;  // bytes are no name
@@ -91,6 +130,23 @@ struct type_caster<cubecam::bindings::Choice<table>> {
 
     static handle cast(const Value& from, return_value_policy policy, handle parent) {
         return make_caster<std::string_view>::cast(from, policy, parent);
+    }
+};
+
+template <const auto& table>
+struct type_caster<cubecam::bindings::NumberChoice<table>> {
+    using Value = cubecam::bindings::NumberChoice<table>;
+    PYBIND11_TYPE_CASTER(Value, LiteralText<LiteralNumbers<table>>::name);
+
+    bool load(handle from, bool) {
+        const auto read = cubecam::bindings::read_strict<int>(from);
+        if (!read) return false;
+        value = Value(*read);
+        return true;
+    }
+
+    static handle cast(const Value& from, return_value_policy policy, handle parent) {
+        return make_caster<int>::cast(static_cast<int>(from), policy, parent);
     }
 };
 

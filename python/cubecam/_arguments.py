@@ -172,12 +172,17 @@ def _refuse_beyond(begin: str, kind: str, value: Any) -> None:
             raise _BeyondError(
                 f"{begin}expected a number within float64's range, got {_value(value)}"
             )
-    elif "typing.SupportsIndex" in kinds and _core._is_whole_number(value):
+    elif _core._is_whole_number(value) and any(_takes_ints(one) for one in kinds):
         low, high = -(2**31), 2**31 - 1
         if not low <= value <= high:
             raise _BeyondError(f"{begin}expected an int from {low} to {high}, got {_value(value)}")
     if isinstance(value, str) and not _is_unicode(value):
         raise _BeyondError(f"{begin}expected text that is valid Unicode, got {_value(value)}")
+
+
+def _takes_ints(kind: str) -> bool:
+    """Say whether a type is int, or a choice of ints."""
+    return kind == "typing.SupportsIndex" or re.match(r"typing\.Literal\[\d", kind) is not None
 
 
 def _is_unicode(text: str) -> bool:
@@ -200,12 +205,12 @@ def _fits_one(kind: str, value: Any) -> bool:
         return kind in ("object", "typing.Any")
     if kind == "bool":
         return _core._is_truth_value(value)
+    if _takes_ints(kind):
+        return _core._is_whole_number(value)
     if kind == "str" or kind.startswith("typing.Literal["):
         return isinstance(value, str)
     if kind == "typing.SupportsFloat":
         return _core._is_real_number(value) or _core._is_whole_number(value)
-    if kind == "typing.SupportsIndex":
-        return _core._is_whole_number(value)
     owner = getattr(_core, kind.removeprefix("cubecam."), None)
     return isinstance(value, owner) if isinstance(owner, type) else True
 
@@ -225,7 +230,8 @@ def _readable(kind: str) -> str:
 
 
 def _described(parameter: Parameter) -> str:
-    kind = re.sub(r"typing\.Literal\[[^]]*\]", "str", parameter.kind)
+    kind = re.sub(r"typing\.Literal\[\d[^]]*\]", "int", parameter.kind)
+    kind = re.sub(r"typing\.Literal\[[^]]*\]", "str", kind)
     return f"{parameter.name}: {_readable(kind)}"
 
 

@@ -33,6 +33,7 @@ from cubecam.typing import (
     Encoding,
     Engine,
     FaceName,
+    Fetches,
     FileLayout,
     FisheyeModel,
     Format,
@@ -613,7 +614,7 @@ class Probe:
         parallax: Parallax = "none",
         box: np.typing.ArrayLike | None = None,
         proxy_matrix: np.typing.ArrayLike | None = None,
-        fetches: typing.SupportsIndex = 14,
+        fetches: Fetches = 14,
         bounces: typing.SupportsIndex = 1,
     ) -> None: ...
     def __reduce__(self) -> tuple[object, ...]: ...
@@ -682,13 +683,13 @@ class Probe:
     @far.setter
     def far(self, value: typing.SupportsFloat | typing.SupportsIndex) -> None: ...
     @property
-    def fetches(self) -> int:
+    def fetches(self) -> Fetches:
         """
         int: 6, 14 or 35 lookups of distance for a ray, at most.
         """
 
     @fetches.setter
-    def fetches(self, value: typing.SupportsIndex) -> None: ...
+    def fetches(self, value: Fetches) -> None: ...
     @property
     def format(self) -> Format:
         """

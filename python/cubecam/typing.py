@@ -49,6 +49,7 @@ __all__ = [
     "Encoding",
     "Engine",
     "FaceName",
+    "Fetches",
     "FileLayout",
     "FilePixels",
     "FisheyeModel",
@@ -130,6 +131,7 @@ FaceName: TypeAlias = Literal[
     "pos_z",
     "neg_z",
 ]
+Fetches: TypeAlias = Literal[6, 14, 35]
 FisheyeModel: TypeAlias = Literal["equidistant", "equisolid", "stereographic", "orthographic"]
 Format: TypeAlias = Literal["rgba8", "rgba16f", "rgba32f", "rgb565"]
 Interpolation: TypeAlias = Literal["step", "linear", "cubic"]

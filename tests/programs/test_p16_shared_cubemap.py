@@ -205,3 +205,72 @@ def test_the_error_of_the_staged_scene(renderer):
     assert np.median(shared[inside & ~balls]) <= 4
     assert own[neighbours].mean() < 0.9 * shared[neighbours].mean()
     assert neighbours.mean() > 0.1
+
+
+# ----- methods of parallax
+
+
+@pytest.mark.parametrize("document", [False, True])
+def test_a_method_is_that_of_all_probes_and_can_be_taken_back(document):
+    classic = example.build(document=document)
+    program = example.build(document=document, method="layers")
+    assert [probe.parallax for probe in program.probes] == ["layers"] * 3
+    for method in (*example.METHODS, "none"):
+        example.correct(program, method)
+        assert program.method == method
+        assert [probe.parallax for probe in program.probes] == [method] * 3
+    for probe, want in zip(program.probes, classic.probes, strict=True):
+        assert probe.depth_format == want.depth_format
+    assert classic.method == "none"
+
+
+def test_the_proxy_ends_at_the_floor():
+    for document, height in ((False, -example.SITTING), (True, -2)):
+        program = example.build(document=document, method="box")
+        box, mesh = program.probes[0].box, program.ground.mesh
+        assert box is not None
+        assert mesh is not None
+        low, high = box
+        edge = np.abs(mesh.positions).max()  # half of it, since the plane is centred
+        middle = program.ground.world_matrix[:3, 3]
+        np.testing.assert_allclose(low[[0, 2]], (middle - edge)[[0, 2]])
+        np.testing.assert_allclose(high[[0, 2]], (middle + edge)[[0, 2]])
+        assert low[1] == middle[1] == pytest.approx(height)
+
+
+@pytest.mark.slow
+def test_methods_bring_the_shared_cubemap_nearer_to_the_truth(renderer):
+    """The floor is the box's bottom; a march finds figures, too, and two layers what these hide."""
+    pytest.importorskip("embreex")
+    program = example.build(probe_size=128, probe_format="rgba32f")
+    apart = (program.nearest + program.farthest) / 2
+    found = {}
+    for method in example.METHODS:
+        example.correct(program, method)
+        found[method] = example.error_over_distance(program, renderer, (apart,), size=(192, 96))
+    shared = {method: float(one.shared[0]) for method, one in found.items()}
+    own = {method: float(one.own[0]) for method, one in found.items()}
+    assert shared["layers"] < 0.5 * shared["none"]
+    assert shared["layers"] <= shared["distance"] * 1.02 < shared["box"]
+    assert shared["box"] < shared["none"]
+    assert own["layers"] < 0.3 * own["none"]
+    # One for all by a march is better than one for each without.
+    assert shared["layers"] < own["none"]
+
+
+def test_the_label_names_the_method(renderer):
+    program = example.build(probe_size=16)
+    columns = {}
+    for method in ("none", "layers"):
+        example.correct(program, method)
+        plain, named = (
+            example.draw(program, renderer, 0, size=(512, 256), labels=one) for one in (False, True)
+        )
+        changed = (plain != named)[:40].any(axis=(0, 2))  # the line at the top
+        columns[method] = np.flatnonzero(changed).max()
+    assert columns["none"] < columns["layers"] < 511
+
+
+def test_an_unknown_method_is_refused():
+    with pytest.raises(ValueError, match=r"method: expected one of none, box, .*, got 'ray'"):
+        example.build(method="ray")  # type: ignore[arg-type]

@@ -196,6 +196,23 @@ def test_a_script_is_the_walk(tmp_path, renderer):
     assert "frame 7," in result.output
 
 
+def test_a_method_is_that_of_the_program(tmp_path, renderer):
+    out = tmp_path / "out.png"
+    given = ("--method", "box", "--frames", 1, "--size", 64, "-o", out)
+    result = example("P16", *given)
+    assert result.exit_code == 0, result.output
+    module = examples.load("P16")
+    samples = min(4, renderer.info.limits.max_samples)
+    box, none = (
+        module.draw(
+            module.build(method=one), renderer, module.STILL, size=(64, 64), samples=samples
+        )
+        for one in ("box", "none")
+    )
+    np.testing.assert_array_equal(cc.load_image(out), box[..., :3])
+    assert (box != none).any()
+
+
 def test_an_animation_holds_the_frames_in_order(tmp_path, renderer):
     result = example("P13", "--frames", 3, "--start", 20, "--size", 32, "-o", tmp_path / "a.webp")
     assert result.exit_code == 0, result.output
@@ -363,6 +380,8 @@ BAD = {
     "image for P1": (["P1", "--image", "a.png"], 2, "P6 model_space_reflection"),
     "image not there": (["P6", "--image", "none.png"], 1, "none.png"),
     "script for P7": (["P7", "--script", "w"], 2, "P2 inside_the_box, P3 skybox"),
+    "method for P14": (["P14", "--method", "box"], 2, "P16 shared_cubemap"),
+    "unknown method": (["P16", "--method", "ray"], 2, "'none', 'box', 'sphere'"),
     "script of other words": (["P2", "--script", "run 3"], 1, "drag 30 10"),
 }
 

@@ -343,6 +343,23 @@ def test_p_shares_one_probe_or_gives_each_its_own(drive):
     assert not nearly_equal(both[:height], both[height:])
 
 
+def test_m_goes_through_the_methods_of_p16(drive):
+    driver = drive("P16")
+    for method in ("box", "sphere", "distance", "layers", "none"):
+        driver.press("m")
+        assert driver.view.text == f"parallax: {method}"
+        program = driver.module.build(**driver.options, method=method)
+        assert nearly_equal(driver.view.draw(), driver.example(0, program))
+    program = driver.module.build(**driver.options, method="layers")
+    assert not nearly_equal(driver.view.draw(), driver.example(0, program))
+
+
+def test_a_method_is_live(drive):
+    driver = drive("P16", method="distance")
+    program = driver.module.build(**driver.options, method="distance")
+    np.testing.assert_array_equal(driver.view.draw(), driver.example(0, program))
+
+
 def test_p15_counts_the_views_of_the_last_picture(drive):
     driver = drive("P15")
     counts = []
@@ -369,7 +386,7 @@ def test_p15_counts_the_views_of_the_last_picture(drive):
         ("P7", {"drag", "space", "b"}),
         ("P12", {"drag", "space", "t"}),
         ("P14", {"drag", "w s", "space"}),
-        ("P16", {"drag", "w s", "space", "p"}),
+        ("P16", {"drag", "w s", "space", "p", "m"}),
     ],
 )
 def test_the_help_lists_the_keys(drive, name, keys):

@@ -92,8 +92,6 @@ def by_name(thing):
 def other_value(control):
     """A value that differs from today's."""
     today = control.get()
-    if control.name == "fetches":
-        return 35  # one of three
     match control.kind:
         case "flag":
             return not today
@@ -337,7 +335,8 @@ class _Paint:
     """A class with the docstrings and signatures that a new binding has, and nothing of cubecam."""
 
     def __init__(self):
-        self._values = {"gloss": 0.5, "mode": "matte", "tone": np.array([0, 0.5, 1, 1], np.float32)}
+        tone = np.array([0, 0.5, 1, 1], np.float32)
+        self._values = {"gloss": 0.5, "mode": "matte", "coats": 3, "tone": tone}
 
 
 def like_pybind(name, reads, writes, doc):
@@ -363,6 +362,9 @@ Paint.mode = like_pybind(
     'typing.Literal["matte", "silk"]',
     "str: the surface.",
 )
+Paint.coats = like_pybind(
+    "coats", "typing.Literal[1, 3, 12]", "typing.Literal[1, 3, 12]", "int: of varnish."
+)
 Paint.tone = like_pybind(
     "tone", "numpy.typing.NDArray[numpy.float32]", "str | numpy.typing.ArrayLike",
     "ndarray (4,) float32: linear RGBA.",
@@ -373,8 +375,12 @@ def test_a_new_kind_needs_no_code():
     paint = Paint()
     controls = by_name(paint)
     assert {name: c.kind for name, c in controls.items()} == {
-        "gloss": "number", "mode": "choice", "tone": "color", "tone alpha": "number",
+        "gloss": "number", "mode": "choice", "coats": "choice", "tone": "color", "tone alpha": "number",
     }  # fmt: skip
+    assert controls["coats"].choices == ("1", "3", "12")
+    assert controls["coats"].get() == "3"
+    controls["coats"].set("12")
+    assert paint._values["coats"] == 12
     assert (controls["gloss"].low, controls["gloss"].high) == (0, 1)
     controls["mode"].set("silk")
     controls["tone"].set("#000000")

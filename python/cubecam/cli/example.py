@@ -15,16 +15,19 @@ from click.shell_completion import CompletionItem
 
 from .. import Image, Renderer, examples
 from ..io.cubemap_names import by_their_names
+from ..typing import Parallax
 from .common import (
     FILE,
     NUMBER,
     WholeNumber,
+    choice,
     device_option,
     fail,
     failures_reported,
     parse_device,
     parse_place,
     place_options,
+    words,
 )
 from .help import Command, argument, option
 
@@ -144,6 +147,13 @@ def _is_name(word: str) -> bool:
     group="Inputs",
     help="What the visitor does, such as 'drag 30 10; w 5': drag by pixels to the right and down, w and s walk.",
 )
+@option(
+    "--method",
+    **choice(Parallax),
+    group="Inputs",
+    help=f"How the balls of P16 find what their rays meet: {words(Parallax)}.",
+    note="none",
+)
 @option("--live", is_flag=True, group="Live", help="Show the program live: turn it, walk in it.")
 @place_options("Live")
 @device_option
@@ -161,6 +171,7 @@ def example(
     images: tuple[str, ...],
     image: str | None,
     script: str | None,
+    method: str | None,
     live: bool,
     page: bool,
     window: bool,
@@ -175,7 +186,7 @@ def example(
     """
     _check_options(name, out, frames, fps, listed, sheet, everything)
     _check_live(name, live, click.get_current_context())
-    given = _inputs(name, images, image, script)
+    given = _inputs(name, images, image, script, method)
     where = parse_place(page, window, terminal)
     with failures_reported():
         if listed:
@@ -262,9 +273,13 @@ def _check_live(name: str | None, live: bool, context: click.Context) -> None:
 
 
 def _inputs(
-    name: str | None, images: tuple[str, ...], image: str | None, script: str | None
+    name: str | None,
+    images: tuple[str, ...],
+    image: str | None,
+    script: str | None,
+    method: str | None,
 ) -> dict[str, Any]:
-    """Check the documents' inputs, and return those that were given as arguments of `build` and `live`."""
+    """Check the programs' inputs, and return those that were given as arguments of `build` and `live`."""
     given: dict[str, Any] = {}
     if images:
         if len(images) not in (1, 6):
@@ -277,6 +292,8 @@ def _inputs(
         given["image"] = image
     if script is not None:
         given["script"] = script
+    if method is not None:
+        given["method"] = method
     for key in given:
         if name is None:
             raise click.BadParameter("expected a NAME with it", param_hint=f"--{key}")

@@ -17,7 +17,8 @@ Each module has
   its document.
 
 Where the document has inputs, ``build`` and ``live`` take them: ``images`` (six photographs), ``image`` (one picture of
-six faces) and ``script`` (drags and keys of a visitor, such as ``"drag 30 10; w 5"``). `inputs_of` lists them.
+six faces) and ``script`` (drags and keys of a visitor, such as ``"drag 30 10; w 5"``). P16 takes ``method``, the
+parallax of its probes. `inputs_of` lists them.
 
 The programs P1 to P17 treat colours as the documents do: the numbers of an 8-bit picture are shown unchanged, light is
 added in these numbers, and no picture is tone-mapped or encoded. P18 computes with light, and shows it on a screen.
@@ -74,8 +75,8 @@ NAMES: tuple[str, ...] = (
     "rough_metal",
 )
 
-#: The documents' own inputs, as parameters of `build` and `live`.
-INPUTS: tuple[str, ...] = ("images", "image", "script")
+#: The documents' own inputs, and P16's method, as parameters of `build` and `live`.
+INPUTS: tuple[str, ...] = ("images", "image", "script", "method")
 
 
 class Example(Protocol):
@@ -173,7 +174,7 @@ def is_live(name: str) -> bool:
 
 @checked_call
 def inputs_of(name: str) -> tuple[str, ...]:
-    """List which of the documents' inputs, `INPUTS`, an example takes.
+    """List which of `INPUTS` an example takes.
 
     Parameters
     ----------

@@ -18,6 +18,13 @@ smaller, and does not depend on the distance. Document 004 says: the approximati
 as other objects are not too close. Both functions need the extra `truth`,
 ``pip install "cubecam[truth]"``.
 
+A probe may also know where things are: ``build(method=...)`` takes any ``parallax`` of `cubecam.Probe`. With
+"layers" a ray is followed through what the middle ball's probe captured, and one cubemap for all is nearly as good as
+one for each: the lower picture gets dark. "box" and "sphere" know the floor, but not the figures; "distance" does
+not know what the figures hide from the middle ball. "none" is the classic picture. In the live form the key m goes
+through the methods, and `correct` sets one. With ``document=True`` nothing is won: the balls show little but the
+lamp's highlight on the ground, which lies elsewhere for each eye, and a probe has it where its own middle sees it.
+
 Worth trying: ``build(document=True)`` has the ground, the actors and the grey background of P14's
 document. Or hide floor and figures, ``node.visible = False``: only the sky is left, and there is no
 error.
@@ -28,13 +35,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 import cubecam as cc
-from cubecam.typing import DepthFormat, Format
+from cubecam.typing import DepthFormat, Format, Parallax
 
 from . import _stage
 from ._common import GREY, LIGHT, Photographs, Picture, bunny, picture, teapot
@@ -76,6 +83,10 @@ SITTING = 0.9  # radius of the staged balls, which lie on the floor
 #: only the balls show it. Both are farther than the cube camera's near plane.
 PLACES = ((-0.9, -0.5, -2.0), (0.7, -1.2, 1.9))
 
+#: The ways in which a ball's ray finds what it meets: "none", "box", "sphere", "distance" and "layers".
+METHODS: tuple[Parallax, ...] = get_args(Parallax)
+
+Box = tuple[tuple[float, float, float], tuple[float, float, float]]
 Whose = Literal["shared", "own"]
 Show = Literal["both", "difference", "error"]
 
@@ -97,11 +108,15 @@ class Row:
     near: float  # of the cameras that draw the faces
     samples: int
     depth: DepthFormat
+    box: Box  # the proxy: the floor, and nothing else that is near
 
 
 @dataclass
 class Program:
-    """`balls` are the left, the middle and the right one; `probes` are theirs, should each have its own."""
+    """`balls` are the left, the middle and the right one; `probes` are theirs, should each have its own.
+
+    `method` is the parallax of all probes, and `depth` their depth format where no ray is followed.
+    """
 
     scene: cc.Scene
     camera: cc.PerspectiveCamera
@@ -113,6 +128,8 @@ class Program:
     show: Show
     labels: bool
     gain: float
+    depth: DepthFormat
+    method: Parallax = "none"
 
 
 @dataclass
@@ -131,8 +148,12 @@ def build(
     *,
     script: Script = (),
     document: bool = False,
+    method: Parallax = "none",
 ) -> Program:
-    """Make the scene: a floor, figures that stand still, and three balls in a row. The parameters are those of P14."""
+    """Make the scene: a floor, figures that stand still, and three balls in a row.
+
+    method : one of `METHODS`, the parallax of the probes. The other parameters are those of P14.
+    """
     if document:
         _stage.no_photographs(images)
     made = document_row() if document else quay_row(images)
@@ -150,6 +171,7 @@ def build(
             samples=made.samples,
             depth_format=made.depth,
             parent=ball,
+            box=made.box,
         )
         for ball in balls
     )
@@ -165,9 +187,11 @@ def build(
         made.show,
         made.labels,
         made.gain,
+        made.depth,
     )
     place(program, made.nearest)
     share(program, "shared")
+    correct(program, method)
     return program
 
 
@@ -179,8 +203,23 @@ def document_row() -> Row:
     scene.add(bunny(), phong(BUNNY[1]), position=PLACES[0])
     scene.add(teapot(), phong(TEAPOT[1]), position=PLACES[1])
     camera = cc.PerspectiveCamera(fov=FOV, position=EYE, target=(0, 0, 0), near=NEAR, far=FAR)
+    x, y, z = GROUND
+    box = (x - QUAD / 2, y, z - QUAD / 2), (x + QUAD / 2, y + QUAD, z + QUAD / 2)
     return Row(
-        scene, ground, camera, SCALE, NEAREST, FARTHEST, "both", False, 1.0, PROBE, NEAR, 1, DEPTH
+        scene,
+        ground,
+        camera,
+        SCALE,
+        NEAREST,
+        FARTHEST,
+        "both",
+        False,
+        1.0,
+        PROBE,
+        NEAR,
+        1,
+        DEPTH,
+        box,
     )
 
 
@@ -188,7 +227,8 @@ def quay_row(images: Photographs | None = None) -> Row:
     """Make the staged scene: the balls on the quay, with figures before and behind them."""
     scene = _stage.quay(images)
     # With tiles of this size the neighbours' patterns differ from the middle ball's, all the way.
-    ground = _stage.lay_floor(scene, -SITTING, tile=2)
+    edge = 40
+    ground = _stage.lay_floor(scene, -SITTING, edge, tile=2)
     for kind, size, color, (x, z), turn in (
         ("bunny", 1.7, _stage.GREEN, (-1.3, -2.0), 20),
         ("teapot", 2.2, _stage.RED, (1.3, -2.0), 200),
@@ -218,6 +258,7 @@ def quay_row(images: Photographs | None = None) -> Row:
         0.1,
         4,
         "depth_component32f",
+        ((-edge / 2, -SITTING, -edge / 2), (edge / 2, edge / 2, edge / 2)),
     )
 
 
@@ -233,6 +274,21 @@ def share(program: Program, whose: Whose) -> None:
         raise ValueError(f'whose: expected "shared" or "own", got {whose!r}')
     for ball, own in zip(program.balls, program.probes, strict=True):
         ball.environment = program.probes[1] if whose == "shared" else own
+
+
+def correct(program: Program, method: Parallax) -> None:
+    """Let the balls' rays find what they meet by one of `METHODS`."""
+    if method not in METHODS:
+        raise ValueError(f"method: expected one of {', '.join(METHODS)}, got {method!r}")
+    for probe in program.probes:
+        # Rays are followed through depths of 32 bits; the document has 16.
+        if method in ("distance", "layers"):
+            probe.depth_format = "depth_component32f"
+            probe.parallax = method
+        else:
+            probe.parallax = method
+            probe.depth_format = program.depth
+    program.method = method
 
 
 def distance(program: Program, frame: float) -> float:
@@ -264,6 +320,7 @@ def draw(
     place(program, distance(program, frame))
     shared, own = (_draw(program, renderer, whose, half, options) for whose in ("shared", "own"))
     names = "one cubemap for all three", "a cubemap for each"
+    how = f', parallax "{program.method}"' if program.method != "none" else ""
     if show == "difference":
         own = _apart(own, shared, program.gain)
         times = f", times {program.gain:g}" if program.gain != 1 else ""
@@ -274,7 +331,7 @@ def draw(
         names = "error of one cubemap for all three", "error of a cubemap for each"
     pair = np.concatenate([shared, own])
     if program.labels if labels is None else labels:
-        pair = label(label(pair, names[0], "top left"), names[1], "bottom left")
+        pair = label(label(pair, names[0] + how, "top left"), names[1], "bottom left")
     return pair
 
 
@@ -285,27 +342,37 @@ def live(
     *,
     script: Script = (),
     document: bool = False,
+    method: Parallax = "none",
 ) -> Viewer:
     """Show the program live: the balls move apart, and p gives each a probe of its own or one to all.
 
     A drag turns the view, w and s walk. The picture is the upper one of `draw`, and after p that with a probe for each.
+    m goes to the next of `METHODS`, from "layers" to "none", and the view says which it is.
     """
-    program = build(probe_size, images=images, document=document)
+    program = build(probe_size, images=images, document=document, method=method)
     order: list[Whose] = ["own", "shared"]
 
     def exchange() -> None:
         share(program, order[0])
         order.reverse()
 
-    return live_view(
+    def next_method() -> None:
+        correct(program, METHODS[(METHODS.index(program.method) + 1) % len(METHODS)])
+        viewer.text = f"parallax: {program.method}"
+
+    viewer = live_view(
         program,
         (SIZE[0], SIZE[1] // 2),
         TITLE,
         renderer,
         controls=visitor(program.camera, (0, 0), script, SIZE[1] // 2),
         clock=Clock(lambda frame, _: place(program, distance(program, frame))),
-        keys={"p": (exchange, "one probe for all, or one each")},
+        keys={
+            "p": (exchange, "one probe for all, or one each"),
+            "m": (next_method, "the next method of parallax"),
+        },
     )
+    return viewer
 
 
 def truth(program: Program, size: tuple[int, int]) -> TruthFrame:

@@ -215,13 +215,17 @@ def _types_of_doc(doc: str) -> tuple[str, ...]:
 
 def _controls(one: _Property) -> Iterator[Control]:
     words = [word for kind in one.takes for word in re.findall(r'"([^"]+)"', kind)]
+    literals = (re.fullmatch(r"typing\.Literal\[(\d[\d, ]*)\]", kind) for kind in one.takes)
+    numbers = [number for found in literals if found for number in found[1].split(", ")]
     flags = one.kinds[0].count("bool") if one.kinds and one.kinds[0].startswith("tuple[") else 0
     if isinstance(value := one.get(), Mapping):
         yield from _of_mapping(one, value)
     elif words:
-        yield _choice(one, words)
+        yield _choice(one, {word: word for word in words})
+    elif numbers:
+        yield _choice(one, {number: int(number) for number in numbers})
     elif one.kinds == ("bool",):
-        yield _choice(one, ["False", "True"]) if one.optional else one.control("flag")
+        yield _choice(one, {"False": False, "True": True}) if one.optional else one.control("flag")
     elif flags:
         yield from _flags(one, flags)
     elif one.kinds in (("float",), ("int",)):
@@ -389,13 +393,9 @@ def _color(one: _Property, count: int) -> Iterator[Control]:
         )
 
 
-def _choice(one: _Property, words: list[str]) -> Control:
-    """Give a choice of words. A value that is no word, for example a Blend, is one more choice."""
-    values: dict[str, object] = {word: word for word in words}
-    if one.kinds == ("bool",):
-        values = {"False": False, "True": True}
-    if one.optional:
-        values = {"None": None, **values}
+def _choice(one: _Property, named: Mapping[str, object]) -> Control:
+    """Give a choice of values by name. A value without a name, for example a Blend, is one more choice."""
+    values: dict[str, object] = {"None": None, **named} if one.optional else dict(named)
 
     def word_of(value: object) -> str:
         found = next((w for w, v in values.items() if type(v) is type(value) and v == value), None)
