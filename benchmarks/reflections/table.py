@@ -23,6 +23,7 @@ SINGLE = (
     "plain", "box", "sphere", "distance 6", "distance 14", "distance 35", "layers 6", "layers 14", "layers 35",
 )  # fmt: skip
 SOME = ("plain", "box", "distance 14", "distance 35", "layers 35")
+SCREEN = ("screen, plain", "screen, distance 14", "screen, layers 14")
 SHARED = ("plain, .5 m off", "layers 35, .5 m off")
 
 
@@ -74,11 +75,12 @@ class Row:
 
 def cases(*, quick: bool) -> list[Case]:
     """Give the rows of the table; the quick ones are those with a mark, without rough metal and glass."""
-    found = [Case("room_a", "mirror", m) for m in (*SINGLE, "screen, layers 14", *SHARED)]
+    found = [Case("room_a", "mirror", m) for m in (*SINGLE, *SCREEN, *SHARED)]
     found += [Case("room_b", "mirror", m) for m in (SOME if quick else SINGLE)]
     found += [Case("outdoor", "mirror", m) for m in (SOME if quick else SINGLE)]
     if not quick:
         found += [Case(p, "teapot", m) for p in ("room_a", "room_b") for m in SOME]
+        found += [Case("room_a", "teapot", m) for m in SCREEN]
         for reflector in ("glossy .2", "glossy .4", "glass"):
             found += [Case("room_a", reflector, m) for m in SOME]
         found += [Case("outdoor", r, m) for r in ("glossy .2", "glass") for m in SOME]
@@ -86,7 +88,7 @@ def cases(*, quick: bool) -> list[Case]:
             found += [
                 Case("room_a", "mirror", m, faces) for m in ("plain", "distance 14", "layers 35")
             ]
-    found += [Case("room_a", "plane", m) for m in ("plain", "box", "layers 35", "planar")]
+    found += [Case("room_a", "plane", m) for m in ("plain", "box", "layers 35", *SCREEN, "planar")]
     for bounces in (1, 2) if quick else (1, 2, 3):
         found += [
             Case("room_a", "facing balls", m, bounces=bounces)

@@ -1,4 +1,5 @@
 #include "include/cube_place.glsl"
+#include "include/screen.glsl"
 
 layout(binding = 1) uniform samplerCube u_cube;
 
@@ -63,9 +64,10 @@ vec3 environment_from(vec3 from_origin, vec3 direction_world) {
 
 #include "include/planar_mirror.glsl"
 
-// The same at the surface, which may be a planar mirror.
+// The same at the surface, which may be a planar mirror; what the frame shows counts first.
 vec3 environment(vec3 direction_world) {
-    return or_planar_mirror(environment_from(v_position, direction_world), direction_world, 0.0, 0.0);
+    look_from_surface(direction_world, 0.0);
+    return or_screen(or_planar_mirror(environment_from(v_position, direction_world), direction_world, 0.0, 0.0));
 }
 
 #ifdef USES_ENVIRONMENT_MIPS
@@ -73,15 +75,16 @@ vec3 environment(vec3 direction_world) {
 layout(binding = 4) uniform samplerCube u_box_mipmaps;
 
 vec3 environment_mip(vec3 direction_world, float lod) {
+    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
+    float spread = exp2(lod) / float(textureSize(u_box_mipmaps, 0).x);
+    look_from_surface(direction_world, spread);
     EnvironmentHit hit = environment_met(v_position, direction_world);
     float level = lod + log2(max(hit.spread, 1e-30));
     vec3 light = textureLod(u_box_mipmaps, hit.direction, level).rgb;
 #ifdef ENVIRONMENT_LAYERS
     if (hit.farthest) light = textureLod(u_farthest, hit.direction, level).rgb;
 #endif
-    // Half the width of a texel of this level, in the middle of a face whose half is 1 wide.
-    float spread = exp2(lod) / float(textureSize(u_box_mipmaps, 0).x);
-    return or_planar_mirror(environment_scaled(light), direction_world, spread, 0.0);
+    return or_screen(or_planar_mirror(environment_scaled(light), direction_world, spread, 0.0));
 }
 
 // Texels along an edge of level 0.
@@ -155,6 +158,7 @@ vec3 environment_irradiance(vec3 normal_world) {
 
 // The radiance round a direction, filtered by the lobe of GGX for a roughness from 0 (the cube itself) to 1.
 vec3 environment_filtered(vec3 direction_world, float roughness) {
+    look_from_surface(direction_world, screen_spread(roughness));
     EnvironmentHit hit = environment_met(v_position, direction_world);
     float seen = roughness;
 #ifdef ENVIRONMENT_NEAR
@@ -168,6 +172,7 @@ vec3 environment_filtered(vec3 direction_world, float roughness) {
         light = mix(hidden, light, min(seen / 0.3, 1.0));
     }
 #endif
-    return or_planar_mirror(environment_scaled(light), direction_world, planar_mirror_spread(roughness), 0.0);
+    light = or_planar_mirror(environment_scaled(light), direction_world, planar_mirror_spread(roughness), 0.0);
+    return or_screen(light);
 }
 #endif

@@ -90,6 +90,9 @@ NodeTextures TextureLookup::find(const NodeSnapshot& node) {
         found.textures.push_back(find(node.textures[i], material.textures[i].srgb));
     }
     if (material.shows_behind) found.behind = context_.scene_picture(viewer_).behind();
+    if (material.uses_environment && !std::holds_alternative<PlanarMirrorIndex>(node.environment)) {
+        found.screen = context_.scene_picture(viewer_).screen();
+    }
     return found;
 }
 

@@ -23,6 +23,9 @@ inline constexpr GLuint first_of_material = 8;
 /// The shadow map of the first light; the others follow.
 inline constexpr GLuint first_shadow = 48;
 
+inline constexpr GLuint screen = 64;         ///< what reflections find on the screen
+inline constexpr GLuint screen_depths = 65;  ///< the depths in which they are followed
+
 /// The largest number of textures of one material.
 inline constexpr std::size_t most_of_material = first_shadow - first_of_material;
 
