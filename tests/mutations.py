@@ -2578,8 +2578,8 @@ MUTATIONS = [
     Mutation(
         "screen: a ray ends at the end of a cell",
         "include/screen.glsl",
-        "mix(first, s, clamp(before.x / max(before.x - before.y, 1e-30), 0.0, 1.0))",
-        "s",
+        "root = mix(ends.x, ends.y, clamp(before.x / max(before.x - before.y, 1e-30), 0.0, 1.0));",
+        "root = ends.y;",
         SCREEN,
     ),
     Mutation(
@@ -2627,8 +2627,8 @@ MUTATIONS = [
     Mutation(
         "screen: looked up in the picture of the other eye",
         "include/screen.glsl",
-        "textureLod(u_screen, vec3(place.xy / size, v_layer)",
-        "textureLod(u_screen, vec3(place.xy / size, 1.0 - v_layer)",
+        "textureLod(u_screen, vec3(seen / size, v_layer)",
+        "textureLod(u_screen, vec3(seen / size, 1.0 - v_layer)",
         SCREEN,
     ),
     Mutation(

@@ -118,6 +118,12 @@ def _quad(world: World) -> list[cc.Node]:
     return [node]
 
 
+def _floor(world: World) -> list[cc.Node]:
+    """A floor as of polished stone: the things that stand on it are close, and in the picture."""
+    low = np.asarray(world.place.low, float)
+    return [world.put(cc.Mesh.plane(5.0, 5.0), cc.MirrorMaterial(), (0, low[1] + 0.004 - world.middle[1], 0))]
+
+
 def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     """The product of quaternions (w, x, y, z): first b, then a."""
     (w, x, y, z), (p, q, r, s) = a, b
@@ -139,5 +145,6 @@ REFLECTORS = {
     "glass": Reflector(_ball(lambda: cc.GlassMaterial(ior=1.5)), size=256, samples=48, bounces=4),
     "facing balls": Reflector(_facing_balls, bounces=8),
     "plane": Reflector(_quad, mirror=True),
+    "floor": Reflector(_floor, mirror=True),
     "facing planes": Reflector(_facing_planes, bounces=4),
 }

@@ -89,6 +89,10 @@ def cases(*, quick: bool) -> list[Case]:
                 Case("room_a", "mirror", m, faces) for m in ("plain", "distance 14", "layers 35")
             ]
     found += [Case("room_a", "plane", m) for m in ("plain", "box", "layers 35", *SCREEN, "planar")]
+    found += [
+        Case("room_a", "floor", m)
+        for m in ("plain", "box", "distance 14", "layers 14", *SCREEN, "planar")
+    ]
     for bounces in (1, 2) if quick else (1, 2, 3):
         found += [
             Case("room_a", "facing balls", m, bounces=bounces)

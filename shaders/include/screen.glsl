@@ -77,12 +77,24 @@ vec2 screen_search(ScreenRay ray, float s, inout int visited) {
     return vec2(at_surface ? s : ray.last, next);
 }
 
-// The surfaces of other nodes in the four texels round a place, along the view's axis, in pixels as large as there: x: how far
+// Where a ray passes from before to behind, between two places: false position, three times.
+float screen_root(ScreenRay ray, vec2 ends, vec2 before) {
+    float root = ends.x;
+    for (int i = 0; i < 3; ++i) {
+        root = mix(ends.x, ends.y, clamp(before.x / max(before.x - before.y, 1e-30), 0.0, 1.0));
+        float now = before_screen(screen_place(ray, root));
+        ends = now > 0.0 ? vec2(root, ends.y) : vec2(ends.x, root);
+        before = now > 0.0 ? vec2(now, before.y) : vec2(before.x, now);
+    }
+    return root;
+}
+
+// The surfaces of other nodes in the four texels round `at`, along the view's axis, in pixels as large as there: x: how far
 // the next one is from the place; y: how far the nearest one is before it. Between the texels of two surfaces a lookup is the
-// mean of both, where there is none.
-vec2 screen_surface(vec3 place) {
-    vec4 depths = textureGather(u_screen_depths, screen_texel(place), 0);
-    vec4 ids = textureGather(u_screen_depths, screen_texel(place), 1);
+// mean of both, where there is none; zw: where the light of the next one is seen.
+vec4 screen_surface(vec3 place, vec3 at, float thick) {
+    vec4 depths = textureGather(u_screen_depths, screen_texel(at), 0);
+    vec4 ids = textureGather(u_screen_depths, screen_texel(at), 1);
     // What a depth changes by for a step along the view's axis, times w: the axis is that of w, or of the depth for parallel rays.
     float w = length(v_clip_rows[2].xyz);
     float z = w > 0.0 ? dot(v_clip_depth.xyz, v_clip_rows[2].xyz) / w : length(v_clip_depth.xyz);
@@ -92,7 +104,11 @@ vec2 screen_surface(vec3 place) {
     vec4 none = 1e9 * vec4(equal(ids, vec4(v_node_id))) + 1e9 * vec4(equal(ids, vec4(0.0)));
     vec4 off = abs(before) + none;
     before -= none;
-    return vec2(min(min(off.x, off.y), min(off.z, off.w)), max(max(before.x, before.y), max(before.z, before.w)));
+    float next = min(min(off.x, off.y), min(off.z, off.w));
+    vec2 texel = next == off.w ? vec2(0.0) : next == off.z ? vec2(1.0, 0.0) : next == off.x ? vec2(0.0, 1.0) : vec2(1.0);
+    bool all_on = max(max(off.x, off.y), max(off.z, off.w)) <= thick;
+    return vec4(next, max(max(before.x, before.y), max(before.z, before.w)),
+                all_on ? place.xy : floor(at.xy - 0.5) + texel + 0.5);
 }
 
 // Sets screen_light to what a ray meets. `spread` is the tangent of half the angle from which a rough surface gathers light.
@@ -101,6 +117,7 @@ void look_at_screen(vec3 from_origin, vec3 direction_world, float spread) {
     float thick = SCREEN_THICKNESS * float(textureSize(u_screen, 0).y) + 2.0;
     float s = 0.0;
     vec3 place = ray.start;
+    vec2 seen = ray.start.xy;
     bool found = false;
     int visited = 0;
     // Where the ray went behind a body, and how far behind its front, in pixels.
@@ -125,10 +142,11 @@ void look_at_screen(vec3 from_origin, vec3 direction_world, float spread) {
             }
         }
         if (crossed) {
-            float root = mix(first, s, clamp(before.x / max(before.x - before.y, 1e-30), 0.0, 1.0));
+            float root = screen_root(ray, vec2(first, s), before);
             place = screen_place(ray, root);
-            vec2 surface = screen_surface(place);
+            vec4 surface = screen_surface(place, place + 0.25 * ray.turn, thick);
             found = surface.x <= thick;
+            seen = surface.zw;
             if (!found && surface.y > 0.0) {
                 hidden_from = root;
                 behind = surface.y;
@@ -143,7 +161,7 @@ void look_at_screen(vec3 from_origin, vec3 direction_world, float spread) {
     float share = clamp(min(inside.x, inside.y) / (SCREEN_FADE * min(size.x, size.y) + wide), 0.0, 1.0);
     // What is far beside the middle of a wide lobe may be hidden.
     share *= clamp(2.0 - 16.0 * wide / size.y, 0.0, 1.0);
-    vec3 light = textureLod(u_screen, vec3(place.xy / size, v_layer), log2(1.0 + wide)).rgb;
+    vec3 light = textureLod(u_screen, vec3(seen / size, v_layer), log2(1.0 + wide)).rgb;
     screen_light = vec4(light, found ? share : 0.0);
 }
 

@@ -112,7 +112,7 @@ def followed(frame, camera, node, **options):
     mask = inner(frame.id, node.id)
     start, way, to_clip = rays(frame, camera, mask)
     hits = screen_hits(start, way, to_clip, frame.depth, frame.id, node.id, **options)
-    seen = looked_up(frame, np.where(hits.found[:, None], hits.place, 1.0))
+    seen = looked_up(frame, np.where(hits.found[:, None], hits.seen, 1.0))
     around = frame.color[mask][:, :3]
     return mask, hits, around + hits.share[:, None] * (seen - around)
 

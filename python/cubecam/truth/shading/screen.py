@@ -33,6 +33,9 @@ class ScreenHits(NamedTuple):
     ----------
     place : ndarray (n, 2) float64
         In pixels; NaN where the ray meets nothing that the picture shows.
+    seen : ndarray (n, 2) float64
+        Where the light of that surface is looked up: the same place, or the middle of the pixel of the four round it whose
+        surface is the next, if not all four are as near.
     found : ndarray (n,) bool
         Whether it meets something.
     share : ndarray (n,) float64
@@ -42,6 +45,7 @@ class ScreenHits(NamedTuple):
     """
 
     place: Array
+    seen: Array
     found: npt.NDArray[np.bool_]
     share: Array
     width: Array
@@ -91,7 +95,7 @@ def screen_hits(
     matrix = np.asarray(to_clip, float)
     own = np.broadcast_to(np.asarray(own), start.shape[:1])
     count = len(start)
-    place = np.full((count, 2), np.nan)
+    place, seen = np.full((2, count, 2), np.nan)
     found = np.zeros(count, bool)
 
     first = np.concatenate([start, np.ones((count, 1))], 1) @ matrix.T
@@ -107,12 +111,16 @@ def screen_hits(
         for c in crossings:
             part = before[c] / (before[c] - before[c + 1])
             here = at[c] + part * (at[c + 1] - at[c])
-            apart = _surfaces(here, depth, ids, own[i], np.linalg.inv(matrix))
-            if (np.abs(apart) <= THICKNESS * height + THICK_PIXELS).any():
+            ahead = at[c + 1] - at[c]
+            ahead *= 0.25 / max(np.abs(ahead[:2]).max(), 1e-12)
+            apart, texels = _surfaces(here, (here + ahead)[:2], depth, ids, own[i], np.linalg.inv(matrix))
+            thick = THICKNESS * height + THICK_PIXELS
+            if (np.abs(apart) <= thick).any():
                 place[i], found[i] = here[:2], True
+                seen[i] = here[:2] if (np.abs(apart) <= thick).all() else texels[np.abs(apart).argmin()]
                 break
             again = c + 1 + np.flatnonzero(before[c + 1 :] > 0)
-            hidden = apart[apart > 0]
+            hidden = apart[(apart > 0) & np.isfinite(apart)]
             # A body may be as deep as it is wide.
             if len(again) == 0 or (len(hidden) and np.abs(at[again[0]] - here)[:2].max() > hidden.max()):
                 break
@@ -128,7 +136,7 @@ def screen_hits(
             lobe[i] = 2 * spread * np.linalg.norm(ends[1] - start[i]) * height / high
     inside = np.minimum(place, np.array([width, height]) - place).min(1) - 0.5
     share = np.clip(inside / (FADE * min(width, height) + lobe), 0, 1) * np.clip(2 - 16 * lobe / height, 0, 1)
-    return ScreenHits(place, found, np.where(found, share, 0.0), lobe)
+    return ScreenHits(place, seen, found, np.where(found, share, 0.0), lobe)
 
 
 def _times(first: Array, change: Array, width: int, height: int) -> Array:
@@ -177,19 +185,24 @@ def _bilinear(values: Array, place: Array) -> Array:
     return np.asarray(upper * (1 - fy) + lower * fy)
 
 
-def _surfaces(here: Array, depth: Array, ids: npt.NDArray[np.int64], own: int, inverse: Array) -> Array:
-    """How far the surfaces of other nodes in the four pixels round a place are before it, in pixels as large as at the surface."""
+def _surfaces(here: Array, near: Array, depth: Array, ids: npt.NDArray[np.int64], own: int, inverse: Array) -> tuple[Array, Array]:
+    """How far the surfaces in the four pixels round `near` are before a place, in pixels as large as there, and their middles.
+
+    Infinitely far, if it is the background or the node itself.
+    """
     height, width = depth.shape
-    j, i = np.floor(here[:2] - 0.5).astype(int)
+    j, i = np.floor(near - 0.5).astype(int)
     forward = _to_world(np.array([[width / 2, height / 2, d] for d in (0.1, 0.2)]), inverse, width, height)
     axis = (forward[1] - forward[0]) / np.linalg.norm(forward[1] - forward[0])
-    found = []
+    found, middles = [], []
     for row in np.clip((i, i + 1), 0, height - 1):
         for column in np.clip((j, j + 1), 0, width - 1):
+            middles.append((column + 0.5, row + 0.5))
             if ids[row, column] in (0, own):
+                found.append(-np.inf)
                 continue
             places = [(*here[:2], depth[row, column]), here]
             places += [(here[0], y, depth[row, column]) for y in (0, height)]
             front, ray, top, bottom = _to_world(np.array(places), inverse, width, height)
             found.append((ray - front) @ axis / np.linalg.norm(top - bottom) * height)
-    return np.array(found)
+    return np.array(found), np.array(middles)
