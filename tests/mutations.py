@@ -2564,7 +2564,7 @@ MUTATIONS = [
     Mutation(
         "screen: rays go on behind bodies as if these were sheets",
         "include/screen.glsl",
-        "s = s - hidden_from > behind ? ray.last : s;",
+        "s = 0.5 * (s - hidden_from) > behind ? ray.last : s;",
         "",
         SCREEN,
     ),

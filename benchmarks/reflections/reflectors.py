@@ -119,9 +119,13 @@ def _quad(world: World) -> list[cc.Node]:
 
 
 def _floor(world: World) -> list[cc.Node]:
-    """A floor as of polished stone: the things that stand on it are close, and in the picture."""
-    low = np.asarray(world.place.low, float)
-    return [world.put(cc.Mesh.plane(5.0, 5.0), cc.MirrorMaterial(), (0, low[1] + 0.004 - world.middle[1], 0))]
+    """A floor of polished stone, seen from above: what stands on it is in the picture."""
+    ground = float(world.place.low[1]) + 0.004 - world.middle[1]
+    node = world.put(cc.Mesh.plane(6.0, 6.0), cc.MirrorMaterial(), (0, ground, 0))
+    world.camera.position = np.add(world.middle, (-0.6, 1.1, 2.9))
+    world.camera.look_at(np.add(world.middle, (0.1, 0.6 * ground, -0.9)))
+    world.camera.fov = 58
+    return [node]
 
 
 def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:

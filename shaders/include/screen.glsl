@@ -135,9 +135,9 @@ void look_at_screen(vec3 from_origin, vec3 direction_world, float spread) {
             before = vec2(before_screen(screen_place(ray, first)), before_screen(screen_place(ray, s)));
             // The ray starts at its own surface, which is neither before nor behind.
             crossed = first < ray.last && (before.x > 0.0 || first == 0.0) && before.y <= 0.0;
-            // A body may be as deep as it is wide: what a ray meets behind it is not known.
+            // A body may reach half as far behind its outline as it is wide, as a ball does: what a ray meets there is not known.
             if (before.y > 0.0) {
-                s = s - hidden_from > behind ? ray.last : s;
+                s = 0.5 * (s - hidden_from) > behind ? ray.last : s;
                 behind = 1e9;
             }
         }

@@ -84,8 +84,8 @@ def looked_up(frame, place):
     x, y = place.T - 0.5
     j, i = np.floor(x).astype(int), np.floor(y).astype(int)
     fx, fy = (x - j)[:, None], (y - i)[:, None]
-    rows, columns = np.clip([i, i + 1], 0, SIZE[1] - 1), np.clip([j, j + 1], 0, SIZE[0] - 1)
     c = frame.color[..., :3].astype(float)
+    rows, columns = np.clip([i, i + 1], 0, len(c) - 1), np.clip([j, j + 1], 0, c.shape[1] - 1)
     upper = c[rows[0], columns[0]] * (1 - fx) + c[rows[0], columns[1]] * fx
     lower = c[rows[1], columns[0]] * (1 - fx) + c[rows[1], columns[1]] * fx
     return upper * (1 - fy) + lower * fy
@@ -101,10 +101,10 @@ def inner(ids, own):
     return mask
 
 
-def both(renderer, scene, camera=None, **options):
+def both(renderer, scene, camera=None, size=SIZE):
     """The frame with and without."""
     camera = camera or eye()
-    return [renderer.render(scene, camera, SIZE, **NOTES, **o, **options) for o in (ON, {})]
+    return [renderer.render(scene, camera, size, **NOTES, **o) for o in (ON, {})]
 
 
 def followed(frame, camera, node, **options):
@@ -150,14 +150,15 @@ def test_it_is_as_exact_as_a_planar_mirror(renderer):
     scene, want = room(), room()
     node = floor(scene)
     want.add(cc.Mesh.plane(5.9, 5.9), cc.MirrorMaterial(), environment=cc.PlanarMirror())
-    got, plain = both(renderer, scene)
-    exact = renderer.render(want, eye(), SIZE, format="rgba32f").color
+    size: Any = (112, 84)
+    got, plain = both(renderer, scene, size=size)
+    exact = renderer.render(want, eye(), size, format="rgba32f").color
     mask, hits, _ = followed(plain, eye(), node)
     known = hits.share == 1
     assert known.sum() > 300
     off = np.abs(got.color - exact)[mask][known][:, :3].max(-1)
     assert np.median(off) < 0.004
-    assert (off > 0.02).mean() < 0.05  # silhouettes: lookups mix both sides
+    assert (off > 0.02).mean() < 0.08  # silhouettes, and small patterns between pixels
     assert np.abs(plain.color - exact)[mask][known].max(-1).mean() > 0.1
 
 

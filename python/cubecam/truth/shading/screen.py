@@ -121,8 +121,8 @@ def screen_hits(
                 break
             again = c + 1 + np.flatnonzero(before[c + 1 :] > 0)
             hidden = apart[(apart > 0) & np.isfinite(apart)]
-            # A body may be as deep as it is wide.
-            if len(again) == 0 or (len(hidden) and np.abs(at[again[0]] - here)[:2].max() > hidden.max()):
+            # A body may reach half as far behind its outline as it is wide.
+            if len(again) == 0 or (len(hidden) and 0.5 * np.abs(at[again[0]] - here)[:2].max() > hidden.max()):
                 break
 
     # The lobe: its width over that of a pixel, at the hit.
