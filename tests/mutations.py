@@ -2571,8 +2571,8 @@ MUTATIONS = [
     Mutation(
         "screen: what touches a surface is not met",
         "include/screen.glsl",
-        "(before.x > 0.0 || first == 0.0)",
-        "(before.x > 0.0)",
+        "bool in_front = true;",
+        "bool in_front = false;",
         SCREEN,
     ),
     Mutation(

@@ -54,8 +54,9 @@ vec3 screen_texel(vec3 place) { return vec3(place.xy / vec2(textureSize(u_screen
 float before_screen(vec3 place) { return place.z - textureLod(u_screen_depths, screen_texel(place), 0.0).x; }
 
 // The first place from `s` on that may be at a surface: the end of cells in which the ray is before, or behind, all that they
-// show. Returns where the last cell begins and ends; x >= ray.last: there is none.
-vec2 screen_search(ScreenRay ray, float s, inout int visited) {
+// show. Returns where the last cell begins and ends; x >= ray.last: there is none. `in_front` becomes whether the ray is
+// before all where that cell begins.
+vec2 screen_search(ScreenRay ray, float s, inout int visited, inout bool in_front) {
     int level = 1;
     float next = s;
     bool at_surface = false;
@@ -69,7 +70,9 @@ vec2 screen_search(ScreenRay ray, float s, inout int visited) {
         vec2 range = texelFetch(u_screen_depths, ivec3(cell, v_layer), level).xy;
         float a = ray.start.z + s * ray.turn.z;
         float b = ray.start.z + next * ray.turn.z;
-        bool away = min(a, b) > range.x || max(a, b) < range.y;
+        bool before = min(a, b) > range.x;
+        bool away = before || max(a, b) < range.y;
+        in_front = away ? before : in_front;
         at_surface = !away && level == 1;
         s = away ? next : s;
         level = away ? min(level + 1, SCREEN_DEPTH_LEVELS - 1) : max(level - 1, 1);
@@ -77,10 +80,11 @@ vec2 screen_search(ScreenRay ray, float s, inout int visited) {
     return vec2(at_surface ? s : ray.last, next);
 }
 
-// Where a ray passes from before to behind, between two places: false position, three times.
-float screen_root(ScreenRay ray, vec2 ends, vec2 before) {
+// Where a ray passes from before to behind, between two places: false position, twice.
+float screen_root(ScreenRay ray, vec2 ends) {
     float root = ends.x;
-    for (int i = 0; i < 3; ++i) {
+    vec2 before = vec2(before_screen(screen_place(ray, ends.x)), before_screen(screen_place(ray, ends.y)));
+    for (int i = 0; i < 2; ++i) {
         root = mix(ends.x, ends.y, clamp(before.x / max(before.x - before.y, 1e-30), 0.0, 1.0));
         float now = before_screen(screen_place(ray, root));
         ends = now > 0.0 ? vec2(root, ends.y) : vec2(ends.x, root);
@@ -120,6 +124,7 @@ void look_at_screen(vec3 from_origin, vec3 direction_world, float spread) {
     vec2 seen = ray.start.xy;
     bool found = false;
     int visited = 0;
+    bool in_front = true;  // of its own surface, which the ray starts at
     // Where the ray went behind a body, and how far behind its front, in pixels.
     float hidden_from = 0.0;
     float behind = 1e9;
@@ -127,22 +132,21 @@ void look_at_screen(vec3 from_origin, vec3 direction_world, float spread) {
     while (!found && s < ray.last && visited < SCREEN_CELLS) {
         bool crossed = false;
         float first = 0.0;
-        vec2 before = vec2(0.0);
         while (!crossed && s < ray.last && visited < SCREEN_CELLS) {
-            vec2 cell = screen_search(ray, s, visited);
+            vec2 cell = screen_search(ray, s, visited, in_front);
             first = cell.x;
             s = cell.x < ray.last ? cell.y : ray.last;
-            before = vec2(before_screen(screen_place(ray, first)), before_screen(screen_place(ray, s)));
-            // The ray starts at its own surface, which is neither before nor behind.
-            crossed = first < ray.last && (before.x > 0.0 || first == 0.0) && before.y <= 0.0;
+            bool was_in_front = in_front;
+            in_front = before_screen(screen_place(ray, s)) > 0.0;
+            crossed = first < ray.last && was_in_front && !in_front;
             // A body may reach half as far behind its outline as it is wide, as a ball does: what a ray meets there is not known.
-            if (before.y > 0.0) {
+            if (in_front) {
                 s = 0.5 * (s - hidden_from) > behind ? ray.last : s;
                 behind = 1e9;
             }
         }
         if (crossed) {
-            float root = screen_root(ray, vec2(first, s), before);
+            float root = screen_root(ray, vec2(first, s));
             place = screen_place(ray, root);
             vec4 surface = screen_surface(place, place + 0.25 * ray.turn, thick);
             found = surface.x <= thick;
