@@ -2620,7 +2620,7 @@ MUTATIONS = [
     Mutation(
         "screen: rays go into bodies",
         "include/screen.glsl",
-        "if (dot(direction_world, v_normal) * dot(incident, v_normal) < 0.0) {",
+        "if (dot(direction_world, normal) > 0.0 && dot(incident, normal) < 0.0) {",
         "{",
         SCREEN,
     ),
@@ -2690,8 +2690,8 @@ MUTATIONS = [
     Mutation(
         "screen, reference: rays meet what they are behind of",
         "shading/screen.py",
-        "(THICKNESS + THICK_PIXELS / height) * high",
-        "100 * (THICKNESS + THICK_PIXELS / height) * high",
+        "thick = THICKNESS * height + THICK_PIXELS",
+        "thick = 100 * (THICKNESS * height + THICK_PIXELS)",
         SCREEN_REFERENCE,
     ),
     Mutation(

@@ -182,7 +182,11 @@ vec3 or_screen(vec3 light) {
 // The same for a ray from the surface. Rays that go into the body are not followed.
 void look_from_surface(vec3 direction_world, float spread) {
     vec3 incident = v_eye.w == 0.0 ? v_position - v_eye.xyz : v_eye.xyz;
-    if (dot(direction_world, v_normal) * dot(incident, v_normal) < 0.0) {
+    vec3 normal = v_normal;
+#ifdef DOUBLE_SIDED
+    if (!gl_FrontFacing) normal = -normal;
+#endif
+    if (dot(direction_world, normal) > 0.0 && dot(incident, normal) < 0.0) {
         look_at_screen(v_position, direction_world, spread);
     }
 }
