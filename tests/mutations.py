@@ -2683,8 +2683,8 @@ MUTATIONS = [
     Mutation(
         "screen, reference: a lobe is half as wide",
         "shading/screen.py",
-        "lobe[i] = 2 * spread",
-        "lobe[i] = spread",
+        "lobe[k] = 2 * spread",
+        "lobe[k] = spread",
         SCREEN_REFERENCE,
     ),
     Mutation(

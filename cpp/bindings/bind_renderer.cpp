@@ -113,13 +113,14 @@ std::shared_ptr<const SceneSnapshot> snapshot_of(const Scene& scene,
     });
 }
 
-PyFrame
-render(Renderer& renderer, const Scene& scene, const SeenBy& camera, const bindings::SizeLike& size,
-       const OutputNames& outputs, const FormatOrNone& format, const bindings::WholeNumber& samples,
-       bindings::Real exposure, const std::optional<bindings::Choice<tonemap_names>>& tonemap,
-       const std::optional<bindings::Choice<encode_names>>& encode,
-       const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format,
-       bindings::Flag screen_reflections) {
+PyFrame render(Renderer& renderer, const Scene& scene, const SeenBy& camera,
+               const bindings::SizeLike& size, const OutputNames& outputs,
+               const FormatOrNone& format, const bindings::WholeNumber& samples,
+               bindings::Real exposure,
+               const std::optional<bindings::Choice<tonemap_names>>& tonemap,
+               const std::optional<bindings::Choice<encode_names>>& encode,
+               const bindings::EffectsLike& effects, const bindings::DepthFormatName& depth_format,
+               bindings::Flag screen_reflections) {
     FrameOptions options;
     std::tie(options.width, options.height) = to_size(size);
     options.outputs = to_outputs(outputs);

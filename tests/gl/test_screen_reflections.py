@@ -23,7 +23,11 @@ def waves(seed, size=64):
     rng = np.random.default_rng(seed)
     y, x = np.mgrid[:size, :size][..., None] / size * 2 * np.pi
     phases = rng.uniform(0, 6, (4, 3))
-    found = 0.5 + 0.2 * np.sin(x + phases[0]) * np.cos(y + phases[1]) + 0.2 * np.sin(2 * y - x + phases[2])
+    found = (
+        0.5
+        + 0.2 * np.sin(x + phases[0]) * np.cos(y + phases[1])
+        + 0.2 * np.sin(2 * y - x + phases[2])
+    )
     return cc.Image((255 * np.clip(found * rng.uniform(0.5, 1, 3), 0, 1)).astype("uint8"))
 
 
@@ -32,8 +36,12 @@ def room():
     scene = cc.Scene(background=(0.1, 0.2, 0.3))
     walls = cc.BasicMaterial(map=waves(1), double_sided=True)
     scene.add(cc.Mesh.box((6, 4, 6)), walls, position=(0, 1.9, 0))
-    scene.add(cc.Mesh.box((0.9, 1.2, 0.8)), cc.BasicMaterial(map=waves(2)), position=(-0.9, 0.6, -1.2))
-    scene.add(cc.Mesh.box((0.7, 0.5, 0.7)), cc.BasicMaterial(map=waves(3)), position=(1.0, 0.25, -0.3))
+    scene.add(
+        cc.Mesh.box((0.9, 1.2, 0.8)), cc.BasicMaterial(map=waves(2)), position=(-0.9, 0.6, -1.2)
+    )
+    scene.add(
+        cc.Mesh.box((0.7, 0.5, 0.7)), cc.BasicMaterial(map=waves(3)), position=(1.0, 0.25, -0.3)
+    )
     return scene
 
 
@@ -46,17 +54,28 @@ def floor(scene, material=None, **more):
 def ball(scene, material=None, **more):
     options: Any = {"environment": cc.Probe(size=32), **more}
     return scene.add(
-        cc.Mesh.sphere(0.6, 48, 24), material or cc.MirrorMaterial(), position=(0.2, 0.8, -0.9), **options
+        cc.Mesh.sphere(0.6, 48, 24),
+        material or cc.MirrorMaterial(),
+        position=(0.2, 0.8, -0.9),
+        **options,
     )
 
 
 def eye(**more):
-    options: Any = {"fov": 55, "position": (0.3, 1.7, 2.6), "target": (0, 0.6, -0.8), "near": 0.1, "far": 30}
+    options: Any = {
+        "fov": 55,
+        "position": (0.3, 1.7, 2.6),
+        "target": (0, 0.6, -0.8),
+        "near": 0.1,
+        "far": 30,
+    }
     return cc.PerspectiveCamera(**{**options, **more})
 
 
 def parallel():
-    return cc.OrthographicCamera(height=3.4, position=(0.4, 2.2, 2.7), target=(0, 0.5, -0.8), near=0.1, far=30)
+    return cc.OrthographicCamera(
+        height=3.4, position=(0.4, 2.2, 2.7), target=(0, 0.5, -0.8), near=0.1, far=30
+    )
 
 
 VIEWS = {
@@ -64,7 +83,8 @@ VIEWS = {
     "shifted": eye(shift=(0.2, -0.3), pixel_aspect=1.2),
     "parallel": parallel(),
     "mirror image": cc.Camera(
-        view=np.diag([-1.0, 1, 1, 1]) @ eye().view, projection=eye().projection(aspect=SIZE[0] / SIZE[1])
+        view=np.diag([-1.0, 1, 1, 1]) @ eye().view,
+        projection=eye().projection(aspect=SIZE[0] / SIZE[1]),
     ),
 }
 
@@ -74,9 +94,17 @@ def rays(frame, camera, mask):
     start, normal = frame.position[mask].astype(float), frame.normal[mask].astype(float)
     world = np.linalg.inv(camera.view)
     projection = camera.projection(aspect=SIZE[0] / SIZE[1])
-    incident = start - world[:3, 3] if projection[3, 2] != 0 else np.broadcast_to(-world[:3, 2], start.shape)
+    incident = (
+        start - world[:3, 3]
+        if projection[3, 2] != 0
+        else np.broadcast_to(-world[:3, 2], start.shape)
+    )
     incident = incident / np.linalg.norm(incident, axis=-1, keepdims=True)
-    return start, incident - 2 * (incident * normal).sum(-1, keepdims=True) * normal, projection @ camera.view
+    return (
+        start,
+        incident - 2 * (incident * normal).sum(-1, keepdims=True) * normal,
+        projection @ camera.view,
+    )
 
 
 def looked_up(frame, place):
@@ -165,9 +193,14 @@ def test_it_is_as_exact_as_a_planar_mirror(renderer):
 def test_what_is_hidden_is_that_of_the_probe(renderer):
     """A mirror behind a block sees the block's back, which the picture does not show."""
     scene = room()
-    block = scene.add(cc.Mesh.box((1.6, 1.2, 0.3)), cc.BasicMaterial(map=waves(5)), position=(0, 1.0, -1.0))
+    block = scene.add(
+        cc.Mesh.box((1.6, 1.2, 0.3)), cc.BasicMaterial(map=waves(5)), position=(0, 1.0, -1.0)
+    )
     node = scene.add(
-        cc.Mesh.box((3, 2.4, 0.05)), cc.MirrorMaterial(), position=(0, 1.2, -2.4), environment=cc.Probe((0, 0, 1), size=32)
+        cc.Mesh.box((3, 2.4, 0.05)),
+        cc.MirrorMaterial(),
+        position=(0, 1.2, -2.4),
+        environment=cc.Probe((0, 0, 1), size=32),
     )
     camera = eye(position=(0, 2.6, 2.4), target=(0, 1, -1.4))
     got, plain = both(renderer, scene, camera)
@@ -193,8 +226,12 @@ def test_no_reflector_meets_itself(renderer, shape):
         profile = [(r, -np.sqrt(1 - r * r)) for r in np.linspace(0, 0.99, 12)]
         around = np.linspace(0, 2 * np.pi, 24)
         points = np.array([(r * np.cos(a), y, r * np.sin(a)) for r, y in profile for a in around])
-        corners = [(i * 24 + k, i * 24 + k + 1, i * 24 + k + 24) for i in range(11) for k in range(23)]
-        corners += [(i * 24 + k + 1, i * 24 + k + 25, i * 24 + k + 24) for i in range(11) for k in range(23)]
+        corners = [
+            (i * 24 + k, i * 24 + k + 1, i * 24 + k + 24) for i in range(11) for k in range(23)
+        ]
+        corners += [
+            (i * 24 + k + 1, i * 24 + k + 25, i * 24 + k + 24) for i in range(11) for k in range(23)
+        ]
         scene.add(cc.Mesh(points, corners), cc.MirrorMaterial(double_sided=True))
     camera = eye(position=(0, 2, 1.6), target=(0, 0, 0))
     got, plain = both(renderer, scene, camera)
@@ -207,7 +244,7 @@ def test_mirrors_see_each_other(renderer):
     node = floor(scene)
     ball(scene)
     got, plain = both(renderer, scene)
-    mask, hits, expected = followed(plain, eye(), node)
+    mask, _, expected = followed(plain, eye(), node)
     off = np.abs(got.color[mask][:, :3] - expected).max(-1)
     assert (off > 0.01).mean() < 0.03
 
@@ -218,9 +255,15 @@ def test_stereo_pictures_have_a_screen_for_each_eye(any_path):
     floor(scene)
     right = eye(position=(0.7, 1.7, 2.6))
     pair = any_path.render(
-        scene, cc.StereoCamera(eye(), right, layout="side_by_side"), (2 * SIZE[0], SIZE[1]), format="rgba32f", **ON
+        scene,
+        cc.StereoCamera(eye(), right, layout="side_by_side"),
+        (2 * SIZE[0], SIZE[1]),
+        format="rgba32f",
+        **ON,
     ).color
-    alone = [any_path.render(scene, one, SIZE, format="rgba32f", **ON).color for one in (eye(), right)]
+    alone = [
+        any_path.render(scene, one, SIZE, format="rgba32f", **ON).color for one in (eye(), right)
+    ]
     assert_identical(pair, np.concatenate(alone, axis=1))
 
 
@@ -228,7 +271,9 @@ def test_rays_into_a_body_are_those_of_the_environment(renderer):
     scene = room()
     # So small that bent rays end beside it, in the picture.
     glass = cc.GlassMaterial(ior=1.5, fresnel=False)
-    node = scene.add(cc.Mesh.sphere(0.2, 32, 16), glass, position=(0.2, 1.0, 1.2), environment=cc.Probe(size=32))
+    node = scene.add(
+        cc.Mesh.sphere(0.2, 32, 16), glass, position=(0.2, 1.0, 1.2), environment=cc.Probe(size=32)
+    )
     got, plain = both(renderer, scene)
     assert (plain.id == node.id).sum() > 60
     assert_identical(got.color, plain.color)
@@ -247,11 +292,15 @@ def test_blended_surfaces_are_not_found(renderer):
     node = floor(without)
     floor(scene)
     sheet = scene.add(
-        cc.Mesh.box((1.2, 1.5, 0.02)), cc.BasicMaterial(color=(1, 0, 0), opacity=0.5), position=(0.9, 0.8, -1.5)
+        cc.Mesh.box((1.2, 1.5, 0.02)),
+        cc.BasicMaterial(color=(1, 0, 0), opacity=0.5),
+        position=(0.9, 0.8, -1.5),
     )
     got, plain = both(renderer, scene)
     expected, _ = both(renderer, without)
-    mask = inner(plain.id, node.id) & (np.abs(plain.color - both(renderer, without)[1].color).max(-1) == 0)
+    mask = inner(plain.id, node.id) & (
+        np.abs(plain.color - both(renderer, without)[1].color).max(-1) == 0
+    )
     assert sheet.id > 0
     assert_identical(got.color[mask], expected.color[mask])
 
@@ -259,9 +308,7 @@ def test_blended_surfaces_are_not_found(renderer):
 def test_multisamples(renderer):
     scene = room()
     node = floor(scene)
-    one, four = (
-        renderer.render(scene, eye(), SIZE, samples=n, **NOTES, **ON) for n in (1, 4)
-    )
+    one, four = (renderer.render(scene, eye(), SIZE, samples=n, **NOTES, **ON) for n in (1, 4))
     mask = inner(one.id, node.id)
     assert (np.abs(one.color - four.color)[mask].max(-1) > 0.004).mean() < 0.02
 
@@ -281,10 +328,15 @@ def test_rough_surfaces_see_less_sharply(renderer):
         node = floor(scene, cc.StandardMaterial(color=(1, 1, 1), metallic=1, roughness=roughness))
         frames[roughness] = both(renderer, scene)
     mask = inner(frames[0.0][1].id, node.id)
-    mask[:30] = mask[42:] = False  # not at the wall, where lobes are narrow, and rays end in the picture
+    mask[:30] = mask[42:] = (
+        False  # not at the wall, where lobes are narrow, and rays end in the picture
+    )
     mask[:, :10] = mask[:, -10:] = False
     assert mask.sum() > 200
-    contrast = {r: np.abs(np.diff(f[0].color[..., 1], axis=1))[mask[:, 1:]].mean() for r, f in frames.items()}
+    contrast = {
+        r: np.abs(np.diff(f[0].color[..., 1], axis=1))[mask[:, 1:]].mean()
+        for r, f in frames.items()
+    }
     assert contrast[0.15] < 0.5 * contrast[0.0]
     for roughness in (0.0, 0.15):
         got, plain = frames[roughness]
@@ -344,11 +396,13 @@ def test_pictures_are_drawn_when_something_changed(renderer):
     assert renderer.stats.draw_calls == 0
     assert_identical(again.color, first.color)
     for _ in range(2):
-        block.position = block.position + (0.3, 0, 0.1)
+        block.position = np.add(block.position, (0.3, 0, 0.1))
         moved = renderer.render(scene, eye(), SIZE, format="rgba32f", **ON)
         assert renderer.stats.views_drawn >= 2
         with cc.Renderer() as fresh:
-            assert_identical(moved.color, fresh.render(scene, eye(), SIZE, format="rgba32f", **ON).color)
+            assert_identical(
+                moved.color, fresh.render(scene, eye(), SIZE, format="rgba32f", **ON).color
+            )
     assert np.abs(moved.color - first.color).max() > 0.1
 
 
@@ -363,9 +417,18 @@ def test_captures_do_without(renderer):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"format": None, "outputs": ["id"]}, "screen_reflections: expected False without a colour, got True and format None"),
-        ({"depth_format": None}, "screen_reflections: expected False without a depth buffer, got True and depth_format none"),
-        ({"depth_format": "stencil_index8"}, "without a depth buffer, got True and depth_format stencil_index8"),
+        (
+            {"format": None, "outputs": ["id"]},
+            "screen_reflections: expected False without a colour, got True and format None",
+        ),
+        (
+            {"depth_format": None},
+            "screen_reflections: expected False without a depth buffer, got True and depth_format none",
+        ),
+        (
+            {"depth_format": "stencil_index8"},
+            "without a depth buffer, got True and depth_format stencil_index8",
+        ),
     ],
 )
 def test_it_needs_colour_and_depth(renderer, options, message):

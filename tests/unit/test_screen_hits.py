@@ -26,7 +26,9 @@ def projected(points, matrix):
     """(x, y, depth) of points (..., 3): pixels from the upper left corner, depth from 0 to 1."""
     clip = np.concatenate([points, np.ones_like(points[..., :1])], -1) @ matrix.T
     at = clip[..., :3] / clip[..., 3:]
-    return np.stack([(at[..., 0] + 1) / 2 * WIDTH, (1 - at[..., 1]) / 2 * HEIGHT, (at[..., 2] + 1) / 2], -1)
+    return np.stack(
+        [(at[..., 0] + 1) / 2 * WIDTH, (1 - at[..., 1]) / 2 * HEIGHT, (at[..., 2] + 1) / 2], -1
+    )
 
 
 def depth_of(z, matrix):
@@ -52,7 +54,7 @@ def test_rays_end_on_a_wall(view):
     met = start + ((WALL - start[:, 2]) / way[:, 2])[:, None] * way
     expected = projected(met, matrix)[:, :2]
     inside = (expected > 0.6).all(1) & (expected < np.array([WIDTH, HEIGHT]) - 0.6).all(1)
-    assert 20 < inside.sum()
+    assert inside.sum() > 20
     assert (got.found == inside).mean() > 0.97
     assert np.abs(got.place - expected)[inside].max() < 1e-6
 
@@ -61,7 +63,9 @@ def test_rays_end_on_a_wall(view):
 def test_the_width_of_a_lobe(view):
     matrix = VIEWS[view]
     start, way = rays(10)
-    got = screen_hits(start, way, matrix, depth_of(WALL, matrix), np.ones((HEIGHT, WIDTH), int), spread=0.05)
+    got = screen_hits(
+        start, way, matrix, depth_of(WALL, matrix), np.ones((HEIGHT, WIDTH), int), spread=0.05
+    )
     length = (WALL - start[:, 2]) / way[:, 2]
     met = start + length[:, None] * way
     across = 2 * 0.05 * length[:, None] * (0, 1, 0)
@@ -77,11 +81,15 @@ def test_what_is_not_met():
     assert not screen_hits(start, way, matrix, depth, ids, own=1).found.any()  # the node itself
     assert not screen_hits(start, way, matrix, depth, 0 * ids).found.any()  # the background
     assert not screen_hits(start, -way, matrix, depth, ids).found.any()  # back to the eye
-    assert not screen_hits(start - (0, 0, 3), way, matrix, depth, ids).found.any()  # behind the wall
+    assert not screen_hits(
+        start - (0, 0, 3), way, matrix, depth, ids
+    ).found.any()  # behind the wall
     block = depth.copy()
     block[:, 42:60] = depth_of(-2.0, matrix)[:, 42:60]
     assert not screen_hits(start, way, matrix, block, ids).found.any()  # it ends behind the block
-    found = screen_hits([(0.2, 0, -3)], [(0.6, 0, -0.8)], matrix, np.where(block == depth, depth, block), ids)
+    found = screen_hits(
+        [(0.2, 0, -3)], [(0.6, 0, -0.8)], matrix, np.where(block == depth, depth, block), ids
+    )
     assert found.found.all() == (found.place[0, 0] > 60)
 
 
@@ -92,4 +100,6 @@ def test_the_share_falls_to_the_border():
     start = np.stack([x + 0.001, 0 * x, 0 * x - 3], 1)
     way = np.tile([-0.001, 0, -2.0], (5, 1)) / np.hypot(0.001, 2)
     got = screen_hits(start, way, matrix, depth, ids)
-    np.testing.assert_allclose(got.share, np.minimum((np.array([0.9, 1.5, 2.5, 3.5, 40]) - 0.5) / 3, 1), atol=1e-3)
+    np.testing.assert_allclose(
+        got.share, np.minimum((np.array([0.9, 1.5, 2.5, 3.5, 40]) - 0.5) / 3, 1), atol=1e-3
+    )

@@ -6,7 +6,15 @@ namespace cubecam {
 
 /// The kinds of pictures, in the order in which messages search for the picture to name. A new kind
 /// (a filtered cube) gets the next number; FrameContext::make makes its pictures.
-enum class PictureKind : std::uint8_t { probe, texture, shadow, frame, behind, planar_mirror, screen };
+enum class PictureKind : std::uint8_t {
+    probe,
+    texture,
+    shadow,
+    frame,
+    behind,
+    planar_mirror,
+    screen
+};
 
 inline PictureId probe_id(std::size_t scene, std::size_t probe, std::size_t bounce = 0) {
     return {PictureKind::probe, scene, probe, bounce, nullptr};

@@ -121,8 +121,8 @@ Dependencies ScenePicture::plan(std::vector<View> views, const TargetDescription
         if (target.color && reflects_environment(node)) {
             const EnvironmentParts& parts = node.material.value.traits().environment_parts;
             reflects_ = true;
-            reflects_by_level_ = reflects_by_level_ || parts.filtered || parts.mipmaps ||
-                                 parts.filtered_if_made;
+            reflects_by_level_ =
+                reflects_by_level_ || parts.filtered || parts.mipmaps || parts.filtered_if_made;
         }
         if (mirrors) add_mirror(planned, through, {target.width, target.height});
     });

@@ -9,9 +9,9 @@ namespace cubecam {
 void ScreenDepthPass::make(Target::Screen& screen) {
     const GladGLContext& gl = context_->gl();
     const TargetDescription& drawn = screen.target->description();
-    screen.depths = gl::create_texture_2d_array(
-        gl, GL_RG32F, screen_depths_side(drawn.width), screen_depths_side(drawn.height),
-        drawn.layers(), screen_depth_levels);
+    screen.depths = gl::create_texture_2d_array(gl, GL_RG32F, screen_depths_side(drawn.width),
+                                                screen_depths_side(drawn.height), drawn.layers(),
+                                                screen_depth_levels);
     const GLuint id = screen.depths.id();
     gl.TextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     gl.TextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -19,8 +19,8 @@ void ScreenDepthPass::make(Target::Screen& screen) {
     gl.TextureParameteri(id, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     screen.levels.clear();
     for (int level = 0; level < screen_depth_levels; ++level) {
-        screen.levels.emplace_back(
-            gl, std::vector<Layers::Attachment>{{attachment(0), id, level}}, drawn.layers());
+        screen.levels.emplace_back(gl, std::vector<Layers::Attachment>{{attachment(0), id, level}},
+                                   drawn.layers());
     }
 }
 
@@ -50,9 +50,10 @@ void ScreenDepthPass::update(Target::Screen& screen, Stats& stats) {
         const int height = screen_depths_side(target.description().height) >> level;
         gl.Viewport(0, 0, width, height);
         gl.Scissor(0, 0, width, height);
-        const gl::Program& program = programs_->screen_depths(
-            level == 0 ? ScreenDepthStep::pixels
-                       : level == 1 ? ScreenDepthStep::first_cells : ScreenDepthStep::cells);
+        const gl::Program& program =
+            programs_->screen_depths(level == 0   ? ScreenDepthStep::pixels
+                                     : level == 1 ? ScreenDepthStep::first_cells
+                                                  : ScreenDepthStep::cells);
         program.use();
         for (int layer = 0; layer < target.description().layers(); ++layer) {
             gl.BindFramebuffer(GL_FRAMEBUFFER,

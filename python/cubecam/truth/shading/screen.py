@@ -1,8 +1,8 @@
 """Where a ray meets what a picture shows: reflections that are looked up on the screen.
 
-M. McGuire, M. Mara, "Efficient GPU Screen-Space Ray Tracing", Journal of Computer Graphics Techniques 3(4), 2014: the ray
-is a line in the picture, walked in even steps, and ends where it passes behind a surface and not far behind it. Here the
-steps are an eighth of a pixel, where a shader leaps over free cells.
+M. McGuire, M. Mara, "Efficient GPU Screen-Space Ray Tracing", Journal of Computer Graphics Techniques 3(4), 2014: the
+ray is a line in the picture, walked in even steps, and ends where it passes behind a surface and not far behind it.
+Here the steps are an eighth of a pixel, where a shader leaps over free cells.
 
 Places are (x, y) in pixels, from the left and from the upper edge: the middle of the pixel of row i and column j is at
 (j + 0.5, i + 0.5).
@@ -10,7 +10,7 @@ Places are (x, y) in pixels, from the left and from the upper edge: the middle o
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -34,8 +34,8 @@ class ScreenHits(NamedTuple):
     place : ndarray (n, 2) float64
         In pixels; NaN where the ray meets nothing that the picture shows.
     seen : ndarray (n, 2) float64
-        Where the light of that surface is looked up: the same place, or the middle of the pixel of the four round it whose
-        surface is the next, if not all four are as near.
+        Where the light of that surface is looked up: the same place, or, if not all four pixels round it are as near,
+        the middle of the one whose surface is the next.
     found : ndarray (n,) bool
         Whether it meets something.
     share : ndarray (n,) float64
@@ -85,7 +85,8 @@ def screen_hits(
     --------
     A wall across the view, at the depth 0.9 of a parallel projection, and a ray that comes from the left:
 
-    >>> found = screen_hits([(-0.5, 0, 0)], [(0.6, 0, -0.8)], np.diag([1, 1, -1, 1]), np.full((8, 8), 0.9), np.ones((8, 8), int))
+    >>> depth, ids = np.full((8, 8), 0.9), np.ones((8, 8), int)
+    >>> found = screen_hits([(-0.5, 0, 0)], [(0.6, 0, -0.8)], np.diag([1, 1, -1, 1]), depth, ids)
     >>> found.place.round(6).tolist(), found.found.tolist()
     ([[4.4, 4.0]], [True])
     """
@@ -113,29 +114,42 @@ def screen_hits(
             here = at[c] + part * (at[c + 1] - at[c])
             ahead = at[c + 1] - at[c]
             ahead *= 0.25 / max(np.abs(ahead[:2]).max(), 1e-12)
-            apart, texels = _surfaces(here, (here + ahead)[:2], depth, ids, own[i], np.linalg.inv(matrix))
+            apart, texels = _surfaces(
+                here, (here + ahead)[:2], depth, ids, int(own[i]), np.linalg.inv(matrix)
+            )
             thick = THICKNESS * height + THICK_PIXELS
             if (np.abs(apart) <= thick).any():
                 place[i], found[i] = here[:2], True
-                seen[i] = here[:2] if (np.abs(apart) <= thick).all() else texels[np.abs(apart).argmin()]
+                seen[i] = (
+                    here[:2] if (np.abs(apart) <= thick).all() else texels[np.abs(apart).argmin()]
+                )
                 break
             again = c + 1 + np.flatnonzero(before[c + 1 :] > 0)
             hidden = apart[(apart > 0) & np.isfinite(apart)]
             # A body may reach half as far behind its outline as it is wide.
-            if len(again) == 0 or (len(hidden) and 0.5 * np.abs(at[again[0]] - here)[:2].max() > hidden.max()):
+            if len(again) == 0 or (
+                len(hidden) and 0.5 * np.abs(at[again[0]] - here)[:2].max() > hidden.max()
+            ):
                 break
 
     # The lobe: its width over that of a pixel, at the hit.
     lobe = np.zeros(count)
     if spread > 0 and found.any():
         inverse = np.linalg.inv(matrix)
-        for i in np.flatnonzero(found):
-            hit = _bilinear(depth, place[i][None])[0]
-            ends = _to_world(np.array([[place[i][0], y, hit] for y in (0, place[i][1], height)]), inverse, width, height)
+        for k in np.flatnonzero(found):
+            hit = _bilinear(depth, place[k][None])[0]
+            ends = _to_world(
+                np.array([[place[k][0], y, hit] for y in (0, place[k][1], height)]),
+                inverse,
+                width,
+                height,
+            )
             high = np.linalg.norm(ends[0] - ends[2])
-            lobe[i] = 2 * spread * np.linalg.norm(ends[1] - start[i]) * height / high
+            lobe[k] = 2 * spread * np.linalg.norm(ends[1] - start[k]) * height / high
     inside = np.minimum(place, np.array([width, height]) - place).min(1) - 0.5
-    share = np.clip(inside / (FADE * min(width, height) + lobe), 0, 1) * np.clip(2 - 16 * lobe / height, 0, 1)
+    share = np.clip(inside / (FADE * min(width, height) + lobe), 0, 1) * np.clip(
+        2 - 16 * lobe / height, 0, 1
+    )
     return ScreenHits(place, seen, found, np.where(found, share, 0.0), lobe)
 
 
@@ -161,13 +175,21 @@ def _times(first: Array, change: Array, width: int, height: int) -> Array:
 def _in_picture(clip: Array, width: int, height: int) -> Array:
     """(x, y) in pixels and the depth from 0 to 1."""
     at = clip[:, :3] / clip[:, 3:]
-    return np.stack([(0.5 + 0.5 * at[:, 0]) * width, (0.5 - 0.5 * at[:, 1]) * height, 0.5 + 0.5 * at[:, 2]], 1)
+    return np.stack(
+        [(0.5 + 0.5 * at[:, 0]) * width, (0.5 - 0.5 * at[:, 1]) * height, 0.5 + 0.5 * at[:, 2]], 1
+    )
 
 
 def _to_world(place: Array, inverse: Array, width: int, height: int) -> Array:
     """World positions of (x, y, depth)."""
     at = np.stack(
-        [2 * place[:, 0] / width - 1, 1 - 2 * place[:, 1] / height, 2 * place[:, 2] - 1, np.ones(len(place))], 1
+        [
+            2 * place[:, 0] / width - 1,
+            1 - 2 * place[:, 1] / height,
+            2 * place[:, 2] - 1,
+            np.ones(len(place)),
+        ],
+        1,
     )
     world = at @ inverse.T
     return np.asarray(world[:, :3] / world[:, 3:])
@@ -178,21 +200,28 @@ def _bilinear(values: Array, place: Array) -> Array:
     x, y = place[:, 0] - 0.5, place[:, 1] - 0.5
     j, i = np.floor(x).astype(int), np.floor(y).astype(int)
     fx, fy = x - j, y - i
-    columns, rows = (np.clip(j + k, 0, width - 1) for k in (0, 1)), [np.clip(i + k, 0, height - 1) for k in (0, 1)]
+    columns, rows = (
+        (np.clip(j + k, 0, width - 1) for k in (0, 1)),
+        [np.clip(i + k, 0, height - 1) for k in (0, 1)],
+    )
     left, right = columns
     upper = values[rows[0], left] * (1 - fx) + values[rows[0], right] * fx
     lower = values[rows[1], left] * (1 - fx) + values[rows[1], right] * fx
     return np.asarray(upper * (1 - fy) + lower * fy)
 
 
-def _surfaces(here: Array, near: Array, depth: Array, ids: npt.NDArray[np.int64], own: int, inverse: Array) -> tuple[Array, Array]:
-    """How far the surfaces in the four pixels round `near` are before a place, in pixels as large as there, and their middles.
+def _surfaces(
+    here: Array, near: Array, depth: Array, ids: npt.NDArray[Any], own: int, inverse: Array
+) -> tuple[Array, Array]:
+    """How far the surfaces in the four pixels round `near` are before a place, and the middles of the pixels.
 
-    Infinitely far, if it is the background or the node itself.
+    In pixels as large as at the surface; infinitely far, if it is the background or the node itself.
     """
     height, width = depth.shape
     j, i = np.floor(near - 0.5).astype(int)
-    forward = _to_world(np.array([[width / 2, height / 2, d] for d in (0.1, 0.2)]), inverse, width, height)
+    forward = _to_world(
+        np.array([[width / 2, height / 2, d] for d in (0.1, 0.2)]), inverse, width, height
+    )
     axis = (forward[1] - forward[0]) / np.linalg.norm(forward[1] - forward[0])
     found, middles = [], []
     for row in np.clip((i, i + 1), 0, height - 1):
