@@ -2548,6 +2548,13 @@ MUTATIONS = [
         SCREEN,
     ),
     Mutation(
+        "screen: all nodes have one id",
+        "passes/surface.vert",
+        "v_node_id = u_node_id;",
+        "v_node_id = 1;",
+        SCREEN,
+    ),
+    Mutation(
         "screen: rays meet the background",
         "include/screen.glsl",
         "1e9 * vec4(equal(ids, vec4(0.0)))",

@@ -132,7 +132,8 @@ def inner(ids, own):
 def both(renderer, scene, camera=None, size=SIZE):
     """The frame with and without."""
     camera = camera or eye()
-    return [renderer.render(scene, camera, size, **NOTES, **o) for o in (ON, {})]
+    off: Any = {}
+    return [renderer.render(scene, camera, size, **NOTES, **o) for o in (ON, off)]
 
 
 def followed(frame, camera, node, **options):
@@ -247,6 +248,37 @@ def test_mirrors_see_each_other(renderer):
     mask, _, expected = followed(plain, eye(), node)
     off = np.abs(got.color[mask][:, :3] - expected).max(-1)
     assert (off > 0.01).mean() < 0.03
+
+
+def test_nodes_that_are_drawn_together_meet_each_other_alone(renderer):
+    """One draw call has several nodes, and each has its own id."""
+    scene = room()
+    mesh, material, probe = (
+        cc.Mesh.sphere(0.35, 32, 16),
+        cc.MirrorMaterial(),
+        cc.Probe((0, 1, 0), size=32),
+    )
+    nodes = [
+        scene.add(mesh, material, position=(x, 0.9, 0.3), environment=probe) for x in (-0.8, 0, 0.8)
+    ]
+    got, plain = both(renderer, scene)
+    assert renderer.stats.draw_calls == 4  # of six nodes
+    for node in nodes:
+        mask, hits, expected = followed(plain, eye(), node)
+        assert hits.found.sum() > 5
+        assert (np.abs(got.color[mask][:, :3] - expected).max(-1) > 0.01).mean() < 0.06
+
+
+def test_what_shows_through_panes_is_that_of_probes(renderer):
+    scene = room()
+    floor(scene)
+    glass = cc.StandardMaterial(transmission=1, roughness=0, specular_weight=0, metallic=0)
+    pane = scene.add(cc.Mesh.box((1.5, 1, 0.02)), glass, position=(0.3, 0.6, 0.8))
+    got, plain = both(renderer, scene)
+    mask = plain.id == pane.id
+    assert mask.sum() > 100
+    assert_identical(got.color[mask], plain.color[mask])
+    assert np.abs(got.color - plain.color).max() > 0.1
 
 
 def test_stereo_pictures_have_a_screen_for_each_eye(any_path):
