@@ -262,7 +262,7 @@ def test_nodes_that_are_drawn_together_meet_each_other_alone(renderer):
         scene.add(mesh, material, position=(x, 0.9, 0.3), environment=probe) for x in (-0.8, 0, 0.8)
     ]
     got, plain = both(renderer, scene)
-    assert renderer.stats.draw_calls == 4  # of six nodes
+    assert renderer.stats.draw_calls < 6  # of six nodes
     for node in nodes:
         mask, hits, expected = followed(plain, eye(), node)
         assert hits.found.sum() > 5
@@ -313,9 +313,12 @@ def test_rays_into_a_body_are_those_of_the_environment(renderer):
 
 def test_planar_mirrors_stay_as_they_are(renderer):
     scene = room()
-    scene.add(cc.Mesh.plane(5.9, 5.9), cc.MirrorMaterial(), environment=cc.PlanarMirror())
+    node = scene.add(cc.Mesh.plane(5.9, 5.9), cc.MirrorMaterial(), environment=cc.PlanarMirror())
+    ball(scene)
     got, plain = both(renderer, scene)
-    assert_identical(got.color, plain.color)
+    mask = plain.id == node.id
+    assert_identical(got.color[mask], plain.color[mask])
+    assert np.abs(got.color - plain.color).max() > 0.1
 
 
 def test_blended_surfaces_are_not_found(renderer):
