@@ -177,3 +177,4 @@ class RenderOptions(TypedDict, total=False):
     encode: Encode | None
     effects: Iterable[ImageEffect]
     depth_format: DepthFormat | None
+    screen_reflections: bool
