@@ -87,10 +87,15 @@ def test_what_is_not_met():
     block = depth.copy()
     block[:, 42:60] = depth_of(-2.0, matrix)[:, 42:60]
     assert not screen_hits(start, way, matrix, block, ids).found.any()  # it ends behind the block
-    found = screen_hits(
-        [(0.2, 0, -3)], [(0.6, 0, -0.8)], matrix, np.where(block == depth, depth, block), ids
-    )
-    assert found.found.all() == (found.place[0, 0] > 60)
+    post = depth.copy()
+    post[:, 42:44] = depth_of(-1.0, matrix)[:, 42:44]
+    assert screen_hits(
+        start, way, matrix, post, ids
+    ).found.all()  # it goes on far behind a thin post
+    post[:, 42:44] = depth_of(-3.7, matrix)[:, 42:44]
+    met = screen_hits(start, way, matrix, post, ids)
+    assert met.found.all()  # it ends on a post that it touches
+    assert met.place[0, 0] < 44.5
 
 
 def test_the_share_falls_to_the_border():

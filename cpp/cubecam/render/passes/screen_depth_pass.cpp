@@ -2,13 +2,19 @@
 
 #include "cubecam/gl/objects.hpp"
 #include "cubecam/gl/pace.hpp"
+#include "cubecam/gl/texture_memory.hpp"
 #include "cubecam/render/passes/full_screen_pass.hpp"
+
+#include <string>
 
 namespace cubecam {
 
 void ScreenDepthPass::make(Target::Screen& screen) {
     const GladGLContext& gl = context_->gl();
     const TargetDescription& drawn = screen.target->description();
+    check_texture_memory(*context_, static_cast<double>(screen.depth_bytes()), 0.0,
+                         "the depths of " + std::to_string(drawn.width) + " x " +
+                             std::to_string(drawn.height) + " pixels");
     screen.depths = gl::create_texture_2d_array(gl, GL_RG32F, screen_depths_side(drawn.width),
                                                 screen_depths_side(drawn.height), drawn.layers(),
                                                 screen_depth_levels);

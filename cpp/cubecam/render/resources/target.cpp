@@ -155,13 +155,12 @@ std::size_t Target::Mirrors::bytes() const {
     return sum;
 }
 
-std::size_t Target::Screen::bytes() const {
-    if (target == nullptr) return 0;
+std::size_t Target::Screen::depth_bytes() const {
     const TargetDescription& drawn = target->description();
     const std::size_t texels = static_cast<std::size_t>(screen_depths_side(drawn.width)) *
                                static_cast<std::size_t>(screen_depths_side(drawn.height)) *
                                static_cast<std::size_t>(drawn.layers());
-    return target->bytes() + texels * 2 * sizeof(float) * 4 / 3;
+    return texels * 2 * sizeof(float) * 4 / 3;
 }
 
 Layers::Layers(const GladGLContext& gl, std::vector<Attachment> attachments, int layers)

@@ -190,7 +190,8 @@ public:
         std::vector<Layers> levels;      ///< of `depths`
         std::uint64_t revision = 0;      ///< new whenever a layer was drawn
 
-        std::size_t bytes() const;
+        std::size_t depth_bytes() const;  ///< of `depths`, whether made or not
+        std::size_t bytes() const { return target ? target->bytes() + depth_bytes() : 0; }
     };
     Screen screen;  ///< of the picture in this target, if it is a frame
 
