@@ -1,11 +1,11 @@
 // Reflections that the frame itself shows: a ray is followed through the depths of a picture of the same views
-// (cpp/cubecam/render/graph/screen_picture.hpp, docs/adr/0031), and looked up in its colours. Where the picture does not show
+// (cpp/cubecam/render/graph/screen_picture.hpp, docs/adr/0032), and looked up in its colours. Where the picture does not show
 // what the ray meets, there is the environment. M. McGuire and M. Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4),
 // 2014; python/cubecam/truth/shading/screen.py is the same in numpy, step by step.
 #ifdef SCREEN_REFLECTIONS
-layout(binding = 64) uniform sampler2DArray u_screen;  // colours without blended nodes
+layout(binding = 44) uniform sampler2DArray u_screen;  // colours without blended nodes
 // Level 0: depth and node id of each pixel. Level n: the nearest and the farthest depth of cells of 2^n pixels.
-layout(binding = 65) uniform sampler2DArray u_screen_depths;
+layout(binding = 45) uniform sampler2DArray u_screen_depths;
 
 const int SCREEN_CELLS = 160;        // how many cells a ray may visit
 const float SCREEN_FADE = 0.05;      // of the picture's smaller side: how far from its border the environment fades in

@@ -10,7 +10,7 @@ namespace cubecam {
 
 /// What the reflections of a frame, its viewer, find on the screen: the same views of the same
 /// nodes, without those that are blended, with the probes alone; colour in floats, depths, ids
-/// (docs/adr/0031). It is drawn only if the frame asks for it and has a reflecting surface in view.
+/// (docs/adr/0032). It is drawn only if the frame asks for it and has a reflecting surface in view.
 class ScreenPicture final : public ScenePicture {
 public:
     ScreenPicture(FrameContext& context, const PictureId& id);
