@@ -148,10 +148,10 @@ def followed(frame, camera, node, **options):
 
 @pytest.mark.parametrize("mirror", [floor, ball])
 @pytest.mark.parametrize("view", VIEWS)
-def test_it_shows_what_the_reference_finds(any_path, view, mirror):
+def test_it_shows_what_the_reference_finds(renderer, view, mirror):
     scene = room()
     node = mirror(scene)
-    got, plain = both(any_path, scene, VIEWS[view])
+    got, plain = both(renderer, scene, VIEWS[view])
     assert_identical(got.id, plain.id)
     mask, hits, expected = followed(plain, VIEWS[view], node)
     assert (hits.share > 0.9).sum() > 30
